@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading files whole, writing them whole or not at all, and finding the files that a preset names.
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nephroid {
+
+/// The file's bytes. Throws bad_input where it cannot be read (missing, a folder, no permission).
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes to a temporary name beside path, flushes to disk, then renames: the file is there whole or not at all.
+/// Throws failed with the system's reason (full disk, no permission); the temporary file is removed.
+void write_file_whole(const std::filesystem::path& path, std::string_view bytes);
+/// The temporary name that write_file_whole and the picture writer use: beside path, unique to this process.
+std::filesystem::path temporary_name(const std::filesystem::path& path);
+/// Flushes an already written temporary file to disk and renames it to path; removes it and throws failed on any error.
+void commit_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
+/// The folder of the shipped presets and materials: NEPHROID_PRESETS from the environment, else ../presets beside the
+/// program's build folder or installed share folder. Throws failed where none is found.
+std::filesystem::path presets_folder();
+
+/// Where the files that a preset names are looked for, in order: beside the preset, in presets/, in the system's model folders.
+class FileFinder {
+public:
+  explicit FileFinder(std::filesystem::path beside = {});
+  /// The first existing match of name (absolute names stand for themselves).
+  /// Throws bad_input at `where` naming every folder looked into.
+  std::filesystem::path find(const std::string& name, const std::string& where) const;
+  const std::vector<std::filesystem::path>& folders() const { return folders_; }
+
+private:
+  std::vector<std::filesystem::path> folders_;
+};
+
+} // namespace nephroid

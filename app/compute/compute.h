@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenCL as the engines use it: a device, typed buffers, programs from kernels/, kernels that are called like functions.
+// The only folder that includes an OpenCL header. Every failure is an Error naming the call, the kernel and the build log.
+#pragma once
+#include "base/error.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace nephroid::compute {
+
+struct DeviceInfo {
+  int index = 0;                 ///< what --device takes
+  std::string name, platform, driver, version, type; ///< type: "cpu", "gpu" or "accelerator"
+  int compute_units = 0;
+  std::uint64_t memory_bytes = 0, max_buffer_bytes = 0;
+  bool fp64 = false, int64_atomics = false;
+};
+
+/// Every device of every platform, in a stable order. An empty list is no error here.
+std::vector<DeviceInfo> list_devices();
+
+struct DeviceOptions {
+  std::string selector;                    ///< "": a GPU if there is one, else the first; an index; or part of a name
+  std::filesystem::path kernels;           ///< load kernels from this folder rather than the embedded ones
+};
+
+using Defines = std::map<std::string, std::string>;
+
+namespace detail {
+struct ContextState;
+struct ProgramState;
+struct KernelState;
+struct BufferState;
+} // namespace detail
+
+/// One device with its context and one in-order queue. Copies share it. Use from one thread at a time.
+class Context {
+public:
+  /// Throws Error(no_device) where there is none or the selector matches none, with a line for each likely cause
+  /// (no OpenCL platform, no HOME and an unwritable kernel cache).
+  static Context open(const DeviceOptions& options = {});
+  const DeviceInfo& device() const;
+  /// Waits until everything queued is done. Throws failed with the first error.
+  void finish();
+  /// Sends what is queued to the device and returns.
+  void flush();
+  std::shared_ptr<detail::ContextState> state;
+};
+
+/// Untyped device memory; use Buffer<T>.
+class RawBuffer {
+public:
+  RawBuffer() = default;
+  RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial);
+  void write(const void* from, std::size_t bytes, std::size_t offset_bytes);
+  void read(void* to, std::size_t bytes, std::size_t offset_bytes) const; ///< waits
+  void fill_zero();
+  std::shared_ptr<detail::BufferState> state;
+};
+
+/// count items of T on the device. An empty one is allocated with one item, so that it can be passed to a kernel.
+/// Throws failed naming the buffer, its bytes and the device's limit where there is not enough memory.
+template <class T>
+class Buffer : public RawBuffer {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+  Buffer() = default;
+  Buffer(const Context& context, std::string name, std::size_t count) : RawBuffer(context, std::move(name), count * sizeof(T), nullptr), count_(count) {}
+  Buffer(const Context& context, std::string name, std::span<const T> items)
+      : RawBuffer(context, std::move(name), items.size_bytes(), items.data()), count_(items.size())
+  {
+  }
+  std::size_t size() const { return count_; }
+  std::size_t bytes() const { return count_ * sizeof(T); }
+  void write(std::span<const T> items, std::size_t first = 0) { RawBuffer::write(items.data(), items.size_bytes(), first * sizeof(T)); }
+  std::vector<T> read() const
+  {
+    std::vector<T> items(count_);
+    if (count_) RawBuffer::read(items.data(), bytes(), 0);
+    return items;
+  }
+
+private:
+  std::size_t count_ = 0;
+};
+
+/// A kernel of a built program. Arguments: Buffer<T>, scalars, structs shared with the device; all are checked for their number.
+class Kernel {
+public:
+  /// Queues the kernel over `global` work items in groups of `local` (global is rounded up: kernels test their index).
+  template <class... Args>
+  void run(std::size_t global, std::size_t local, const Args&... args)
+  {
+    begin(sizeof...(Args));
+    int index = 0;
+    (set(index++, args), ...);
+    enqueue(global, local);
+  }
+  std::shared_ptr<detail::KernelState> state;
+
+private:
+  void begin(std::size_t argument_count);
+  void set_buffer(int index, const RawBuffer& buffer);
+  void set_bytes(int index, const void* data, std::size_t bytes);
+  void enqueue(std::size_t global, std::size_t local);
+  template <class T>
+  void set(int index, const T& value)
+  {
+    if constexpr (std::is_base_of_v<RawBuffer, T>)
+      set_buffer(index, value);
+    else {
+      static_assert(std::is_trivially_copyable_v<T>);
+      set_bytes(index, &value, sizeof(T));
+    }
+  }
+};
+
+/// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's own properties
+/// (compute/program.cpp owns them all). Built programs are kept in the context and in the OpenCL implementation's own cache.
+class Program {
+public:
+  /// file: e.g. "trace.cl". Throws failed with the build log.
+  Program(const Context& context, const std::string& file, const Defines& defines = {});
+  /// Throws failed naming the kernels there are.
+  Kernel kernel(const std::string& name) const;
+  std::shared_ptr<detail::ProgramState> state;
+};
+
+/// With DeviceOptions::kernels: true once after any file in that folder changed, so that the owner rebuilds.
+bool kernels_changed(const Context& context);
+
+} // namespace nephroid::compute

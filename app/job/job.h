@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one interface of all engines: a job advances in short steps and shows itself as immutable snapshots.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nephroid::job {
+
+struct Layer {
+  std::string name;            ///< "direct", "caustic", ... (contract.md)
+  std::vector<float> rgb;      ///< linear sRGB, 3 a pixel, row 0 at the top, divided by the preset's white
+};
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;      ///< the sum of the layers
+  std::vector<Layer> layers;
+};
+
+/// Where a job is. All counts are of the whole run, resumed parts included.
+struct Progress {
+  double fraction = 0;         ///< 0..1 of the preset's own stop; 1 when finished
+  std::int64_t step = 0, steps = 0;
+  std::uint64_t photons = 0;   ///< work done
+  double work_seconds = 0;     ///< of stepping, without start-up and snapshots
+};
+
+/// Photons in = out: weights in watts. in = deposited + missed + absorbed + escaped + lost within rounding.
+struct EnergyBalance {
+  double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
+};
+
+struct Snapshot {
+  std::shared_ptr<const Picture> picture;
+  Progress progress;
+  EnergyBalance energy;
+  std::vector<std::pair<std::string, double>> phases;  ///< seconds a phase, e.g. {"photons", 3.2}
+};
+
+class Job {
+public:
+  virtual ~Job() = default;
+  /// One short piece of work, about 50 ms. Never called once finished() is true.
+  virtual void step() = 0;
+  virtual bool finished() const = 0;
+  virtual Progress progress() const = 0;
+  /// Reads the device's state; costs a few milliseconds.
+  virtual Snapshot snapshot() = 0;
+  /// Everything needed to go on later with the same bits. Opaque; versioned by the engine.
+  virtual std::vector<std::byte> save() = 0;
+  /// Throws bad_input where the checkpoint is of another version or preset, or is cut.
+  virtual void load(std::span<const std::byte> checkpoint) = 0;
+};
+
+} // namespace nephroid::job

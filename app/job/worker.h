@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The worker thread: owns a job and, through it, the OpenCL queue. Others push commands and read the last snapshot.
+#pragma once
+#include "base/error.h"
+#include "job/job.h"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace nephroid::job {
+
+enum class State { idle, preparing, running, paused, finished, cancelled, failed };
+
+/// What the worker is doing, readable at any time from any thread.
+struct Status {
+  State state = State::idle;
+  Progress progress;
+  std::string message;                       ///< the error line where state is failed; notes otherwise
+  std::uint64_t generation = 0;              ///< counts start() calls: which job this is about
+};
+
+class Worker {
+public:
+  Worker();
+  ~Worker();                                 ///< cancels and joins
+  /// Cancels what runs and starts over: make() runs on the worker thread (loading, kernels) and gives the job. Returns at once.
+  /// An exception from make() or from a step becomes State::failed with its line.
+  void start(std::function<std::unique_ptr<Job>()> make);
+  void cancel();                             ///< after the step in hand
+  void pause(bool paused);
+  Status status() const;
+  /// The newest snapshot, null before the first. Never waits for the device.
+  std::shared_ptr<const Snapshot> snapshot() const;
+  /// How often snapshots are made while running (default 100 ms; the first after the first step).
+  void set_snapshot_interval(std::chrono::milliseconds interval);
+  /// Blocks until the job is finished, cancelled or failed; for tests.
+  void wait();
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace nephroid::job

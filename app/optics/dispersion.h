@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dispersion: index of refraction n and extinction coefficient k as functions of wavelength, from formulas, tables, control
+// points and any refractiveindex.info file. Not here: what to do with them (clusters are in spectral/).
+#pragma once
+#include "optics/wavelength.h"
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nephroid::optics {
+
+enum class Outside { automatic, hold, extrapolate, refuse };
+
+struct IndexSample {
+  double nm = 0;
+  std::optional<double> n;   ///< empty: the data has no n here (or a formula gives no finite number)
+  std::optional<double> k;   ///< empty: the data has no k at all
+  bool extrapolated = false; ///< nm lies outside the data's own range (beyond a relative tolerance of 1e-6 at its ends)
+};
+
+/// n(lambda) or k(lambda) on its own range. The value function is defined everywhere a formula is; a table holds its ends.
+struct Curve {
+  std::function<double(double nm)> value;
+  double low_nm = 0, high_nm = 0;
+  bool formula = false;      ///< may be extrapolated
+};
+
+struct DispersionCurve {
+  std::string name;          ///< file stem or kind, for messages
+  std::optional<Curve> n, k;
+
+  /// The range of n, or of k where there is no n.
+  std::array<double, 2> range_nm() const;
+  /// Throws bad_input with Outside::refuse where nm is outside the range.
+  IndexSample sample(double nm, Outside outside = Outside::automatic) const;
+};
+
+/// n on the 401 wavelengths. Throws bad_input naming the curve and the first wavelength where n is missing, not finite or <= 0.
+Spectrum sample_n(const DispersionCurve& curve, Outside outside);
+/// k on the 401 wavelengths (0 where the data has none or a negative value; ends held unless refused).
+Spectrum sample_k(const DispersionCurve& curve, Outside outside);
+
+DispersionCurve constant_index(double n);
+/// n^2 = 1 + sum b l^2 / (l^2 - c); l in micrometres, c in square micrometres. low/high: the range the fit is good for.
+DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm = 380, double high_nm = 780);
+/// n = c0 + c1 / l^2 + c2 / l^4 + ...; l in micrometres.
+DispersionCurve cauchy(std::span<const double> coefficients, double low_nm = 380, double high_nm = 780);
+/// Linear between (nm, n) rows. Rows are sorted; a wavelength given twice with different values is refused.
+DispersionCurve tabulated(std::span<const std::array<double, 2>> nm_n);
+/// Monotone cubic (Fritsch and Carlson 1980) through control points (nm, n).
+DispersionCurve control_points(std::span<const std::array<double, 2>> nm_n);
+/// Any YAML file of the refractiveindex.info database. Throws bad_input naming FILE:LINE where it can.
+DispersionCurve load_dispersion(const std::filesystem::path& file);
+
+} // namespace nephroid::optics

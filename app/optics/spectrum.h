@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light spectra and reflectances on the 401 wavelengths. Figures: CIE 015 (illuminants), Ohta 1997 (ColorChecker).
+#pragma once
+#include "optics/wavelength.h"
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nephroid::optics {
+
+/// All spectra of lights here sum to 1 over the 401 wavelengths (contract.md); multiply by watts.
+/// name: A, D50, D65, E, F1..F12. Throws bad_input listing the known names and the nearest.
+Spectrum illuminant(const std::string& name);
+/// Planck's law at temperature_k.
+Spectrum blackbody(double temperature_k);
+/// Rows (nm, relative power), interpolated linearly to 1 nm, 0 outside the table. Throws bad_input where nothing is left in 380..780 nm.
+Spectrum light_table(std::span<const std::array<double, 2>> nm_power);
+/// Single lines: the power of each goes to the two nearest wavelengths, linearly.
+Spectrum light_lines(std::span<const std::array<double, 2>> nm_power);
+const std::vector<std::string>& illuminant_names();
+
+/// Reflectances 0..1, not normalised. name: one of the 24 ColorChecker patches.
+Spectrum colorchecker_patch(const std::string& name);
+const std::vector<std::string>& colorchecker_names();
+Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance);
+Spectrum constant_spectrum(double value);
+
+} // namespace nephroid::optics

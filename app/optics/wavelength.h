@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wavelength grid of the whole program: 401 wavelengths, 380..780 nm in steps of 1 nm.
+#pragma once
+#include <array>
+
+namespace nephroid::optics {
+
+inline constexpr int first_nm = 380;
+inline constexpr int last_nm = 780;
+inline constexpr int wavelength_count = last_nm - first_nm + 1;
+
+/// One value a wavelength, index i for first_nm + i.
+using Spectrum = std::array<double, wavelength_count>;
+
+inline constexpr int wavelength_nm(int index) { return first_nm + index; }
+
+} // namespace nephroid::optics

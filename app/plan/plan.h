@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan: which passes a run has, which are left out and why, the memory of each buffer, the -D flags of its kernels.
+// Engines make one from the preset and the loaded scene; the command line prints it, every run saves it.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace nephroid::plan {
+
+struct Pass {
+  std::string name;
+  bool runs = true;
+  std::string reason;   ///< a sentence a person can read
+};
+
+struct PlannedBuffer {
+  std::string name;
+  std::uint64_t bytes = 0;
+};
+
+struct Plan {
+  std::string engine;
+  std::vector<Pass> passes;
+  std::vector<PlannedBuffer> buffers;
+  std::map<std::string, std::string> defines;
+  std::vector<std::string> notes;  ///< what the run should say once: extrapolated data, open meshes
+};
+
+/// contract.md: {"engine","passes":[{"name","runs","reason"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes".
+std::string to_json(const Plan& plan);
+/// For a terminal.
+std::string to_text(const Plan& plan);
+
+} // namespace nephroid::plan

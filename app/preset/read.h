@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Presets in and out: strict reading with inheritance, overrides and sweeps; writing; the JSON schema.
+#pragma once
+#include "preset/preset.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nephroid::preset {
+
+/// "a.b.0.c=value": value as JSON, else as a bare string.
+using Overrides = std::vector<std::string>;
+
+/// Reads a preset file: "parent" chain, overrides, strict check of every key, type and range, sweep.
+/// name: a path, or the name of a shipped preset ("first-light", "spectral/prism"). One preset without "sweep", else one a run.
+/// Throws bad_input at FILE#/json/pointer (or FILE:LINE:COLUMN for broken JSON) with the nearest known key.
+std::vector<Preset> read_presets(const std::string& name, const Overrides& overrides = {});
+/// The same for a preset that must not have a sweep.
+Preset read_preset(const std::string& name, const Overrides& overrides = {});
+/// From text, for tests and the editor; source names it in messages.
+Preset parse_preset(const std::string& json, const std::string& source, const Overrides& overrides = {});
+
+/// Complete: reading it again gives an equal preset, and every field is there. Indented JSON, keys in the order of describe.
+std::string to_json(const Preset& preset);
+/// JSON Schema (2020-12) of a preset file, from the same descriptions.
+std::string schema();
+
+struct ShippedPreset {
+  std::string name;          ///< e.g. "first-light"
+  std::string description;
+  std::filesystem::path file;
+};
+/// Every preset under presets_folder(), sorted by name.
+std::vector<ShippedPreset> shipped_presets();
+
+} // namespace nephroid::preset

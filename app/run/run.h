@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a preset to a running engine and to the files of a finished run: the one place that knows all engines.
+// The command line and the window both come through here.
+#pragma once
+#include "compute/compute.h"
+#include "job/job.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace nephroid::run {
+
+/// A loaded scene with its tree: what stays the same while only the camera, the light or the engine's settings change.
+struct LoadedScene {
+  scene::Scene scene;
+  scene::Bvh bvh;
+};
+
+/// A preset made ready: files read, plan made, nothing on a device yet.
+struct Prepared {
+  preset::Preset preset;
+  std::shared_ptr<const LoadedScene> loaded;
+  plan::Plan plan;
+};
+
+/// Reads what the preset names and makes the plan. `previous`, if given, lends its tree where the objects are the same.
+/// Throws bad_input as the loaders do.
+Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr);
+
+/// Builds the engine's job on a device.
+std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
+
+/// Writes image.exr, image.png, preset.json, plan.json and run.json into folder (made if missing), each whole.
+void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
+               const job::Snapshot& snapshot, bool finished);
+
+/// checkpoint.bin in folder: written whole; bound to the resolved preset (without its stop) by a hash.
+void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, job::Job& job);
+/// Loads it into a job that was just made. False where there is none. Throws bad_input where it belongs to another preset or is cut.
+bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, job::Job& job);
+
+} // namespace nephroid::run

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Engine 1, spectral caustics: photons of each wavelength cluster, splatted where the camera sees a diffuse receiver (thesis chapter 4).
+#pragma once
+#include "compute/compute.h"
+#include "job/job.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+
+#include <memory>
+
+namespace nephroid::spectral {
+
+/// What runs, what is left out and why.
+plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
+
+/// The scene and tree are copied to the device; they need not outlive the call.
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+                                   const plan::Plan& plan, const compute::Context& context);
+
+} // namespace nephroid::spectral

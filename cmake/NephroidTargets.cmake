@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+# How this project makes its libraries and tests: compile settings live here and nowhere else.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+# Settings for our own code only: third-party code is compiled without them.
+add_library(nephroid_settings INTERFACE)
+target_compile_options(nephroid_settings INTERFACE -Wall -Wextra -Wshadow -Wpedantic $<$<BOOL:${NEPHROID_WERROR}>:-Werror>)
+target_include_directories(nephroid_settings INTERFACE ${PROJECT_SOURCE_DIR}/app ${PROJECT_SOURCE_DIR})
+target_compile_definitions(nephroid_settings INTERFACE GLM_FORCE_XYZW_ONLY GLM_FORCE_CTOR_INIT)
+if(NEPHROID_SANITIZE)
+  add_compile_options(-fsanitize=${NEPHROID_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  add_link_options(-fsanitize=${NEPHROID_SANITIZE})
+endif()
+
+# nephroid_library(NAME [LIBS lib...]): every .cpp of the current folder as the static library nephroid_NAME.
+function(nephroid_library name)
+  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(sources)
+    add_library(nephroid_${name} STATIC ${sources})
+    target_link_libraries(nephroid_${name} PUBLIC nephroid_settings ${arg_LIBS})
+  else()
+    add_library(nephroid_${name} INTERFACE)
+    target_link_libraries(nephroid_${name} INTERFACE nephroid_settings ${arg_LIBS})
+  endif()
+endfunction()
+
+# nephroid_tests(): every *_test.cpp of the current folder becomes one test program. It links the folders whose
+# headers it includes ("optics/..." links nephroid_optics), so adding a test is adding a file.
+function(nephroid_tests)
+  get_filename_component(group ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  foreach(source IN LISTS sources)
+    get_filename_component(stem ${source} NAME_WE)
+    add_executable(${group}_${stem} ${source})
+    file(STRINGS ${source} includes REGEX "^#include \"(base|optics|preset|scene|plan|compute|job|image|spectral|run|cli|ui)/")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+    set(libs "")
+    foreach(line IN LISTS includes)
+      string(REGEX REPLACE "^#include \"([a-z]+)/.*" "nephroid_\\1" lib "${line}")
+      list(APPEND libs ${lib})
+    endforeach()
+    list(REMOVE_DUPLICATES libs)
+    target_link_libraries(${group}_${stem} PRIVATE nephroid_settings ${libs} ${ARGN} GTest::gmock GTest::gtest_main)
+    target_compile_definitions(${group}_${stem} PRIVATE
+      NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:nephroid>")
+    gtest_discover_tests(${group}_${stem} TEST_PREFIX ${group}. DISCOVERY_MODE PRE_TEST
+      PROPERTIES TIMEOUT 600 LABELS ${group})
+  endforeach()
+endfunction()

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
+// A number is a function of (seed, pass, index, dimension) alone, so results do not depend on threads, devices or resuming.
+#ifndef NEPHROID_RANDOM_H
+#define NEPHROID_RANDOM_H
+
+inline uint4 philox4x32(uint4 counter, uint2 key)
+{
+  for (int round = 0; round < 10; ++round) {
+    const ulong a = (ulong)counter.x * 0xD2511F53u;
+    const ulong b = (ulong)counter.z * 0xCD9E8D57u;
+    counter = (uint4)((uint)(b >> 32) ^ counter.y ^ key.x, (uint)b, (uint)(a >> 32) ^ counter.w ^ key.y, (uint)a);
+    key += (uint2)(0x9E3779B9u, 0xBB67AE85u);
+  }
+  return counter;
+}
+
+// Four uniforms in [0, 1): dimensions 4 block .. 4 block + 3 of item `index` in `pass`.
+inline float4 random4(uint2 seed, uint pass, uint index, uint block, uint stream)
+{
+  const uint4 bits = philox4x32((uint4)(index, pass, block, stream), seed);
+  return convert_float4(bits >> 8) * 0x1p-24f;
+}
+
+#endif
