@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs of the command line: one file a verb, each adding its subcommand here. A verb's callback does the work and throws
+// Error; it sets the exit code where that is not 0. Results go to standard output, everything else to standard error.
+#pragma once
+#include <CLI/CLI.hpp>
+
+#include <stop_token>
+
+namespace nephroid::cli {
+
+struct Session {
+  int exit_code = 0;
+  std::stop_token interrupted;  ///< set by the first Ctrl-C or SIGTERM
+};
+
+void add_run(CLI::App& program, Session& session);
+void add_plan(CLI::App& program, Session& session);
+void add_dispersion(CLI::App& program, Session& session);
+void add_clusters(CLI::App& program, Session& session);
+void add_presets(CLI::App& program, Session& session);
+void add_devices(CLI::App& program, Session& session);
+void add_schema(CLI::App& program, Session& session);
+void add_version(CLI::App& program, Session& session);
+
+} // namespace nephroid::cli
