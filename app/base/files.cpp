@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// POSIX calls rather than streams: only they say why a write failed, and only they reach the disk (fsync).
+#include "base/files.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace nephroid {
+namespace fs = std::filesystem;
+namespace {
+
+/// An open file; closed at the end of its scope where nobody closed it before.
+class Descriptor {
+public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  bool ok() const { return number_ >= 0; }
+  /// False with errno set where the system reports a late write error.
+  bool close()
+  {
+    const int number = std::exchange(number_, -1);
+    return number < 0 || ::close(number) == 0;
+  }
+
+private:
+  int number_;
+};
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+std::string remedy_for(int error)
+{
+  switch (error) {
+  case ENOSPC:
+  case EDQUOT:
+    return "free some space or choose another folder";
+  case EACCES:
+  case EPERM:
+  case EROFS:
+    return "choose a folder that you may write to";
+  case ENOENT:
+    return "make the folder first";
+  default:
+    return {};
+  }
+}
+
+/// Removes the temporary file and says why the file could not be written.
+[[noreturn]] void give_up(const fs::path& temporary, const fs::path& path, int error)
+{
+  ::unlink(temporary.c_str());
+  throw failed(path.string(), fmt::format("cannot be written: {}", reason(error)), {}, remedy_for(error));
+}
+
+bool write_all(int descriptor, std::string_view bytes)
+{
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// The folder of the running program, empty where /proc is not mounted.
+fs::path program_folder()
+{
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+}
+
+bool is_folder(const fs::path& path)
+{
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+/// Where presets_folder looks: an installation has bin/nephroid and share/nephroid/presets, and a build folder is laid out the
+/// same way. Test programs lie up to two folders deeper.
+std::vector<fs::path> preset_candidates()
+{
+  std::vector<fs::path> candidates;
+  fs::path folder = program_folder();
+  for (int level = 0; level < 3 && folder.has_relative_path(); ++level) {
+    folder = folder.parent_path();
+    candidates.push_back(folder / "share/nephroid/presets");
+  }
+  return candidates;
+}
+
+/// The system's folders of models, from the data folders of the XDG base directory specification.
+std::vector<fs::path> model_folders()
+{
+  const char* variable = std::getenv("XDG_DATA_DIRS");
+  std::string_view list = variable && *variable ? variable : "/usr/local/share:/usr/share";
+  std::vector<fs::path> folders;
+  while (!list.empty()) {
+    const std::size_t colon = std::min(list.find(':'), list.size());
+    if (const fs::path data = list.substr(0, colon); data.is_absolute())
+      for (const char* models : {"nephroid/models", "glmark2/models"}) folders.push_back(data / models);
+    list.remove_prefix(std::min(colon + 1, list.size()));
+  }
+  return folders;
+}
+
+} // namespace
+
+std::string read_file(const fs::path& path)
+{
+  const auto refuse = [&](const std::string& why) { return bad_input(path.string(), "cannot be read: " + why); };
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status {};
+  if (!file.ok() || ::fstat(file.number(), &status) != 0) throw refuse(reason(errno));
+  if (S_ISDIR(status.st_mode)) throw refuse("it is a folder");
+  std::string bytes;
+  std::size_t filled = 0;
+  while (true) { // the size is a hint: pipes and files in /proc have none
+    bytes.resize(std::max<std::size_t>(filled + 65536, static_cast<std::size_t>(status.st_size) + 1));
+    const ssize_t count = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw refuse(reason(errno));
+    if (count == 0) break;
+    filled += static_cast<std::size_t>(count);
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+fs::path temporary_name(const fs::path& path)
+{
+  static std::atomic<unsigned> count{0}; // two threads may write the same file
+  // The extension stays last: picture writers choose their format by it.
+  return path.parent_path() / fmt::format(".{}.{}-{}.tmp{}", path.stem().string(), ::getpid(), count++, path.extension().string());
+}
+
+void write_file_whole(const fs::path& path, std::string_view bytes)
+{
+  const fs::path temporary = temporary_name(path);
+  {
+    Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!file.ok() || !write_all(file.number(), bytes) || !file.close()) give_up(temporary, path, errno);
+  }
+  commit_file(temporary, path);
+}
+
+void commit_file(const fs::path& temporary, const fs::path& path)
+{
+  Descriptor file(::open(temporary.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.ok() || ::fsync(file.number()) != 0 || !file.close()) give_up(temporary, path, errno);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) give_up(temporary, path, errno);
+  // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by then.
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (Descriptor entry(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)); entry.ok()) ::fsync(entry.number());
+}
+
+fs::path presets_folder()
+{
+  if (const char* variable = std::getenv("NEPHROID_PRESETS"); variable && *variable) {
+    if (!is_folder(variable)) throw failed("NEPHROID_PRESETS", fmt::format("'{}' is no folder", variable), "the folder of the presets");
+    return variable;
+  }
+  const std::vector<fs::path> candidates = preset_candidates();
+  std::vector<std::string> names;
+  for (const fs::path& candidate : candidates) {
+    if (is_folder(candidate)) return candidate;
+    names.push_back(candidate.string());
+  }
+  throw failed("presets", fmt::format("not found in {}", fmt::join(names, ", ")), {}, "set NEPHROID_PRESETS to their folder");
+}
+
+FileFinder::FileFinder(fs::path beside)
+{
+  folders_.push_back(beside.empty() ? fs::path(".") : std::move(beside));
+  try {
+    folders_.push_back(presets_folder());
+  } catch (const Error&) {
+    // Without presets/ everything may still lie beside the preset; what does not is reported by find with the folders there are.
+  }
+  for (fs::path& folder : model_folders())
+    if (is_folder(folder)) folders_.push_back(std::move(folder));
+}
+
+fs::path FileFinder::find(const std::string& name, const std::string& where) const
+{
+  const auto exists = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
+  };
+  if (name.empty()) throw bad_input(where, "the file name is empty");
+  if (fs::path(name).is_absolute()) {
+    if (exists(name)) return name;
+    throw bad_input(where, fmt::format("there is no file '{}'", name));
+  }
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders_) {
+    if (exists(folder / name)) return folder / name;
+    names.push_back(folder.string());
+  }
+  throw bad_input(where, fmt::format("'{}' not found", name), fmt::format("looked in {}", fmt::join(names, ", ")));
+}
+
+} // namespace nephroid
