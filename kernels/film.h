@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The film: 64-bit fixed point, so that a sum does not depend on the order of its terms and is the same bits on every device.
+#ifndef NEPHROID_FILM_H
+#define NEPHROID_FILM_H
+
+// One contribution may be at most 2^42 quanta: 2^20 of the largest still fit below 2^63.
+#define FILM_LIMIT 0x1p42f
+
+#ifdef NEPHROID_INT64_ATOMICS
+#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
+inline void add_exactly(volatile __global long* sum, long value) { atom_add(sum, value); }
+#else
+// Two 32-bit halves with carry: adding modulo 2^64 is associative, so once all have added, the bits are those of the sum.
+inline void add_exactly(volatile __global long* sum, long value)
+{
+  volatile __global uint* half_sum = (volatile __global uint*)sum;
+  const uint low = (uint)value, before = atomic_add(half_sum, low);
+  const uint carry = before + low < before ? 1u : 0u;
+  const uint high = (uint)(value >> 32) + carry;
+  if (high != 0u) atomic_add(half_sum + 1, high);
+}
+#endif
+
+// Adds xyz * scale to a pixel. Returns false, and adds nothing, where that is not finite or above FILM_LIMIT.
+inline bool film_add(volatile __global long* film, int pixel, float3 xyz, float scale)
+{
+  const float3 quanta = xyz * scale;
+  if (!(fabs(quanta.x) <= FILM_LIMIT && fabs(quanta.y) <= FILM_LIMIT && fabs(quanta.z) <= FILM_LIMIT)) return false;
+  volatile __global long* sum = film + 3 * (size_t)pixel;
+  add_exactly(sum, convert_long_rte(quanta.x));
+  add_exactly(sum + 1, convert_long_rte(quanta.y));
+  add_exactly(sum + 2, convert_long_rte(quanta.z));
+  return true;
+}
+
+#endif

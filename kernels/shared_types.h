@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structs that the host writes and kernels read: one definition for both, with the sizes checked on the host.
+// Lengths are in scene units unless a name says metres.
+#ifndef NEPHROID_SHARED_TYPES_H
+#define NEPHROID_SHARED_TYPES_H
+
+#ifndef __OPENCL_VERSION__
+#include <cstdint>
+namespace nephroid::shared {
+using uint = std::uint32_t;
+struct alignas(16) float4 {
+  float x, y, z, w;
+};
+#endif
+
+// At most this many dielectrics may enclose one point.
+#define MEDIA_DEPTH 8
+
+#define MATERIAL_DIFFUSE 0
+#define MATERIAL_DIELECTRIC 1
+#define MATERIAL_MIRROR 2
+
+#define LIGHT_POINT 0
+#define LIGHT_SPOT 1
+#define LIGHT_DIRECTIONAL 2
+#define LIGHT_AREA 3
+
+// Where a photon ended. The energy counters are in this order.
+#define OUTCOME_EMITTED 0   // sum of all the others
+#define OUTCOME_DEPOSITED 1 // on a diffuse surface after glass or a mirror
+#define OUTCOME_MISSED 2    // met no glass and no mirror: direct light
+#define OUTCOME_ABSORBED 3  // in glass or by a mirror
+#define OUTCOME_ESCAPED 4   // left the scene after glass or a mirror
+#define OUTCOME_LOST 5      // met max_surfaces interfaces, or more than MEDIA_DEPTH nested media
+#define OUTCOME_REFUSED 6   // count of film contributions too large for the film's fixed point (not watts)
+#define OUTCOME_COUNT 7
+
+typedef struct {
+  int type;       // MATERIAL_*
+  int reflector;  // diffuse: row of the reflectance tables
+  int attenuator; // absorbing dielectric, mirror: row of the attenuation table; -1: none
+  int padding;
+} DeviceMaterial;
+
+typedef struct {
+  int material;
+  int priority;
+  int smooth; // 1: refract and shade about interpolated vertex normals
+  int padding;
+} DeviceObject;
+
+typedef struct {
+  int count;
+  int objects[MEDIA_DEPTH]; // dielectric objects that enclose a point, the one entered last at the end
+  int padding[3];
+} Media;
+
+typedef struct {
+  float4 position;     // directional: unused
+  float4 direction;    // unit, the way the light goes; w unused
+  float4 edge_u;       // area
+  float4 edge_v;       // area
+  int type;            // LIGHT_*
+  float cos_half_angle; // spot
+  float solid_angle;   // spot: of its cone
+  float radiometric;   // point, spot, area: power in W; directional: irradiance in W m^-2
+  Media inside;
+} DeviceLight;
+
+// A bounding sphere of a caustic object: photons are sent towards these only.
+typedef struct {
+  float4 centre_radius;
+} DeviceTarget;
+
+// Photons of one wavelength cluster from one light. Photon i of a pass belongs to the last emitter with first_photon <= i.
+typedef struct {
+  uint first_photon;
+  uint photon_count;
+  int light;
+  int cluster;
+  float share;         // the cluster's share of the light's power, 0..1
+  int padding[3];
+} DeviceEmitter;
+
+typedef struct {
+  float4 position;
+  float4 right, up, forward; // orthonormal
+  float tan_x, tan_y;        // of half the angle of view
+  int width, height;
+  Media inside;
+} DeviceCamera;
+
+// What every kernel needs of the scene as a whole.
+typedef struct {
+  int root;               // of the tree
+  int material_count;
+  int light_count;
+  int target_count;
+  int cluster_count;
+  int emitter_count;
+  float metres_per_unit;
+  float outside_distance; // directional photons start this far before their target: outside of everything
+} DeviceScene;
+
+#ifndef __OPENCL_VERSION__
+static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 16 && sizeof(Media) == 48);
+static_assert(sizeof(DeviceLight) == 128 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 32);
+static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 32);
+} // namespace nephroid::shared
+#endif
+
+#endif
