@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# ./test.sh [PRESET] [CTEST ARGS...] installs what is missing (Debian 12), builds and runs every test.
+# PRESET is one of CMakePresets.json: release (the default), debug, ci, asan, tsan, clang, headless. ./test.sh asan -R optics
+# runs the optics tests under AddressSanitizer and UndefinedBehaviorSanitizer.
+set -euo pipefail
+root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+# shellcheck source=cmake/build.sh
+. "$root/cmake/build.sh"
+# shellcheck source=third_party/packages.sh
+. "$root/third_party/packages.sh"
+
+preset=release
+case ${1-} in
+  release | debug | ci | asan | tsan | clang | headless) preset=$1; shift ;;
+  '' | -*) ;;
+  *) sed -n '3,5s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
+esac
+
+packages=("${build_packages[@]}" "${program_packages[@]}" "${test_packages[@]}")
+[ "$preset" = headless ] || packages+=("${window_packages[@]}")
+[ "$preset" != clang ] || packages+=(clang)
+
+prepare_build() {
+  configure "$preset" -DNEPHROID_TESTS=ON
+  build "$preset"
+}
+
+run_tests() {
+  # The suppressions and their reasons: tests/sanitizers/.
+  export ASAN_OPTIONS="strict_string_checks=1:detect_stack_use_after_return=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
+  export LSAN_OPTIONS="suppressions=$root/tests/sanitizers/leak.supp:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}"
+  export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/thread.supp${TSAN_OPTIONS:+:$TSAN_OPTIONS}"
+  export UBSAN_OPTIONS="print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}"
+  ctest --test-dir "$root/build/$preset" --output-on-failure --parallel 2 --no-tests=error "$@"
+}
+
+phase install install_packages "${packages[@]}"
+phase build prepare_build
+say_phases
+run_tests "$@" # last, so that ctest's closing lines are the last ones

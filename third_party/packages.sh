@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# The Debian packages that Nephroid needs, by what needs them, and how the missing ones are installed. Sourced by run.sh,
+# test.sh and .ci/run; versions and licences are in README.md beside this file.
+
+# Configuring and compiling. python3-pip downloads Dear ImGui's source archive (imgui.cmake).
+build_packages=(g++ cmake ninja-build pkg-config python3-pip)
+# Libraries of the program itself, and the bunny that the first-light preset shows.
+program_packages=(
+  opencl-clhpp-headers ocl-icd-opencl-dev pocl-opencl-icd
+  libfmt-dev nlohmann-json3-dev libyaml-cpp-dev libcli11-dev
+  libglm-dev libassimp-dev libembree-dev libopenimageio-dev glmark2-data)
+# The window.
+window_packages=(libglfw3-dev libgl-dev)
+# The tests: xvfb and xauth give the window a display where there is none.
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth)
+# What .ci/run checks the sources with.
+check_packages=(clang-format clang-tidy shellcheck)
+
+# missing_packages NAME...: prints those that are not installed.
+missing_packages() {
+  local installed name
+  installed=" $(dpkg-query -W -f '${db:Status-Status}:${Package} ' "$@" 2>/dev/null || true)"
+  for name in "$@"; do
+    [[ $installed == *" installed:$name "* ]] || printf '%s\n' "$name"
+  done
+}
+
+# install_packages NAME...: installs those that are missing, as root or by sudo; where neither works, prints the line to type and fails.
+install_packages() {
+  if ! command -v dpkg-query >/dev/null; then
+    say "this is not a Debian system: install what these packages hold by your own means: $*"
+    return 0
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
+  [ ${#missing[@]} -gt 0 ] || return 0
+
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    # Without a terminal sudo cannot ask for a password: it is of use only where it needs none.
+    if command -v sudo >/dev/null && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
+      as_root=(sudo)
+    else
+      say "these packages are missing and installing them needs root; type this as root, then run the command again:"
+      say "  apt-get update && apt-get install --no-install-recommends ${missing[*]}"
+      return 1
+    fi
+  fi
+  say "installing ${#missing[@]} missing packages: ${missing[*]}"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0)
+  if ! "${apt[@]}" update >&2 || ! "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null; then
+    say "the packages could not be installed (see apt-get's message above); once that is mended, run the command again"
+    return 1
+  fi
+}
