@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The verbs of the command line: one file a verb, each adding its subcommand here. A verb's callback does the work and throws
 // Error; it sets the exit code where that is not 0. Results go to standard output, everything else to standard error.
+// A verb that ends in order on Ctrl-C makes an Interrupts (base/interrupts.h).
 #pragma once
 #include <CLI/CLI.hpp>
-
-#include <stop_token>
 
 namespace nephroid::cli {
 
 struct Session {
   int exit_code = 0;
-  std::stop_token interrupted;  ///< set by the first Ctrl-C or SIGTERM
 };
 
 void add_run(CLI::App& program, Session& session);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// What was built: the project's version, the commit, the compiler. Costs nothing at start.
+#pragma once
+#include <string>
+
+namespace nephroid {
+
+std::string version();      ///< of the project, e.g. "0.1.0"
+std::string commit();       ///< `git describe --always --dirty` when it was built; "" outside a git checkout
+std::string compiler();     ///< name, version and build type
+std::string program_name(); ///< "nephroid 0.1.0", with the commit where there is one
+
+} // namespace nephroid

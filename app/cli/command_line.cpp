@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/command_line.h"
+
+#include "base/build_info.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/nearest.h"
+#include "cli/verbs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+namespace nephroid::cli {
+namespace {
+
+constexpr const char* summary = "Nephroid, a caustics workbench: renders, explores and designs the light that glass and mirrors throw.";
+constexpr const char* closing = "Without a verb the window opens. `nephroid VERB --help` explains a verb; start with:\n"
+                                "  nephroid presets              what is shipped\n"
+                                "  nephroid run first-light      render one of them into out/first-light\n"
+                                "Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 3 no usable device, 130 interrupted.";
+
+std::vector<std::string> verb_names(const CLI::App& program)
+{
+  std::vector<std::string> names;
+  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) names.push_back(verb->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& app)
+{
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::string did_you_mean(const std::string& name) { return name.empty() ? std::string() : fmt::format("did you mean '{}'?", name); }
+
+/// The command line of whose parsing an error came: the verb where one was named, else the program itself.
+const CLI::App& erring_app(const CLI::App& program)
+{
+  const std::vector<CLI::App*> verbs = program.get_subcommands();
+  return verbs.empty() ? program : *verbs.front();
+}
+
+std::string help_command(const CLI::App& app) { return app.get_parent() ? "nephroid " + app.get_name() + " --help" : "nephroid --help"; }
+
+/// CLI11's errors in the program's own form, with the nearest name for what it does not know.
+Error usage_error(const CLI::App& program, const CLI::ParseError& error)
+{
+  const CLI::App& app = erring_app(program);
+  const std::string where = app.get_parent() ? app.get_name() : "";
+  const std::string see = fmt::format("see {}", help_command(app));
+  for (const std::string& extra : app.remaining()) // before what is missing: a mistyped option often explains it
+    if (extra.size() > 1 && extra.front() == '-') {
+      const std::string name = extra.substr(0, extra.find('='));
+      return bad_input(where, fmt::format("unknown option '{}'", name), did_you_mean(nearest(name, option_names(app))), see);
+    }
+  if (error.get_name() == "ExtrasError") {
+    const std::vector<std::string> extras = app.remaining();
+    return bad_input(where, fmt::format("unexpected argument '{}'", extras.empty() ? error.what() : extras.front()), {}, see);
+  }
+  std::string text = error.what();
+  while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+  return bad_input(where, text, {}, see);
+}
+
+bool is_there(const std::filesystem::path& path)
+{
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+/// `nephroid rum first-light`: a word that is no file, no shipped preset and nearly a verb was meant to be one.
+void refuse_mistyped_verb(const CLI::App& program, const std::string& word)
+{
+  if (word.find_first_of("./") != std::string::npos || is_there(word)) return;
+  const std::string verb = nearest(word, verb_names(program));
+  if (verb.empty()) return;
+  try {
+    if (is_there(presets_folder() / (word + ".json"))) return;
+  } catch (const Error&) {
+    // No presets at all: then it is not the name of one.
+  }
+  throw bad_input("", fmt::format("unknown verb '{}'", word), did_you_mean(verb), "see nephroid --help");
+}
+
+int open_window(const CLI::App& program, const Window& window, const std::vector<std::string>& files)
+{
+  if (!files.empty()) refuse_mistyped_verb(program, files.front());
+  if (window.open) return window.open(files);
+  const std::string file = files.empty() ? "FILE" : files.front();
+  throw bad_input("", "this build has no window", {}, fmt::format("render with `nephroid run {}`; see nephroid --help", file));
+}
+
+int parse_and_run(int argc, const char* const* argv, const Window& window)
+{
+  Session session;
+  std::vector<std::string> files;
+  CLI::App program(summary, "nephroid");
+  program.footer(closing);
+  program.set_version_flag("--version", [] { return program_name(); });
+  program.get_formatter()->column_width(34);
+  program.require_subcommand(0, 1);
+  program.add_option("FILE", files, "Open in the window: presets by path or shipped name");
+  if (window.add_options) window.add_options(program);
+  for (const auto add : {add_run, add_plan, add_dispersion, add_clusters, add_presets, add_devices, add_schema, add_version})
+    add(program, session);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& request) { // --help and --version
+    return program.exit(request);
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(program, error);
+  }
+  return program.get_subcommands().empty() ? open_window(program, window, files) : session.exit_code;
+}
+
+/// Results that cannot be written (a full disk, a closed pipe) are a failure, not silence.
+void flush_results()
+{
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw failed("standard output", "cannot be written");
+}
+
+} // namespace
+
+int run_command_line(int argc, const char* const* argv, const Window& window)
+{
+  const auto report = [](const Error& error) {
+    std::fflush(stdout);
+    fmt::print(stderr, "nephroid: {}\n", error.line());
+    return error.exit_code();
+  };
+  try {
+    const int exit_code = parse_and_run(argc, argv, window);
+    flush_results();
+    return exit_code;
+  } catch (const Error& error) {
+    return report(error);
+  } catch (const std::bad_alloc&) {
+    return report(failed("", "out of memory", {}, "see `nephroid plan` for what a run needs"));
+  } catch (const std::exception& error) {
+    return report(failed("", error.what(), {}, "this is a defect of the program: please report it"));
+  }
+}
+
+} // namespace nephroid::cli
