@@ -5,11 +5,11 @@
 
 # Configuring and compiling. python3-pip downloads Dear ImGui's source archive (imgui.cmake).
 build_packages=(g++ cmake ninja-build pkg-config python3-pip)
-# Libraries of the program itself, and the bunny that the first-light preset shows.
+# Libraries of the program itself, and the bunny that the first-light preset shows. zlib1g-dev: Assimp's CMake package names zlib.
 program_packages=(
   opencl-clhpp-headers ocl-icd-opencl-dev pocl-opencl-icd
   libfmt-dev nlohmann-json3-dev libyaml-cpp-dev libcli11-dev
-  libglm-dev libassimp-dev libembree-dev libopenimageio-dev glmark2-data)
+  libglm-dev libassimp-dev zlib1g-dev libembree-dev libopenimageio-dev glmark2-data)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
 # The tests: xvfb and xauth give the window a display where there is none.
@@ -49,8 +49,12 @@ install_packages() {
   fi
   say "installing ${#missing[@]} missing packages: ${missing[*]}"
   local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0)
-  if ! "${apt[@]}" update >&2 || ! "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null; then
-    say "the packages could not be installed (see apt-get's message above); once that is mended, run the command again"
+  local log
+  log=$(mktemp)
+  if ! { "${apt[@]}" update && "${apt[@]}" install --yes --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    say "the packages could not be installed (apt-get's last lines are above); once that is mended, run the command again"
     return 1
   fi
+  rm -f "$log"
 }

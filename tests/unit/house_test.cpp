@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// The house rules that a machine can check: licence lines, file sizes, no trace of one machine, and that third_party/README.md
+// and the install list name the dependencies that the build looks for.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::IsEmpty;
+
+const fs::path root = NEPHROID_SOURCE_DIR;
+
+std::string text_of(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Every file of the project, relative to its root: what .gitignore leaves out (build folders, output) is not the project's.
+std::vector<fs::path> project_files()
+{
+  std::vector<fs::path> files;
+  for (auto entry = fs::recursive_directory_iterator(root); entry != fs::recursive_directory_iterator(); ++entry) {
+    const std::string name = entry->path().filename().string();
+    const bool top = entry.depth() == 0;
+    if (entry->is_directory() && (name == ".git" || name == ".cache" || (top && (name.starts_with("build") || name == "out")))) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_regular_file() && name != ".git" && name != "compile_commands.json") {
+      files.push_back(fs::relative(entry->path(), root));
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_source(const fs::path& file)
+{
+  static const std::set<std::string> endings{".cpp", ".h", ".cl", ".cmake", ".sh", ".py"};
+  return endings.contains(file.extension().string()) || file.filename() == "CMakeLists.txt" || file == ".ci/run";
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Line 1, or line 2 after a shebang, is the licence line and nothing else.
+bool opens_with_licence(const std::string& text)
+{
+  const std::vector<std::string> lines = lines_of(text);
+  const std::size_t at = !lines.empty() && lines[0].starts_with("#!") ? 1 : 0;
+  return lines.size() > at &&
+         (lines[at] == "// SPDX-License-Identifier: Apache-2.0" || lines[at] == "# SPDX-License-Identifier: Apache-2.0");
+}
+
+/// The first text that only one machine or one network has: a path below a home or mount folder, or a package registry's address.
+std::string machine_trace(const std::string& text)
+{
+  static const std::regex trace(R"re((^|[\s"'`=(:,])/(home|root|Users|mnt|media|srv|work|farm|tmp)/[A-Za-z0-9]\S*)re"
+                                R"re(|https?://[A-Za-z0-9.-]*(pypi|debian|npm|registry|mirror|crates)[A-Za-z0-9.-]*)re");
+  std::smatch match;
+  for (const std::string& line : lines_of(text)) {
+    if (std::regex_search(line, match, trace)) return match.str();
+  }
+  return "";
+}
+
+/// The names that pattern's first group matches in text.
+std::set<std::string> names_in(const std::string& text, const std::string& pattern)
+{
+  const std::regex regex(pattern);
+  std::set<std::string> names;
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) names.insert(match->str(1));
+  return names;
+}
+
+/// The words of the bash arrays NAME_packages=(...) of third_party/packages.sh.
+std::set<std::string> debian_packages()
+{
+  std::set<std::string> packages;
+  const std::string text = text_of(root / "third_party/packages.sh");
+  for (const std::string& list : names_in(text, R"(\n[a-z]+_packages=\(([^)]*)\))")) {
+    for (const std::string& name : names_in(list, R"(([a-z0-9+.-]+))")) packages.insert(name);
+  }
+  return packages;
+}
+
+TEST(House, every_source_opens_with_its_licence)
+{
+  std::vector<std::string> without;
+  int sources = 0;
+  for (const fs::path& file : project_files()) {
+    if (!is_source(file)) continue;
+    ++sources;
+    if (!opens_with_licence(text_of(root / file))) without.push_back(file.string());
+  }
+  EXPECT_GT(sources, 40);
+  EXPECT_THAT(without, IsEmpty());
+}
+
+TEST(House, sources_are_one_subject_under_500_lines)
+{
+  std::vector<std::string> longer;
+  for (const fs::path& file : project_files()) {
+    const std::string top = file.begin()->string();
+    if (!is_source(file) || (top != "app" && top != "ui" && top != "kernels" && top != "tests")) continue;
+    const std::size_t lines = lines_of(text_of(root / file)).size();
+    if (lines > 500) longer.push_back(file.string() + " has " + std::to_string(lines));
+  }
+  EXPECT_THAT(longer, IsEmpty());
+}
+
+TEST(House, no_file_over_a_megabyte)
+{
+  std::vector<std::string> large;
+  for (const fs::path& file : project_files()) {
+    if (fs::file_size(root / file) > 1'000'000) large.push_back(file.string());
+  }
+  EXPECT_THAT(large, IsEmpty());
+}
+
+TEST(House, no_trace_of_one_machine)
+{
+  std::vector<std::string> traces;
+  for (const fs::path& file : project_files()) {
+    if (file == "tests/unit/house_test.cpp") continue; // its own examples
+    const std::string text = text_of(root / file);
+    if (text.find('\0') != std::string::npos) continue; // pictures and other binary data
+    const std::string trace = machine_trace(text);
+    if (!trace.empty()) traces.push_back(file.string() + ": " + trace);
+  }
+  EXPECT_THAT(traces, IsEmpty());
+}
+
+TEST(House, third_party_readme_names_every_dependency)
+{
+  const std::string readme = text_of(root / "third_party/README.md");
+  std::string cmake;
+  for (const fs::path& file : project_files()) {
+    if (file.begin()->string() == "third_party" && file.extension() == ".cmake") cmake += text_of(root / file);
+  }
+  std::set<std::string> dependencies = names_in(cmake, R"(find_package\((\w[\w-]*))");
+  dependencies.merge(names_in(cmake, R"(pkg_check_modules\((\w[\w-]*))"));
+  ASSERT_THAT(dependencies, testing::IsSupersetOf({"OpenCL", "OpenImageIO", "embree", "GTest"}));
+  for (const std::string& name : dependencies) EXPECT_THAT(readme, testing::HasSubstr("`" + name + "`"));
+}
+
+TEST(House, third_party_readme_names_every_debian_package)
+{
+  const std::string readme = text_of(root / "third_party/README.md");
+  const std::set<std::string> packages = debian_packages();
+  ASSERT_THAT(packages, testing::IsSupersetOf({"g++", "pocl-opencl-icd", "libgtest-dev"}));
+  for (const std::string& name : packages) EXPECT_THAT(readme, testing::HasSubstr("`" + name + "`"));
+}
+
+// Dependencies are found in third_party/, once: a find_package elsewhere would escape the table of licences.
+TEST(House, dependencies_are_found_in_one_place)
+{
+  std::vector<std::string> elsewhere;
+  for (const fs::path& file : project_files()) {
+    if (file.begin()->string() == "third_party" || (file.extension() != ".cmake" && file.filename() != "CMakeLists.txt")) continue;
+    const std::string text = text_of(root / file);
+    if (!names_in(text, R"(\b(find_package|pkg_check_modules|find_library|FetchContent_Declare)\()").empty())
+      elsewhere.push_back(file.string());
+  }
+  EXPECT_THAT(elsewhere, IsEmpty());
+}
+
+// The checks themselves, on cases made up for them.
+TEST(House, checks_see_what_they_are_for)
+{
+  EXPECT_TRUE(opens_with_licence("// SPDX-License-Identifier: Apache-2.0\nint i;\n"));
+  EXPECT_TRUE(opens_with_licence("#!/usr/bin/env bash\n# SPDX-License-Identifier: Apache-2.0\n"));
+  EXPECT_FALSE(opens_with_licence("int i;\n// SPDX-License-Identifier: Apache-2.0\n"));
+  EXPECT_FALSE(opens_with_licence(""));
+  EXPECT_EQ(machine_trace("see /usr/share/glmark2/models and app/work/x.h"), "");
+  EXPECT_EQ(machine_trace("https://www.w3.org/TR/css-color-4/"), "");
+  EXPECT_EQ(machine_trace("path = \"/home/ada/nephroid\""), "\"/home/ada/nephroid\"");
+  EXPECT_NE(machine_trace("fetch http://deb.debian.org/x"), "");
+}
+
+} // namespace

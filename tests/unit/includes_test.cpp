@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dependencies point one way: every #include of app/, ui/ and kernels/ is held against the folder table of ARCHITECTURE.md, and
+// every library's headers stay in the one folder that knows the library.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Folders = std::set<std::string>;
+using FolderTable = std::map<std::string, Folders>;
+
+/// The third cell of a table row as the folders it allows. `above` are the folders of the rows before.
+/// Throws std::runtime_error on a name that is no row so far, so that a typing error in the table is seen.
+Folders allowed_folders(const std::string& cell, const Folders& above)
+{
+  if (cell == "nothing") return {};
+  if (cell == "all of the above") return above;
+  std::smatch match;
+  Folders folders;
+  if (std::regex_match(cell, match, std::regex("all but ([a-z]+)"))) {
+    folders = above;
+    if (folders.erase(match.str(1)) == 0) throw std::runtime_error("no such folder: " + match.str(1));
+    return folders;
+  }
+  std::istringstream names(cell);
+  for (std::string name; std::getline(names >> std::ws, name, ',');) {
+    if (!above.contains(name)) throw std::runtime_error("no such folder above: " + name);
+    folders.insert(name);
+  }
+  return folders;
+}
+
+/// Rows "| `app/NAME` | what | includes |" of a Markdown text; a folder may always include itself.
+FolderTable read_table(std::istream& markdown)
+{
+  const std::regex row(R"(\| `(?:app/)?([a-z]+)` \|.*\| ([^|]+) \|)");
+  FolderTable table;
+  Folders above;
+  for (std::string line; std::getline(markdown, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, row)) continue;
+    const std::string folder = match.str(1);
+    table[folder] = allowed_folders(match.str(2), above);
+    table[folder].insert(folder);
+    above.insert(folder);
+  }
+  return table;
+}
+
+/// Which folder may include headers whose path starts with `prefix`.
+struct LibraryRule {
+  std::string prefix;
+  std::string folder;
+};
+
+const std::vector<LibraryRule> library_rules{
+    {"CL/", "compute"},      {"OpenImageIO/", "image"}, {"assimp/", "scene"}, {"embree3/", "scene"}, {"CLI/", "cli"},
+    {"yaml-cpp/", "optics"}, {"GLFW/", "ui"},           {"GL/", "ui"},        {"imgui", "ui"},       {"implot", "ui"},
+};
+
+/// What is wrong with one include of a file of `folder`; empty where nothing is.
+std::string break_of(const std::string& folder, const std::string& included, const FolderTable& table)
+{
+  for (const LibraryRule& rule : library_rules) {
+    if (included.starts_with(rule.prefix) && folder != rule.folder) return "only " + rule.folder + " may know this library";
+  }
+  if (included.find("../") != std::string::npos) return "include from the root of app/, not by a relative path";
+  const std::string into = included.substr(0, included.find('/'));
+  if (into == included || !table.contains(into)) return "";
+  if (into == "kernels" && included == "kernels/shared_types.h" && folder != "base") return "";
+  if (!table.at(folder).contains(into)) return folder + " may not include " + into;
+  return "";
+}
+
+/// The folder of the table that a file belongs to; empty for app/main.cpp, which may include all.
+std::string folder_of(const fs::path& relative)
+{
+  auto part = relative.begin();
+  if (*part == "app") ++part;
+  return std::next(part) == relative.end() ? "" : part->string();
+}
+
+std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& relative, const FolderTable& table)
+{
+  const std::regex include(R"re(\s*#\s*include\s*["<]([^">]+)[">].*)re");
+  const std::string folder = folder_of(relative);
+  std::vector<std::string> breaks;
+  if (folder.empty()) return breaks;
+  if (!table.contains(folder)) return {relative.string() + ": ARCHITECTURE.md's table has no row for " + folder};
+  std::ifstream in(file);
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    std::smatch match;
+    if (!std::regex_match(line, match, include)) continue;
+    const std::string wrong = break_of(folder, match.str(1), table);
+    if (!wrong.empty()) breaks.push_back(relative.string() + ":" + std::to_string(number) + ": " + match.str(1) + ": " + wrong);
+  }
+  return breaks;
+}
+
+FolderTable project_table()
+{
+  std::ifstream markdown(fs::path(NEPHROID_SOURCE_DIR) / "ARCHITECTURE.md");
+  return read_table(markdown);
+}
+
+TEST(Includes, point_one_way)
+{
+  const fs::path root = NEPHROID_SOURCE_DIR;
+  const FolderTable table = project_table();
+  ASSERT_THAT(table.at("base"), testing::ElementsAre("base")) << "ARCHITECTURE.md's table could not be read";
+  const std::set<std::string> endings{".cpp", ".h", ".cl"};
+  std::vector<std::string> breaks;
+  int files = 0;
+  for (const char* top : {"app", "ui", "kernels"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top)) {
+      if (!endings.contains(entry.path().extension().string())) continue;
+      ++files;
+      const auto of_file = breaks_of_file(entry.path(), fs::relative(entry.path(), root), table);
+      breaks.insert(breaks.end(), of_file.begin(), of_file.end());
+    }
+  }
+  EXPECT_GT(files, 20);
+  EXPECT_THAT(breaks, testing::IsEmpty());
+}
+
+TEST(Includes, every_row_of_the_table_is_a_folder)
+{
+  for (const auto& [folder, allowed] : project_table()) {
+    EXPECT_TRUE(fs::is_directory(fs::path(NEPHROID_SOURCE_DIR) / "app" / folder) ||
+                fs::is_directory(fs::path(NEPHROID_SOURCE_DIR) / folder))
+        << folder;
+  }
+}
+
+// The engines must not know each other, and what knows no OpenCL must stay so, whatever the table is changed to.
+TEST(Includes, the_table_keeps_the_promises_of_the_design)
+{
+  const FolderTable table = project_table();
+  for (const char* folder : {"base", "optics", "preset", "scene", "plan", "job", "image"}) {
+    EXPECT_FALSE(table.at(folder).contains("compute")) << folder;
+  }
+  for (const auto& [folder, allowed] : table) {
+    for (const std::string& other : allowed) {
+      EXPECT_TRUE(other == folder || !table.at(other).contains(folder)) << folder << " and " << other << " include each other";
+    }
+    EXPECT_TRUE(folder == "ui" || !allowed.contains("ui")) << folder;
+  }
+}
+
+// The check itself, on breaks made up for it.
+TEST(Includes, breaks_are_seen)
+{
+  std::istringstream markdown("| folder | what | includes |\n|---|---|---|\n"
+                              "| `app/base` | x | nothing |\n| `app/optics` | x | base |\n| `app/compute` | x | base |\n"
+                              "| `app/cli` | x | all of the above |\n| `ui` | x | all but cli |\n| `kernels` | x | nothing |\n");
+  const FolderTable table = read_table(markdown);
+  EXPECT_EQ(break_of("optics", "base/error.h", table), "");
+  EXPECT_EQ(break_of("optics", "optics/wavelength.h", table), "");
+  EXPECT_EQ(break_of("ui", "compute/compute.h", table), "");
+  EXPECT_EQ(break_of("compute", "kernels/shared_types.h", table), "");
+  EXPECT_EQ(break_of("compute", "CL/opencl.hpp", table), "");
+  EXPECT_EQ(break_of("base", "vector", table), "");
+  EXPECT_EQ(break_of("ui", "cli/verbs.h", table), "ui may not include cli");
+  EXPECT_EQ(break_of("base", "optics/wavelength.h", table), "base may not include optics");
+  EXPECT_EQ(break_of("optics", "compute/compute.h", table), "optics may not include compute");
+  EXPECT_EQ(break_of("compute", "kernels/random.h", table), "compute may not include kernels");
+  EXPECT_EQ(break_of("optics", "CL/cl.h", table), "only compute may know this library");
+  EXPECT_EQ(break_of("cli", "OpenImageIO/imageio.h", table), "only image may know this library");
+  EXPECT_NE(break_of("optics", "../base/error.h", table), "");
+  EXPECT_THROW(allowed_folders("base, optcis", {"base", "optics"}), std::runtime_error);
+}
+
+} // namespace
