@@ -70,11 +70,11 @@ bool opens_with_licence(const std::string& text)
 /// The first text that only one machine or one network has: a path below a home or mount folder, or a package registry's address.
 std::string machine_trace(const std::string& text)
 {
-  static const std::regex trace(R"re((^|[\s"'`=(:,])/(home|root|Users|mnt|media|srv|work|farm|tmp)/[A-Za-z0-9]\S*)re"
+  static const std::regex trace(R"re((^|[\s"'`=(:,])/(home|root|Users|mnt|media|srv|work|farm|tmp)/[A-Za-z0-9])re"
                                 R"re(|https?://[A-Za-z0-9.-]*(pypi|debian|npm|registry|mirror|crates)[A-Za-z0-9.-]*)re");
   std::smatch match;
   for (const std::string& line : lines_of(text)) {
-    if (std::regex_search(line, match, trace)) return match.str();
+    if (std::regex_search(line, match, trace)) return line.substr(static_cast<std::size_t>(match.position()), 60);
   }
   return "";
 }
