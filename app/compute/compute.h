@@ -18,19 +18,37 @@
 namespace nephroid::compute {
 
 struct DeviceInfo {
-  int index = 0;                 ///< what --device takes
+  int index = 0;                                     ///< what --device takes
   std::string name, platform, driver, version, type; ///< type: "cpu", "gpu" or "accelerator"
   int compute_units = 0;
   std::uint64_t memory_bytes = 0, max_buffer_bytes = 0;
   bool fp64 = false, int64_atomics = false;
 };
 
+/// PoCL compiles into a cache folder and shows no device where it has none. Where that folder is missing, unwritable or full,
+/// this sets POCL_CACHE_DIR to a private temporary folder and returns one line to show; empty where there is nothing to say.
+/// Call it before any thread starts (it may change the environment); list_devices and Context::open call it too, silently.
+std::string prepare_kernel_cache();
+
 /// Every device of every platform, in a stable order. An empty list is no error here.
 std::vector<DeviceInfo> list_devices();
 
+/// The error to throw where there is no device: Error(no_device) with a reason for each likely cause.
+Error no_device_error();
+
+/// A kernel source that does not compile. line() has the first error at FILE:LINE; log() is the compiler's whole log.
+class BuildError : public Error {
+public:
+  BuildError(std::string where, std::string what, std::string log);
+  const std::string& log() const { return log_; }
+
+private:
+  std::string log_;
+};
+
 struct DeviceOptions {
-  std::string selector;                    ///< "": a GPU if there is one, else the first; an index; or part of a name
-  std::filesystem::path kernels;           ///< load kernels from this folder rather than the embedded ones
+  std::string selector{};          ///< "": a GPU if there is one, else the first; an index; or part of a name
+  std::filesystem::path kernels{}; ///< load kernels from this folder rather than the embedded ones
 };
 
 using Defines = std::map<std::string, std::string>;
@@ -67,7 +85,7 @@ public:
   std::shared_ptr<detail::BufferState> state;
 };
 
-/// count items of T on the device. An empty one is allocated with one item, so that it can be passed to a kernel.
+/// count items of T on the device. An empty one is allocated with a few bytes, so that it can be passed to a kernel.
 /// Throws failed naming the buffer, its bytes and the device's limit where there is not enough memory.
 template <class T>
 class Buffer : public RawBuffer {
@@ -75,7 +93,10 @@ class Buffer : public RawBuffer {
 
 public:
   Buffer() = default;
-  Buffer(const Context& context, std::string name, std::size_t count) : RawBuffer(context, std::move(name), count * sizeof(T), nullptr), count_(count) {}
+  Buffer(const Context& context, std::string name, std::size_t count)
+      : RawBuffer(context, std::move(name), count * sizeof(T), nullptr), count_(count)
+  {
+  }
   Buffer(const Context& context, std::string name, std::span<const T> items)
       : RawBuffer(context, std::move(name), items.size_bytes(), items.data()), count_(items.size())
   {
@@ -126,10 +147,11 @@ private:
 };
 
 /// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's own properties
-/// (compute/program.cpp owns them all). Built programs are kept in the context and in the OpenCL implementation's own cache.
+/// (compute/program.cpp owns them all): NEPHROID_CPU or NEPHROID_GPU, NEPHROID_FP64 and NEPHROID_INT64_ATOMICS where the device has them.
+/// Built programs are kept in the context and in the OpenCL implementation's own cache.
 class Program {
 public:
-  /// file: e.g. "trace.cl". Throws failed with the build log.
+  /// file: e.g. "trace.cl". Throws BuildError; Error(failed) for a source or include that is missing.
   Program(const Context& context, const std::string& file, const Defines& defines = {});
   /// Throws failed naming the kernels there are.
   Kernel kernel(const std::string& name) const;

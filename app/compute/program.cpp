@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Building programs: the one place that composes compiler options and reads the compiler's log.
+#include "compute/state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace nephroid::compute {
+namespace {
+
+/// Options are one string that every vendor splits at white space in its own way, so a definition holds none.
+void check_define(const std::string& name, const std::string& value)
+{
+  static const std::regex identifier("[A-Za-z_][A-Za-z0-9_]*"), plain("[^\\s\"'\\\\]*");
+  if (!std::regex_match(name, identifier) || !std::regex_match(value, plain))
+    throw failed("-D" + name + "=" + value, "cannot be passed to a kernel compiler", "a name, and a value without spaces and quotes");
+}
+
+std::string compiler_options(const DeviceInfo& device, const Defines& defines)
+{
+  std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
+  options += device.type == "cpu" ? " -DNEPHROID_CPU=1" : " -DNEPHROID_GPU=1";
+  if (device.fp64) options += " -DNEPHROID_FP64=1";
+  if (device.int64_atomics) options += " -DNEPHROID_INT64_ATOMICS=1";
+  for (const auto& [name, value] : defines) {
+    check_define(name, value);
+    options += fmt::format(" -D{}={}", name, value);
+  }
+  return options;
+}
+
+/// "trace.cl:12:5: error: ..." as place and message, from the first such line of the log.
+BuildError build_error(const std::string& file, const std::string& device, const std::string& log)
+{
+  static const std::regex located(R"(^\s*([^\s:]+:\d+)(?::\d+)?: (?:fatal )?error: (.*)$)");
+  std::istringstream lines(log);
+  std::string first;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_match(line, match, located))
+      return {match[1], fmt::format("{} (building {} for {})", match[2].str(), file, device), log};
+    if (first.empty() && line.find("rror") != std::string::npos) first = line;
+  }
+  return {file, fmt::format("clBuildProgram gave CL_BUILD_PROGRAM_FAILURE for {}: {}", device, first.empty() ? log : first), log};
+}
+
+cl::Program build(const detail::ContextState& context, const std::string& file, const std::string& source, const std::string& options)
+{
+  cl::Program program(context.context, source);
+  try {
+    program.build(context.device, options.c_str());
+  } catch (const cl::BuildError& error) {
+    const std::string log = error.getBuildLog().empty() ? "" : error.getBuildLog().front().second;
+    if (log.find_first_not_of(" \n\t") == std::string::npos) throw detail::call_failed(error, file);
+    throw build_error(file, context.info.name, log);
+  }
+  return program;
+}
+
+} // namespace
+
+Program::Program(const Context& context, const std::string& file, const Defines& defines)
+{
+  detail::ContextState& s = *context.state;
+  const std::string source = detail::full_source(s.kernels, file);
+  const std::string options = compiler_options(s.info, defines);
+  const std::string key = options + '\n' + source;
+  try {
+    auto built = s.programs.find(key);
+    if (built == s.programs.end()) built = s.programs.emplace(key, build(s, file, source, options)).first;
+    state = std::make_shared<detail::ProgramState>(detail::ProgramState{context.state, file, built->second});
+  } catch (const cl::Error& error) {
+    throw detail::call_failed(error, file);
+  }
+}
+
+Kernel Program::kernel(const std::string& name) const
+{
+  Kernel kernel;
+  kernel.state = std::make_shared<detail::KernelState>();
+  kernel.state->context = state->context;
+  kernel.state->name = state->file + ": " + name;
+  try {
+    kernel.state->kernel = cl::Kernel(state->program, name.c_str());
+    const cl_uint count = kernel.state->kernel.getInfo<CL_KERNEL_NUM_ARGS>();
+    for (cl_uint i = 0; i < count; ++i)
+      kernel.state->is_pointer.push_back(kernel.state->kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(i) !=
+                                         CL_KERNEL_ARG_ADDRESS_PRIVATE);
+  } catch (const cl::Error& error) {
+    if (error.err() != CL_INVALID_KERNEL_NAME) throw detail::call_failed(error, kernel.state->name);
+    std::string names = state->program.getInfo<CL_PROGRAM_KERNEL_NAMES>();
+    std::replace(names.begin(), names.end(), ';', ' ');
+    throw failed(state->file, "has no kernel " + name, "there are: " + names);
+  }
+  return kernel;
+}
+
+} // namespace nephroid::compute

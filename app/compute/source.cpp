@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernel sources as the compiler gets them: one text with every include in its place, so that no file is needed at run time
+// and messages still name the file and line that a person edits.
+#include "base/files.h"
+#include "compute/embedded.h"
+#include "compute/state.h"
+
+#include <fmt/format.h>
+
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace nephroid::compute {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string source_text(const fs::path& folder, const std::string& file, const std::string& where)
+{
+  if (!folder.empty()) {
+    if (!fs::exists(folder / file)) throw failed(where, fmt::format("there is no kernel source {}", (folder / file).string()));
+    return read_file(folder / file);
+  }
+  std::string names;
+  for (const EmbeddedSource& source : embedded_sources()) {
+    if (source.name == file) return source.text;
+    names += (names.empty() ? "" : ", ") + source.name;
+  }
+  throw failed(where, "there is no kernel source " + file, "there are: " + names);
+}
+
+struct Joiner {
+  const fs::path& folder;
+  std::set<std::string> included = {};
+  std::string text = {};
+
+  void add(const std::string& file, const std::string& where)
+  {
+    if (!included.insert(file).second) return;
+    static const std::regex include(R"(^\s*#\s*include\s+"([^"]+)\".*)");
+    std::istringstream lines(source_text(folder, file, where));
+    text += fmt::format("#line 1 \"{}\"\n", file);
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      std::smatch match;
+      if (!std::regex_match(line, match, include)) {
+        text += line + '\n';
+        continue;
+      }
+      add(match[1], fmt::format("{}:{}", file, number));
+      text += fmt::format("#line {} \"{}\"\n", number + 1, file);
+    }
+  }
+};
+
+} // namespace
+
+std::string detail::full_source(const fs::path& folder, const std::string& file)
+{
+  Joiner joiner{folder};
+  joiner.add(file, "kernels");
+  return joiner.text;
+}
+
+} // namespace nephroid::compute

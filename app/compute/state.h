@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What compute.h hides: the OpenCL objects behind its handles and how a failed call becomes an Error. Private to this folder.
+#pragma once
+#include "compute/compute.h"
+
+#define CL_TARGET_OPENCL_VERSION 120
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#define CL_HPP_ENABLE_EXCEPTIONS
+#include <CL/opencl.hpp>
+
+namespace nephroid::compute::detail {
+
+struct Device {
+  cl::Device handle;
+  DeviceInfo info;
+};
+
+/// Every device of every platform. Adds to `problems` a line for each platform that would not list its devices.
+std::vector<Device> enumerate_devices(std::vector<std::string>& problems);
+
+using FileTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
+
+struct ContextState {
+  DeviceInfo info;
+  cl::Device device;
+  cl::Context context;
+  cl::CommandQueue queue;
+  std::filesystem::path kernels;               ///< empty: the embedded sources
+  FileTimes kernel_times;                      ///< of the files in `kernels` when last looked at
+  std::map<std::string, cl::Program> programs; ///< by compiler options and full text
+};
+
+struct ProgramState {
+  std::shared_ptr<ContextState> context;
+  std::string file;
+  cl::Program program;
+};
+
+struct KernelState {
+  std::shared_ptr<ContextState> context;
+  cl::Kernel kernel;
+  std::string name;             ///< "trace.cl: closest_hits", for messages
+  std::vector<bool> is_pointer; ///< an argument each
+};
+
+struct BufferState {
+  std::shared_ptr<ContextState> context;
+  std::string name;
+  cl::Buffer buffer;
+  std::size_t bytes = 0;
+};
+
+/// "CL_OUT_OF_RESOURCES" for -5; the number where it has no name.
+std::string error_name(cl_int code);
+
+/// Error(failed) at `where` for a call that failed: names the call and the code, and a full or unwritable kernel cache,
+/// which PoCL itself reports as an unrelated code without a reason.
+Error call_failed(const cl::Error& error, const std::string& where);
+
+/// The whole text of `file` for the compiler, every #include "NAME" of another kernel source put in its place, once each.
+/// Sources come from `folder`, or from the program itself where that is empty.
+std::string full_source(const std::filesystem::path& folder, const std::string& file);
+
+/// Modification times of the files in a kernels folder; empty where it cannot be read.
+FileTimes file_times(const std::filesystem::path& folder);
+
+/// Why PoCL cannot keep its kernels in the folder that it will use; empty where it can.
+std::string kernel_cache_problem();
+
+} // namespace nephroid::compute::detail
