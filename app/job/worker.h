@@ -27,12 +27,13 @@ public:
   Worker();
   ~Worker();                                 ///< cancels and joins
   /// Cancels what runs and starts over: make() runs on the worker thread (loading, kernels) and gives the job. Returns at once.
-  /// An exception from make() or from a step becomes State::failed with its line.
+  /// An exception from make() or from a step becomes State::failed with its line. A pause ends.
   void start(std::function<std::unique_ptr<Job>()> make);
-  void cancel();                             ///< after the step in hand
+  void cancel();                             ///< after the step in hand, or after make() where that is still running
   void pause(bool paused);
   Status status() const;
-  /// The newest snapshot, null before the first. Never waits for the device.
+  /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first, so that a
+  /// view does not flicker. Never waits for the device.
   std::shared_ptr<const Snapshot> snapshot() const;
   /// How often snapshots are made while running (default 100 ms; the first after the first step).
   void set_snapshot_interval(std::chrono::milliseconds interval);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid plan`: what a preset would run, what is left out and why, and the memory it takes. Renders nothing.
+#include "plan/plan.h"
+#include "cli/verbs.h"
+#include "preset/read.h"
+#include "run/run.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace nephroid::cli {
+namespace {
+
+struct PlanOptions {
+  std::string preset;
+  std::vector<std::string> overrides;
+  bool json = false;
+};
+
+void print_plans(const PlanOptions& options)
+{
+  const std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
+  for (const preset::Preset& preset : presets) {
+    const plan::Plan plan = run::prepare(preset).plan;
+    if (!options.json && presets.size() > 1) fmt::print("{}\n", preset.name);
+    fmt::print("{}\n", options.json ? plan::to_json(plan) : plan::to_text(plan));
+  }
+}
+
+} // namespace
+
+void add_plan(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<PlanOptions>();
+  CLI::App* verb = program.add_subcommand("plan", "What a preset would run, what is left out and why, and the memory it takes");
+  verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset")->required();
+  verb->add_option("--set", options->overrides, "Change a setting: scene.lights.0.power_w=2; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+  verb->add_flag("--json", options->json, "One JSON object a run instead of text");
+  verb->callback([options] { print_plans(*options); });
+}
+
+} // namespace nephroid::cli

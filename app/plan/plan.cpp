@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/plan.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace nephroid::plan {
+namespace {
+
+/// "1.5 MiB": three figures are enough for a person.
+std::string readable_bytes(std::uint64_t bytes)
+{
+  const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  double amount = static_cast<double>(bytes);
+  int unit = 0;
+  for (; amount >= 1024 && unit < 4; ++unit) amount /= 1024;
+  return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.{}f} {}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, units[unit]);
+}
+
+template <class Items, class Name>
+std::size_t widest(const Items& items, Name name)
+{
+  std::size_t width = 0;
+  for (const auto& item : items) width = std::max(width, name(item).size());
+  return width;
+}
+
+} // namespace
+
+std::string to_json(const Plan& plan)
+{
+  using Json = nlohmann::ordered_json;
+  Json passes = Json::array(), buffers = Json::array(), defines = Json::object();
+  for (const Pass& pass : plan.passes) passes.push_back({{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}});
+  for (const PlannedBuffer& buffer : plan.buffers) buffers.push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
+  for (const auto& [name, value] : plan.defines) defines[name] = value;
+  const Json all{{"engine", plan.engine}, {"passes", passes}, {"buffers", buffers}, {"defines", defines}, {"notes", plan.notes}};
+  return all.dump(2);
+}
+
+std::string to_text(const Plan& plan)
+{
+  std::string text = fmt::format("Engine: {}\n\nPasses\n", plan.engine);
+  const std::size_t pass_width = widest(plan.passes, [](const Pass& pass) { return pass.name; });
+  for (const Pass& pass : plan.passes)
+    text += fmt::format("  {:<{}}  {}  {}\n", pass.name, pass_width, pass.runs ? "runs    " : "left out", pass.reason);
+  text += "\nMemory\n";
+  const std::size_t buffer_width = std::max<std::size_t>(5, widest(plan.buffers, [](const PlannedBuffer& buffer) { return buffer.name; }));
+  std::uint64_t total = 0;
+  for (const PlannedBuffer& buffer : plan.buffers) {
+    text += fmt::format("  {:<{}}  {:>9}\n", buffer.name, buffer_width, readable_bytes(buffer.bytes));
+    total += buffer.bytes;
+  }
+  text += fmt::format("  {:<{}}  {:>9}\n", "total", buffer_width, readable_bytes(total));
+  if (!plan.defines.empty()) {
+    text += "\nKernel settings\n";
+    for (const auto& [name, value] : plan.defines) text += fmt::format("  -D {}{}{}\n", name, value.empty() ? "" : "=", value);
+  }
+  if (!plan.notes.empty()) {
+    text += "\nNotes\n";
+    for (const std::string& note : plan.notes) text += fmt::format("  {}\n", note);
+  }
+  return text;
+}
+
+} // namespace nephroid::plan

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files are read whole, written whole or not at all, and found where a preset's reader says they are; nearest names.
+#include "base/error.h"
+#include "base/files.h"
+#include "base/interrupts.h"
+#include "base/nearest.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Files : public testing::Test {
+protected:
+  fs::path folder = fs::path(testing::TempDir()) / ("nephroid-files-" + std::to_string(::getpid()));
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::vector<std::string> names() const
+  {
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder)) found.push_back(entry.path().filename());
+    return found;
+  }
+};
+
+template <class Call>
+Error error_of(Call call)
+{
+  try {
+    call();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no error was thrown";
+  return failed("", "");
+}
+
+TEST_F(Files, BytesSurviveWritingAndReading)
+{
+  std::string bytes(300'000, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 2654435761u >> 13);
+  write_file_whole(folder / "a.bin", bytes);
+  EXPECT_EQ(read_file(folder / "a.bin"), bytes);
+  write_file_whole(folder / "a.bin", "");
+  EXPECT_EQ(read_file(folder / "a.bin"), "");
+  EXPECT_THAT(names(), ElementsAre("a.bin")); // no temporary file is left
+}
+
+TEST_F(Files, FilesWithoutASizeAreReadToo) { EXPECT_THAT(read_file("/proc/self/status"), HasSubstr("Name:")); }
+
+TEST_F(Files, WhatCannotBeReadIsBadInputWithItsName)
+{
+  const Error missing = error_of([&] { read_file(folder / "none"); });
+  EXPECT_EQ(missing.exit_code(), 2);
+  EXPECT_THAT(missing.line(), HasSubstr((folder / "none").string() + ": cannot be read: No such file"));
+  EXPECT_THAT(error_of([&] { read_file(folder); }).line(), HasSubstr("it is a folder"));
+}
+
+TEST_F(Files, AMissingFolderAndAFolderInTheWayAreSaid)
+{
+  const Error missing = error_of([&] { write_file_whole(folder / "no/such/a.txt", "x"); });
+  EXPECT_EQ(missing.exit_code(), 1);
+  EXPECT_THAT(missing.line(), HasSubstr("make the folder first"));
+  fs::create_directory(folder / "taken");
+  EXPECT_THAT(error_of([&] { write_file_whole(folder / "taken", "x"); }).line(), HasSubstr("cannot be written"));
+  EXPECT_THAT(names(), ElementsAre("taken"));
+}
+
+TEST_F(Files, AFullDiskIsSaidAndTheOldFileStays)
+{
+  const fs::path disk = folder / "disk";
+  fs::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0) GTEST_SKIP() << "mounting a small disk needs root";
+  write_file_whole(disk / "a", "old");
+  const Error full = error_of([&] { write_file_whole(disk / "a", std::string(200'000, 'x')); });
+  EXPECT_THAT(full.line(), HasSubstr("No space left on device; free some space"));
+  EXPECT_EQ(read_file(disk / "a"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(disk), fs::directory_iterator()), 1);
+  ::umount(disk.c_str());
+}
+
+TEST_F(Files, AFolderWithoutPermissionIsSaid)
+{
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  ::chmod(folder.c_str(), 0500);
+  EXPECT_THAT(error_of([&] { write_file_whole(folder / "a", "x"); }).line(), HasSubstr("choose a folder that you may write to"));
+  ::chmod(folder.c_str(), 0700);
+}
+
+TEST_F(Files, TemporaryNamesLieBesideKeepTheExtensionAndDiffer)
+{
+  const fs::path first = temporary_name(folder / "image.exr"), second = temporary_name(folder / "image.exr");
+  EXPECT_EQ(first.parent_path(), folder);
+  EXPECT_EQ(first.extension(), ".exr");
+  EXPECT_NE(first, second);
+}
+
+class Finder : public Files {
+protected:
+  void SetUp() override
+  {
+    Files::SetUp();
+    for (const char* name : {"beside", "presets", "data/glmark2/models"}) fs::create_directories(folder / name);
+    ::setenv("NEPHROID_PRESETS", (folder / "presets").c_str(), 1);
+    ::setenv("XDG_DATA_DIRS", (folder / "data").c_str(), 1);
+  }
+  void TearDown() override
+  {
+    ::unsetenv("NEPHROID_PRESETS");
+    ::unsetenv("XDG_DATA_DIRS");
+    Files::TearDown();
+  }
+};
+
+TEST_F(Finder, LooksBesideThenInPresetsThenInTheSystemsModels)
+{
+  const FileFinder finder(folder / "beside");
+  for (const char* place : {"data/glmark2/models", "presets", "beside"}) { // each goes before the one before
+    write_file_whole(folder / place / "bunny.obj", place);
+    EXPECT_EQ(finder.find("bunny.obj", "x"), folder / place / "bunny.obj");
+  }
+}
+
+TEST_F(Finder, SaysWhereItLookedAndForWhom)
+{
+  fs::create_directory(folder / "beside/a-folder.obj");
+  const Error error = error_of([&] { FileFinder(folder / "beside").find("a-folder.obj", "p.json#/scene/objects/0/mesh"); });
+  EXPECT_EQ(error.exit_code(), 2);
+  EXPECT_THAT(error.line(), testing::StartsWith("p.json#/scene/objects/0/mesh: 'a-folder.obj' not found; looked in "));
+  for (const char* place : {"beside", "presets", "data/glmark2/models"}) EXPECT_THAT(error.line(), HasSubstr((folder / place).string()));
+  EXPECT_THAT(error_of([&] { FileFinder().find("/no/such/file", "x"); }).line(), HasSubstr("there is no file '/no/such/file'"));
+  EXPECT_THAT(error_of([&] { FileFinder().find("", "x"); }).line(), HasSubstr("empty"));
+}
+
+TEST_F(Finder, PresetsFolderOfTheEnvironmentMustBeThere)
+{
+  EXPECT_EQ(presets_folder(), folder / "presets");
+  ::setenv("NEPHROID_PRESETS", "/no/such/folder", 1);
+  EXPECT_THAT(error_of([] { presets_folder(); }).line(), HasSubstr("NEPHROID_PRESETS: '/no/such/folder' is no folder"));
+}
+
+TEST(Presets, AreFoundFromTheBuildFolder)
+{
+  ::unsetenv("NEPHROID_PRESETS");
+  EXPECT_TRUE(fs::equivalent(presets_folder(), fs::path(NEPHROID_SOURCE_DIR) / "presets"));
+}
+
+TEST(Nearest, DistancesOfTheLiterature)
+{
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3); // Levenshtein's own example
+  EXPECT_EQ(edit_distance("ca", "abc"), 3);         // 3 in optimal string alignment, 2 in Damerau's unrestricted distance
+  EXPECT_EQ(edit_distance("rnu", "run"), 1);
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+}
+
+TEST(Nearest, OnlyNearWordsAreOffered)
+{
+  const std::vector<std::string> verbs{"run", "plan", "presets", "dispersion"};
+  EXPECT_EQ(nearest("rnu", verbs), "run");
+  EXPECT_EQ(nearest("preset", verbs), "presets");
+  EXPECT_EQ(nearest("disprezion", verbs), "dispersion");
+  EXPECT_EQ(nearest("clusters", verbs), "");
+  EXPECT_EQ(nearest("", verbs), "");
+}
+
+TEST(Interrupts, TheFirstSignalSetsTheTokenAndTheSecondKills)
+{
+  const auto twice = [] {
+    const Interrupts interrupts;
+    ::kill(::getpid(), SIGTERM);
+    while (!interrupts.token().stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ::kill(::getpid(), SIGTERM);
+    std::this_thread::sleep_for(std::chrono::seconds(5));
+  };
+  EXPECT_EXIT(twice(), testing::KilledBySignal(SIGTERM), "");
+  {
+    const Interrupts interrupts;
+    ::kill(::getpid(), SIGINT);
+    while (!interrupts.token().stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  sigset_t blocked;
+  ::pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
+  EXPECT_FALSE(sigismember(&blocked, SIGINT)) << "signals are as before";
+}
+
+} // namespace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan as others read it: the JSON of contract.md, and the text a person sees.
+#include "plan/plan.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using nephroid::plan::Plan;
+using testing::HasSubstr;
+
+Plan example()
+{
+  return {"spectral",
+          {{"photons", true, "one light reaches 1 dielectric"}, {"absorption", false, "k is 0 everywhere"}},
+          {{"film", 3ull << 20}, {"tree", 5ull << 33}},
+          {{"MAX_SURFACES", "32"}},
+          {"bunny: 12 open edges"}};
+}
+
+TEST(Plan, JsonIsTheContract)
+{
+  const auto json = nlohmann::json::parse(to_json(example()));
+  EXPECT_EQ(json["engine"], "spectral");
+  EXPECT_EQ(json["passes"], nlohmann::json::parse(R"([{"name":"photons","runs":true,"reason":"one light reaches 1 dielectric"},
+                                                      {"name":"absorption","runs":false,"reason":"k is 0 everywhere"}])"));
+  EXPECT_EQ(json["buffers"][1]["bytes"], 5ull << 33);
+  EXPECT_EQ(json["defines"], (nlohmann::json{{"MAX_SURFACES", "32"}}));
+  EXPECT_EQ(json["notes"], (nlohmann::json{"bunny: 12 open edges"}));
+  EXPECT_EQ(json.size(), 5u);
+}
+
+TEST(Plan, EmptyListsAreListsAndObjects)
+{
+  const auto json = nlohmann::json::parse(to_json(Plan{"spectral", {}, {}, {}, {}}));
+  EXPECT_TRUE(json["passes"].is_array() && json["buffers"].is_array() && json["notes"].is_array());
+  EXPECT_TRUE(json["defines"].is_object());
+}
+
+TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory)
+{
+  const std::string text = to_text(example());
+  EXPECT_THAT(text, HasSubstr("absorption  left out  k is 0 everywhere"));
+  EXPECT_THAT(text, HasSubstr("3.00 MiB"));
+  EXPECT_THAT(text, HasSubstr("total   40.0 GiB"));
+  EXPECT_THAT(text, HasSubstr("-D MAX_SURFACES=32"));
+  EXPECT_THAT(text, HasSubstr("bunny: 12 open edges"));
+}
+
+} // namespace

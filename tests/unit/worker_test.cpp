@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// The worker with a job that counts: every order of commands ends in a defined state, and readers never wait.
+#include "job/worker.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <future>
+#include <thread>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::job;
+using namespace std::chrono_literals;
+
+/// Counts to `steps`; can be held inside a step. Its picture is one pixel with the count.
+class CountingJob : public Job {
+public:
+  explicit CountingJob(int steps, std::atomic<int>* alive = nullptr) : steps_(steps), alive_(alive)
+  {
+    if (alive_) ++*alive_;
+  }
+  ~CountingJob() override
+  {
+    if (alive_) --*alive_;
+  }
+  void step() override
+  {
+    ++count_;
+    std::this_thread::sleep_for(200us);
+  }
+  bool finished() const override { return count_ >= steps_; }
+  Progress progress() const override { return {.fraction = double(count_) / steps_, .step = count_, .steps = steps_}; }
+  Snapshot snapshot() override
+  {
+    auto picture = std::make_shared<Picture>();
+    picture->width = picture->height = 1;
+    picture->rgb = {float(count_), 0, 0};
+    return {.picture = std::move(picture), .progress = progress(), .energy = {}, .phases = {}};
+  }
+  std::vector<std::byte> save() override { return {}; }
+  void load(std::span<const std::byte>) override {}
+
+protected:
+  int count_ = 0, steps_;
+  std::atomic<int>* alive_;
+};
+
+constexpr int endless = 1 << 30;
+
+auto counting(int steps, std::atomic<int>* alive = nullptr)
+{
+  return [=] { return std::make_unique<CountingJob>(steps, alive); };
+}
+
+/// Until the worker says so or ten seconds are over.
+template <class Condition>
+bool eventually(Condition condition)
+{
+  for (const auto end = std::chrono::steady_clock::now() + 10s; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(100us))
+    if (condition()) return true;
+  return false;
+}
+
+TEST(Worker, IsIdleAtFirst)
+{
+  Worker worker;
+  EXPECT_EQ(worker.status().state, State::idle);
+  EXPECT_EQ(worker.snapshot(), nullptr);
+  worker.cancel(); // of nothing: must not cancel what is started later
+  worker.start(counting(3));
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::finished);
+}
+
+TEST(Worker, FinishesWithTheLastSnapshot)
+{
+  Worker worker;
+  worker.set_snapshot_interval(1h);
+  worker.start(counting(20));
+  EXPECT_EQ(worker.status().generation, 1u);
+  worker.wait();
+  const Status status = worker.status();
+  EXPECT_EQ(status.state, State::finished);
+  EXPECT_EQ(status.progress.step, 20);
+  EXPECT_EQ(worker.snapshot()->picture->rgb[0], 20);
+}
+
+TEST(Worker, AJobThatIsFinishedAtOnceIsNeverStepped)
+{
+  Worker worker;
+  worker.start(counting(0));
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.snapshot()->picture->rgb[0], 0);
+}
+
+TEST(Worker, SnapshotsComeAtTheirInterval)
+{
+  Worker worker;
+  worker.set_snapshot_interval(0ms);
+  worker.start(counting(endless));
+  float last = 0;
+  for (int i = 0; i < 5; ++i) // each is newer than the one before
+    ASSERT_TRUE(eventually([&] {
+      const auto snapshot = worker.snapshot();
+      return snapshot && snapshot->picture->rgb[0] > last && (last = snapshot->picture->rgb[0]) > 0;
+    }));
+}
+
+TEST(Worker, CancelLeavesTheLastSnapshot)
+{
+  Worker worker;
+  worker.start(counting(endless));
+  ASSERT_TRUE(eventually([&] { return worker.status().progress.step > 5; }));
+  worker.cancel();
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::cancelled);
+  EXPECT_EQ(worker.snapshot()->progress.step, worker.status().progress.step);
+  EXPECT_GT(worker.snapshot()->progress.step, 5);
+}
+
+TEST(Worker, CancelWhilePreparingNeverSteps)
+{
+  Worker worker;
+  std::promise<void> entered, leave;
+  worker.start([&]() -> std::unique_ptr<Job> {
+    entered.set_value();
+    leave.get_future().wait();
+    return std::make_unique<CountingJob>(endless);
+  });
+  entered.get_future().wait();
+  EXPECT_EQ(worker.status().state, State::preparing);
+  worker.cancel();
+  leave.set_value();
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::cancelled);
+  EXPECT_EQ(worker.snapshot(), nullptr);
+}
+
+TEST(Worker, TheNewestStartWins)
+{
+  Worker worker;
+  std::atomic<int> alive{0}, made{0};
+  for (int i = 0; i < 50; ++i)
+    worker.start([&, i] {
+      ++made;
+      EXPECT_EQ(alive, 0) << "the old job is gone before the new one is made";
+      return std::make_unique<CountingJob>(i == 49 ? 7 : endless, &alive);
+    });
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().generation, 50u);
+  EXPECT_EQ(worker.snapshot()->progress.steps, 7);
+  EXPECT_LE(made, 50);
+}
+
+TEST(Worker, AReplacedJobsErrorIsNotTheNewJobs)
+{
+  Worker worker;
+  std::promise<void> entered, leave;
+  worker.start([&]() -> std::unique_ptr<Job> {
+    entered.set_value();
+    leave.get_future().wait();
+    throw bad_input("old.json", "is broken");
+  });
+  entered.get_future().wait();
+  worker.start(counting(2));
+  leave.set_value();
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().message, "");
+}
+
+TEST(Worker, PausesAndGoesOn)
+{
+  Worker worker;
+  worker.start(counting(endless));
+  ASSERT_TRUE(eventually([&] { return worker.status().state == State::running; }));
+  worker.pause(true);
+  ASSERT_TRUE(eventually([&] { return worker.status().state == State::paused; }));
+  const auto step = worker.status().progress.step;
+  std::this_thread::sleep_for(5ms);
+  EXPECT_EQ(worker.status().progress.step, step);
+  worker.pause(false);
+  ASSERT_TRUE(eventually([&] { return worker.status().progress.step > step; }));
+  worker.pause(true);
+  worker.cancel(); // ends a pause too
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::cancelled);
+}
+
+class FailingJob : public CountingJob {
+public:
+  FailingJob() : CountingJob(endless) {}
+  void step() override
+  {
+    if (++count_ == 3) throw failed("trace.cl", "out of registers");
+  }
+};
+
+TEST(Worker, ErrorsBecomeAStateAndTheWorkerGoesOn)
+{
+  Worker worker;
+  worker.start([] { return std::make_unique<FailingJob>(); });
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::failed);
+  EXPECT_EQ(worker.status().message, "trace.cl: out of registers");
+  worker.start([]() -> std::unique_ptr<Job> { throw std::bad_alloc(); });
+  worker.wait();
+  EXPECT_EQ(worker.status().message, "out of memory");
+  worker.start([]() -> std::unique_ptr<Job> { return nullptr; }); // a maker that found nothing to do
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::cancelled);
+  worker.start(counting(1));
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::finished);
+}
+
+TEST(Worker, ReadersNeverWaitForAStep)
+{
+  class SlowJob : public CountingJob {
+  public:
+    SlowJob() : CountingJob(1) {}
+    void step() override
+    {
+      std::this_thread::sleep_for(300ms);
+      ++count_;
+    }
+  };
+  Worker worker;
+  worker.start([] { return std::make_unique<SlowJob>(); });
+  ASSERT_TRUE(eventually([&] { return worker.status().state == State::running; }));
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 1000; ++i) {
+    worker.status();
+    worker.snapshot();
+  }
+  EXPECT_EQ(worker.status().state, State::running) << "all reads fell within the one step";
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 250ms);
+}
+
+TEST(Worker, DestructionMidStepCancelsAndFreesTheJob)
+{
+  std::atomic<int> alive{0};
+  {
+    Worker worker;
+    worker.start(counting(endless, &alive));
+    ASSERT_TRUE(eventually([&] { return worker.status().progress.step > 0; }));
+  }
+  EXPECT_EQ(alive, 0);
+}
+
+TEST(Worker, ManyReadersAndCommandsAtOnce)
+{
+  Worker worker;
+  worker.set_snapshot_interval(0ms);
+  std::vector<std::jthread> threads;
+  for (int t = 0; t < 3; ++t)
+    threads.emplace_back([&worker, t](const std::stop_token& stop) {
+      for (int i = 0; !stop.stop_requested(); ++i) {
+        if (const auto snapshot = worker.snapshot()) {
+          EXPECT_EQ(snapshot->picture->rgb[0], float(snapshot->progress.step));
+        }
+        if (t == 0 && i % 50 == 0) worker.start(counting(i % 3 ? 2 : endless));
+        if (t == 1 && i % 70 == 0) worker.cancel();
+        if (t == 2) worker.pause(i % 2);
+        std::this_thread::sleep_for(20us);
+      }
+    });
+  std::this_thread::sleep_for(200ms);
+  threads.clear();
+  worker.start(counting(2));
+  worker.wait();
+  EXPECT_EQ(worker.status().state, State::finished);
+}
+
+} // namespace
