@@ -48,9 +48,9 @@ configure() {
   (cd "$root" && cmake --preset "$preset" "$@") >&2
 }
 
-# build PRESET [TARGET...]: ninja finds out what is out of date; its lines that say "nothing to do" are left out.
+# build PRESET [TARGET...]: ninja finds out what is out of date; what it says where nothing is, is left out.
 build() {
   local folder=$root/build/$1
   shift
-  cmake --build "$folder" ${1:+--target "$@"} | sed -u '/^ninja: /{/no work to do/d;/Entering directory/d};/Re-checking globbed directories/d' >&2
+  cmake --build "$folder" ${1:+--target "$@"} | sed -u '/^ninja: /{/no work to do/d;/Entering directory/d};/Re-checking globbed directories/d;/Checking the commit/d' >&2
 }
