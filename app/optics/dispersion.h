@@ -7,14 +7,14 @@
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace nephroid::optics {
 
+/// What to answer outside the data's own range. automatic: extrapolate a formula, hold a table. hold: the value at the nearest end.
+/// extrapolate: a formula goes on; a table has no law to go on by, so it holds. refuse: an error.
 enum class Outside { automatic, hold, extrapolate, refuse };
 
 struct IndexSample {
@@ -28,16 +28,17 @@ struct IndexSample {
 struct Curve {
   std::function<double(double nm)> value;
   double low_nm = 0, high_nm = 0;
-  bool formula = false;      ///< may be extrapolated
+  bool formula = false; ///< may be extrapolated
 };
 
 struct DispersionCurve {
-  std::string name;          ///< file stem or kind, for messages
+  std::string name;   ///< file stem or kind, for people
+  std::string source; ///< the file or kind that errors point at
   std::optional<Curve> n, k;
 
   /// The range of n, or of k where there is no n.
   std::array<double, 2> range_nm() const;
-  /// Throws bad_input with Outside::refuse where nm is outside the range.
+  /// nm: finite and > 0. Throws bad_input with Outside::refuse where nm is outside the range.
   IndexSample sample(double nm, Outside outside = Outside::automatic) const;
 };
 
@@ -45,17 +46,25 @@ struct DispersionCurve {
 Spectrum sample_n(const DispersionCurve& curve, Outside outside);
 /// k on the 401 wavelengths (0 where the data has none or a negative value; ends held unless refused).
 Spectrum sample_k(const DispersionCurve& curve, Outside outside);
+/// What a run must say when its 380..780 nm reach beyond the range of n, e.g. "N-SF66: n is extrapolated below 390 nm (data:
+/// 390..2500 nm)"; empty where they do not.
+std::string outside_note(const DispersionCurve& curve, Outside outside);
 
+/// The same n > 0 at every wavelength.
 DispersionCurve constant_index(double n);
 /// n^2 = 1 + sum b l^2 / (l^2 - c); l in micrometres, c in square micrometres. low/high: the range the fit is good for.
+/// Throws bad_input where b and c differ in length or are empty.
 DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm = 380, double high_nm = 780);
-/// n = c0 + c1 / l^2 + c2 / l^4 + ...; l in micrometres.
+/// n = c0 + c1 / l^2 + c2 / l^4 + ...; l in micrometres. At least one coefficient.
 DispersionCurve cauchy(std::span<const double> coefficients, double low_nm = 380, double high_nm = 780);
 /// Linear between (nm, n) rows. Rows are sorted; a wavelength given twice with different values is refused.
 DispersionCurve tabulated(std::span<const std::array<double, 2>> nm_n);
-/// Monotone cubic (Fritsch and Carlson 1980) through control points (nm, n).
+/// Monotone cubic (Fritsch and Carlson 1980) through control points (nm, n), sorted and checked as above.
 DispersionCurve control_points(std::span<const std::array<double, 2>> nm_n);
+
 /// Any YAML file of the refractiveindex.info database. Throws bad_input naming FILE:LINE where it can.
 DispersionCurve load_dispersion(const std::filesystem::path& file);
+/// The same from text; source names it in messages and its stem becomes the curve's name.
+DispersionCurve parse_dispersion(const std::string& yaml, const std::filesystem::path& source);
 
 } // namespace nephroid::optics

@@ -13,17 +13,20 @@ namespace nephroid::optics {
 /// All spectra of lights here sum to 1 over the 401 wavelengths (contract.md); multiply by watts.
 /// name: A, D50, D65, E, F1..F12. Throws bad_input listing the known names and the nearest.
 Spectrum illuminant(const std::string& name);
-/// Planck's law at temperature_k.
+/// Planck's law. Throws bad_input where temperature_k is not above 0.
 Spectrum blackbody(double temperature_k);
-/// Rows (nm, relative power), interpolated linearly to 1 nm, 0 outside the table. Throws bad_input where nothing is left in 380..780 nm.
+/// Rows (nm, relative power >= 0) in any order, interpolated linearly to 1 nm, 0 outside the table. Throws bad_input where
+/// nothing is left in 380..780 nm, for a negative power, and for a wavelength given twice with different powers.
 Spectrum light_table(std::span<const std::array<double, 2>> nm_power);
-/// Single lines: the power of each goes to the two nearest wavelengths, linearly.
+/// Single lines: the power of each goes to the two nearest wavelengths, linearly; lines outside 380..780 nm give nothing.
 Spectrum light_lines(std::span<const std::array<double, 2>> nm_power);
 const std::vector<std::string>& illuminant_names();
 
-/// Reflectances 0..1, not normalised. name: one of the 24 ColorChecker patches.
+/// Reflectances 0..1, not normalised. name: one of the 24 ColorChecker patches ("blue sky").
+/// Throws bad_input listing the known names and the nearest.
 Spectrum colorchecker_patch(const std::string& name);
 const std::vector<std::string>& colorchecker_names();
+/// Rows (nm, reflectance 0..1) in any order, linear between them, the end values held.
 Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance);
 Spectrum constant_spectrum(double value);
 

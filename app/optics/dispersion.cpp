@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/dispersion.h"
+
+#include "base/error.h"
+#include "optics/formulas.h"
+#include "optics/interpolation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace nephroid::optics {
+namespace {
+
+/// Range ends are printed in micrometres with few digits: .5893 um times 1000 is above 589.3 nm.
+constexpr double range_tolerance = 1e-6;
+
+bool is_outside(double nm, double low_nm, double high_nm)
+{
+  return nm < low_nm * (1 - range_tolerance) || nm > high_nm * (1 + range_tolerance);
+}
+
+Error refusal(const DispersionCurve& curve, const char* quantity, double nm, double low_nm, double high_nm)
+{
+  return bad_input(curve.source, fmt::format("{} has no {} at {} nm", curve.name, quantity, nm),
+                   fmt::format("a wavelength in its range {:.6g}..{:.6g} nm", low_nm, high_nm),
+                   "outside \"hold\" or \"extrapolate\" goes beyond it");
+}
+
+double value_at(const Curve& curve, double nm, Outside outside)
+{
+  const bool hold = outside == Outside::hold || !curve.formula;
+  return curve.value(hold ? std::clamp(nm, curve.low_nm, curve.high_nm) : nm);
+}
+
+void require_finite(std::span<const double> values, const char* kind)
+{
+  if (values.empty()) throw bad_input(kind, "there are no coefficients", "at least one");
+  for (double value : values)
+    if (!std::isfinite(value)) throw bad_input(kind, "a coefficient is not finite");
+}
+
+void require_range(double low_nm, double high_nm, const char* kind)
+{
+  if (!(low_nm > 0) || !(high_nm >= low_nm))
+    throw bad_input(kind, fmt::format("the range is {}..{} nm", low_nm, high_nm), "0 < low <= high");
+}
+
+DispersionCurve index_only(const char* kind, Curve n) { return {kind, kind, std::move(n), std::nullopt}; }
+
+} // namespace
+
+std::array<double, 2> DispersionCurve::range_nm() const
+{
+  const std::optional<Curve>& main = n ? n : k;
+  return main ? std::array{main->low_nm, main->high_nm} : std::array{0.0, 0.0};
+}
+
+IndexSample DispersionCurve::sample(double nm, Outside outside) const
+{
+  if (!std::isfinite(nm) || !(nm > 0)) throw bad_input(source, fmt::format("the wavelength is {} nm", nm), "a number above 0");
+  const auto [low, high] = range_nm();
+  IndexSample result;
+  result.nm = nm;
+  result.extrapolated = is_outside(nm, low, high);
+  if (result.extrapolated && outside == Outside::refuse) throw refusal(*this, n ? "n" : "k", nm, low, high);
+  if (n) {
+    const double value = value_at(*n, nm, outside);
+    if (std::isfinite(value)) result.n = value;
+  }
+  if (k) result.k = value_at(*k, nm, outside);
+  return result;
+}
+
+Spectrum sample_n(const DispersionCurve& curve, Outside outside)
+{
+  if (!curve.n) throw bad_input(curve.source, curve.name + " has no index of refraction n, only k", {}, "choose another file");
+  Spectrum result{};
+  for (int i = 0; i < wavelength_count; ++i) {
+    const double nm = wavelength_nm(i);
+    const std::optional<double> n = curve.sample(nm, outside).n;
+    if (!n)
+      throw bad_input(curve.source, fmt::format("the formula of {} gives no number at {} nm", curve.name, nm),
+                      fmt::format("its range is {:.6g}..{:.6g} nm", curve.n->low_nm, curve.n->high_nm),
+                      "use outside \"hold\", or choose another file");
+    if (!(*n > 0)) throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm), "n above 0");
+    result[static_cast<std::size_t>(i)] = *n;
+  }
+  return result;
+}
+
+Spectrum sample_k(const DispersionCurve& curve, Outside outside)
+{
+  Spectrum result{};
+  if (!curve.k) return result;
+  for (int i = 0; i < wavelength_count; ++i) {
+    const double nm = wavelength_nm(i);
+    if (outside == Outside::refuse && is_outside(nm, curve.k->low_nm, curve.k->high_nm))
+      throw refusal(curve, "k", nm, curve.k->low_nm, curve.k->high_nm);
+    const double k = curve.k->value(std::clamp(nm, curve.k->low_nm, curve.k->high_nm));
+    result[static_cast<std::size_t>(i)] = std::max(0.0, k);
+  }
+  return result;
+}
+
+std::string outside_note(const DispersionCurve& curve, Outside outside)
+{
+  if (!curve.n) return {};
+  const double low = curve.n->low_nm, high = curve.n->high_nm;
+  std::string where;
+  if (is_outside(first_nm, low, high)) where = fmt::format("below {:.6g} nm", std::min(low, double{last_nm}));
+  if (is_outside(last_nm, low, high))
+    where += fmt::format("{}above {:.6g} nm", where.empty() ? "" : " and ", std::max(high, double{first_nm}));
+  if (where.empty()) return {};
+  const bool held = outside == Outside::hold || !curve.n->formula;
+  return fmt::format("{}: n is {} {} (data: {:.6g}..{:.6g} nm)", curve.name, held ? "held" : "extrapolated", where, low, high);
+}
+
+DispersionCurve constant_index(double n)
+{
+  if (!std::isfinite(n) || !(n > 0)) throw bad_input("constant", fmt::format("the index of refraction is {}", n), "a number above 0");
+  return index_only("constant", {[n](double) { return n; }, 0, std::numeric_limits<double>::infinity(), true});
+}
+
+DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_um2, double low_nm, double high_nm)
+{
+  if (b.size() != c_um2.size())
+    throw bad_input("sellmeier", fmt::format("there are {} values of b and {} of c", b.size(), c_um2.size()),
+                    "as many of one as of the other");
+  require_finite(b, "sellmeier");
+  require_finite(c_um2, "sellmeier");
+  require_range(low_nm, high_nm, "sellmeier");
+  std::vector<double> coefficients{0};
+  for (std::size_t i = 0; i < b.size(); ++i) coefficients.insert(coefficients.end(), {b[i], c_um2[i]});
+  const auto value = [coefficients](double nm) { return index_by_formula(2, coefficients, nm / 1000); };
+  return index_only("sellmeier", {value, low_nm, high_nm, true});
+}
+
+DispersionCurve cauchy(std::span<const double> coefficients, double low_nm, double high_nm)
+{
+  require_finite(coefficients, "cauchy");
+  require_range(low_nm, high_nm, "cauchy");
+  // Horner's rule in 1 / l^2.
+  const auto value = [c = std::vector<double>(coefficients.begin(), coefficients.end())](double nm) {
+    const double x = 1e6 / (nm * nm);
+    double n = 0;
+    for (auto factor = c.rbegin(); factor != c.rend(); ++factor) n = n * x + *factor;
+    return n;
+  };
+  return index_only("cauchy", {value, low_nm, high_nm, true});
+}
+
+DispersionCurve tabulated(std::span<const std::array<double, 2>> nm_n)
+{
+  LinearTable table(sorted_rows(nm_n, Repeats::refuse, "table"));
+  const double low = table.low(), high = table.high();
+  return index_only("table", {std::move(table), low, high, false});
+}
+
+DispersionCurve control_points(std::span<const std::array<double, 2>> nm_n)
+{
+  std::vector<Row> rows = sorted_rows(nm_n, Repeats::refuse, "points");
+  const double low = rows.front()[0], high = rows.back()[0];
+  return index_only("points", {MonotoneCubic(std::move(rows)), low, high, false});
+}
+
+} // namespace nephroid::optics

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the YAML files of the refractiveindex.info database as they are: one of formulas 1-9, or tables of n, k or both, or a
+// constant, and any of these for n beside a table for k. Oddities that the database really holds are read, not refused:
+// rows out of order, wavelengths given twice (their mean counts), one row, blank rows, negative n or k, few coefficients.
+#include "base/error.h"
+#include "base/files.h"
+#include "base/nearest.h"
+#include "optics/dispersion.h"
+#include "optics/formulas.h"
+#include "optics/interpolation.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace nephroid::optics {
+namespace {
+
+/// "FILE:LINE" of a place in the text; lines count from 0 in yaml-cpp and from 1 for people.
+std::string place(const std::string& file, int line) { return line < 0 ? file : fmt::format("{}:{}", file, line + 1); }
+std::string place(const std::string& file, const YAML::Node& node) { return place(file, node.Mark().line); }
+
+std::vector<std::string_view> words(std::string_view text)
+{
+  constexpr std::string_view blanks = " \t\r\n";
+  std::vector<std::string_view> result;
+  while (true) {
+    const std::size_t begin = text.find_first_not_of(blanks);
+    if (begin == std::string_view::npos) return result;
+    text.remove_prefix(begin);
+    const std::size_t end = std::min(text.find_first_of(blanks), text.size());
+    result.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+}
+
+double number(std::string_view word, const std::string& where)
+{
+  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
+  double value = 0;
+  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (code != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+    throw bad_input(where, fmt::format("\"{}\" is no number", word.substr(0, 40)), "a finite number such as 1.5168 or 2.86E-06");
+  return value;
+}
+
+std::vector<double> numbers(std::string_view text, const std::string& where)
+{
+  std::vector<double> result;
+  for (std::string_view word : words(text)) result.push_back(number(word, where));
+  return result;
+}
+
+/// The text of a block's key. Throws where it is missing or is not text.
+YAML::Node text_of(const YAML::Node& block, const char* key, const std::string& file)
+{
+  const YAML::Node node = block[key];
+  if (!node.IsDefined()) throw bad_input(place(file, block), fmt::format("the entry has no \"{}\"", key));
+  if (!node.IsScalar()) throw bad_input(place(file, node), fmt::format("\"{}\" is not text", key), "numbers separated by blanks");
+  return node;
+}
+
+Curve formula_curve(const YAML::Node& block, int formula, const std::string& file)
+{
+  const YAML::Node range_node = text_of(block, "wavelength_range", file), values = text_of(block, "coefficients", file);
+  const std::vector<double> range = numbers(range_node.Scalar(), place(file, range_node));
+  if (range.size() != 2 || !(range[0] > 0) || !(range[1] >= range[0]))
+    throw bad_input(place(file, range_node), fmt::format("the wavelength range is \"{}\"", range_node.Scalar()),
+                    "two numbers in micrometres, the lower first, above 0");
+
+  std::vector<double> coefficients = numbers(values.Scalar(), place(file, values));
+  const auto most = static_cast<std::size_t>(most_coefficients(formula));
+  if (coefficients.empty()) throw bad_input(place(file, values), "there are no coefficients", "at least one");
+  if (most > 0 && coefficients.size() > most)
+    throw bad_input(place(file, values), fmt::format("formula {} has {} coefficients", formula, coefficients.size()),
+                    fmt::format("at most {}", most));
+
+  const auto value = [formula, c = std::move(coefficients)](double nm) { return index_by_formula(formula, c, nm / 1000); };
+  return {value, range[0] * 1000, range[1] * 1000, true};
+}
+
+/// A table's rows of `columns` numbers, wavelengths still in micrometres.
+std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t columns, const std::string& file)
+{
+  const YAML::Node data = text_of(block, "data", file);
+  std::vector<std::vector<double>> rows;
+  // "data: |" starts the text on the line after its own.
+  int line = data.Mark().line + 1;
+  std::string_view rest = data.Scalar();
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n');
+    const std::string where = place(file, line++);
+    std::vector<double> row = numbers(rest.substr(0, end), where);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    if (row.empty()) continue;
+    if (row.size() != columns)
+      throw bad_input(where, fmt::format("the row has {} numbers", row.size()),
+                      fmt::format("{}: the wavelength in micrometres{}", columns, columns == 3 ? ", n and k" : " and the value"));
+    if (!(row[0] > 0)) throw bad_input(where, fmt::format("the wavelength is {} um", row[0]), "a wavelength above 0");
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) throw bad_input(place(file, data), "the table is empty", "at least one row of numbers");
+  return rows;
+}
+
+Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t column, const std::string& where)
+{
+  std::vector<Row> pairs;
+  for (const auto& row : rows) pairs.push_back({row[0] * 1000, row[column]});
+  LinearTable table(sorted_rows(pairs, Repeats::mean, where));
+  const double low = table.low(), high = table.high();
+  return {std::move(table), low, high, false};
+}
+
+/// The first entry that gives n and the first that gives k count (one file has n by a formula and again in a table with k).
+void keep_first(std::optional<Curve>& kept, Curve curve)
+{
+  if (!kept) kept = std::move(curve);
+}
+
+Curve constant_curve(const YAML::Node& block, const std::string& file)
+{
+  const YAML::Node value = text_of(block, "value", file);
+  const double n = number(value.Scalar(), place(file, value));
+  return {[n](double) { return n; }, 0, std::numeric_limits<double>::infinity(), true};
+}
+
+/// "formula 3" gives 3; 0 for anything else.
+int formula_number(const std::string& type)
+{
+  const std::vector<std::string_view> parts = words(type);
+  if (parts.size() != 2 || parts[0] != "formula" || parts[1].size() != 1) return 0;
+  const int number = parts[1][0] - '0';
+  return number >= 1 && number <= formula_count ? number : 0;
+}
+
+void read_block(const YAML::Node& block, DispersionCurve& curve, const std::string& file)
+{
+  if (!block.IsMap()) throw bad_input(place(file, block), "the entry is not a map", "\"- type: ...\" and its data");
+  const YAML::Node type_node = text_of(block, "type", file);
+  const std::string& type = type_node.Scalar();
+  if (const int formula = formula_number(type)) return keep_first(curve.n, formula_curve(block, formula, file));
+  if (type == "constant") return keep_first(curve.n, constant_curve(block, file));
+  if (type == "tabulated nk") {
+    const auto rows = table_rows(block, 3, file);
+    keep_first(curve.n, table_curve(rows, 1, place(file, block)));
+    return keep_first(curve.k, table_curve(rows, 2, place(file, block)));
+  }
+  if (type == "tabulated n") return keep_first(curve.n, table_curve(table_rows(block, 2, file), 1, place(file, block)));
+  if (type == "tabulated k") return keep_first(curve.k, table_curve(table_rows(block, 2, file), 1, place(file, block)));
+
+  static const std::vector<std::string> known{"formula 1",    "formula 2",   "formula 3",  "formula 4", "formula 5",
+                                              "formula 6",    "formula 7",   "formula 8",  "formula 9", "constant",
+                                              "tabulated nk", "tabulated n", "tabulated k"};
+  const std::string near = nearest(type, known);
+  throw bad_input(place(file, type_node), fmt::format("the type is \"{}\"", type), "formula 1 to 9, tabulated n, nk or k, or constant",
+                  near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
+}
+
+} // namespace
+
+DispersionCurve parse_dispersion(const std::string& yaml, const std::filesystem::path& source)
+{
+  const std::string file = source.string();
+  DispersionCurve curve;
+  curve.name = source.stem().string();
+  curve.source = file;
+  try {
+    const YAML::Node root = YAML::Load(yaml);
+    if (!root.IsMap()) throw bad_input(file, "this is no refractiveindex.info file", "a YAML map with a DATA list");
+    const YAML::Node data = root["DATA"];
+    if (!data.IsDefined()) throw bad_input(file, "there is no DATA", "a DATA list with formulas or tables");
+    if (!data.IsSequence() || data.size() == 0)
+      throw bad_input(place(file, data), "DATA is not a list with entries", "a list of \"- type: ...\" entries");
+    for (const YAML::Node& block : data) read_block(block, curve, file);
+  } catch (const YAML::Exception& error) {
+    throw bad_input(place(file, error.mark.line), "broken YAML: " + error.msg, "a file of the refractiveindex.info database");
+  }
+  return curve;
+}
+
+DispersionCurve load_dispersion(const std::filesystem::path& file) { return parse_dispersion(read_file(file), file); }
+
+} // namespace nephroid::optics

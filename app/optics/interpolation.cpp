@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/interpolation.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::optics {
+namespace {
+
+/// Index i of the interval rows[i]..rows[i + 1] that holds nm; rows has at least two entries and nm lies between the ends.
+std::size_t interval(const std::vector<Row>& rows, double nm)
+{
+  const auto above = std::upper_bound(rows.begin(), rows.end(), nm, [](double x, const Row& row) { return x < row[0]; });
+  const auto index = static_cast<std::size_t>(above - rows.begin());
+  return std::clamp<std::size_t>(index, 1, rows.size() - 1) - 1;
+}
+
+void check_row(const Row& row, const std::string& where)
+{
+  if (!std::isfinite(row[0]) || !std::isfinite(row[1])) throw bad_input(where, "a row holds a number that is not finite");
+  if (!(row[0] > 0)) throw bad_input(where, fmt::format("a row has the wavelength {} nm", row[0]), "a wavelength above 0");
+}
+
+} // namespace
+
+std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const std::string& where)
+{
+  if (rows.empty()) throw bad_input(where, "the table is empty", "at least one row of (wavelength in nm, value)");
+  for (const Row& row : rows) check_row(row, where);
+  std::vector<Row> sorted(rows.begin(), rows.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Row& a, const Row& b) { return a[0] < b[0]; });
+
+  std::vector<Row> unique;
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    double sum = 0;
+    for (end = begin; end < sorted.size() && sorted[end][0] == sorted[begin][0]; ++end) {
+      if (repeats == Repeats::refuse && sorted[end][1] != sorted[begin][1])
+        throw bad_input(where,
+                        fmt::format("{} nm is given twice, with the values {} and {}", sorted[end][0], sorted[begin][1], sorted[end][1]),
+                        "each wavelength once");
+      sum += sorted[end][1];
+    }
+    const bool once = end - begin == 1;
+    unique.push_back({sorted[begin][0], once ? sorted[begin][1] : sum / static_cast<double>(end - begin)});
+  }
+  return unique;
+}
+
+double LinearTable::operator()(double nm) const
+{
+  if (nm <= low()) return rows_.front()[1];
+  if (nm >= high()) return rows_.back()[1];
+  const std::size_t i = interval(rows_, nm);
+  const Row &a = rows_[i], &b = rows_[i + 1];
+  const double t = (nm - a[0]) / (b[0] - a[0]);
+  return a[1] + t * (b[1] - a[1]);
+}
+
+MonotoneCubic::MonotoneCubic(std::vector<Row> sorted) : rows_(std::move(sorted)), slopes_(rows_.size(), 0.0)
+{
+  const std::size_t count = rows_.size();
+  if (count < 2) return;
+  std::vector<double> secants(count - 1);
+  for (std::size_t i = 0; i + 1 < count; ++i) secants[i] = (rows_[i + 1][1] - rows_[i][1]) / (rows_[i + 1][0] - rows_[i][0]);
+
+  slopes_.front() = secants.front();
+  slopes_.back() = secants.back();
+  for (std::size_t i = 1; i + 1 < count; ++i) slopes_[i] = secants[i - 1] * secants[i] > 0 ? (secants[i - 1] + secants[i]) / 2 : 0;
+
+  // Monotone where (slope / secant) of both ends lies in the disc of radius 3: scale the pair back onto it.
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    if (secants[i] == 0) {
+      slopes_[i] = slopes_[i + 1] = 0;
+      continue;
+    }
+    const double alpha = slopes_[i] / secants[i], beta = slopes_[i + 1] / secants[i];
+    const double length = std::hypot(alpha, beta);
+    if (length <= 3) continue;
+    slopes_[i] = 3 / length * alpha * secants[i];
+    slopes_[i + 1] = 3 / length * beta * secants[i];
+  }
+}
+
+double MonotoneCubic::operator()(double nm) const
+{
+  if (nm <= rows_.front()[0]) return rows_.front()[1];
+  if (nm >= rows_.back()[0]) return rows_.back()[1];
+  const std::size_t i = interval(rows_, nm);
+  const Row &a = rows_[i], &b = rows_[i + 1];
+  const double width = b[0] - a[0], t = (nm - a[0]) / width, t2 = t * t, t3 = t2 * t;
+  const double value =
+      (2 * t3 - 3 * t2 + 1) * a[1] + (t3 - 2 * t2 + t) * width * slopes_[i] + (3 * t2 - 2 * t3) * b[1] + (t3 - t2) * width * slopes_[i + 1];
+  // In exact arithmetic this changes nothing; it keeps rounding from stepping over a control point.
+  return std::clamp(value, std::min(a[1], b[1]), std::max(a[1], b[1]));
+}
+
+} // namespace nephroid::optics

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interpolation between rows of (wavelength in nm, value): linear, and a cubic that never overshoots its control points.
+#pragma once
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nephroid::optics {
+
+using Row = std::array<double, 2>;
+
+/// What to do with a wavelength that is given twice with different values.
+enum class Repeats { refuse, mean };
+
+/// The rows by rising wavelength, each wavelength once. Throws bad_input at `where` for no rows, a number that is not finite,
+/// a wavelength that is not positive, or a repeat that is refused.
+std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const std::string& where);
+
+/// Straight lines between sorted rows; the end values are held outside.
+class LinearTable {
+public:
+  explicit LinearTable(std::vector<Row> sorted) : rows_(std::move(sorted)) {}
+  double operator()(double nm) const;
+  double low() const { return rows_.front()[0]; }
+  double high() const { return rows_.back()[0]; }
+
+private:
+  std::vector<Row> rows_;
+};
+
+/// The monotone piecewise cubic of Fritsch and Carlson (SIAM J. Numer. Anal. 17, 1980): continuous slope, and between two
+/// control points never above the higher or below the lower one. End values are held outside.
+class MonotoneCubic {
+public:
+  explicit MonotoneCubic(std::vector<Row> sorted);
+  double operator()(double nm) const;
+
+private:
+  std::vector<Row> rows_;
+  std::vector<double> slopes_; ///< one a control point, value per nm
+};
+
+} // namespace nephroid::optics

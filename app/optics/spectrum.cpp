@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/spectrum.h"
+
+#include "base/error.h"
+#include "base/nearest.h"
+#include "optics/interpolation.h"
+#include "optics/tables.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::optics {
+namespace {
+
+/// Divides by the sum over 380..780 nm. Throws bad_input where there is nothing to divide.
+Spectrum normalised(Spectrum spectrum, const std::string& what)
+{
+  double sum = 0;
+  for (double value : spectrum) sum += value;
+  if (!(sum > 0) || !std::isfinite(sum))
+    throw bad_input({}, what + fmt::format(" has no power in {}..{} nm", first_nm, last_nm), "at least one wavelength with power there");
+  for (double& value : spectrum) value /= sum;
+  return spectrum;
+}
+
+/// Linear between the rows; outside them the end values are held, or 0.
+Spectrum sampled(const LinearTable& table, bool hold)
+{
+  Spectrum spectrum{};
+  for (int i = 0; i < wavelength_count; ++i) {
+    const double nm = wavelength_nm(i);
+    if (hold || (nm >= table.low() && nm <= table.high())) spectrum[static_cast<std::size_t>(i)] = table(nm);
+  }
+  return spectrum;
+}
+
+void require_no_negative_power(std::span<const Row> rows)
+{
+  for (const Row& row : rows)
+    if (row[1] < 0) throw bad_input({}, fmt::format("the light's power at {} nm is {}", row[0], row[1]), "0 or more");
+}
+
+Error unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& known)
+{
+  const std::string near = nearest(name, known);
+  return bad_input({}, fmt::format("no {} is called \"{}\"", kind, name), fmt::format("one of {}", fmt::join(known, ", ")),
+                   near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
+}
+
+const Table& colorchecker()
+{
+  static const Table table = read_table("colorchecker-24-ohta");
+  return table;
+}
+
+} // namespace
+
+const std::vector<std::string>& illuminant_names()
+{
+  static const std::vector<std::string> names{"A",  "D50", "D65", "E",  "F1", "F2",  "F3",  "F4",
+                                              "F5", "F6",  "F7",  "F8", "F9", "F10", "F11", "F12"};
+  return names;
+}
+
+Spectrum illuminant(const std::string& name)
+{
+  const auto& names = illuminant_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) throw unknown("illuminant", name, names);
+  return normalised(sampled(LinearTable(read_table("illuminant-" + name).rows(0)), false), "illuminant " + name);
+}
+
+Spectrum blackbody(double temperature_k)
+{
+  if (!std::isfinite(temperature_k) || !(temperature_k > 0))
+    throw bad_input({}, fmt::format("a black body of {} K", temperature_k), "a temperature above 0 K");
+  // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), with c2 = h c / k_B (SI 2019, exact figures). Divided by its value at the red
+  // end, exponents stay small: a body of 1 K has e^-18000 of its red light in the blue, which is 0 here, and no 0 / 0.
+  constexpr double c2_nm_k = 1.438776877503933e7;
+  const double reference = c2_nm_k / (last_nm * temperature_k);
+  Spectrum spectrum{};
+  for (int i = 0; i < wavelength_count; ++i) {
+    const double nm = wavelength_nm(i), exponent = c2_nm_k / (nm * temperature_k);
+    spectrum[static_cast<std::size_t>(i)] =
+        std::pow(last_nm / nm, 5) * std::exp(reference - exponent) * std::expm1(-reference) / std::expm1(-exponent);
+  }
+  return normalised(spectrum, fmt::format("a black body of {} K", temperature_k));
+}
+
+Spectrum light_table(std::span<const std::array<double, 2>> nm_power)
+{
+  require_no_negative_power(nm_power);
+  return normalised(sampled(LinearTable(sorted_rows(nm_power, Repeats::refuse, {})), false), "the light's table");
+}
+
+Spectrum light_lines(std::span<const std::array<double, 2>> nm_power)
+{
+  require_no_negative_power(nm_power);
+  Spectrum spectrum{};
+  for (const auto& [nm, power] : nm_power) {
+    if (!std::isfinite(nm) || !std::isfinite(power)) throw bad_input({}, "a line holds a number that is not finite");
+    if (nm < first_nm || nm > last_nm) continue;
+    const double position = nm - first_nm;
+    const auto below = static_cast<std::size_t>(position);
+    const double share = position - static_cast<double>(below);
+    spectrum[below] += power * (1 - share);
+    if (share > 0) spectrum[below + 1] += power * share;
+  }
+  return normalised(spectrum, "the light's list of lines");
+}
+
+const std::vector<std::string>& colorchecker_names() { return colorchecker().columns; }
+
+Spectrum colorchecker_patch(const std::string& name)
+{
+  const auto& names = colorchecker_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw unknown("ColorChecker patch", name, names);
+  return sampled(LinearTable(colorchecker().rows(static_cast<std::size_t>(found - names.begin()))), true);
+}
+
+Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance)
+{
+  for (const auto& [nm, value] : nm_reflectance)
+    if (!(value >= 0 && value <= 1)) throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "0 to 1");
+  return sampled(LinearTable(sorted_rows(nm_reflectance, Repeats::refuse, {})), true);
+}
+
+Spectrum constant_spectrum(double value)
+{
+  Spectrum spectrum{};
+  spectrum.fill(value);
+  return spectrum;
+}
+
+} // namespace nephroid::optics
