@@ -11,13 +11,15 @@ namespace nephroid::scene {
 
 /// Layout is fixed by kernels/bvh.h, which has the description.
 struct Bvh {
-  std::vector<float> nodes;    ///< 64 floats a node
-  std::vector<float> blocks;   ///< 40 floats a block of 4 triangles
-  int root = 0;                ///< node index, or ~leaf
-  int depth = 0;
+  std::vector<float> nodes;  ///< 64 floats a node; at least one node
+  std::vector<float> blocks; ///< 40 floats a block of 4 triangles
+  int root = 0;              ///< node index, or ~leaf
+  int depth = 0;             ///< nodes on the longest way from the root to a leaf
+  int stack = 0;             ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
 };
 
-/// Throws failed where Embree has no memory; an empty mesh gives a tree that nothing hits.
+/// Triangles without area are left out: nothing hits them. An empty mesh gives a tree that nothing hits.
+/// Throws failed where Embree has no memory, bad_input for a triangle with a missing or non-finite vertex.
 Bvh build_bvh(const Mesh& mesh);
 
 } // namespace nephroid::scene

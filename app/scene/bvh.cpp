@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// Builds the tree of kernels/bvh.h: Embree decides how triangles are grouped, this file lays the groups out for the kernel.
+#include "scene/bvh.h"
+
+#include "base/error.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+namespace nephroid::scene {
+namespace {
+
+constexpr int children_per_node = 8, triangles_per_block = 4, triangles_per_leaf = 4, floats_per_node = 64, floats_per_block = 40;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+struct Box {
+  glm::vec3 low{infinity}, high{-infinity};
+};
+
+/// What Embree's callbacks make: a Leaf, or an Inner node with its children.
+struct BuildNode {
+  bool leaf = false;
+  std::uint32_t count = 0; ///< of triangles or children
+};
+
+struct Inner : BuildNode {
+  std::array<const BuildNode*, children_per_node> children;
+  std::array<Box, children_per_node> boxes;
+};
+
+struct Leaf : BuildNode {
+  std::array<std::uint32_t, triangles_per_leaf> triangles;
+};
+
+void* create_node(RTCThreadLocalAllocator allocator, unsigned int count, void*)
+{
+  auto* node = new (rtcThreadLocalAlloc(allocator, sizeof(Inner), alignof(Inner))) Inner;
+  node->count = count;
+  return static_cast<BuildNode*>(node);
+}
+
+void set_children(void* node, void** children, unsigned int count, void*)
+{
+  auto& inner = static_cast<Inner&>(*static_cast<BuildNode*>(node));
+  for (unsigned int i = 0; i < count; ++i) inner.children[i] = static_cast<const BuildNode*>(children[i]);
+}
+
+void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*)
+{
+  auto& inner = static_cast<Inner&>(*static_cast<BuildNode*>(node));
+  for (unsigned int i = 0; i < count; ++i) {
+    const RTCBounds& b = *bounds[i];
+    inner.boxes[i] = {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+  }
+}
+
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*)
+{
+  auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(Leaf), alignof(Leaf))) Leaf;
+  leaf->leaf = true;
+  leaf->count = static_cast<std::uint32_t>(count);
+  for (std::size_t i = 0; i < count; ++i) leaf->triangles[i] = primitives[i].primID;
+  return static_cast<BuildNode*>(leaf);
+}
+
+/// Whether the triangle has an area: its doubled area vector is computed without rounding that could hide one.
+bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+  const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+  return n.x != 0 || n.y != 0 || n.z != 0;
+}
+
+void check_triangle(const Mesh& mesh, std::size_t index)
+{
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t vertex = mesh.triangles[index][i];
+    const std::string where = fmt::format("triangle {}", index);
+    if (vertex >= mesh.positions.size()) throw bad_input(where, fmt::format("has vertex {}, of {}", vertex, mesh.positions.size()));
+    const glm::vec3& p = mesh.positions[vertex];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) throw bad_input(where, "has a vertex that is not finite");
+  }
+}
+
+/// Boxes of the triangles with an area, grown by more than the rounding errors of the traversal that come from coordinates of
+/// this size (those that come from the ray's origin are the ray's share: bvh_ray in kernels/bvh.h).
+std::vector<RTCBuildPrimitive> triangle_boxes(const Mesh& mesh)
+{
+  float largest = 0;
+  for (const glm::vec3& p : mesh.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const float slack = 0x1p-20f * largest;
+  std::vector<RTCBuildPrimitive> boxes;
+  boxes.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    check_triangle(mesh, i);
+    const glm::uvec3& t = mesh.triangles[i];
+    const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    if (!has_area(a, b, c)) continue;
+    const glm::vec3 low = glm::min(glm::min(a, b), c) - slack, high = glm::max(glm::max(a, b), c) + slack;
+    boxes.push_back({low.x, low.y, low.z, 0, high.x, high.y, high.z, static_cast<unsigned int>(i)});
+  }
+  return boxes;
+}
+
+/// Lays Embree's nodes out in the kernel's format, depth first.
+class Layout {
+public:
+  Layout(const Mesh& mesh, Bvh& bvh) : mesh_(mesh), bvh_(bvh) {}
+
+  /// What a parent's child entry holds; adds the subtree's depth and stack entries to those of its ancestors.
+  int add(const BuildNode& node, int depth, int stack)
+  {
+    bvh_.depth = std::max(bvh_.depth, depth);
+    bvh_.stack = std::max(bvh_.stack, stack);
+    return node.leaf ? add_leaf(static_cast<const Leaf&>(node)) : add_node(static_cast<const Inner&>(node), depth, stack);
+  }
+
+private:
+  int add_leaf(const Leaf& leaf)
+  {
+    const std::size_t first = bvh_.blocks.size() / floats_per_block;
+    const std::size_t count = (leaf.count + triangles_per_block - 1) / triangles_per_block;
+    bvh_.blocks.resize(bvh_.blocks.size() + count * floats_per_block);
+    for (std::size_t i = 0; i < count * triangles_per_block; ++i) {
+      float* block = bvh_.blocks.data() + (first + i / triangles_per_block) * floats_per_block + i % triangles_per_block;
+      // A missing triangle is one point: three times the last triangle's first vertex.
+      const bool missing = i >= leaf.count;
+      const std::uint32_t triangle = leaf.triangles[missing ? leaf.count - 1 : i];
+      for (int corner = 0; corner < 3; ++corner) {
+        const glm::vec3& p = mesh_.positions[mesh_.triangles[triangle][missing ? 0 : corner]];
+        for (int axis = 0; axis < 3; ++axis) block[(3 * corner + axis) * triangles_per_block] = p[axis];
+      }
+      std::memcpy(block + 9 * triangles_per_block, &triangle, sizeof triangle);
+    }
+    return ~static_cast<int>(first << 4 | count);
+  }
+
+  int add_node(const Inner& node, int depth, int stack)
+  {
+    const std::size_t index = bvh_.nodes.size() / floats_per_node;
+    bvh_.nodes.resize(bvh_.nodes.size() + floats_per_node);
+    for (std::uint32_t i = 0; i < children_per_node; ++i) {
+      const bool missing = i >= node.count;
+      const Box box = missing ? Box{} : node.boxes[i];
+      // While one child is visited, the others may wait; any_hit has one more on its stack.
+      const int child = missing ? 0 : add(*node.children[i], depth + 1, stack + static_cast<int>(node.count) - 1);
+      float* to = bvh_.nodes.data() + index * floats_per_node + i;
+      for (int axis = 0; axis < 3; ++axis) {
+        to[16 * axis] = box.low[axis];
+        to[16 * axis + 8] = box.high[axis];
+      }
+      std::memcpy(to + 48, &child, sizeof child);
+    }
+    return static_cast<int>(index);
+  }
+
+  const Mesh& mesh_;
+  Bvh& bvh_;
+};
+
+struct DeviceRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct BvhRelease {
+  void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
+};
+
+} // namespace
+
+Bvh build_bvh(const Mesh& mesh)
+{
+  Bvh bvh;
+  bvh.stack = 1;
+  std::vector<RTCBuildPrimitive> boxes = triangle_boxes(mesh);
+  if (boxes.size() > (std::size_t{1} << 27)) // blocks are numbered in 27 bits
+    throw bad_input("mesh", fmt::format("{} triangles", boxes.size()), "at most 134 million");
+  if (boxes.empty()) {
+    bvh.nodes.resize(floats_per_node);
+    bvh.blocks.resize(floats_per_block);
+    bvh.root = ~0; // a leaf of no block
+    return bvh;
+  }
+  const std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease> device(rtcNewDevice(nullptr));
+  const std::unique_ptr<std::remove_pointer_t<RTCBVH>, BvhRelease> build(device ? rtcNewBVH(device.get()) : nullptr);
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.maxBranchingFactor = children_per_node;
+  arguments.maxDepth = 32;
+  arguments.sahBlockSize = triangles_per_block;
+  arguments.maxLeafSize = triangles_per_leaf;
+  arguments.bvh = build.get();
+  arguments.primitives = boxes.data();
+  arguments.primitiveCount = boxes.size();
+  arguments.primitiveArrayCapacity = boxes.capacity();
+  arguments.createNode = create_node;
+  arguments.setNodeChildren = set_children;
+  arguments.setNodeBounds = set_bounds;
+  arguments.createLeaf = create_leaf;
+  const auto* root = build ? static_cast<const BuildNode*>(rtcBuildBVH(&arguments)) : nullptr;
+  if (!root)
+    throw failed("mesh", fmt::format("Embree built no tree over {} triangles (error {})", boxes.size(), rtcGetDeviceError(device.get())));
+  bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
+  if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
+  return bvh;
+}
+
+} // namespace nephroid::scene

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closest and any hit of a ray with triangles in a bounding volume hierarchy of 8 children a node (app/scene/bvh.cpp builds it).
+// One ray a work item; the 8 boxes of a node and the 4 triangles of a block are tested at once, as float8 and float4.
+//
+// Node, 64 floats: for each axis 8 lower, then 8 upper bounds (48 floats), then 8 children as ints, then 8 unused.
+//   A child >= 0 is a node; < 0 is a leaf: ~child = first block << 4 | number of blocks. A missing child has an empty box.
+// Block, 40 floats: x, y, z of the first vertex of 4 triangles, of the second, of the third (36 floats), then 4 triangle ids
+//   as ints. A missing triangle has its three vertices in one point.
+//
+// What is exact. A vertex is moved into the ray's space by the same operations for every triangle it belongs to, and the sign of
+// an edge function is never wrong, only sometimes zero, and zero counts as inside: a ray cannot pass between two triangles that
+// share an edge (Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection"). Boxes are grown by more than every
+// rounding error of the two tests, so the tree loses no triangle. Of hits at the same distance the lowest triangle id wins:
+// the answer depends on the mesh and the ray alone, not on how the tree was built.
+#ifndef NEPHROID_BVH_H
+#define NEPHROID_BVH_H
+
+// Entries of the traversal stack: at least Bvh::stack of the tree.
+#ifndef NEPHROID_BVH_STACK
+#define NEPHROID_BVH_STACK 96
+#endif
+
+#define NEPHROID_NO_PRIMITIVE 0xFFFFFFFFu
+
+typedef struct {
+  float t;        // distance in lengths of the direction; the t_max given where nothing was hit
+  float u, v;     // barycentric: the point is (1 - u - v) v0 + u v1 + v v2
+  uint primitive; // triangle id, or NEPHROID_NO_PRIMITIVE
+} Hit;
+
+// Bit i: lane i of a vector comparison is true.
+static inline int bvh_mask8(int8 m)
+{
+  const int8 bits = m & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  const int4 b = bits.lo | bits.hi;
+  const int2 c = b.lo | b.hi;
+  return c.x | c.y;
+}
+static inline int bvh_mask4(int4 m)
+{
+  const int4 bits = m & (int4)(1, 2, 4, 8);
+  const int2 c = bits.lo | bits.hi;
+  return c.x | c.y;
+}
+static inline int bvh_lowest_bit(int mask) { return 31 - clz(mask & -mask); }
+
+#define BVH_MIN(a, b) ((a) < (b) ? (a) : (b)) // fmin and fmax care for NaN, which costs 20 to 40 % here
+#define BVH_MAX(a, b) ((a) > (b) ? (a) : (b))
+
+// A ray as both tests want it.
+typedef struct {
+  float3 inverse;           // 1 / direction, finite
+  float3 near, far;         // origin / direction, rounded so that boxes only ever grow
+  int near_x, near_y, near_z; // where in a node the bounds lie that the ray meets first
+  int kx, ky, kz;           // axes: kz is where the direction is largest
+  float ox, oy, oz;         // the origin along kx, ky, kz
+  float sx, sy, sz;         // shear that makes the direction (0, 0, 1)
+} BvhRay;
+
+static inline float bvh_axis(float3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
+
+static inline float bvh_inverse(float d) { return 1.0f / copysign(BVH_MAX(fabs(d), 1e-20f), d); }
+
+static inline BvhRay bvh_ray(float3 o, float3 d)
+{
+  BvhRay r;
+  r.inverse = (float3)(bvh_inverse(d.x), bvh_inverse(d.y), bvh_inverse(d.z));
+  // Growing every box by `slack` covers the rounding of this test and of the triangle test, as far as they come from the
+  // origin; what comes from the triangles' own coordinates is in the tree's boxes already.
+  const float slack = 0x1p-20f * BVH_MAX(BVH_MAX(fabs(o.x), fabs(o.y)), fabs(o.z));
+  const float3 grow = fabs(r.inverse) * slack;
+  r.near = o * r.inverse + grow;
+  r.far = o * r.inverse - grow;
+  r.near_x = d.x < 0.0f ? 8 : 0; // -0 has an inverse below zero, too
+  r.near_y = d.y < 0.0f ? 8 : 0;
+  r.near_z = d.z < 0.0f ? 8 : 0;
+  if (r.inverse.x < 0.0f) r.near_x = 8;
+  if (r.inverse.y < 0.0f) r.near_y = 8;
+  if (r.inverse.z < 0.0f) r.near_z = 8;
+  const float3 a = fabs(d);
+  r.kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
+  r.kx = r.kz == 2 ? 0 : r.kz + 1;
+  r.ky = r.kx == 2 ? 0 : r.kx + 1;
+  r.sz = 1.0f / bvh_axis(d, r.kz);
+  r.sx = bvh_axis(d, r.kx) * r.sz;
+  r.sy = bvh_axis(d, r.ky) * r.sz;
+  r.ox = bvh_axis(o, r.kx);
+  r.oy = bvh_axis(o, r.ky);
+  r.oz = bvh_axis(o, r.kz);
+  return r;
+}
+
+// Children of a node whose boxes the ray meets within [0, t], as a mask; *entry is where it enters each.
+static inline int bvh_boxes(global const float* node, const BvhRay* r, float t, float8* entry)
+{
+  const float8 ix = r->inverse.x, iy = r->inverse.y, iz = r->inverse.z;
+  const float8 x0 = fma(vload8(0, node + r->near_x), ix, (float8)(-r->near.x));
+  const float8 y0 = fma(vload8(0, node + 16 + r->near_y), iy, (float8)(-r->near.y));
+  const float8 z0 = fma(vload8(0, node + 32 + r->near_z), iz, (float8)(-r->near.z));
+  const float8 x1 = fma(vload8(0, node + 8 - r->near_x), ix, (float8)(-r->far.x));
+  const float8 y1 = fma(vload8(0, node + 24 - r->near_y), iy, (float8)(-r->far.y));
+  const float8 z1 = fma(vload8(0, node + 40 - r->near_z), iz, (float8)(-r->far.z));
+  const float8 first = max(max(x0, y0), max(z0, (float8)(0.0f)));
+  const float8 last = min(min(x1, y1), min(z1, (float8)(t)));
+  *entry = first;
+  return bvh_mask8(first <= last);
+}
+
+// One block of 4 triangles. Returns the mask of those hit within (0, t_max], with distance and barycentrics.
+static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_max, float4* t, float4* u, float4* v)
+{
+// A fused multiply-add would round one of the two products of an edge function and not the other, and its sign could be wrong.
+#pragma OPENCL FP_CONTRACT OFF
+  global const float* x = block + 4 * r->kx;
+  global const float* y = block + 4 * r->ky;
+  global const float* z = block + 4 * r->kz;
+  const float4 az = vload4(0, z) - r->oz, bz = vload4(0, z + 12) - r->oz, cz = vload4(0, z + 24) - r->oz;
+  const float4 ax = fma(-r->sx, az, vload4(0, x) - r->ox), ay = fma(-r->sy, az, vload4(0, y) - r->oy);
+  const float4 bx = fma(-r->sx, bz, vload4(0, x + 12) - r->ox), by = fma(-r->sy, bz, vload4(0, y + 12) - r->oy);
+  const float4 cx = fma(-r->sx, cz, vload4(0, x + 24) - r->ox), cy = fma(-r->sy, cz, vload4(0, y + 24) - r->oy);
+  const float4 ea = cx * by - cy * bx, eb = ax * cy - ay * cx, ec = bx * ay - by * ax;
+  const float4 det = ea + eb + ec;
+  const float4 low = min(min(ea, eb), ec), high = max(max(ea, eb), ec);
+  const int inside = bvh_mask4(((low >= 0.0f) | (high <= 0.0f)) & (det != 0.0f));
+  if (inside == 0) return 0;
+  const float4 scale = 1.0f / det;
+  *t = (ea * az + eb * bz + ec * cz) * r->sz * scale;
+  *u = eb * scale;
+  *v = ec * scale;
+  return inside & bvh_mask4((*t > 0.0f) & (*t <= t_max));
+}
+
+// The closest hit with 0 < t <= t_max, other than with triangle `skip` (the one that the ray leaves; NEPHROID_NO_PRIMITIVE: none).
+// The direction need not be of unit length, but neither zero nor smaller than 1e-15.
+static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max, uint skip)
+{
+  const BvhRay ray = bvh_ray(origin, direction);
+  Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
+  int waiting[NEPHROID_BVH_STACK];
+  float waiting_entry[NEPHROID_BVH_STACK];
+  int top = 0;
+  int at = root;
+  while (true) {
+    while (at >= 0) {
+      global const float* node = nodes + 64 * (size_t)at;
+      global const int* children = (global const int*)(node + 48);
+      float8 entry;
+      int mask = bvh_boxes(node, &ray, hit.t, &entry);
+      if (mask == 0) goto next;
+      int child = bvh_lowest_bit(mask);
+      mask &= mask - 1;
+      at = children[child];
+      if (mask == 0) continue;
+      // Go on with the nearest; the others wait, the farthest at the bottom.
+      float entries[8];
+      vstore8(entry, 0, entries);
+      float nearest = entries[child];
+      const int bottom = top;
+      do {
+        child = bvh_lowest_bit(mask);
+        mask &= mask - 1;
+        int other = children[child];
+        float other_entry = entries[child];
+        if (other_entry < nearest) {
+          const int swapped = at;
+          const float swapped_entry = nearest;
+          at = other;
+          nearest = other_entry;
+          other = swapped;
+          other_entry = swapped_entry;
+        }
+        int place = top++;
+        for (; place > bottom && waiting_entry[place - 1] < other_entry; --place) {
+          waiting[place] = waiting[place - 1];
+          waiting_entry[place] = waiting_entry[place - 1];
+        }
+        waiting[place] = other;
+        waiting_entry[place] = other_entry;
+      } while (mask);
+    }
+    {
+      const int first = ~at >> 4, count = ~at & 15;
+      for (int i = 0; i < count; ++i) {
+        global const float* block = blocks + 40 * (size_t)(first + i);
+        float4 t4, u4, v4;
+        int mask = bvh_triangles(block, &ray, hit.t, &t4, &u4, &v4);
+        if (mask == 0) continue;
+        float t[4], u[4], v[4];
+        vstore4(t4, 0, t);
+        vstore4(u4, 0, u);
+        vstore4(v4, 0, v);
+        do {
+          const int lane = bvh_lowest_bit(mask);
+          mask &= mask - 1;
+          const uint id = ((global const uint*)block)[36 + lane];
+          if (id == skip || t[lane] > hit.t || (t[lane] == hit.t && id >= hit.primitive)) continue;
+          hit.t = t[lane];
+          hit.u = u[lane];
+          hit.v = v[lane];
+          hit.primitive = id;
+        } while (mask);
+      }
+    }
+  next:
+    do {
+      if (top == 0) return hit;
+      --top;
+    } while (waiting_entry[top] > hit.t);
+    at = waiting[top];
+  }
+}
+
+// Whether anything other than triangle `skip` is hit with 0 < t <= t_max.
+static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max, uint skip)
+{
+  const BvhRay ray = bvh_ray(origin, direction);
+  int waiting[NEPHROID_BVH_STACK];
+  int top = 0;
+  waiting[top++] = root;
+  while (top > 0) {
+    const int at = waiting[--top];
+    if (at >= 0) {
+      global const float* node = nodes + 64 * (size_t)at;
+      global const int* children = (global const int*)(node + 48);
+      float8 entry;
+      for (int mask = bvh_boxes(node, &ray, t_max, &entry); mask; mask &= mask - 1) waiting[top++] = children[bvh_lowest_bit(mask)];
+      continue;
+    }
+    const int first = ~at >> 4, count = ~at & 15;
+    for (int i = 0; i < count; ++i) {
+      global const float* block = blocks + 40 * (size_t)(first + i);
+      float4 t, u, v;
+      for (int mask = bvh_triangles(block, &ray, t_max, &t, &u, &v); mask; mask &= mask - 1)
+        if (((global const uint*)block)[36 + bvh_lowest_bit(mask)] != skip) return true;
+    }
+  }
+  return false;
+}
+
+#endif
