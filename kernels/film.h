@@ -8,10 +8,10 @@
 
 #ifdef NEPHROID_INT64_ATOMICS
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
-inline void add_exactly(volatile __global long* sum, long value) { atom_add(sum, value); }
+static inline void add_exactly(volatile __global long* sum, long value) { atom_add(sum, value); }
 #else
 // Two 32-bit halves with carry: adding modulo 2^64 is associative, so once all have added, the bits are those of the sum.
-inline void add_exactly(volatile __global long* sum, long value)
+static inline void add_exactly(volatile __global long* sum, long value)
 {
   volatile __global uint* half_sum = (volatile __global uint*)sum;
   const uint low = (uint)value, before = atomic_add(half_sum, low);
@@ -22,7 +22,7 @@ inline void add_exactly(volatile __global long* sum, long value)
 #endif
 
 // Adds xyz * scale to a pixel. Returns false, and adds nothing, where that is not finite or above FILM_LIMIT.
-inline bool film_add(volatile __global long* film, int pixel, float3 xyz, float scale)
+static inline bool film_add(volatile __global long* film, int pixel, float3 xyz, float scale)
 {
   const float3 quanta = xyz * scale;
   if (!(fabs(quanta.x) <= FILM_LIMIT && fabs(quanta.y) <= FILM_LIMIT && fabs(quanta.z) <= FILM_LIMIT)) return false;

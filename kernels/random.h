@@ -4,7 +4,7 @@
 #ifndef NEPHROID_RANDOM_H
 #define NEPHROID_RANDOM_H
 
-inline uint4 philox4x32(uint4 counter, uint2 key)
+static inline uint4 philox4x32(uint4 counter, uint2 key)
 {
   for (int round = 0; round < 10; ++round) {
     const ulong a = (ulong)counter.x * 0xD2511F53u;
@@ -16,7 +16,7 @@ inline uint4 philox4x32(uint4 counter, uint2 key)
 }
 
 // Four uniforms in [0, 1): dimensions 4 block .. 4 block + 3 of item `index` in `pass`.
-inline float4 random4(uint2 seed, uint pass, uint index, uint block, uint stream)
+static inline float4 random4(uint2 seed, uint pass, uint index, uint block, uint stream)
 {
   const uint4 bits = philox4x32((uint4)(index, pass, block, stream), seed);
   return convert_float4(bits >> 8) * 0x1p-24f;

@@ -61,7 +61,7 @@ typedef struct {
   float4 edge_u;       // area
   float4 edge_v;       // area
   int type;            // LIGHT_*
-  float cos_half_angle; // spot
+  float one_minus_cos; // spot: of its half angle
   float solid_angle;   // spot: of its cone
   float radiometric;   // point, spot, area: power in W; directional: irradiance in W m^-2
   Media inside;

@@ -33,6 +33,7 @@ struct Progress {
 /// Photons in = out: weights in watts. in = deposited + missed + absorbed + escaped + lost within rounding.
 struct EnergyBalance {
   double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
+  std::uint64_t refused_contributions = 0;  ///< film contributions too large for its fixed point: 0 in a sound run
 };
 
 struct Snapshot {

@@ -8,22 +8,30 @@
 
 namespace nephroid::spectral {
 
+/// optimal: the fewest clusters under the bound, from exact changes of angle. thesis: bicubic patches and Algorithm 4.1 as
+/// printed. brute_force: every wavelength by itself.
 enum class ClusterMethod { optimal, thesis, brute_force };
 
 struct Cluster {
-  std::vector<int> wavelengths;  ///< indices 0..400 in the order of falling n
-  double n_mean = 1;             ///< of the curve that was clustered
-  double theta_deg2 = 0;         ///< change of the refraction angle inside the cluster, integrated over 0..89 degrees (4.4)
+  std::vector<int> wavelengths; ///< indices 0..400 in the order of falling n
+  double n_mean = 1;            ///< of the curve that was clustered
+  double theta_deg2 = 0;        ///< change of the refraction angle inside the cluster, integrated over 0..89 degrees (4.4)
 };
 
 struct Clustering {
   ClusterMethod method = ClusterMethod::optimal;
   double threshold_deg = 0;
-  double total_theta_deg2 = 0;
+  double total_theta_deg2 = 0;   ///< the sum over the clusters: the change from the highest to the lowest n
   std::vector<Cluster> clusters; ///< by falling n
 };
 
-/// threshold_deg: alpha in (0, 90). n: on the 401 wavelengths, finite and > 0.
+/// The wavelengths are sorted by falling n (equal n: by wavelength). Each has Theta, the change of angle on the way to the next
+/// one; so 401 wavelengths have 400 changes, and the last has none. What may be merged is decided as if the last one had the
+/// change of the one before it (a one-sided difference, as everywhere at the ends); what is reported counts the 400.
+/// A cluster of several wavelengths has at most threshold_deg * 89 square degrees. Below n = 1 there is no refracted ray beyond
+/// the critical angle: theta2 counts as 90 degrees there, and Theta is the exact one with every method, for the patches'
+/// derivative is infinite at that angle.
+/// threshold_deg: alpha in (0, 90). n: on the 401 wavelengths, finite and > 0. Throws bad_input otherwise.
 Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, ClusterMethod method);
 
 /// The coarsest partition that is finer than each of the given ones: wavelengths stay together where they are together in all

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/device_scene.h"
+
+#include "spectral/wavelength_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::spectral {
+namespace {
+
+/// As in kernels/emission.h; more caustic objects than this share one target around them all.
+constexpr std::size_t max_targets = 16;
+
+shared::float4 to_float4(const glm::vec3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
+
+shared::Media to_media(const std::vector<int>& inside)
+{
+  shared::Media media{};
+  media.count = static_cast<int>(std::min<std::size_t>(inside.size(), MEDIA_DEPTH));
+  std::copy_n(inside.begin(), media.count, media.objects);
+  return media;
+}
+
+bool is_caustic_object(const scene::Scene& scene, const scene::Object& object)
+{
+  return scene.materials[static_cast<std::size_t>(object.material)].type != scene::Material::Type::diffuse;
+}
+
+scene::Sphere enclosing(const scene::Sphere& a, const scene::Sphere& b)
+{
+  const float distance = glm::length(b.centre - a.centre);
+  if (distance + b.radius <= a.radius) return a;
+  if (distance + a.radius <= b.radius) return b;
+  const float radius = 0.5f * (distance + a.radius + b.radius);
+  return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance), radius * 1.000001f};
+}
+
+std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
+{
+  std::vector<scene::Sphere> spheres;
+  for (const scene::Object& object : scene.objects)
+    if (object.triangle_count > 0 && is_caustic_object(scene, object)) spheres.push_back(object.bounds);
+  if (spheres.size() > max_targets) {
+    scene::Sphere all = spheres.front();
+    for (const scene::Sphere& sphere : spheres) all = enclosing(all, sphere);
+    spheres = {all};
+  }
+  return spheres;
+}
+
+shared::DeviceLight device_light(const scene::Light& light)
+{
+  shared::DeviceLight out{};
+  out.position = to_float4(light.position);
+  out.direction = to_float4(light.direction);
+  out.edge_u = to_float4(light.edge_u);
+  out.edge_v = to_float4(light.edge_v);
+  using Type = preset::Light::Type;
+  out.type = light.type == Type::point         ? LIGHT_POINT
+             : light.type == Type::spot        ? LIGHT_SPOT
+             : light.type == Type::directional ? LIGHT_DIRECTIONAL
+                                               : LIGHT_AREA;
+  out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
+  out.solid_angle = static_cast<float>(2 * M_PI * (1 - light.cos_half_angle));
+  out.radiometric = static_cast<float>(light.type == Type::directional ? light.irradiance_w_m2 : light.power_w);
+  out.inside = to_media(light.inside);
+  return out;
+}
+
+/// Watts of the light that start towards the targets; targets that overlap count twice, which is good enough for dealing out photons.
+double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit)
+{
+  double steradians = 0, square_metres = 0;
+  for (const scene::Sphere& target : targets) {
+    const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
+    const double radius2 = double(target.radius) * target.radius;
+    steradians += distance2 <= radius2 ? 4 * M_PI : 2 * M_PI * (1 - std::sqrt(1 - radius2 / distance2));
+    square_metres += M_PI * radius2 * metres_per_unit * metres_per_unit;
+  }
+  switch (light.type) {
+  case preset::Light::Type::directional:
+    return light.irradiance_w_m2 * square_metres;
+  case preset::Light::Type::spot:
+    return light.power_w * std::min(1.0, steradians / (2 * M_PI * (1 - light.cos_half_angle)));
+  case preset::Light::Type::area:
+    return light.power_w * std::min(1.0, steradians / M_PI);
+  case preset::Light::Type::point:
+    break;
+  }
+  return light.power_w * std::min(1.0, steradians / (4 * M_PI));
+}
+
+std::vector<shared::DeviceEmitter> make_emitters(const scene::Scene& scene, const std::vector<scene::Sphere>& targets,
+                                                 const WavelengthTables& tables, unsigned photons)
+{
+  std::vector<double> weights;
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    const double watts = towards_targets_w(scene.lights[l], targets, scene.metres_per_unit);
+    for (std::size_t c = 0; c < tables.clusters.size(); ++c) weights.push_back(watts * (tables.weight[l][c] + 0.05 * tables.share[l][c]));
+  }
+  const std::vector<unsigned> counts = deal_out(weights, photons);
+  std::vector<shared::DeviceEmitter> emitters;
+  unsigned first = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const std::size_t l = i / tables.clusters.size(), c = i % tables.clusters.size();
+    shared::DeviceEmitter emitter{};
+    emitter.first_photon = first;
+    emitter.photon_count = counts[i];
+    emitter.light = static_cast<int>(l);
+    emitter.cluster = static_cast<int>(c);
+    emitter.share = static_cast<float>(tables.share[l][c]);
+    emitters.push_back(emitter);
+    first += counts[i];
+  }
+  return emitters;
+}
+
+scene::Sphere scene_bounds(const scene::Scene& scene)
+{
+  glm::vec3 low{0}, high{0};
+  for (std::size_t i = 0; i < scene.geometry.positions.size(); ++i) {
+    const glm::vec3& p = scene.geometry.positions[i];
+    low = i == 0 ? p : glm::min(low, p);
+    high = i == 0 ? p : glm::max(high, p);
+  }
+  return {0.5f * (low + high), 0.5f * glm::length(high - low)};
+}
+
+double power_of_two_below(double value) { return std::isfinite(value) && value > 0 ? std::exp2(std::floor(std::log2(value))) : 1.0; }
+
+/// Fixed-point scales. The caustic film gets 2^38 quanta for all the light's power in one pixel of a surface as far away as the
+/// scene's middle (a contribution may be 16 times that, see film.h); the direct film 2^30 for a surface that the light reaches from
+/// the scene's radius; the energy counters 2^40 for the power of one pass. 2^20 passes fit into 63 bits.
+void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, DeviceTables& tables)
+{
+  const scene::Camera& camera = scene.camera;
+  const double metres = scene.metres_per_unit;
+  const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius) * metres;
+  const double pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
+  tables.caustic_scale = power_of_two_below(std::exp2(38) * M_PI * distance * distance * pixel_area / tables.light_towards_targets_w);
+  double irradiance = 0;
+  for (const scene::Light& light : scene.lights)
+    irradiance += light.irradiance_w_m2 + light.power_w / (4 * M_PI * std::pow(bounds.radius * metres, 2));
+  tables.direct_scale = power_of_two_below(std::exp2(30) * M_PI / irradiance);
+  tables.energy_scale = power_of_two_below(std::exp2(40) / tables.light_towards_targets_w);
+}
+
+} // namespace
+
+std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
+{
+  const ClusterMethod method = settings.method == preset::Spectral::Method::optimal  ? ClusterMethod::optimal
+                               : settings.method == preset::Spectral::Method::thesis ? ClusterMethod::thesis
+                                                                                     : ClusterMethod::brute_force;
+  std::vector<optics::Spectrum> curves;
+  for (const scene::Object& object : scene.objects) {
+    const scene::Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    if (material.type != scene::Material::Type::dielectric) continue;
+    if (std::find(curves.begin(), curves.end(), material.n) == curves.end()) curves.push_back(material.n);
+  }
+  std::vector<Clustering> clusterings;
+  for (const optics::Spectrum& curve : curves) clusterings.push_back(cluster_wavelengths(curve, settings.threshold_deg, method));
+  return common_refinement(clusterings);
+}
+
+shared::DeviceCamera device_camera(const scene::Camera& camera)
+{
+  shared::DeviceCamera out{};
+  out.position = to_float4(camera.position);
+  out.right = to_float4(camera.right);
+  out.up = to_float4(camera.up);
+  out.forward = to_float4(camera.forward);
+  out.tan_x = static_cast<float>(camera.tan_x);
+  out.tan_y = static_cast<float>(camera.tan_y);
+  out.width = camera.width;
+  out.height = camera.height;
+  out.inside = to_media(camera.inside);
+  return out;
+}
+
+DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene)
+{
+  DeviceTables tables;
+  tables.wavelengths = make_wavelength_tables(scene, scene_clusters(preset.spectral, scene), tables.materials);
+  const std::vector<scene::Sphere> targets = caustic_targets(scene);
+  for (const scene::Sphere& target : targets) tables.targets.push_back({to_float4(target.centre, target.radius)});
+  for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority, object.smooth ? 1 : 0, 0});
+  for (const scene::Light& light : scene.lights) tables.lights.push_back(device_light(light));
+  tables.emitters = make_emitters(scene, targets, tables.wavelengths, static_cast<unsigned>(preset.spectral.photons_per_pass));
+  for (const shared::DeviceEmitter& emitter : tables.emitters) tables.photons_per_pass += emitter.photon_count;
+  for (const scene::Light& light : scene.lights) tables.light_towards_targets_w += towards_targets_w(light, targets, scene.metres_per_unit);
+  tables.camera = device_camera(scene.camera);
+
+  const scene::Sphere bounds = scene_bounds(scene);
+  set_scales(scene, bounds, tables);
+  tables.scene.material_count = static_cast<int>(scene.materials.size());
+  tables.scene.light_count = static_cast<int>(scene.lights.size());
+  tables.scene.target_count = static_cast<int>(targets.size());
+  tables.scene.cluster_count = static_cast<int>(tables.wavelengths.clusters.size());
+  tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
+  tables.scene.metres_per_unit = static_cast<float>(scene.metres_per_unit);
+  tables.scene.outside_distance = 2.5f * bounds.radius;
+  return tables;
+}
+
+} // namespace nephroid::spectral

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as the kernels of engine 1 read it: plain tables, still on the host. Made once a job; tested without a device.
+#pragma once
+#include "kernels/shared_types.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+#include "spectral/clusters.h"
+
+#include <vector>
+
+namespace nephroid::spectral {
+
+/// Everything that depends on wavelength, for `clusters` of the 401 wavelengths.
+struct WavelengthTables {
+  std::vector<std::vector<int>> clusters;        ///< wavelength indices of each
+  std::vector<int> cluster_first;                ///< cluster_count + 1
+  std::vector<int> cluster_wavelengths;          ///< cluster after cluster
+  std::vector<float> index_of_refraction;        ///< [cluster][material]: mean over the cluster; 1 for what is no dielectric
+  std::vector<float> coefficient;                ///< [attenuator][401]: 1/m, or -ln(reflectance) of a mirror
+  std::vector<float> reflectance;                ///< [reflector][401]
+  std::vector<shared::float4> light_xyz;         ///< [light][401]: share times (xbar, ybar, zbar), share
+  std::vector<shared::float4> reflected_xyz;     ///< [light][cluster][reflector]
+  std::vector<shared::float4> reflected_xyz_all; ///< [light][reflector]
+  std::vector<float> cluster_cdf;                ///< cluster_count + 1, from 0 to 1
+  std::vector<std::vector<double>> share;        ///< [light][cluster]: of the light's power
+  std::vector<std::vector<double>> weight;       ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3
+  int attenuator_count = 0, reflector_count = 0;
+};
+
+struct DeviceTables {
+  shared::DeviceScene scene{};
+  shared::DeviceCamera camera{};
+  std::vector<shared::DeviceMaterial> materials;
+  std::vector<shared::DeviceObject> objects;
+  std::vector<shared::DeviceLight> lights;
+  std::vector<shared::DeviceTarget> targets;
+  std::vector<shared::DeviceEmitter> emitters; ///< photons of one pass, dealt out to lights and clusters
+  unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each emitter
+  WavelengthTables wavelengths;
+  double light_towards_targets_w = 0;         ///< power that the emitters send out in a pass, all wavelengths
+  double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
+  double energy_scale = 1;                    ///< energy quanta per watt, a power of two
+};
+
+/// The clusters for all dielectrics that an object uses: of one curve its own, of several their common refinement, of none one group.
+std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene);
+
+DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene);
+
+shared::DeviceCamera device_camera(const scene::Camera& camera);
+
+} // namespace nephroid::spectral

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/wavelength_tables.h"
+
+#include "optics/colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace nephroid::spectral {
+namespace {
+
+using optics::Spectrum;
+using optics::wavelength_count;
+using shared::float4;
+
+/// A mirror that reflects nothing: exp(-50) is below every count.
+constexpr double blackest = 50;
+
+float4 to_float4(const std::array<double, 4>& v)
+{
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(v[3])};
+}
+
+std::vector<bool> used_materials(const scene::Scene& scene)
+{
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const scene::Object& object : scene.objects) used[static_cast<std::size_t>(object.material)] = true;
+  return used;
+}
+
+/// Rows of the reflectance and attenuation tables, one for each material that needs one.
+void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std::vector<shared::DeviceMaterial>& materials)
+{
+  const std::vector<bool> used = used_materials(scene);
+  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, 0});
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const scene::Material& material = scene.materials[i];
+    shared::DeviceMaterial& row = materials[i];
+    row.type = material.type == scene::Material::Type::diffuse      ? MATERIAL_DIFFUSE
+               : material.type == scene::Material::Type::dielectric ? MATERIAL_DIELECTRIC
+                                                                    : MATERIAL_MIRROR;
+    if (!used[i]) continue;
+    if (material.type == scene::Material::Type::diffuse) {
+      row.reflector = tables.reflector_count++;
+      tables.reflectance.insert(tables.reflectance.end(), material.reflectance.begin(), material.reflectance.end());
+    } else if (material.type == scene::Material::Type::dielectric && material.absorbs) {
+      row.attenuator = tables.attenuator_count++;
+      for (int w = 0; w < wavelength_count; ++w)
+        tables.coefficient.push_back(
+            static_cast<float>(4 * M_PI * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9)));
+    } else if (material.type == scene::Material::Type::mirror) {
+      if (std::all_of(material.reflectance.begin(), material.reflectance.end(), [](double r) { return r == 1; })) continue;
+      row.attenuator = tables.attenuator_count++;
+      for (const double r : material.reflectance)
+        tables.coefficient.push_back(static_cast<float>(r > 0 ? std::min(-std::log(r), blackest) : blackest));
+    }
+  }
+}
+
+void add_cluster_rows(const scene::Scene& scene, WavelengthTables& tables)
+{
+  tables.cluster_first.push_back(0);
+  for (const std::vector<int>& cluster : tables.clusters) {
+    tables.cluster_wavelengths.insert(tables.cluster_wavelengths.end(), cluster.begin(), cluster.end());
+    tables.cluster_first.push_back(static_cast<int>(tables.cluster_wavelengths.size()));
+    for (const scene::Material& material : scene.materials) {
+      double sum = 0;
+      for (const int w : cluster) sum += material.n[static_cast<std::size_t>(w)];
+      const bool bends = material.type == scene::Material::Type::dielectric;
+      tables.index_of_refraction.push_back(bends ? static_cast<float>(sum / static_cast<double>(cluster.size())) : 1.0f);
+    }
+  }
+}
+
+/// Sum over wavelengths of light share times reflectance times (xbar, ybar, zbar).
+std::array<double, 4> reflected(const Spectrum& light, const float* reflectance, const std::vector<int>& wavelengths)
+{
+  const optics::ColourMatching& eye = optics::cie_1931();
+  std::array<double, 4> sum{};
+  for (const int index : wavelengths) {
+    const auto w = static_cast<std::size_t>(index);
+    const double power = light[w] * (reflectance ? reflectance[w] : 1.0);
+    sum[0] += power * eye.x[w];
+    sum[1] += power * eye.y[w];
+    sum[2] += power * eye.z[w];
+    sum[3] += power;
+  }
+  return sum;
+}
+
+void add_light_rows(const scene::Scene& scene, WavelengthTables& tables)
+{
+  std::vector<int> all(wavelength_count);
+  std::iota(all.begin(), all.end(), 0);
+  for (const scene::Light& light : scene.lights) {
+    for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(light.spectrum, nullptr, {w})));
+    std::vector<double>& share = tables.share.emplace_back();
+    std::vector<double>& weight = tables.weight.emplace_back();
+    for (const std::vector<int>& cluster : tables.clusters) {
+      const std::array<double, 4> sum = reflected(light.spectrum, nullptr, cluster);
+      share.push_back(sum[3]);
+      weight.push_back((sum[0] + sum[1] + sum[2]) / 3);
+      for (int r = 0; r < tables.reflector_count; ++r)
+        tables.reflected_xyz.push_back(to_float4(reflected(light.spectrum, tables.reflectance.data() + r * wavelength_count, cluster)));
+    }
+    for (int r = 0; r < tables.reflector_count; ++r)
+      tables.reflected_xyz_all.push_back(to_float4(reflected(light.spectrum, tables.reflectance.data() + r * wavelength_count, all)));
+  }
+}
+
+/// A twentieth of the choice goes by plain share, so that a cluster the eye hardly sees is still seen. Clusters without light get none.
+void add_cluster_cdf(const scene::Scene& scene, WavelengthTables& tables)
+{
+  std::vector<double> weights(tables.clusters.size(), 0);
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    const double radiometric = scene.lights[l].power_w + scene.lights[l].irradiance_w_m2;
+    for (std::size_t c = 0; c < weights.size(); ++c) weights[c] += radiometric * (tables.weight[l][c] + 0.05 * tables.share[l][c]);
+  }
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  double sum = 0;
+  tables.cluster_cdf.push_back(0);
+  for (const double weight : weights) {
+    sum += weight;
+    tables.cluster_cdf.push_back(total > 0 ? static_cast<float>(sum / total) : 1.0f);
+  }
+}
+
+} // namespace
+
+WavelengthTables make_wavelength_tables(const scene::Scene& scene, std::vector<std::vector<int>> clusters,
+                                        std::vector<shared::DeviceMaterial>& materials)
+{
+  WavelengthTables tables;
+  tables.clusters = std::move(clusters);
+  add_material_rows(scene, tables, materials);
+  add_cluster_rows(scene, tables);
+  add_light_rows(scene, tables);
+  add_cluster_cdf(scene, tables);
+  return tables;
+}
+
+std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned photons)
+{
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const auto positive = static_cast<unsigned>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+  std::vector<unsigned> counts(weights.size(), 0);
+  if (positive == 0) return counts;
+  const unsigned spare = photons > positive ? photons - positive : 0;
+  // The running sum is rounded, not each count: then the counts add up to `spare` whatever the weights.
+  double sum = 0;
+  unsigned dealt = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    sum += weights[i];
+    const auto upto = static_cast<unsigned>(std::llround(spare * std::min(sum / total, 1.0)));
+    counts[i] = upto - dealt + (weights[i] > 0 ? 1 : 0);
+    dealt = upto;
+  }
+  return counts;
+}
+
+} // namespace nephroid::spectral

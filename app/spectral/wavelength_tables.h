@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables over wavelength of device_scene.h, and which row of them each material has.
+#pragma once
+#include "spectral/device_scene.h"
+
+namespace nephroid::spectral {
+
+/// Fills materials[i].type, reflector and attenuator and every table. Only materials that an object uses get rows.
+WavelengthTables make_wavelength_tables(const scene::Scene& scene, std::vector<std::vector<int>> clusters,
+                                        std::vector<shared::DeviceMaterial>& materials);
+
+/// Photons of one pass for each emitter (light and cluster), in proportion to weight, none without at least one; sums to
+/// max(photons, number of positive weights). Emitters of weight 0 are left out with 0 photons.
+std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned photons);
+
+} // namespace nephroid::spectral

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target in
+// proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly inside it. Where
+// targets overlap, `count` of them could have made the same photon, so its density is count / (sum of all): no light is counted
+// twice and none is left out.
+#ifndef NEPHROID_EMISSION_H
+#define NEPHROID_EMISSION_H
+
+#define MAX_TARGETS 16
+typedef struct {
+  float3 origin, direction;
+  float watts; // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
+} Emission;
+
+// Two vectors that make an orthonormal frame with the unit vector n (Duff et al. 2017).
+static inline void make_frame(float3 n, float3* x, float3* y)
+{
+  const float sign = copysign(1.0f, n.z);
+  const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+  *x = (float3)(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
+  *y = (float3)(b, sign + n.y * n.y * a, -n.y);
+}
+
+// Uniform in the cone about axis with 1 - cos(half angle) = one_minus_cos, which stays exact for far and small targets.
+static inline float3 sample_cone(float3 axis, float one_minus_cos, float u, float v)
+{
+  float3 x, y;
+  make_frame(axis, &x, &y);
+  const float below = u * one_minus_cos;
+  const float sine = sqrt(below * (2.0f - below));
+  float cosine_phi;
+  const float sine_phi = sincos(2.0f * PI_F * v, &cosine_phi);
+  return normalize(x * (sine * cosine_phi) + y * (sine * sine_phi) + axis * (1.0f - below));
+}
+
+// 1 - cos of the half angle under which a sphere is seen from a point; 2 from inside.
+static inline float one_minus_cos_of(float4 sphere, float3 from)
+{
+  const float3 way = sphere.xyz - from;
+  const float distance2 = dot(way, way), radius2 = sphere.w * sphere.w;
+  if (distance2 <= radius2) return 2.0f;
+  const float sine2 = radius2 / distance2;
+  return sine2 / (1.0f + sqrt(1.0f - sine2));
+}
+
+// Whether a unit direction from a point meets a sphere.
+static inline bool meets_sphere(float4 sphere, float3 from, float3 direction)
+{
+  const float3 way = sphere.xyz - from;
+  const float along = dot(way, direction), distance2 = dot(way, way), radius2 = sphere.w * sphere.w;
+  if (distance2 <= radius2) return true;
+  const float3 aside = way - along * direction;
+  return along > 0.0f && dot(aside, aside) <= radius2;
+}
+
+// A direction from a point towards the targets. Returns 1 / density in steradians, and the direction.
+static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random, float3* direction)
+{
+  float one_minus_cos[MAX_TARGETS];
+  float sum = 0.0f;
+  for (int i = 0; i < target_count; ++i) {
+    one_minus_cos[i] = one_minus_cos_of(targets[i].centre_radius, from);
+    sum += one_minus_cos[i];
+  }
+  int chosen = 0;
+  float rest = random.x * sum;
+  while (chosen + 1 < target_count && rest >= one_minus_cos[chosen]) rest -= one_minus_cos[chosen++];
+  *direction = sample_cone(normalize(targets[chosen].centre_radius.xyz - from), one_minus_cos[chosen], random.y, random.z);
+  int count = 1;
+  for (int i = 0; i < target_count; ++i)
+    if (i != chosen && meets_sphere(targets[i].centre_radius, from, *direction)) ++count;
+  return 2.0f * PI_F * sum / (float)count;
+}
+
+static inline Emission emit_from_point(const DeviceLight* light, __global const DeviceTarget* targets, int target_count, float4 random)
+{
+  Emission emission = {light->position.xyz, light->direction.xyz, 0.0f};
+  if (light->type == LIGHT_SPOT) {
+    float towards_targets = 0.0f;
+    for (int i = 0; i < target_count; ++i) towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
+    if (light->solid_angle <= towards_targets) { // the spot's own cone is the tighter one: every photon carries the same
+      emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z);
+      emission.watts = light->radiometric;
+      return emission;
+    }
+  }
+  const float steradians = sample_targets(targets, target_count, light->position.xyz, random, &emission.direction);
+  if (light->type == LIGHT_POINT)
+    emission.watts = light->radiometric * steradians / (4.0f * PI_F);
+  else if (in_spot(light, emission.direction))
+    emission.watts = light->radiometric * steradians / light->solid_angle;
+  return emission;
+}
+
+// Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per steradian.
+static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, int target_count, float4 random, float4 place)
+{
+  Emission emission;
+  emission.origin = area_point(light, place.xy);
+  const float steradians = sample_targets(targets, target_count, emission.origin, random, &emission.direction);
+  const float cosine = dot(emission.direction, light->direction.xyz);
+  emission.watts = cosine > 0.0f ? light->radiometric * cosine / PI_F * steradians : 0.0f;
+  return emission;
+}
+
+static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random)
+{
+  const float3 direction = light->direction.xyz;
+  float sum = 0.0f;
+  for (int i = 0; i < scene->target_count; ++i) sum += targets[i].centre_radius.w * targets[i].centre_radius.w;
+  int chosen = 0;
+  float rest = random.x * sum;
+  while (chosen + 1 < scene->target_count) {
+    const float share = targets[chosen].centre_radius.w * targets[chosen].centre_radius.w;
+    if (rest < share) break;
+    rest -= share;
+    ++chosen;
+  }
+  float3 x, y;
+  make_frame(direction, &x, &y);
+  float cosine_phi;
+  const float sine_phi = sincos(2.0f * PI_F * random.z, &cosine_phi);
+  const float radius = targets[chosen].centre_radius.w * sqrt(random.y);
+  const float3 place = targets[chosen].centre_radius.xyz + radius * (cosine_phi * x + sine_phi * y);
+  int count = 1;
+  for (int i = 0; i < scene->target_count; ++i) {
+    const float3 way = place - targets[i].centre_radius.xyz;
+    const float3 aside = way - dot(way, direction) * direction;
+    if (i != chosen && dot(aside, aside) <= targets[i].centre_radius.w * targets[i].centre_radius.w) ++count;
+  }
+  const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
+  const Emission emission = {place - scene->outside_distance * direction, direction, light->radiometric * square_metres / (float)count};
+  return emission;
+}
+
+static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random, float4 place)
+{
+  if (light->type == LIGHT_DIRECTIONAL) return emit_directional(light, targets, scene, random);
+  if (light->type == LIGHT_AREA) return emit_from_area(light, targets, scene->target_count, random, place);
+  return emit_from_point(light, targets, scene->target_count, random);
+}
+
+#endif

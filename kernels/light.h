@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both sides of light transport, emission and direct light, ask of a light.
+#ifndef NEPHROID_LIGHT_H
+#define NEPHROID_LIGHT_H
+
+#define PI_F 3.14159265358979f
+
+// Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.
+static inline bool in_spot(const DeviceLight* light, float3 direction)
+{
+  const float3 aside = direction - light->direction.xyz;
+  return 0.5f * dot(aside, aside) <= light->one_minus_cos;
+}
+
+// A point of an area light's rectangle.
+static inline float3 area_point(const DeviceLight* light, float2 place)
+{
+  return light->position.xyz + (place.x - 0.5f) * light->edge_u.xyz + (place.y - 0.5f) * light->edge_v.xyz;
+}
+
+#endif

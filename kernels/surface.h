@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a hit of the tree to a point on a surface: exact position, geometric and shading normal, object.
+#ifndef NEPHROID_SURFACE_H
+#define NEPHROID_SURFACE_H
+
+// The scene's triangles as kernels see them; every vertex has three floats a table.
+typedef struct {
+  __global const float* nodes;    // bvh.h
+  __global const float* blocks;   // bvh.h
+  __global const uint* corners;   // three vertex numbers a triangle
+  __global const float* positions;
+  __global const float* normals;  // vertex normals, unit
+  __global const uint* object_of_triangle;
+  int root;
+} Geometry;
+
+typedef struct {
+  float3 position;
+  float3 geometric; // unit normal of the triangle, outwards
+  float3 shading;   // unit; equals geometric unless the object is smooth
+  int object;
+} Surface;
+
+// Barycentric interpolation rounds relative to the triangle's size; origin + t * direction would round relative to the distance.
+static inline Surface surface_at(const Geometry* geometry, __global const DeviceObject* objects, Hit hit)
+{
+  Surface surface;
+  const uint3 corner = vload3(hit.primitive, geometry->corners);
+  const float3 a = vload3(corner.x, geometry->positions);
+  const float3 ab = vload3(corner.y, geometry->positions) - a, ac = vload3(corner.z, geometry->positions) - a;
+  surface.position = a + hit.u * ab + hit.v * ac;
+  surface.geometric = normalize(cross(ab, ac));
+  surface.object = (int)geometry->object_of_triangle[hit.primitive];
+  surface.shading = surface.geometric;
+#if NEPHROID_SMOOTH
+  if (objects[surface.object].smooth) {
+    const float3 mixed = (1.0f - hit.u - hit.v) * vload3(corner.x, geometry->normals) + hit.u * vload3(corner.y, geometry->normals) +
+                         hit.v * vload3(corner.z, geometry->normals);
+    if (dot(mixed, surface.geometric) > 0.0f) surface.shading = normalize(mixed);
+  }
+#endif
+  return surface;
+}
+
+// A start for a ray that leaves on the side that `towards` points to. The interpolated point is off its triangle by up to 2^-23 of its
+// largest coordinate; four times that keeps a ray that starts at an edge from meeting the neighbouring triangle at once.
+static inline float3 offset_from_surface(float3 position, float3 towards)
+{
+  const float3 size = fabs(position);
+  return position + (0x1p-21f * max(max(size.x, size.y), size.z)) * towards;
+}
+
+// What a mirror or dielectric does to a ray: the new direction, and whether the ray went through.
+typedef struct {
+  float3 direction;
+  bool transmitted;
+} Bend;
+
+// normal: unit, on the side that the ray comes from. choice: uniform in [0, 1): below the reflectance the ray is reflected.
+static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, float choice)
+{
+  Bend bend;
+  const float cos_i = clamp(-dot(direction, normal), 0.0f, 1.0f);
+  const float eta = n_i / n_t;
+  const float cos_t = refracted_cosine(cos_i, eta);
+  bend.transmitted = cos_t >= 0.0f && !(choice < fresnel_reflectance(cos_i, cos_t, n_i, n_t));
+  bend.direction = bend.transmitted ? refract_through(direction, normal, cos_i, cos_t, eta) : reflect_about(direction, normal, cos_i);
+  return bend;
+}
+
+// Bends about the shading normal, unless that sends the ray to the wrong side of the triangle: then about the triangle's own normal.
+static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, float choice)
+{
+  const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  const float3 geometric = side * surface->geometric, shading = side * surface->shading;
+  Bend bend = bend_at(direction, dot(direction, shading) < 0.0f ? shading : geometric, n_i, n_t, choice);
+  const float leaves = dot(bend.direction, geometric);
+  if (bend.transmitted ? leaves >= 0.0f : leaves <= 0.0f) bend = bend_at(direction, geometric, n_i, n_t, choice);
+  return bend;
+}
+
+#endif
