@@ -12,21 +12,22 @@ namespace nephroid::image {
 /// Float channels, interleaved, row 0 at the top.
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::string> channels;      ///< "R", "G", "B", "caustic.R", ...
-  std::vector<float> data;                ///< width * height * channels.size()
+  std::vector<std::string> channels; ///< "R", "G", "B", "caustic.R", ...
+  std::vector<float> data;           ///< width * height * channels.size()
   std::map<std::string, std::string> attributes;
 };
 
 /// Throws bad_input naming the file and OpenImageIO's reason.
 Image read_image(const std::filesystem::path& file);
-/// 32-bit float EXR with every channel and attribute; written whole (temporary name, rename). The same image gives the same bytes.
+/// 32-bit float EXR with every channel and attribute; written whole (temporary name, rename). The same image gives the same bytes:
+/// no date goes in. NaN and infinities are kept.
 void write_exr(const std::filesystem::path& file, const Image& image);
 /// rgb: linear sRGB, 3 a pixel; 8-bit PNG as shown: exposure in stops, tone curve, sRGB encoding. Written whole.
 void write_png(const std::filesystem::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops = 0);
 /// rgba8: 4 bytes a pixel, e.g. a screenshot.
 void write_png_bytes(const std::filesystem::path& file, int width, int height, const std::vector<unsigned char>& rgba8);
 
-/// What a display shows of one linear channel, 0..255: exposure, then clip to 0..1, then sRGB encoding.
+/// What a display shows of one linear channel, 0..255: exposure, then clip to 0..1, then sRGB encoding. Infinity is 255, NaN 0.
 unsigned char shown(float linear, float exposure_scale);
 
 } // namespace nephroid::image

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/image.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "image/seam.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <dlfcn.h>
+
+namespace nephroid::image {
+namespace fs = std::filesystem;
+namespace {
+
+struct Module {
+  NephroidRead read = nullptr;
+  NephroidEncode encode = nullptr;
+};
+
+/// lib/nephroid/MODULE in the installation or build folder that the program lies in (bin/), or a test program (deeper).
+fs::path find_module()
+{
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  fs::path folder = program;
+  for (int level = 0; level < 3 && folder.has_relative_path(); ++level) {
+    folder = folder.parent_path();
+    if (const fs::path candidate = folder / "lib/nephroid" / module_name; fs::exists(candidate, ignored)) return candidate;
+  }
+  throw failed(module_name, fmt::format("not found in lib/nephroid beside {}", program.string()), {}, "build or install Nephroid again");
+}
+
+Module load_module()
+{
+  const fs::path file = find_module();
+  void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install OpenImageIO");
+  return {reinterpret_cast<NephroidRead>(::dlsym(library, read_symbol)), reinterpret_cast<NephroidEncode>(::dlsym(library, encode_symbol))};
+}
+
+/// Loaded at the first call, from whatever thread, and kept.
+const Module& module()
+{
+  static const Module loaded = load_module();
+  return loaded;
+}
+
+void check_size(const fs::path& file, int width, int height, std::size_t channels, std::size_t values)
+{
+  const auto wanted = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * channels;
+  if (width > 0 && height > 0 && channels > 0 && values == wanted) return;
+  throw failed(file.string(), fmt::format("a picture of {} x {} with {} channels has {} values", width, height, channels, values));
+}
+
+void write_whole(const fs::path& file, const NephroidPicture& picture)
+{
+  std::string bytes;
+  const auto take = [](void* to, const void* data, std::size_t size) {
+    static_cast<std::string*>(to)->assign(static_cast<const char*>(data), size);
+  };
+  if (const char* reason = module().encode(&picture, take, &bytes))
+    throw failed(file.string(), fmt::format("cannot be encoded: {}", reason));
+  write_file_whole(file, bytes);
+}
+
+std::vector<const char*> pointers(const std::vector<std::string>& names)
+{
+  std::vector<const char*> result;
+  for (const std::string& name : names) result.push_back(name.c_str());
+  return result;
+}
+
+/// IEC 61966-2-1: what a display makes of an encoded value 0..1.
+double decoded_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
+
+/// Entry i is the linear value halfway between the codes i and i + 1: the code of a value is the number of entries not above it.
+/// The same as rounding the encoding, without a power a pixel.
+std::array<float, 255> code_thresholds()
+{
+  std::array<float, 255> thresholds{};
+  for (std::size_t i = 0; i < thresholds.size(); ++i)
+    thresholds[i] = static_cast<float>(decoded_srgb((static_cast<double>(i) + 0.5) / 255));
+  return thresholds;
+}
+
+void write_png_picture(const fs::path& file, int width, int height, int channels, const std::vector<unsigned char>& bytes)
+{
+  check_size(file, width, height, static_cast<std::size_t>(channels), bytes.size());
+  const char* const names[] = {"R", "G", "B", "A"};
+  write_whole(file, {width, height, channels, names, nullptr, bytes.data(), nullptr, 0});
+}
+
+} // namespace
+
+Image read_image(const fs::path& file)
+{
+  read_file(file); // says what is wrong with the file itself; OpenImageIO what is wrong with the picture
+  Image image;
+  const auto take = [](void* to, const NephroidPicture* picture) {
+    Image& result = *static_cast<Image*>(to);
+    result.width = picture->width;
+    result.height = picture->height;
+    result.channels.assign(picture->channels, picture->channels + picture->channel_count);
+    const auto pixels = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height);
+    result.data.assign(picture->floats, picture->floats + pixels * result.channels.size());
+    for (std::size_t i = 0; i < picture->attribute_count; ++i)
+      result.attributes[picture->attributes[i].name] = picture->attributes[i].value;
+  };
+  if (const char* reason = module().read(file.c_str(), take, &image))
+    throw bad_input(file.string(), fmt::format("is no picture that can be read: {}", reason));
+  return image;
+}
+
+void write_exr(const fs::path& file, const Image& image)
+{
+  check_size(file, image.width, image.height, image.channels.size(), image.data.size());
+  const std::vector<const char*> channels = pointers(image.channels);
+  std::vector<NephroidAttribute> attributes;
+  for (const auto& [name, value] : image.attributes) attributes.push_back({name.c_str(), value.c_str()});
+  write_whole(file, {image.width, image.height, static_cast<int>(channels.size()), channels.data(), image.data.data(), nullptr,
+                     attributes.data(), attributes.size()});
+}
+
+void write_png(const fs::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops)
+{
+  const auto scale = static_cast<float>(std::exp2(exposure_stops));
+  std::vector<unsigned char> bytes(rgb.size());
+  for (std::size_t i = 0; i < rgb.size(); ++i) bytes[i] = shown(rgb[i], scale);
+  write_png_picture(file, width, height, 3, bytes);
+}
+
+void write_png_bytes(const fs::path& file, int width, int height, const std::vector<unsigned char>& rgba8)
+{
+  write_png_picture(file, width, height, 4, rgba8);
+}
+
+unsigned char shown(float linear, float exposure_scale)
+{
+  static const std::array<float, 255> thresholds = code_thresholds();
+  const float value = linear * exposure_scale;
+  if (std::isnan(value)) return 0;
+  return static_cast<unsigned char>(std::upper_bound(thresholds.begin(), thresholds.end(), value) - thresholds.begin());
+}
+
+} // namespace nephroid::image

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only file that includes OpenImageIO: decodes any picture it knows, encodes EXR and PNG in
+// memory, with the same bytes for the same input. Nothing is written to disk here.
+#include "image/seam.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace OIIO;
+
+/// Where the words of a failed call live until the thread's next one.
+const char* reason(std::string text)
+{
+  thread_local std::string kept;
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  kept = text.empty() ? "OpenImageIO gives no reason" : std::move(text);
+  return kept.c_str();
+}
+
+/// Exceptions (out of memory, or from a file that lies about its size) must not cross the C seam.
+template <class Call>
+const char* guarded(Call call)
+{
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    return "not enough memory for this picture";
+  } catch (const std::exception& error) {
+    return reason(error.what());
+  }
+}
+
+/// Every attribute as text, so that what write stores as strings comes back as it was.
+std::vector<std::pair<std::string, std::string>> texts_of(const ImageSpec& spec)
+{
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const ParamValue& value : spec.extra_attribs)
+    if (value.type() == TypeString) texts.emplace_back(value.name().string(), value.get_string());
+  return texts;
+}
+
+const char* read(const char* file, void (*take)(void*, const NephroidPicture*), void* context)
+{
+  const auto input = ImageInput::open(file);
+  if (!input) return reason(geterror());
+  const ImageSpec& spec = input->spec();
+  if (spec.depth > 1) return "it is a volume, not a picture";
+  std::vector<float> floats(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, TypeFloat, floats.data())) return reason(input->geterror());
+  std::vector<const char*> channels;
+  for (const std::string& name : spec.channelnames) channels.push_back(name.c_str());
+  const auto texts = texts_of(spec);
+  std::vector<NephroidAttribute> attributes;
+  for (const auto& [name, value] : texts) attributes.push_back({name.c_str(), value.c_str()});
+  const NephroidPicture picture{spec.width,    spec.height, spec.nchannels,    channels.data(),
+                                floats.data(), nullptr,     attributes.data(), attributes.size()};
+  take(context, &picture);
+  return nullptr;
+}
+
+ImageSpec spec_of(const NephroidPicture& picture)
+{
+  ImageSpec spec(picture.width, picture.height, picture.channel_count, picture.floats ? TypeFloat : TypeUInt8);
+  spec.channelnames.assign(picture.channels, picture.channels + picture.channel_count);
+  if (picture.floats) {
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", ""); // else OpenImageIO writes the time of day, and no two files would be equal
+  }
+  for (std::size_t i = 0; i < picture.attribute_count; ++i) spec.attribute(picture.attributes[i].name, picture.attributes[i].value);
+  return spec;
+}
+
+const char* encode(const NephroidPicture& picture, std::vector<unsigned char>& bytes)
+{
+  const char* const format = picture.floats ? "exr" : "png"; // a bare extension names a format
+  const auto output = ImageOutput::create(format);
+  if (!output) return reason(geterror());
+  Filesystem::IOVecOutput memory(bytes);
+  if (!output->set_ioproxy(&memory)) return "this OpenImageIO cannot write to memory";
+  const TypeDesc type = picture.floats ? TypeFloat : TypeUInt8;
+  const void* const pixels = picture.floats ? static_cast<const void*>(picture.floats) : picture.bytes;
+  if (!output->open(std::string("picture.") + format, spec_of(picture)) || !output->write_image(type, pixels) || !output->close())
+    return reason(output->geterror());
+  return nullptr;
+}
+
+} // namespace
+
+extern "C" {
+
+[[gnu::visibility("default")]] const char* nephroid_image_read(const char* file, void (*take)(void*, const NephroidPicture*), void* context)
+{
+  return guarded([&] { return read(file, take, context); });
+}
+
+[[gnu::visibility("default")]] const char* nephroid_image_encode(const NephroidPicture* picture,
+                                                                 void (*take)(void*, const void*, std::size_t), void* context)
+{
+  return guarded([&] {
+    std::vector<unsigned char> bytes;
+    const char* const why = encode(*picture, bytes);
+    if (!why) take(context, bytes.data(), bytes.size());
+    return why;
+  });
+}
+}

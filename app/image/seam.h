@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The seam between image.cpp and the module that knows OpenImageIO (oiio/module.cpp). Plain C, so that the two can be compiled
+// apart and the module be loaded late. Not for others: include image/image.h.
+#pragma once
+#include <cstddef>
+
+extern "C" {
+
+struct NephroidAttribute {
+  const char* name;
+  const char* value;
+};
+
+/// A picture lent for the time of a call. Interleaved channels, row 0 at the top; exactly one of floats and bytes is set.
+struct NephroidPicture {
+  int width, height, channel_count;
+  const char* const* channels;
+  const float* floats;
+  const unsigned char* bytes;
+  const NephroidAttribute* attributes;
+  std::size_t attribute_count;
+};
+
+/// Calls take(context, picture) once and returns null, or returns the reason in words (valid until the thread's next call).
+using NephroidRead = const char* (*)(const char* file, void (*take)(void* context, const NephroidPicture* picture), void* context);
+/// Encodes floats as 32-bit EXR (zip), bytes as PNG, and calls take(context, data, size) once. Null or the reason, as above.
+using NephroidEncode = const char* (*)(const NephroidPicture* picture, void (*take)(void* context, const void* data, std::size_t size),
+                                       void* context);
+}
+
+namespace nephroid::image {
+inline constexpr const char* module_name = "libnephroid_image_io.so";
+inline constexpr const char* read_symbol = "nephroid_image_read";
+inline constexpr const char* encode_symbol = "nephroid_image_encode";
+} // namespace nephroid::image

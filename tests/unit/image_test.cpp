@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures survive writing and reading bit for bit, the same picture gives the same bytes, and failures leave nothing behind.
+#include "base/error.h"
+#include "base/files.h"
+#include "image/image.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sys/mount.h>
+#include <thread>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid;
+using namespace nephroid::image;
+using testing::HasSubstr;
+
+class Pictures : public testing::Test {
+protected:
+  fs::path folder = fs::path(testing::TempDir()) / ("nephroid-image-" + std::to_string(::getpid()));
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+};
+
+Image example(int width = 33, int height = 17)
+{
+  Image image{width,
+              height,
+              {"R", "G", "B", "caustic.R", "caustic.G", "caustic.B"},
+              {},
+              {{"nephroid:seed", "7"}, {"nephroid:preset", "{\n \"a\": 1}"}}};
+  for (int i = 0; i < width * height * 6; ++i) image.data.push_back(std::sin(float(i)) * 1e4f);
+  image.data[0] = std::numeric_limits<float>::quiet_NaN();
+  image.data[1] = std::numeric_limits<float>::infinity();
+  image.data[2] = -1e-42f; // a denormal
+  return image;
+}
+
+template <class Call>
+Error error_of(Call call)
+{
+  try {
+    call();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no error was thrown";
+  return failed("", "");
+}
+
+TEST_F(Pictures, ExrKeepsEveryBitChannelAndAttribute)
+{
+  const Image image = example();
+  write_exr(folder / "a.exr", image);
+  const Image back = read_image(folder / "a.exr");
+  EXPECT_EQ(back.width, image.width);
+  EXPECT_EQ(back.height, image.height);
+  ASSERT_EQ(back.channels, image.channels);
+  ASSERT_EQ(back.data.size(), image.data.size());
+  EXPECT_EQ(std::memcmp(back.data.data(), image.data.data(), image.data.size() * sizeof(float)), 0);
+  for (const auto& [name, value] : image.attributes) EXPECT_EQ(back.attributes.at(name), value);
+}
+
+TEST_F(Pictures, TheSamePictureGivesTheSameBytesASecondLater)
+{
+  write_exr(folder / "a.exr", example());
+  write_png(folder / "a.png", 2, 1, {0, .5f, 1, 2, 3, 4});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // a date has seconds
+  write_exr(folder / "b.exr", example());
+  write_png(folder / "b.png", 2, 1, {0, .5f, 1, 2, 3, 4});
+  EXPECT_TRUE(read_file(folder / "a.exr") == read_file(folder / "b.exr"));
+  EXPECT_TRUE(read_file(folder / "a.png") == read_file(folder / "b.png"));
+}
+
+TEST_F(Pictures, PngIsWhatADisplayShows)
+{
+  // Known pairs of the sRGB standard: 0.21586 is code 128, 0.0031308 the end of the straight part.
+  write_png(folder / "a.png", 2, 1, {0.21586f, 0.0031308f, -5, 1, 1e9f, 0.5f});
+  const Image back = read_image(folder / "a.png"); // 8-bit codes as 0..1
+  const int expected[] = {128, 10, 0, 255, 255, 188};
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(std::lround(back.data[std::size_t(i)] * 255), expected[i]) << i;
+  write_png(folder / "b.png", 1, 1, {0.10793f, 0.4281f, 0.25f}, 1.0); // a stop doubles
+  EXPECT_EQ(std::lround(read_image(folder / "b.png").data[0] * 255), 128);
+}
+
+TEST(Shown, EqualsTheRoundedEncodingEverywhere)
+{
+  for (int i = 0; i <= 100'000; ++i) {
+    const double linear = i / 100'000.0;
+    const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+    const double code = encoded * 255;
+    if (std::abs(code - std::floor(code) - 0.5) < 1e-4) continue; // a tie within single precision
+    ASSERT_EQ(shown(float(linear), 1), std::lround(code)) << linear;
+  }
+  EXPECT_EQ(shown(std::numeric_limits<float>::infinity(), 1), 255);
+  EXPECT_EQ(shown(-std::numeric_limits<float>::infinity(), 1), 0);
+  EXPECT_EQ(shown(std::numeric_limits<float>::quiet_NaN(), 1), 0);
+}
+
+TEST_F(Pictures, ScreenshotsKeepTheirBytes)
+{
+  write_png_bytes(folder / "a.png", 1, 2, {1, 2, 3, 255, 250, 128, 0, 255});
+  const Image back = read_image(folder / "a.png");
+  EXPECT_EQ(back.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
+  EXPECT_EQ(std::lround(back.data[4] * 255), 250);
+  EXPECT_EQ(std::lround(back.data[5] * 255), 128);
+}
+
+TEST_F(Pictures, BadPicturesAreBadInputWithTheirName)
+{
+  write_file_whole(folder / "text.exr", "not a picture");
+  const Error text = error_of([&] { read_image(folder / "text.exr"); });
+  EXPECT_EQ(text.exit_code(), 2);
+  EXPECT_THAT(text.line(), HasSubstr("text.exr: is no picture that can be read"));
+  EXPECT_THAT(error_of([&] { read_image(folder / "none.png"); }).line(), HasSubstr("No such file"));
+  EXPECT_THAT(error_of([&] { read_image(folder); }).line(), HasSubstr("it is a folder"));
+  write_exr(folder / "a.exr", example(300, 300));
+  const std::string bytes = read_file(folder / "a.exr");
+  write_file_whole(folder / "cut.exr", bytes.substr(0, bytes.size() / 2));
+  EXPECT_EQ(error_of([&] { read_image(folder / "cut.exr"); }).exit_code(), 2);
+}
+
+TEST_F(Pictures, SizesThatDoNotFitAreRefused)
+{
+  EXPECT_THAT(error_of([&] { write_png(folder / "a.png", 2, 2, {0, 0, 0}); }).line(), HasSubstr("2 x 2 with 3 channels has 3 values"));
+  EXPECT_THAT(error_of([&] { write_exr(folder / "a.exr", Image{}); }).line(), HasSubstr("0 x 0"));
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(Pictures, AFolderThatIsNotThereIsSaid)
+{
+  EXPECT_THAT(error_of([&] { write_exr(folder / "no/a.exr", example()); }).line(), HasSubstr("a.exr: cannot be written: No such file"));
+}
+
+TEST_F(Pictures, AFullDiskKeepsTheOldPictureAndNoOther)
+{
+  if (::mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=128k") != 0) GTEST_SKIP() << "mounting a small disk needs root";
+  write_exr(folder / "a.exr", example());
+  const std::string before = read_file(folder / "a.exr");
+  EXPECT_THAT(error_of([&] { write_exr(folder / "a.exr", example(200, 200)); }).line(), HasSubstr("No space left"));
+  EXPECT_TRUE(read_file(folder / "a.exr") == before);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+  ::umount(folder.c_str());
+}
+
+} // namespace
