@@ -5,36 +5,52 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace nephroid::scene {
 
 struct Mesh {
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;     ///< one a position, unit; or empty
-  std::vector<glm::uvec3> triangles;  ///< counter-clockwise seen from outside
+  std::vector<glm::vec3> normals;    ///< one a position, unit; or empty
+  std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from outside
 };
 
-/// OBJ, PLY, STL, glTF, 3DS and whatever else Assimp reads; all its meshes as one, vertices at equal positions joined.
-/// Throws bad_input naming the file: unreadable, no triangles, a coordinate that is not finite.
+/// More triangles than this are refused, for one mesh and for a scene: the tree's indices and single buffers end near it.
+inline constexpr std::uint64_t max_triangles = std::uint64_t{1} << 28;
+
+/// OBJ, PLY, STL, glTF, 3DS and whatever else Assimp reads; all its meshes as one, node transforms applied, polygons cut into
+/// triangles, points and lines left out. Vertices are joined where position and normal are equal, so creases stay creases;
+/// normals are the file's own (not STL's, which are a facet's), or empty. Degenerate triangles are kept: see drop_useless().
+/// Throws bad_input naming the file: unreadable, no triangle with an area, a coordinate that is not finite, too many triangles.
 Mesh load_mesh(const std::filesystem::path& file);
 
+/// What is wrong with a mesh. Vertices at equal positions count as one here, whatever their normals.
 struct MeshReport {
-  std::uint32_t degenerate = 0;      ///< triangles without area
-  std::uint32_t duplicated = 0;      ///< triangles with the same three positions as an earlier one
-  std::uint32_t open_edges = 0;      ///< edges with one triangle
-  std::uint32_t crowded_edges = 0;   ///< edges with more than two triangles, or two of the same direction
-  double signed_volume = 0;          ///< negative: inside out
+  std::uint32_t degenerate = 0;    ///< triangles without area: see drop_useless()
+  std::uint32_t duplicated = 0;    ///< triangles equal to an earlier one, facing the same way; edges and volume leave them out
+  std::uint32_t open_edges = 0;    ///< edges with one triangle
+  std::uint32_t crowded_edges = 0; ///< edges with more than two triangles, or two of the same direction
+  double signed_volume = 0;        ///< negative: inside out
   bool closed() const { return open_edges == 0 && crowded_edges == 0; }
 };
 MeshReport inspect(const Mesh& mesh);
 
-/// Area-weighted vertex normals over triangles that meet within crease_deg of each other are left to the loader; this gives
-/// every vertex the angle-weighted mean of its triangles' normals (positions joined).
+/// Removes the triangles that inspect() counts as degenerate or duplicated; positions stay. Degenerate: no higher than 2^-24 of
+/// the longest edge, which is the spacing of floats, so that its normal would be made of rounding errors.
+void drop_useless(Mesh& mesh);
+
+/// Reverses every triangle and normal.
+void turn_round(Mesh& mesh);
+
+/// Gives every vertex the mean of the normals of the triangles that meet at its position, weighted by their angles there
+/// (Thürmer and Wüthrich 1998), so that the result does not depend on how the surface was cut into triangles.
 void compute_smooth_normals(Mesh& mesh);
 
-/// How much solid angle the mesh subtends at p, over 4 pi: 1 inside, 0 outside, for closed meshes (van Oosterom and Strackee 1983).
+/// How much solid angle `count` triangles subtend at p, over 4 pi: 1 inside and 0 outside a closed surface that faces outwards
+/// (van Oosterom and Strackee 1983).
 double winding_number(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count, const glm::dvec3& p);
+
+/// Volume that `count` triangles enclose, negative where they face inwards; meaningful for closed surfaces only.
+double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count);
 
 } // namespace nephroid::scene

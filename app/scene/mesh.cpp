@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks and repairs of triangle meshes. All sums are in double: positions are floats, so products of two of their differences
+// are exact or nearly so.
+#include "scene/mesh.h"
+#include "scene/vertex_join.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+namespace nephroid::scene {
+namespace {
+
+struct VertexKey {
+  std::array<std::uint32_t, 6> bits{};
+  bool operator==(const VertexKey&) const = default;
+};
+
+struct VertexHash {
+  std::size_t operator()(const VertexKey& key) const
+  {
+    std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a over words, then the finaliser of MurmurHash3 to spread the high bits
+    for (std::uint32_t word : key.bits) hash = (hash ^ word) * 0x100000001b3u;
+    hash = (hash ^ (hash >> 33)) * 0xff51afd7ed558ccdu;
+    return hash ^ (hash >> 33);
+  }
+};
+
+std::array<glm::dvec3, 3> corners(const Mesh& mesh, const glm::uvec3& triangle)
+{
+  return {mesh.positions[triangle.x], mesh.positions[triangle.y], mesh.positions[triangle.z]};
+}
+
+bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle)
+{
+  const auto [a, b, c] = corners(mesh, triangle);
+  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  return !(glm::length(glm::cross(b - a, c - a)) > 0x1p-24 * longest * longest);
+}
+
+/// The triangle's joined corners, turned so that the lowest comes first: equal for triangles that face the same way.
+std::array<std::uint32_t, 3> canonical(const glm::uvec3& triangle, const std::vector<std::uint32_t>& joined)
+{
+  std::array<std::uint32_t, 3> key{joined[triangle.x], joined[triangle.y], joined[triangle.z]};
+  std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
+  return key;
+}
+
+/// True for each triangle that equals an earlier one.
+std::vector<char> find_duplicates(const Mesh& mesh, const std::vector<std::uint32_t>& joined)
+{
+  struct Entry {
+    std::array<std::uint32_t, 3> key;
+    std::uint32_t triangle;
+    auto operator<=>(const Entry&) const = default;
+  };
+  std::vector<Entry> entries(mesh.triangles.size());
+  for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {canonical(mesh.triangles[i], joined), i};
+  std::sort(entries.begin(), entries.end());
+  std::vector<char> duplicate(entries.size(), 0);
+  for (std::size_t i = 1; i < entries.size(); ++i)
+    if (entries[i].key == entries[i - 1].key) duplicate[entries[i].triangle] = 1;
+  return duplicate;
+}
+
+/// Every directed edge as low << 33 | high << 1 | (runs from high to low): sorted, the uses of an edge lie side by side.
+/// Joined indices stay below 2^31 because max_triangles does. An edge from a vertex to itself is none.
+std::vector<std::uint64_t> directed_edges(const Mesh& mesh, const std::vector<std::uint32_t>& joined, const std::vector<char>& duplicate)
+{
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (duplicate[i]) continue;
+    for (int side = 0; side < 3; ++side) {
+      const std::uint64_t from = joined[mesh.triangles[i][side]], to = joined[mesh.triangles[i][(side + 1) % 3]];
+      if (from != to) edges.push_back(std::min(from, to) << 33 | std::max(from, to) << 1 | (from > to ? 1 : 0));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+void count_edges(const std::vector<std::uint64_t>& edges, MeshReport& report)
+{
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && edges[end] >> 1 == edges[begin] >> 1) ++end;
+    if (end - begin == 1)
+      ++report.open_edges;
+    else if (end - begin > 2 || edges[begin] == edges[begin + 1])
+      ++report.crowded_edges;
+  }
+}
+
+/// Six times the tetrahedron's volume; summed over a closed surface it does not depend on `apex`, but its rounding does.
+double six_volumes(const Mesh& mesh, const glm::uvec3& triangle, const glm::dvec3& apex)
+{
+  const auto [a, b, c] = corners(mesh, triangle);
+  return glm::dot(a - apex, glm::cross(b - apex, c - apex));
+}
+
+} // namespace
+
+std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals)
+{
+  std::unordered_map<VertexKey, std::uint32_t, VertexHash> first;
+  first.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> result(mesh.positions.size());
+  for (std::uint32_t i = 0; i < result.size(); ++i) {
+    VertexKey key;
+    for (int axis = 0; axis < 3; ++axis) {
+      key.bits[axis] = std::bit_cast<std::uint32_t>(mesh.positions[i][axis] + 0.0f); // -0 becomes 0
+      if (compare_normals && !mesh.normals.empty()) key.bits[3 + axis] = std::bit_cast<std::uint32_t>(mesh.normals[i][axis] + 0.0f);
+    }
+    result[i] = first.try_emplace(key, i).first->second;
+  }
+  return result;
+}
+
+std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uint32_t>& same)
+{
+  std::vector<glm::dvec3> sums(mesh.positions.size());
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    if (is_degenerate(mesh, triangle)) continue;
+    const auto corner = corners(mesh, triangle);
+    const glm::dvec3 normal = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 u = corner[(i + 1) % 3] - corner[i], v = corner[(i + 2) % 3] - corner[i];
+      sums[same[triangle[i]]] += std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)) * normal;
+    }
+  }
+  std::vector<glm::vec3> means(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double length = glm::length(sums[same[i]]);
+    if (length > 1e-9) means[i] = glm::vec3(sums[same[i]] / length); // shorter: triangles back to back, with no mean direction
+  }
+  return means;
+}
+
+MeshReport inspect(const Mesh& mesh)
+{
+  const std::vector<std::uint32_t> joined = first_equal_vertex(mesh, false);
+  const std::vector<char> duplicate = find_duplicates(mesh, joined);
+  MeshReport report;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (duplicate[i])
+      ++report.duplicated;
+    else if (is_degenerate(mesh, mesh.triangles[i]))
+      ++report.degenerate;
+  }
+  // A sliver with three different corners still closes the surface between its neighbours, so its edges count.
+  count_edges(directed_edges(mesh, joined, duplicate), report);
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (!duplicate[i]) sum += six_volumes(mesh, mesh.triangles[i], mesh.positions[mesh.triangles[0].x]);
+  report.signed_volume = sum / 6;
+  return report;
+}
+
+void drop_useless(Mesh& mesh)
+{
+  const std::vector<char> duplicate = find_duplicates(mesh, first_equal_vertex(mesh, false));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (!duplicate[i] && !is_degenerate(mesh, mesh.triangles[i])) mesh.triangles[kept++] = mesh.triangles[i];
+  mesh.triangles.resize(kept);
+}
+
+void turn_round(Mesh& mesh)
+{
+  for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
+  for (glm::vec3& normal : mesh.normals) normal = -normal;
+}
+
+void compute_smooth_normals(Mesh& mesh)
+{
+  const std::vector<std::uint32_t> joined = first_equal_vertex(mesh, false);
+  mesh.normals = mean_normals(mesh, joined);
+  // Where the mean has no direction (a sheet with two sides) each vertex takes a normal of its own triangles; a vertex without
+  // any triangle gets +y, so that every normal is a unit vector.
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      glm::vec3& normal = mesh.normals[triangle[i]];
+      if (normal != glm::vec3(0) || is_degenerate(mesh, triangle)) continue;
+      const auto [a, b, c] = corners(mesh, triangle);
+      normal = glm::vec3(glm::normalize(glm::cross(b - a, c - a)));
+    }
+  }
+  for (glm::vec3& normal : mesh.normals)
+    if (normal == glm::vec3(0)) normal = {0, 1, 0};
+}
+
+double winding_number(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count, const glm::dvec3& p)
+{
+  double half_solid_angles = 0;
+  for (std::uint32_t i = first_triangle; i < first_triangle + count; ++i) {
+    auto [a, b, c] = corners(mesh, mesh.triangles[i]);
+    a -= p, b -= p, c -= p;
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    // tan(omega / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
+    const double denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+    half_solid_angles += std::atan2(glm::dot(a, glm::cross(b, c)), denominator);
+  }
+  return half_solid_angles / (2 * std::numbers::pi);
+}
+
+double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count)
+{
+  double sum = 0;
+  for (std::uint32_t i = first_triangle; i < first_triangle + count; ++i)
+    sum += six_volumes(mesh, mesh.triangles[i], mesh.positions[mesh.triangles[first_triangle].x]);
+  return sum / 6;
+}
+
+} // namespace nephroid::scene

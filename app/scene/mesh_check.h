@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Does a mesh file hold as much as its header declares? Assimp takes what is missing from a PLY file for zeros, and reserves
+// memory for whatever a PLY or GLB header promises, so both are counted before it sees them.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace nephroid::scene {
+
+/// Throws bad_input at `where` if bytes open like a PLY or GLB file and end before what their header declares, or if the header
+/// makes no sense. Other files pass.
+void check_declared_size(std::string_view bytes, const std::string& where);
+
+} // namespace nephroid::scene
