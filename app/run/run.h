@@ -11,14 +11,13 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 namespace nephroid::run {
 
 /// A loaded scene with its tree: what stays the same while only the camera, the light or the engine's settings change.
 struct LoadedScene {
   scene::Scene scene;
-  scene::Bvh bvh;
+  std::shared_ptr<const scene::Bvh> bvh; ///< never null; shared by scenes with the same triangles
 };
 
 /// A preset made ready: files read, plan made, nothing on a device yet.
@@ -28,12 +27,24 @@ struct Prepared {
   plan::Plan plan;
 };
 
-/// Reads what the preset names and makes the plan. `previous`, if given, lends its tree where the objects are the same.
-/// Throws bad_input as the loaders do.
+/// Reads what the preset names and makes the plan. `previous`, if given, lends its scene where only the camera or the engine's
+/// settings differ (files are not read again then), and its tree where the triangles are the same. Throws bad_input as the loaders do.
 Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr);
 
 /// Builds the engine's job on a device.
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
+
+/// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. Throws bad_input where it
+/// is a file or holds anything but a run, failed where it cannot be written to.
+void claim_folder(const std::filesystem::path& folder);
+/// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json.
+void begin_run(const std::filesystem::path& folder, const Prepared& prepared);
+/// preset.json and plan.json alone: what begin_run and write_run write, and a resumed run whose stop differs.
+void write_settings(const std::filesystem::path& folder, const Prepared& prepared);
+/// Whether the folder holds the finished run of exactly this preset.
+bool is_finished(const std::filesystem::path& folder, const preset::Preset& preset);
+/// The preset with file names that mean the same from `folder`: what preset.json and image.exr hold.
+preset::Preset resolved_for(const std::filesystem::path& folder, const preset::Preset& preset);
 
 /// Writes image.exr, image.png, preset.json, plan.json and run.json into folder (made if missing), each whole.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files only.
+#include "base/files.h"
+#include "plan/plan.h"
+#include "preset/files.h"
+#include "preset/read.h"
+#include "run/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace nephroid::run {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array results{"image.exr", "image.png", "run.json", "checkpoint.bin"};
+
+bool is_there(const fs::path& path)
+{
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+/// Ours are the folders with a plan and a preset, what begin_run writes first, and those with nothing but what a killed
+/// writer left (temporary_name).
+bool holds_a_run_or_nothing(const fs::path& folder)
+{
+  if (is_there(folder / "plan.json") && is_there(folder / "preset.json")) return true;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename(); name.front() != '.' || name.find(".tmp") == std::string::npos) return false;
+  return true;
+}
+
+void remove_leftovers(const fs::path& folder)
+{
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const std::string name = entry.path().filename(); name.front() == '.' && name.find(".tmp") != std::string::npos)
+      fs::remove(entry.path());
+}
+
+void claim(const fs::path& folder)
+{
+  if (is_there(folder) && !fs::is_directory(folder))
+    throw bad_input(folder.string(), "is a file", "a folder for the run's files", "choose another one with -o");
+  fs::create_directories(folder);
+  if (!holds_a_run_or_nothing(folder))
+    throw bad_input(folder.string(), "holds files that are not of a run", "an empty or a new folder", "choose another one with -o");
+  remove_leftovers(folder);
+  const fs::path probe = folder / "probe";
+  write_file_whole(probe, "writable?\n");
+  fs::remove(probe);
+}
+
+} // namespace
+
+preset::Preset resolved_for(const fs::path& folder, const preset::Preset& preset) { return preset::moved_to(preset, folder); }
+
+void claim_folder(const fs::path& folder)
+{
+  try {
+    claim(folder);
+  } catch (const fs::filesystem_error& error) {
+    throw failed(folder.string(), "cannot be used: " + error.code().message(), "a folder that can be written to",
+                 "choose another one with -o");
+  }
+}
+
+void begin_run(const fs::path& folder, const Prepared& prepared)
+{
+  for (const char* name : results) {
+    std::error_code ignored;
+    fs::remove(folder / name, ignored);
+  }
+  write_settings(folder, prepared);
+}
+
+void write_settings(const fs::path& folder, const Prepared& prepared)
+{
+  write_file_whole(folder / "preset.json", preset::to_json(resolved_for(folder, prepared.preset)) + "\n");
+  write_file_whole(folder / "plan.json", plan::to_json(prepared.plan) + "\n");
+}
+
+bool is_finished(const fs::path& folder, const preset::Preset& preset)
+{
+  for (const char* name : {"image.exr", "run.json", "preset.json"})
+    if (!is_there(folder / name)) return false;
+  if (read_file(folder / "preset.json") != preset::to_json(resolved_for(folder, preset)) + "\n") return false;
+  const auto run = nlohmann::json::parse(read_file(folder / "run.json"), nullptr, false);
+  return run.is_object() && run.value("finished", false);
+}
+
+} // namespace nephroid::run

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/run.h"
+
+#include "base/error.h"
+#include "preset/read.h"
+#include "spectral/engine.h"
+
+#include <cstring>
+
+namespace nephroid::run {
+namespace {
+
+/// Everything that a loaded scene depends on, but the camera.
+std::string scene_key(const preset::Preset& preset)
+{
+  preset::Preset scene_only;
+  scene_only.unit = preset.unit;
+  scene_only.scene = preset.scene;
+  scene_only.scene.camera = {};
+  return preset.source + '\n' + preset::to_json(scene_only);
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b)
+{
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool same_triangles(const scene::Mesh& a, const scene::Mesh& b)
+{
+  return same_bytes(a.positions, b.positions) && same_bytes(a.triangles, b.triangles);
+}
+
+LoadedScene load(const preset::Preset& preset, const Prepared* previous)
+{
+  if (previous && scene_key(preset) == scene_key(previous->preset)) {
+    LoadedScene loaded = *previous->loaded;
+    loaded.scene.camera = scene::make_camera(preset.scene.camera, loaded.scene);
+    return loaded;
+  }
+  LoadedScene loaded{scene::load_scene(preset), nullptr};
+  if (previous && same_triangles(loaded.scene.geometry, previous->loaded->scene.geometry))
+    loaded.bvh = previous->loaded->bvh;
+  else
+    loaded.bvh = std::make_shared<const scene::Bvh>(scene::build_bvh(loaded.scene.geometry));
+  return loaded;
+}
+
+} // namespace
+
+Prepared prepare(const preset::Preset& preset, const Prepared* previous)
+{
+  auto loaded = std::make_shared<const LoadedScene>(load(preset, previous));
+  plan::Plan plan = spectral::make_plan(preset, loaded->scene, *loaded->bvh);
+  return {preset, std::move(loaded), std::move(plan)};
+}
+
+std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context)
+{
+  return spectral::make_job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, prepared.plan, context);
+}
+
+} // namespace nephroid::run

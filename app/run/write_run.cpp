@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of a run. What the same preset and seed always give (image.exr, preset.json, plan.json) holds no time, no date and no
+// thread count, so that equal runs are equal files; what differs from run to run is in run.json.
+#include "base/build_info.h"
+#include "base/files.h"
+#include "image/image.h"
+#include "plan/plan.h"
+#include "preset/read.h"
+#include "run/picture.h"
+#include "run/run.h"
+
+#include <nlohmann/json.hpp>
+
+namespace nephroid::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::map<std::string, std::string> attributes(const preset::Preset& preset, const compute::DeviceInfo& device)
+{
+  return {{"nephroid:preset", preset::to_json(preset)},
+          {"nephroid:seed", std::to_string(preset.seed)},
+          {"nephroid:device", device.name},
+          {"nephroid:version", version()}};
+}
+
+Json energy_json(const job::EnergyBalance& energy)
+{
+  const double accounted = energy.deposited_w + energy.missed_w + energy.absorbed_w + energy.escaped_w + energy.lost_w;
+  return {{"emitted_w", energy.emitted_w},
+          {"deposited_w", energy.deposited_w},
+          {"missed_w", energy.missed_w},
+          {"absorbed_w", energy.absorbed_w},
+          {"escaped_w", energy.escaped_w},
+          {"lost_w", energy.lost_w},
+          {"unaccounted_w", energy.emitted_w - accounted},
+          {"refused_contributions", energy.refused_contributions}};
+}
+
+Json device_json(const compute::DeviceInfo& device)
+{
+  return {{"name", device.name},     {"type", device.type},       {"platform", device.platform},
+          {"driver", device.driver}, {"version", device.version}, {"compute_units", device.compute_units}};
+}
+
+std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device, const job::Snapshot& snapshot, bool finished)
+{
+  const job::Progress& progress = snapshot.progress;
+  Json phases = Json::object();
+  for (const auto& [name, seconds] : snapshot.phases) phases[name] = seconds;
+  const Json all{{"name", prepared.preset.name},
+                 {"engine", prepared.plan.engine},
+                 {"seed", prepared.preset.seed},
+                 {"version", version()},
+                 {"commit", commit()},
+                 {"compiler", compiler()},
+                 {"device", device_json(device)},
+                 {"finished", finished},
+                 {"passes", progress.step},
+                 {"fraction", progress.fraction},
+                 {"photons", progress.photons},
+                 {"work_seconds", progress.work_seconds},
+                 {"phase_seconds", phases},
+                 {"energy", energy_json(snapshot.energy)},
+                 {"notes", prepared.plan.notes}};
+  return all.dump(2) + "\n";
+}
+
+} // namespace
+
+void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
+               const job::Snapshot& snapshot, bool finished)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw failed(folder.string(), "cannot be made: " + error.message());
+  const job::Picture& picture = *snapshot.picture;
+  image::Image exr = with_layers(picture);
+  exr.attributes = attributes(resolved_for(folder, prepared.preset), device);
+  image::write_exr(folder / "image.exr", exr);
+  image::write_png(folder / "image.png", picture.width, picture.height, picture.rgb);
+  write_settings(folder, prepared);
+  write_file_whole(folder / "run.json", run_json(prepared, device, snapshot, finished)); // last: its "finished" speaks for all
+}
+
+} // namespace nephroid::run
