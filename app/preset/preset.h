@@ -20,12 +20,13 @@ enum class Outside { automatic, hold, extrapolate, refuse };
 struct Dispersion {
   enum class Type { constant, file, sellmeier, cauchy, table, points };
   Type type = Type::constant;
-  double n = 1.5;                             ///< constant
-  std::string file;                           ///< file: refractiveindex.info YAML
-  std::vector<double> b, c_um2;               ///< sellmeier: n^2 = 1 + sum b l^2 / (l^2 - c), l in micrometres, c in square micrometres
-  std::vector<double> coefficients;           ///< cauchy: n = c0 + c1 / l^2 + c2 / l^4 ..., l in micrometres
-  std::vector<std::array<double, 2>> table;   ///< table: (nm, n) linear; points: control points (nm, n), monotone cubic
+  double n = 1.5;                           ///< constant
+  std::string file;                         ///< file: refractiveindex.info YAML
+  std::vector<double> b, c_um2;             ///< sellmeier: n^2 = 1 + sum b l^2 / (l^2 - c), l in micrometres, c in square micrometres
+  std::vector<double> coefficients;         ///< cauchy: n = c0 + c1 / l^2 + c2 / l^4 ..., l in micrometres
+  std::vector<std::array<double, 2>> table; ///< table: (nm, n) linear; points: control points (nm, n), monotone cubic
   Outside outside = Outside::automatic;
+  bool operator==(const Dispersion&) const = default;
 };
 
 /// A light's spectrum. JSON: a string (CIE illuminant: A, D50, D65, E, F1..F12) or an object with "type".
@@ -33,8 +34,9 @@ struct LightSpectrum {
   enum class Type { illuminant, blackbody, lines, table };
   Type type = Type::illuminant;
   std::string illuminant = "D65";
-  double temperature_k = 6500;                ///< blackbody
-  std::vector<std::array<double, 2>> table;   ///< table: (nm, relative power) linear; lines: (nm, relative power) of single wavelengths
+  double temperature_k = 6500;              ///< blackbody
+  std::vector<std::array<double, 2>> table; ///< table: (nm, relative power) linear; lines: (nm, relative power) of single wavelengths
+  bool operator==(const LightSpectrum&) const = default;
 };
 
 /// A diffuse or mirror reflectance 0..1. JSON: a number, a string (ColorChecker patch, "blue sky"), or an object {"type":"table"}.
@@ -43,15 +45,17 @@ struct Reflectance {
   Type type = Type::constant;
   double value = 0.8;
   std::string patch;
-  std::vector<std::array<double, 2>> table;   ///< (nm, reflectance), linear, held outside
+  std::vector<std::array<double, 2>> table; ///< (nm, reflectance), linear, held outside
+  bool operator==(const Reflectance&) const = default;
 };
 
 struct Material {
   enum class Type { diffuse, dielectric, mirror };
   Type type = Type::diffuse;
-  Reflectance reflectance;                    ///< diffuse, mirror
-  Dispersion dispersion;                      ///< dielectric
-  bool absorption = true;                     ///< dielectric: use k where the dispersion file has it
+  Reflectance reflectance; ///< diffuse, mirror
+  Dispersion dispersion;   ///< dielectric
+  bool absorption = true;  ///< dielectric: use k where the dispersion file has it
+  bool operator==(const Material&) const = default;
 };
 
 /// Applied in the order scale, rotate (about x, then y, then z), translate.
@@ -59,51 +63,56 @@ struct Transform {
   Vec3 scale{1, 1, 1};
   Vec3 rotate_deg{0, 0, 0};
   Vec3 translate{0, 0, 0};
+  bool operator==(const Transform&) const = default;
 };
 
 /// Shapes are centred on the origin; y is up. Every closed shape's triangles face outwards.
 struct Shape {
   enum class Type { quad, box, sphere, cylinder, prism, plate, brilliant };
   Type type = Type::sphere;
-  Vec3 size{1, 1, 1};         ///< quad (x by z, facing +y), box, plate (x by z, y thick): edge lengths
-  double radius = 0.5;        ///< sphere, cylinder; brilliant: girdle radius
-  double height = 1;          ///< cylinder and prism: length along y
-  double apex_deg = 60;       ///< prism: the apex angle, at +z... two sides of length `side` meet there
-  double side = 1;            ///< prism: length of the two equal sides
-  int segments = 256;         ///< sphere, cylinder: facets around (sphere: half as many from pole to pole)
-  bool inwards = false;       ///< turn every triangle round, e.g. for a room
+  Vec3 size{1, 1, 1};   ///< quad (x by z, facing +y), box, plate (x by z, y thick): edge lengths
+  double radius = 0.5;  ///< sphere, cylinder; brilliant: girdle radius
+  double height = 1;    ///< cylinder and prism: length along y
+  double apex_deg = 60; ///< prism: angle between the two equal sides, whose edge is at +z
+  double side = 1;      ///< prism: length of the two equal sides
+  int segments = 256;   ///< sphere, cylinder: facets around (sphere: half as many from pole to pole)
+  bool inwards = false; ///< turn every triangle round, e.g. for a room
+  bool operator==(const Shape&) const = default;
 };
 
 struct Object {
   enum class Normals { faceted, smooth };
   std::string name;
-  std::optional<std::string> mesh;   ///< a mesh file; exactly one of mesh and shape is given
+  std::optional<std::string> mesh; ///< a mesh file; exactly one of mesh and shape is given
   std::optional<Shape> shape;
-  std::string material;              ///< a key of Scene::materials
+  std::string material; ///< a key of Scene::materials
   Transform transform;
   Normals normals = Normals::faceted;
-  int priority = 0;                  ///< nested dielectrics: where two overlap the higher one is there; equal: the one entered last
+  int priority = 0; ///< nested dielectrics: where two overlap the higher one is there; equal: the one entered last
+  bool operator==(const Object&) const = default;
 };
 
 struct Light {
   enum class Type { point, spot, directional, area };
   Type type = Type::point;
   LightSpectrum spectrum;
-  double power_w = 1;                ///< point, spot, area: radiant power of 380..780 nm
-  double irradiance_w_m2 = 1;        ///< directional: on a plane that faces it
-  Vec3 position{0, 0, 0};            ///< point, spot, area (its centre)
-  Vec3 direction{0, -1, 0};          ///< spot, directional, area (its facing side): the way the light goes
-  double half_angle_deg = 30;        ///< spot: constant intensity inside, 0 outside
-  std::array<double, 2> size{1, 1};  ///< area: a rectangle's edge lengths
-  Vec3 up{0, 0, 1};                  ///< area: along the rectangle's second edge (projected)
+  double power_w = 1;               ///< point, spot, area: radiant power of 380..780 nm
+  double irradiance_w_m2 = 1;       ///< directional: on a plane that faces it
+  Vec3 position{0, 0, 0};           ///< point, spot, area (its centre)
+  Vec3 direction{0, -1, 0};         ///< spot, directional, area (its facing side): the way the light goes
+  double half_angle_deg = 30;       ///< spot: constant intensity inside, 0 outside
+  std::array<double, 2> size{1, 1}; ///< area: a rectangle's edge lengths
+  Vec3 up{0, 0, 1};                 ///< area: along the rectangle's second edge (projected)
+  bool operator==(const Light&) const = default;
 };
 
 struct Camera {
   Vec3 position{0, 1, 4};
   Vec3 target{0, 0, 0};
   Vec3 up{0, 1, 0};
-  double fov_deg = 40;               ///< vertical
+  double fov_deg = 40; ///< vertical
   std::array<int, 2> resolution{512, 512};
+  bool operator==(const Camera&) const = default;
 };
 
 struct Scene {
@@ -111,38 +120,43 @@ struct Scene {
   std::map<std::string, Material> materials;
   std::vector<Object> objects;
   std::vector<Light> lights;
+  bool operator==(const Scene&) const = default;
 };
 
 /// Engine 1.
 struct Spectral {
   enum class Method { optimal, thesis, brute_force };
   Method method = Method::optimal;
-  double threshold_deg = 0.05;       ///< alpha: the largest change of the refraction angle inside a cluster
-  int photons_per_pass = 1 << 18;    ///< photons sent towards the caustic objects in one pass
-  int max_surfaces = 32;             ///< interfaces a path may meet before it is counted as lost
-  bool direct = true;                ///< layer: light that reaches a diffuse surface unbent
-  bool caustic = true;               ///< layer: light that met glass or a mirror, then one diffuse surface
+  double threshold_deg = 0.05;    ///< alpha: the largest change of the refraction angle inside a cluster
+  int photons_per_pass = 1 << 18; ///< photons sent towards the caustic objects in one pass
+  int pixel_samples = 64;         ///< samples a pixel of the direct layer, one a pass until there are so many
+  int max_surfaces = 32;          ///< interfaces a path may meet before it is counted as lost
+  bool direct = true;             ///< layer: light that reaches a diffuse surface unbent
+  bool caustic = true;            ///< layer: light that met glass or a mirror, then one diffuse surface
+  bool operator==(const Spectral&) const = default;
 };
 
 struct Stop {
-  std::optional<double> seconds;     ///< of work
+  std::optional<double> seconds; ///< of work
   std::optional<int> passes;
+  bool operator==(const Stop&) const = default;
 };
 
 struct Preset {
   enum class Engine { spectral };
   enum class Unit { mm, cm, m };
   std::string name;
-  std::string description;           ///< one line for `nephroid presets`
+  std::string description; ///< one line for `nephroid presets`
   Engine engine = Engine::spectral;
   Unit unit = Unit::m;
   std::uint64_t seed = 1;
-  double white = 1;                  ///< the luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture
+  double white = 1; ///< the luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture
   Scene scene;
   Spectral spectral;
   Stop stop;
 
-  std::string source;                ///< the file it came from, for messages and look-ups; not a field of the JSON
+  std::string source; ///< the file it came from, for messages and look-ups; not a field of the JSON
+  bool operator==(const Preset&) const = default;
 };
 
 double metres(Preset::Unit unit);

@@ -13,8 +13,10 @@ namespace nephroid::preset {
 using Overrides = std::vector<std::string>;
 
 /// Reads a preset file: "parent" chain, overrides, strict check of every key, type and range, sweep.
-/// name: a path, or the name of a shipped preset ("first-light", "spectral/prism"). One preset without "sweep", else one a run.
-/// Throws bad_input at FILE#/json/pointer (or FILE:LINE:COLUMN for broken JSON) with the nearest known key.
+/// name: a path, or the name of a shipped preset ("first-light", "spectral/prism"), each also without ".json". One preset without
+/// "sweep", else one a run, each with its own name ("NAME,seed=2"), the first swept key outermost.
+/// Throws bad_input at FILE#/json/pointer (or FILE:LINE:COLUMN for broken JSON, --set TEXT for an override) with the nearest
+/// known key; an inherited value names the file it stands in.
 std::vector<Preset> read_presets(const std::string& name, const Overrides& overrides = {});
 /// The same for a preset that must not have a sweep.
 Preset read_preset(const std::string& name, const Overrides& overrides = {});
@@ -23,11 +25,14 @@ Preset parse_preset(const std::string& json, const std::string& source, const Ov
 
 /// Complete: reading it again gives an equal preset, and every field is there. Indented JSON, keys in the order of describe.
 std::string to_json(const Preset& preset);
+/// The same for a file in another folder than the preset's source: a file name that would mean another file there (or none)
+/// becomes absolute, so that preset.json beside a run's pictures can be run again.
+std::string to_json(const Preset& preset, const std::filesystem::path& folder);
 /// JSON Schema (2020-12) of a preset file, from the same descriptions.
 std::string schema();
 
 struct ShippedPreset {
-  std::string name;          ///< e.g. "first-light"
+  std::string name; ///< e.g. "first-light"
   std::string description;
   std::filesystem::path file;
 };

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid schema`: the JSON Schema of preset files.
+#include "cli/verbs.h"
+#include "preset/read.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::cli {
+
+void add_schema(CLI::App& program, Session&)
+{
+  CLI::App* verb = program.add_subcommand("schema", "The JSON Schema of preset files, for editors");
+  verb->callback([] { fmt::print("{}", preset::schema()); });
+}
+
+} // namespace nephroid::cli

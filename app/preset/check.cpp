@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preset/check.h"
+
+#include "base/error.h"
+#include "base/nearest.h"
+#include "preset/json_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::preset {
+namespace {
+
+using Where = std::function<std::string(const std::string&)>;
+using Rows = std::vector<std::array<double, 2>>;
+
+double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
+
+Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+/// Single precision cannot make an orthonormal frame from two directions less than about 0.01 degrees apart.
+bool parallel(const Vec3& a, const Vec3& b)
+{
+  const Vec3 cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return length(cross) <= 2e-4 * length(a) * length(b);
+}
+
+/// Shorter ones have a square that single precision rounds to 0.
+bool no_direction(const Vec3& v) { return length(v) < 1e-12; }
+
+void check_direction(const Vec3& v, const std::string& pointer, const Where& where)
+{
+  if (no_direction(v)) throw bad_input(where(pointer), "has no length", "a direction");
+}
+
+void check_up(const Vec3& up, const Vec3& forward, const std::string& pointer, const Where& where)
+{
+  check_direction(up, pointer, where);
+  if (parallel(up, forward))
+    throw bad_input(where(pointer), "is parallel to the view or light direction", "another direction", "turn it away");
+}
+
+/// Two values at one wavelength contradict each other.
+void check_rows(const Rows& rows, const std::string& pointer, const Where& where)
+{
+  std::vector<std::size_t> order(rows.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rows[a][0] < rows[b][0]; });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (rows[order[i]][0] == rows[order[i - 1]][0])
+      throw bad_input(where(child(pointer, order[i])), fmt::format("{} nm is given twice", rows[order[i]][0]), "each wavelength once");
+}
+
+void check_dispersion(const Dispersion& d, const std::string& pointer, const Where& where)
+{
+  if (d.type == Dispersion::Type::sellmeier && d.b.size() != d.c_um2.size())
+    throw bad_input(where(pointer), fmt::format("has {} values in 'b' and {} in 'c_um2'", d.b.size(), d.c_um2.size()), "as many of both");
+  if (d.type == Dispersion::Type::table || d.type == Dispersion::Type::points) check_rows(d.table, child(pointer, "table"), where);
+}
+
+void check_material(const Material& m, const std::string& pointer, const Where& where)
+{
+  if (m.type == Material::Type::dielectric)
+    check_dispersion(m.dispersion, child(pointer, "dispersion"), where);
+  else if (m.reflectance.type == Reflectance::Type::table)
+    check_rows(m.reflectance.table, child(child(pointer, "reflectance"), "table"), where);
+}
+
+void check_spectrum(const LightSpectrum& s, const std::string& pointer, const Where& where)
+{
+  const bool lines = s.type == LightSpectrum::Type::lines;
+  if (!lines && s.type != LightSpectrum::Type::table) return;
+  const std::string table = child(pointer, "table");
+  if (!lines) check_rows(s.table, table, where);
+  if (std::none_of(s.table.begin(), s.table.end(), [](const auto& row) { return row[1] > 0; }))
+    throw bad_input(where(table), "has no power at any wavelength", "at least one power above 0");
+  if (lines && std::none_of(s.table.begin(), s.table.end(), [](const auto& row) { return row[0] >= 380 && row[0] <= 780 && row[1] > 0; }))
+    throw bad_input(where(table), "has no line that is rendered", "at least one from 380 to 780 nm");
+}
+
+void check_object(const Object& o, const Scene& scene, const std::string& pointer, const Where& where)
+{
+  if (o.mesh.has_value() == o.shape.has_value())
+    throw bad_input(where(pointer), o.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'", "exactly one of them");
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (std::abs(o.transform.scale[axis]) < 1e-6)
+      throw bad_input(where(child(child(child(pointer, "transform"), "scale"), axis)), fmt::format("is {}", o.transform.scale[axis]),
+                      "a factor of at least 1e-06 or at most -1e-06", "for a thin object use a plate");
+  if (scene.materials.contains(o.material)) return;
+  std::vector<std::string> known;
+  for (const auto& [name, material] : scene.materials) known.push_back(name);
+  const std::string found = nearest(o.material.substr(0, 64), known);
+  if (known.size() > 12) known.resize(12);
+  throw bad_input(where(child(pointer, "material")), "there is no material " + in_quotes(o.material),
+                  known.empty() ? "scene.materials is empty" : fmt::format("scene.materials has {}", fmt::join(known, ", ")),
+                  found.empty() ? "" : fmt::format("did you mean '{}'?", found));
+}
+
+void check_light(const Light& l, const std::string& pointer, const Where& where)
+{
+  check_spectrum(l.spectrum, child(pointer, "spectrum"), where);
+  if (l.type != Light::Type::point) check_direction(l.direction, child(pointer, "direction"), where);
+  if (l.type == Light::Type::area) check_up(l.up, l.direction, child(pointer, "up"), where);
+}
+
+void check_camera(const Camera& c, const Where& where)
+{
+  const Vec3 forward = minus(c.target, c.position);
+  if (no_direction(forward)) throw bad_input(where("/scene/camera/target"), "is where the camera stands", "another point");
+  check_up(c.up, forward, "/scene/camera/up", where);
+}
+
+} // namespace
+
+void check(const Preset& preset, const Where& where)
+{
+  const Scene& scene = preset.scene;
+  check_camera(scene.camera, where);
+  for (const auto& [name, material] : scene.materials) check_material(material, child("/scene/materials", name), where);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) check_object(scene.objects[i], scene, child("/scene/objects", i), where);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
+}
+
+} // namespace nephroid::preset

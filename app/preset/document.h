@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A preset as JSON before its fields are read: files with their parents merged, --set applied, and for every value the place it
+// came from. Private to preset/.
+#pragma once
+#include "preset/json_text.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nephroid::preset {
+
+/// Who gave a value: a file, or something in it or on the command line that has a name of its own.
+struct Origin {
+  std::string name;             ///< "FILE" or "--set a.b=c" or "FILE#/sweep/seed/0"
+  bool is_file = true;          ///< then "#/pointer" follows
+  std::filesystem::path folder; ///< where the file names in the value are looked up first
+};
+
+/// The last component wins: an object is merged into an object, anything else replaces what was there (docs/presets.md).
+class Document {
+public:
+  Document() = default;
+  Document(Json value, Origin origin);
+
+  const Json& value() const { return value_; }
+  /// The file that was asked for, at the end of its chain of parents.
+  const Origin& main() const { return *main_; }
+  /// Who gave the value at pointer.
+  const Origin& origin(const std::string& pointer) const;
+  /// For messages: "FILE#/pointer" or "--set a.b=c".
+  std::string where(const std::string& pointer) const;
+
+  /// A child's values over this one, which then is its parent.
+  void merge(const Json& over, const Origin& origin);
+  /// Puts a value at a path of keys and list indices, making the objects on the way. Throws bad_input at origin where the path
+  /// leads through a plain value or beyond the end of a list.
+  void set(const std::vector<std::string>& path, Json value, const Origin& origin);
+  /// Takes a key of the root out and returns its value, null where it is not there.
+  Json take(const std::string& key);
+
+private:
+  const std::shared_ptr<const Origin>& origin_at(const std::string& pointer) const;
+  void replace(Json& slot, const Json& value, const std::string& pointer, const std::shared_ptr<const Origin>& origin);
+  void merge(Json& into, const Json& over, const std::string& pointer, const std::shared_ptr<const Origin>& origin);
+
+  Json value_;
+  std::shared_ptr<const Origin> main_;
+  std::map<std::string, std::shared_ptr<const Origin>> origins_; ///< of each pointer whose origin is not that of the value around it
+};
+
+/// "a.b.0.c" as its keys; empty where one of them is.
+std::vector<std::string> split_path(std::string_view path);
+
+/// Applies one "a.b.0.c=value".
+void apply_override(Document& document, const std::string& text);
+
+/// A file with its chain of parents. Throws bad_input as read.h says, with every file's own name.
+Document load_document(const std::filesystem::path& file);
+/// The same from text; source stands for its file.
+Document parse_document(const std::string& text, const std::string& source);
+
+/// The file that a person means by name: beside `folder`, then in presets/, each also with ".json" behind it.
+/// Throws bad_input at where.
+std::filesystem::path find_preset(const std::string& name, const std::filesystem::path& folder, const std::string& where);
+
+} // namespace nephroid::preset

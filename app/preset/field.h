@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a description says about one field of a preset, about the words of an enumeration and about a whole struct: the
+// vocabulary of describe.h. No JSON here: the editor needs the same facts.
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace nephroid::preset {
+
+/// The numbers a field may hold, ends included unless said otherwise.
+struct Bounds {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool without_low = false, without_high = false;
+
+  constexpr bool contain(double x) const { return (without_low ? x > low : x >= low) && (without_high ? x < high : x <= high); }
+};
+/// low <= x <= high.
+constexpr Bounds within(double low, double high) { return {low, high, false, false}; }
+/// low < x < high.
+constexpr Bounds between(double low, double high) { return {low, high, true, true}; }
+
+/// How many items a list or a table may have.
+struct Count {
+  std::size_t low = 0, high = std::numeric_limits<std::size_t>::max();
+};
+
+/// One column of a table of number pairs.
+struct Column {
+  std::string_view name, unit;
+  Bounds bounds;
+};
+
+struct Columns {
+  Column first, second;
+  const Column& operator[](std::size_t i) const { return i == 0 ? first : second; }
+};
+
+/// text: anything; line: without line breaks and other control characters; file: the name of a file, looked up as docs/presets.md says.
+enum class Text { text, line, file };
+
+/// One field. Its default is not here: it is what a default-constructed struct holds.
+struct Field {
+  std::string_view name;      ///< the key in JSON
+  std::string_view sentence;  ///< for a person: the schema's description, the editor's tooltip
+  std::string_view unit = {}; ///< as it reads after a number: "degrees", "nm"; empty for pure numbers
+  Bounds bounds = {};         ///< of a number and of every number in a vector
+  Count count = {};           ///< of a list
+  Columns columns = {};       ///< of a table of pairs
+  Text text = Text::text;     ///< of a string
+  bool required = false;      ///< no default is sensible
+};
+
+/// One word of an enumeration. For a struct's type it introduces the fields that come with it.
+template <class E>
+struct Choice {
+  E value;
+  std::string_view name, sentence;
+};
+
+/// Every word of the enumeration E: specialised in choices.h.
+template <class E>
+struct Choices;
+
+template <class E>
+concept Enumeration = std::is_enum_v<E>;
+
+template <Enumeration E>
+constexpr std::string_view word(E value)
+{
+  for (const Choice<E>& choice : Choices<E>::all)
+    if (choice.value == value) return choice.name;
+  return {};
+}
+
+/// What a bare JSON value in place of a struct may be.
+enum class Bare { number, text };
+
+/// `"dispersion": 1.5` stands for `{"type": "constant", "n": 1.5}`: a bare value is the field `field` of the type `type`.
+template <class E>
+struct Shorthand {
+  Bare bare;
+  E type;
+  std::string_view field;
+};
+
+/// A struct as a whole: name, sentence and, where it has any, `shorthands`. Specialised in choices.h.
+template <class S>
+struct About;
+
+template <class S>
+concept Described = requires
+{
+  About<std::remove_const_t<S>>::name;
+};
+
+/// A struct of which `type` chooses the fields that mean something.
+template <class S>
+concept Variant = Described<S> && requires
+{
+  typename About<std::remove_const_t<S>>::Type;
+};
+
+template <class S>
+concept WithShorthands = Variant<S> && requires
+{
+  About<std::remove_const_t<S>>::shorthands;
+};
+
+/// S is T or const T: describe() serves readers and writers alike.
+template <class S, class T>
+concept Is = std::same_as<std::remove_const_t<S>, T>;
+
+} // namespace nephroid::preset

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preset/files.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "preset/describe.h"
+
+#include <optional>
+#include <system_error>
+
+namespace nephroid::preset {
+namespace fs = std::filesystem;
+namespace {
+
+/// Absolute and without links, so that two ways to the same file compare equal.
+std::optional<fs::path> found_from(const fs::path& folder, const std::string& name)
+{
+  try {
+    return fs::canonical(FileFinder(folder).find(name, ""));
+  } catch (const Error&) {
+    return std::nullopt; // whoever reads the file will say so
+  } catch (const fs::filesystem_error&) {
+    return std::nullopt;
+  }
+}
+
+bool same_folder(const fs::path& a, const fs::path& b)
+{
+  std::error_code ignored;
+  const auto here = [](const fs::path& p) { return p.empty() ? fs::path(".") : p; };
+  return a == b || fs::equivalent(here(a), here(b), ignored);
+}
+
+/// Visits every field and renames the files in them.
+class Mover {
+public:
+  Mover(const fs::path& from, const fs::path& to) : from_(from), to_(to) {}
+
+  template <class E>
+  void type(const Field&, E&)
+  {
+  }
+  template <class T>
+  void field(const Field& f, T& value)
+  {
+    move(f, value);
+  }
+
+private:
+  void move(const Field& f, std::string& name)
+  {
+    if (f.text == Text::file) name = name_from(to_, name, from_);
+  }
+  template <Described S>
+  void move(const Field&, S& s)
+  {
+    describe(*this, s);
+  }
+  template <class T>
+  void move(const Field& f, std::optional<T>& value)
+  {
+    if (value) move(f, *value);
+  }
+  template <Described S>
+  void move(const Field& f, std::vector<S>& list)
+  {
+    for (S& s : list) move(f, s);
+  }
+  template <Described S>
+  void move(const Field& f, std::map<std::string, S>& map)
+  {
+    for (auto& [name, s] : map) move(f, s);
+  }
+  template <class T>
+  void move(const Field&, T&)
+  {
+  } // numbers and words name no files
+
+  const fs::path& from_;
+  const fs::path& to_;
+};
+
+} // namespace
+
+std::string name_from(const fs::path& folder, const std::string& name, const fs::path& own_folder)
+{
+  if (fs::path(name).is_absolute() || same_folder(folder, own_folder)) return name;
+  const auto meant = found_from(own_folder, name);
+  return meant && found_from(folder, name) != meant ? meant->string() : name;
+}
+
+Preset moved_to(Preset preset, const fs::path& folder)
+{
+  const fs::path from = fs::path(preset.source).parent_path();
+  Mover mover(from, folder);
+  describe(mover, preset);
+  return preset;
+}
+
+} // namespace nephroid::preset

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preset/json_text.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace nephroid::preset {
+namespace {
+
+/// Builds the value from the parser's events: nlohmann's own builder lets the last of two equal keys win silently.
+class Builder : public nlohmann::json_sax<Json> {
+public:
+  Builder(std::string_view text, const std::string& source) : text_(text), source_(source) {}
+  Json take() { return std::move(root_); }
+
+  bool null() override { return place(nullptr); }
+  bool boolean(bool value) override { return place(value); }
+  bool number_integer(number_integer_t value) override { return place(value); }
+  bool number_unsigned(number_unsigned_t value) override { return place(value); }
+  bool number_float(number_float_t value, const string_t&) override { return place(value); }
+  bool string(string_t& value) override { return place(std::move(value)); }
+  bool binary(binary_t&) override { return false; } // JSON text has none
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& name) override
+  {
+    Level& level = levels_.back();
+    const std::string where = source_ + "#" + child(level.pointer, name);
+    if (!level.keys.insert(name).second) throw bad_input(where, fmt::format("key {} is given twice", in_quotes(name)), "each key once");
+    if (level.keys.size() > max_keys) throw bad_input(where, "too many keys", fmt::format("at most {} in one object", max_keys));
+    level.key = name;
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override
+  {
+    const std::string_view before = text_.substr(0, std::min(position == 0 ? 0 : position - 1, text_.size()));
+    const std::size_t line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1; // npos + 1 is 0: the first line
+    throw bad_input(fmt::format("{}:{}:{}", source_, line, column), "is not JSON", reason(error.what()));
+  }
+
+private:
+  struct Level {
+    Json* value;
+    std::string pointer;
+    std::set<std::string> keys = {};
+    std::string key = {};
+  };
+
+  /// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while ...": the part that is not ours to say.
+  static std::string reason(std::string what)
+  {
+    for (const char* start : {"] parse error at ", "] "})
+      if (const std::size_t at = what.find(start); at != std::string::npos) {
+        const std::size_t from = start[2] == 'p' ? what.find(": ", at) + 2 : at + 2;
+        what = what.substr(from);
+        break;
+      }
+    std::erase_if(what, [](unsigned char c) { return c < 0x20 || c >= 0x7f; });
+    return what;
+  }
+
+  std::string next_pointer() const
+  {
+    if (levels_.empty()) return "";
+    const Level& level = levels_.back();
+    return level.value->is_object() ? child(level.pointer, level.key) : child(level.pointer, level.value->size());
+  }
+
+  Json* insert(Json&& value)
+  {
+    if (levels_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    Level& level = levels_.back();
+    if (level.value->is_array()) {
+      level.value->push_back(std::move(value));
+      return &level.value->back();
+    }
+    Json& slot = (*level.value)[level.key];
+    slot = std::move(value);
+    return &slot;
+  }
+
+  template <class T>
+  bool place(T&& value)
+  {
+    insert(Json(std::forward<T>(value)));
+    return true;
+  }
+
+  bool open(Json&& empty)
+  {
+    std::string pointer = next_pointer();
+    if (levels_.size() >= max_depth) throw bad_input(source_ + "#" + pointer, fmt::format("is nested deeper than {} levels", max_depth));
+    levels_.push_back({insert(std::move(empty)), std::move(pointer)});
+    return true;
+  }
+
+  bool close()
+  {
+    levels_.pop_back();
+    return true;
+  }
+
+  std::string_view text_;
+  const std::string& source_;
+  Json root_;
+  std::vector<Level> levels_; // pointers stay valid: a container is only added to while it is the innermost open one
+};
+
+bool is_plain(const Json& value) { return !value.is_structured(); }
+
+/// Lists that read best on one line: of plain values.
+bool on_one_line(const Json& value) { return value.is_array() && std::all_of(value.begin(), value.end(), is_plain); }
+
+void print(const Json& value, int indent, std::string& out)
+{
+  if (is_plain(value) || value.empty()) {
+    out += value.dump();
+    return;
+  }
+  if (on_one_line(value)) {
+    for (std::size_t i = 0; i < value.size(); ++i) out += (i == 0 ? "[" : ", ") + value[i].dump();
+    out += "]";
+    return;
+  }
+  const bool object = value.is_object();
+  const std::string margin(static_cast<std::size_t>(indent) + 2, ' ');
+  out += object ? "{" : "[";
+  bool first = true;
+  for (const auto& [key, item] : value.items()) {
+    out += first ? "\n" : ",\n";
+    out += margin;
+    if (object) out += Json(key).dump() + ": ";
+    print(item, indent + 2, out);
+    first = false;
+  }
+  out += fmt::format("\n{}{}", margin.substr(2), object ? "}" : "]");
+}
+
+std::string shortened(std::string text, std::size_t most)
+{
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0) == 0x80) --most; // not inside a UTF-8 character
+  return text.substr(0, most) + "...";
+}
+
+/// Escaped as in JSON, without its quotation marks: nothing unprintable is left, not even where the bytes are no UTF-8.
+std::string printable(std::string_view text)
+{
+  const std::string escaped = Json(std::string(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return escaped.substr(1, escaped.size() - 2);
+}
+
+} // namespace
+
+Json parse_json(std::string_view text, const std::string& source)
+{
+  Builder builder(text, source);
+  Json::sax_parse(text, &builder);
+  return builder.take();
+}
+
+std::string pretty(const Json& value)
+{
+  std::string out;
+  print(value, 0, out);
+  return out + "\n";
+}
+
+std::string shown(const Json& value)
+{
+  if (value.is_object()) return "an object";
+  if (value.is_array())
+    return value.empty() ? "an empty list" : value.size() == 1 ? "a list of 1 item" : fmt::format("a list of {} items", value.size());
+  if (value.is_string()) return "the string " + in_quotes(value.get_ref<const std::string&>());
+  return value.dump();
+}
+
+std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shortened(printable(text), 60)); }
+
+std::string child(const std::string& pointer, std::string_view key)
+{
+  std::string escaped;
+  for (const char c : shortened(printable(key), 100)) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return pointer + "/" + escaped;
+}
+
+std::string child(const std::string& pointer, std::size_t index) { return fmt::format("{}/{}", pointer, index); }
+
+} // namespace nephroid::preset

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preset/read.h"
+
+#include "base/error.h"
+#include "preset/check.h"
+#include "preset/document.h"
+#include "preset/reader.h"
+#include "preset/sweep.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::preset {
+namespace {
+
+Preset finish(const SweptDocument& run)
+{
+  const Document& document = run.document;
+  Preset preset = read_fields(document);
+  preset.source = document.main().name;
+  if (!document.value().contains("name")) preset.name = std::filesystem::path(preset.source).stem().string();
+  preset.name += run.suffix;
+  check(preset, [&](const std::string& pointer) { return document.where(pointer); });
+  return preset;
+}
+
+std::vector<SweptDocument> runs_of(Document document, const Overrides& overrides)
+{
+  for (const std::string& text : overrides) apply_override(document, text);
+  return expand_sweep(std::move(document), overrides);
+}
+
+const SweptDocument& only(const std::vector<SweptDocument>& runs)
+{
+  if (runs.size() != 1)
+    throw bad_input(runs.front().document.main().name + "#/sweep", fmt::format("gives {} runs", runs.size()), "one preset is wanted here",
+                    "fix the swept keys by --set, or --set sweep=null");
+  return runs.front();
+}
+
+Document load(const std::string& name) { return load_document(find_preset(name, {}, "preset")); }
+
+} // namespace
+
+std::vector<Preset> read_presets(const std::string& name, const Overrides& overrides)
+{
+  std::vector<Preset> presets;
+  for (const SweptDocument& run : runs_of(load(name), overrides)) presets.push_back(finish(run));
+  return presets;
+}
+
+Preset read_preset(const std::string& name, const Overrides& overrides) { return finish(only(runs_of(load(name), overrides))); }
+
+Preset parse_preset(const std::string& json, const std::string& source, const Overrides& overrides)
+{
+  return finish(only(runs_of(parse_document(json, source), overrides)));
+}
+
+} // namespace nephroid::preset
