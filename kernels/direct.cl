@@ -78,7 +78,9 @@ __kernel void direct(__global const float* nodes, __global const float* blocks, 
   const int column = index % camera.width, row = first_row + index / camera.width;
   const uint pixel = (uint)(row * camera.width + column);
   const Geometry geometry = {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root};
+#if NEPHROID_ATTENUATORS > 0
   const SpectralTables tables = {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance};
+#endif
   const float4 first_random = random4(seed, frame, pixel, 0u, STREAM_CAMERA);
 
   float3 origin = camera.position.xyz, direction = primary_direction(&camera, column, row, first_random.xy);

@@ -76,7 +76,9 @@ __kernel void photons(__global const float* nodes, __global const float* blocks,
                       float energy_scale)
 {
   const Geometry geometry = {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root};
+#if NEPHROID_ATTENUATORS > 0
   const SpectralTables tables = {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance};
+#endif
   long outcomes[OUTCOME_COUNT] = {0};
   for (int k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + (uint)k;

@@ -4,7 +4,7 @@
 #ifndef NEPHROID_SHARED_TYPES_H
 #define NEPHROID_SHARED_TYPES_H
 
-#ifndef __OPENCL_VERSION__
+#ifndef __OPENCL_C_VERSION__
 #include <cstdint>
 namespace nephroid::shared {
 using uint = std::uint32_t;
@@ -102,7 +102,7 @@ typedef struct {
   float outside_distance; // directional photons start this far before their target: outside of everything
 } DeviceScene;
 
-#ifndef __OPENCL_VERSION__
+#ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 16 && sizeof(Media) == 48);
 static_assert(sizeof(DeviceLight) == 128 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 32);
 static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 32);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs OpenCL source that a test brings with it, with the project's own kernel headers beside it.
+#pragma once
+#include "compute/compute.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace nephroid::test {
+
+/// A context whose kernel folder holds the project's kernels and `source` as test.cl. The folder goes with the object.
+class TestKernels {
+public:
+  explicit TestKernels(const std::string& source)
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "nephroid-kernels-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    for (const auto& entry : std::filesystem::directory_iterator(NEPHROID_SOURCE_DIR "/kernels"))
+      std::filesystem::create_symlink(entry.path(), folder_ / entry.path().filename());
+    std::ofstream(folder_ / "test.cl") << source;
+    compute::DeviceOptions options;
+    options.kernels = folder_;
+    context_ = compute::Context::open(options);
+  }
+  ~TestKernels() { std::filesystem::remove_all(folder_); }
+  TestKernels(const TestKernels&) = delete;
+  TestKernels& operator=(const TestKernels&) = delete;
+
+  const compute::Context& context() const { return context_; }
+  compute::Kernel kernel(const std::string& name, const compute::Defines& defines = {}) const
+  {
+    return compute::Program(context_, "test.cl", defines).kernel(name);
+  }
+
+private:
+  std::filesystem::path folder_;
+  compute::Context context_;
+};
+
+} // namespace nephroid::test
