@@ -30,7 +30,10 @@ void add_window_options(CLI::App& program, nephroid::ui::Options& options)
       ->check(CLI::NonNegativeNumber)
       ->type_name("N")
       ->group(group);
-  program.add_flag("--until-finished", options.until_finished, "Before the screenshot wait until the run is over")->group(group);
+  program.add_option("--until", options.until, "Before closing by --frames wait for this part of the run; 1: until it is over")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("F")
+      ->group(group);
   program.add_option("--frame-times", options.frame_times, "Write every frame's time as CSV")->type_name("FILE")->group(group);
   program.add_option("--layout", options.layout, "Where the panels are")->type_name("NAME")->group(group);
   program.add_option("--size", options.size, "Width and height of the window's content")

@@ -10,16 +10,16 @@
 namespace nephroid::ui {
 
 struct Options {
-  std::vector<std::string> files;        ///< what to open: presets by path or shipped name; the first that can be opened is shown
-  std::vector<std::string> overrides;    ///< --set a.b.c=v, applied to the presets named by `files`
-  std::string device;                    ///< --device, as compute::DeviceOptions::selector takes it
-  std::filesystem::path kernels;         ///< --kernels DIR; empty: the embedded ones
-  std::filesystem::path screenshot;      ///< --screenshot FILE: write the window's content as PNG, then close
-  int frames = 0;                        ///< --frames N: close after N frames; 0: 60 with a screenshot, else never
-  double until = 0;                      ///< --until F: before closing by `frames` also wait for this fraction 0..1 of the run; 1: until it is over
-  std::filesystem::path frame_times;     ///< --frame-times FILE: CSV "frame,milliseconds,state,fraction" of every frame drawn
-  std::string layout;                    ///< --layout NAME: where the panels are; "" or "default"
-  std::array<int, 2> size{1280, 860};    ///< --size WxH: the window's content, in screen coordinates
+  std::vector<std::string> files;     ///< what to open: presets by path or shipped name; the first that can be opened is shown
+  std::vector<std::string> overrides; ///< --set a.b.c=v, applied to the presets named by `files`
+  std::string device;                 ///< --device, as compute::DeviceOptions::selector takes it
+  std::filesystem::path kernels;      ///< --kernels DIR; empty: the embedded ones
+  std::filesystem::path screenshot;   ///< --screenshot FILE: write the window's content as PNG, then close
+  int frames = 0;                     ///< --frames N: close after N frames; 0: 60 with a screenshot, else never
+  double until = 0; ///< --until F: before closing by `frames` also wait for this fraction 0..1 of the run; 1: until it is over
+  std::filesystem::path frame_times;  ///< --frame-times FILE: CSV "frame,milliseconds,state,fraction" of every frame drawn
+  std::string layout;                 ///< --layout NAME: where the panels are; "" or "default"
+  std::array<int, 2> size{1280, 860}; ///< --size WxH: the window's content, in screen coordinates
 };
 
 /// Opens the window, runs until it is closed and returns the exit code (0). Call from the main thread.

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/actions.h"
+
+#include "base/error.h"
+#include "ui/workbench.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace nephroid::ui {
+namespace {
+
+using W = const Workbench&;
+using C = Commands&;
+
+bool always(W) { return true; }
+bool has_preset(W w) { return w.preset() != nullptr; }
+bool has_picture(W w) { return w.snapshot() != nullptr; }
+bool can_undo(W w) { return w.history() && !w.history()->undo_label().empty(); }
+bool can_redo(W w) { return w.history() && !w.history()->redo_label().empty(); }
+bool works(W w)
+{
+  const job::State state = w.status().state;
+  return state == job::State::preparing || state == job::State::running || state == job::State::paused;
+}
+
+void ask(C commands, Question question) { commands.push_back(command::Ask{question}); }
+
+void save(W w, C commands)
+{
+  const std::filesystem::path target = w.save_target();
+  if (target.empty())
+    ask(commands, Question::save_preset);
+  else
+    commands.push_back(command::SavePreset{target});
+}
+
+void brighten(W w, C commands, double stops)
+{
+  Look look = w.look();
+  look.exposure_stops = stops == 0 ? 0 : look.exposure_stops + stops;
+  commands.push_back(command::SetLook{look});
+}
+
+void actual_size(W w, C commands)
+{
+  Look look = w.look();
+  const job::Picture& picture = *w.snapshot()->picture;
+  look.fit = false;
+  look.zoom = 1;
+  look.centre = {picture.width / 2.0, picture.height / 2.0};
+  commands.push_back(command::SetLook{look});
+}
+
+void fit(W w, C commands)
+{
+  Look look = w.look();
+  look.fit = true;
+  commands.push_back(command::SetLook{look});
+}
+
+void reset_camera(W w, C commands)
+{
+  preset::Preset edited = *w.preset();
+  edited.scene.camera = w.history()->opened().scene.camera;
+  commands.push_back(command::Edit{"reset the camera", std::move(edited)});
+}
+
+constexpr int ctrl = ImGuiMod_Ctrl, shift = ImGuiMod_Shift;
+
+const Action table[] = {
+    {"File", "Open...", ctrl | ImGuiKey_O, false, "A preset file, or one of the shipped presets", always,
+     [](W, C c) { ask(c, Question::open); }},
+    {"File", "Save preset", ctrl | ImGuiKey_S, false, "Write the preset as it is now to its file", has_preset, save},
+    {"File", "Save preset as...", ctrl | shift | ImGuiKey_S, false, "Write the preset as it is now to another file", has_preset,
+     [](W, C c) { ask(c, Question::save_preset); }},
+    {"File", "Save picture as...", ctrl | ImGuiKey_E, false, "Write the picture as it is now: .png as shown, .exr linear", has_picture,
+     [](W, C c) { ask(c, Question::save_picture); }},
+    {"File", "Quit", ctrl | ImGuiKey_Q, false, "Close the window", always, [](W, C c) { c.push_back(command::Quit{}); }},
+    {"Edit", "Undo", ctrl | ImGuiKey_Z, true, "Take back the newest edit of the preset", can_undo,
+     [](W, C c) { c.push_back(command::Undo{}); }},
+    {"Edit", "Redo", ctrl | shift | ImGuiKey_Z, true, "Do again what was taken back", can_redo,
+     [](W, C c) { c.push_back(command::Redo{}); }},
+    {"Edit", "Reset camera", ImGuiKey_Home, false, "The camera of the preset as it was opened", has_preset, reset_camera},
+    {"Run", "Start again", ImGuiKey_F5, false, "Start the run from its beginning", has_preset,
+     [](W, C c) { c.push_back(command::Restart{}); }},
+    {"Run", "Pause", ImGuiKey_Space, false, "Hold the run, or let it go on", works,
+     [](W w, C c) { c.push_back(command::Pause{w.status().state != job::State::paused}); }},
+    {"Run", "Cancel", ImGuiKey_Escape, false, "End the run; its picture stays", works, [](W, C c) { c.push_back(command::Cancel{}); }},
+    {"View", "Fit", ImGuiKey_F, false, "The whole picture in the panel", has_picture, fit},
+    {"View", "Actual size", ImGuiKey_1, false, "One pixel of the picture is one of the screen", has_picture, actual_size},
+    {"View", "Brighter", ImGuiKey_E, true, "Half a stop more exposure", always, [](W w, C c) { brighten(w, c, 0.5); }},
+    {"View", "Darker", shift | ImGuiKey_E, true, "Half a stop less exposure", always, [](W w, C c) { brighten(w, c, -0.5); }},
+    {"View", "Exposure 0", ImGuiKey_0, false, "The picture as image.png shows it", always, [](W w, C c) { brighten(w, c, 0); }},
+    {"View", "Reset layout", 0, false, "Every panel back to its place", always, [](W, C c) { c.push_back(command::ResetLayout{}); }},
+    {"Help", "Mouse and keys", ImGuiKey_F1, false, "What the mouse and the keys do", always,
+     [](W w, C c) { c.push_back(command::ShowHelp{!w.help_shown()}); }},
+};
+
+const char* keys(const Action& action) { return action.shortcut ? ImGui::GetKeyChordName(action.shortcut) : ""; }
+
+} // namespace
+
+std::span<const Action> actions() { return table; }
+
+const Action& action(const char* name)
+{
+  const auto found = std::find_if(std::begin(table), std::end(table), [&](const Action& a) { return std::string_view(a.name) == name; });
+  if (found == std::end(table)) throw failed("actions", std::string("there is no action \"") + name + "\"");
+  return *found;
+}
+
+void action_button(const char* name, const Workbench& workbench, Commands& commands)
+{
+  const Action& meant = action(name);
+  ImGui::BeginDisabled(!meant.enabled(workbench));
+  if (ImGui::Button(name)) meant.run(workbench, commands);
+  ImGui::EndDisabled();
+  ImGui::SetItemTooltip("%s: %s", meant.help, keys(meant));
+}
+
+void draw_menus(const Workbench& workbench, Commands& commands)
+{
+  const char* menu = nullptr;
+  bool open = false;
+  for (const Action& action : table) {
+    if (!menu || std::string_view(menu) != action.menu) {
+      if (open) ImGui::EndMenu();
+      menu = action.menu;
+      open = ImGui::BeginMenu(menu);
+    }
+    if (!open) continue;
+    if (ImGui::MenuItem(action.name, keys(action), false, action.enabled(workbench))) action.run(workbench, commands);
+    ImGui::SetItemTooltip("%s", action.help);
+  }
+  if (open) ImGui::EndMenu();
+}
+
+void run_shortcuts(const Workbench& workbench, Commands& commands)
+{
+  if (workbench.question() != Question::none) return;
+  for (const Action& action : table) {
+    const ImGuiInputFlags flags = ImGuiInputFlags_RouteGlobal | (action.repeats ? ImGuiInputFlags_Repeat : 0);
+    if (action.shortcut && ImGui::Shortcut(action.shortcut, flags) && action.enabled(workbench)) action.run(workbench, commands);
+  }
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/dialogs.h"
+
+#include "base/error.h"
+#include "ui/workbench.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <filesystem>
+
+namespace nephroid::ui {
+namespace {
+
+const char* title(Question question)
+{
+  switch (question) {
+  case Question::open:
+    return "Open a preset";
+  case Question::save_preset:
+    return "Save the preset as";
+  case Question::save_picture:
+    return "Save the picture as";
+  case Question::quit:
+    return "Unsaved changes";
+  case Question::none:
+    break;
+  }
+  return "";
+}
+
+int resize(ImGuiInputTextCallbackData* data)
+{
+  if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
+  auto* text = static_cast<std::string*>(data->UserData);
+  text->resize(static_cast<std::size_t>(data->BufTextLen));
+  data->Buf = text->data();
+  return 0;
+}
+
+/// True when Enter was pressed.
+bool input_text(const char* label, const char* hint, std::string& text)
+{
+  constexpr ImGuiInputTextFlags flags = ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_EnterReturnsTrue;
+  return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1, flags, resize, &text);
+}
+
+bool exists(const std::string& file)
+{
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
+}
+
+} // namespace
+
+void Dialogs::begin(const Workbench& workbench)
+{
+  shown_ = workbench.question();
+  name_ = shown_ == Question::open ? std::string() : workbench.proposed_name(shown_);
+  shipped_.clear();
+  ImGui::OpenPopup(title(shown_));
+  if (shown_ == Question::open) shipped_ = preset::shipped_presets();
+}
+
+void Dialogs::draw(const Workbench& workbench, Commands& commands)
+{
+  if (workbench.question() == Question::none) {
+    shown_ = Question::none;
+    return;
+  }
+  if (shown_ != workbench.question()) begin(workbench);
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->GetWorkCenter(), ImGuiCond_Always, {0.5f, 0.5f});
+  bool open = true;
+  if (!ImGui::BeginPopupModal(title(shown_), &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    commands.push_back(command::Ask{Question::none}); // closed by its cross
+    return;
+  }
+  if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) open = false;
+  if (shown_ == Question::open)
+    draw_open(commands);
+  else if (shown_ == Question::quit)
+    draw_quit(workbench, commands);
+  else
+    draw_save(commands);
+  if (!open) commands.push_back(command::Ask{Question::none});
+  ImGui::EndPopup();
+}
+
+void Dialogs::draw_open(Commands& commands)
+{
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextItemWidth(em * 30);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  const bool entered = input_text("##file", "path of a preset file, or its name", name_);
+  ImGui::SameLine();
+  ImGui::BeginDisabled(name_.empty());
+  if (ImGui::Button("Open") || (entered && !name_.empty())) commands.push_back(command::Open{name_});
+  ImGui::EndDisabled();
+  ImGui::SeparatorText("Shipped presets");
+  if (ImGui::BeginChild("shipped", {em * 36, em * 14})) {
+    for (const preset::ShippedPreset& shipped : shipped_) {
+      if (ImGui::Selectable(shipped.name.c_str())) commands.push_back(command::Open{shipped.file.string()});
+      ImGui::SameLine(em * 11);
+      ImGui::TextDisabled("%s", shipped.description.c_str());
+    }
+  }
+  ImGui::EndChild();
+}
+
+void Dialogs::draw_save(Commands& commands)
+{
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 30);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  const bool entered = input_text("##file", "file", name_);
+  ImGui::SameLine();
+  ImGui::BeginDisabled(name_.empty());
+  const bool there = !name_.empty() && exists(name_);
+  if (ImGui::Button(there ? "Replace" : "Save") || (entered && !name_.empty())) {
+    if (shown_ == Question::save_picture)
+      commands.push_back(command::SavePicture{name_});
+    else
+      commands.push_back(command::SavePreset{name_});
+  }
+  ImGui::EndDisabled();
+  if (shown_ == Question::save_picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
+  if (there) ImGui::TextDisabled("This file is there already.");
+}
+
+void Dialogs::draw_quit(const Workbench& workbench, Commands& commands)
+{
+  ImGui::TextUnformatted("The preset was changed and is not saved.");
+  const std::filesystem::path target = workbench.save_target();
+  if (ImGui::Button(target.empty() ? "Save as..." : "Save and quit")) {
+    if (target.empty())
+      commands.push_back(command::Ask{Question::save_preset});
+    else {
+      commands.push_back(command::SavePreset{target});
+      commands.push_back(command::Quit{}); // asks again where saving failed
+    }
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Quit without saving")) commands.push_back(command::Quit{true});
+  ImGui::SameLine();
+  if (ImGui::Button("Go on")) commands.push_back(command::Ask{Question::none});
+}
+
+} // namespace nephroid::ui

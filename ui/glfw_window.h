@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The display side of the window: GLFW, OpenGL and Dear ImGui's two back ends, from opening to closing. Nothing of the workbench.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace nephroid::ui {
+
+class GlfwWindow {
+public:
+  /// Opens the window and a Dear ImGui context with font and theme. Throws failed at "window" where there is no display or no OpenGL 3.
+  GlfwWindow(const std::string& title, std::array<int, 2> size);
+  ~GlfwWindow();
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
+
+  /// Takes the events that are there and begins a frame of Dear ImGui.
+  void begin_frame();
+  /// Draws the frame into the back buffer; present() shows it.
+  void draw_frame();
+  void present();
+  /// The back buffer after draw_frame(): 4 bytes a pixel, row 0 at the top.
+  std::vector<unsigned char> read_back(int& width, int& height) const;
+  /// Sleeps until something happens to the window or the time is over.
+  void wait(double seconds);
+
+  bool close_requested() const;
+  void refuse_close();
+  void set_title(const std::string& title);
+  /// Files that were dropped on the window since the last call.
+  std::vector<std::string> take_dropped();
+  /// True where an event came since the last call.
+  bool take_activity();
+  /// The renderer's name, for messages.
+  std::string renderer() const;
+  /// Lets go of what the back ends hold, textures of panels too; the context stays until the destructor.
+  void shut_down_back_ends();
+
+private:
+  void follow_scale();
+
+  GLFWwindow* window_ = nullptr;
+  std::string title_;
+  float scale_ = 0;
+  bool back_ends_ = false;
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the window looks: one font, neutral greys (a coloured surround would change how a picture's colours are seen), one accent.
+#pragma once
+#include <imgui.h>
+
+namespace nephroid::ui {
+
+namespace colour {
+inline constexpr ImU32 surround = IM_COL32(38, 38, 38, 255);
+inline constexpr ImU32 frame = IM_COL32(72, 72, 72, 255);
+inline constexpr ImU32 overlay = IM_COL32(18, 18, 18, 215);
+inline constexpr ImU32 text = IM_COL32(228, 228, 228, 255);
+inline constexpr ImU32 quiet_text = IM_COL32(165, 165, 165, 255);
+inline constexpr ImU32 error = IM_COL32(240, 128, 112, 255);
+inline constexpr ImU32 accent = IM_COL32(92, 142, 196, 255);
+} // namespace colour
+
+/// Adds the font to the current context. Once, before the first frame.
+void add_font();
+/// Sets every size and colour for a display of this scale (1: 96 dots an inch). Again whenever the scale changes.
+void set_theme(float scale);
+
+} // namespace nephroid::ui

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The View panel: the picture as it converges. The mouse moves the camera (edits of the preset) or the picture in the panel (its look);
+// docs/window.md says which does what.
+#pragma once
+#include "ui/panel.h"
+#include "ui/picture_texture.h"
+#include "ui/placement.h"
+
+#include <memory>
+#include <optional>
+
+namespace nephroid::job {
+struct Snapshot;
+}
+
+namespace nephroid::ui {
+
+class ViewPanel : public Panel {
+public:
+  const char* name() const override { return "View"; }
+  void draw(const Workbench& workbench, Commands& commands) override;
+
+  /// Where the picture's part of the panel was drawn last, and the picture in it; for tests.
+  const Canvas& canvas() const { return canvas_; }
+  const PictureTexture& texture() const { return texture_; }
+
+private:
+  enum class Drag { none, orbit, pan, dolly, move_picture };
+
+  void draw_toolbar(const Workbench& workbench, Commands& commands);
+  void draw_picture(const Workbench& workbench);
+  void draw_hint(const Workbench& workbench) const;
+  void draw_pixel_value(const Workbench& workbench) const;
+  void use_mouse(const Workbench& workbench, Commands& commands);
+  void start_drag(const Workbench& workbench);
+  void continue_drag(const Workbench& workbench, Commands& commands);
+  void move_camera(const Workbench& workbench, const Point& delta, Commands& commands) const;
+  void use_wheel(const Workbench& workbench, Commands& commands);
+  void refresh_texture(const Workbench& workbench);
+
+  Canvas canvas_;
+  PictureTexture texture_;
+  std::shared_ptr<const job::Snapshot> in_texture_; ///< what the texture shows,
+  double stops_in_texture_ = 0;                     ///< and with which exposure
+
+  Drag drag_ = Drag::none;
+  Point drag_from_{0, 0};
+  preset::Camera camera_at_start_; ///< a drag is measured from its start, so that rounding does not add up
+  Look look_at_start_;
+  std::uint64_t gesture_ = 0; ///< number of the newest gesture
+  double last_wheel_s_ = -1;  ///< turns of the wheel in quick succession are one gesture
+  bool hovered_ = false;
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/window.h"
+
+#include "base/error.h"
+#include "image/image.h"
+#include "ui/engine.h"
+#include "ui/frame_clock.h"
+#include "ui/glfw_window.h"
+#include "ui/layout.h"
+#include "ui/status_line.h"
+#include "ui/workbench.h"
+#include "ui/workspace.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+namespace nephroid::ui {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int frames_before_screenshot = 60;
+constexpr std::chrono::milliseconds hands_rest{500}; ///< after the last touch the display's rate is kept this long
+
+std::string title(const Workbench& workbench)
+{
+  const preset::Preset* preset = workbench.preset();
+  if (!preset) return "Nephroid";
+  const std::string name = preset->name.empty() ? preset->source : preset->name;
+  return fmt::format("{}{} - Nephroid", workbench.history()->modified() ? "* " : "", name);
+}
+
+bool is_over(job::State state)
+{
+  return state == job::State::finished || state == job::State::cancelled || state == job::State::failed || state == job::State::idle;
+}
+
+/// Opens the first file that can be opened; the others leave their messages.
+void open_first(Workbench& workbench, const Options& options)
+{
+  for (const std::string& file : options.files)
+    if (workbench.open(file, options.overrides)) return;
+  if (options.files.empty()) workbench.apply({command::Ask{Question::open}});
+}
+
+/// The loop of one window, from its first frame to its last.
+class Loop {
+public:
+  Loop(const Options& options, GlfwWindow& window, Workbench& workbench, Workspace& workspace)
+      : options_(options), window_(window), workbench_(workbench), workspace_(workspace),
+        clock_(options.frames > 0 || !options.frame_times.empty())
+  {
+    limit_ = options.frames > 0 ? options.frames : options.screenshot.empty() ? 0 : frames_before_screenshot;
+  }
+
+  void run()
+  {
+    while (!done_) {
+      frame();
+      if (!done_) rest();
+    }
+    if (!options_.frame_times.empty()) clock_.write(options_.frame_times);
+    if (clock_.keeps()) fmt::print(stderr, "window: {}; {}\n", clock_.summary(), window_.renderer());
+  }
+
+private:
+  void frame()
+  {
+    clock_.begin();
+    window_.begin_frame();
+    if (window_.take_activity()) last_touch_ = Clock::now();
+    workbench_.update();
+    Commands commands = workspace_.draw(workbench_);
+    for (const std::string& file : window_.take_dropped()) commands.push_back(command::Open{file});
+    if (window_.close_requested()) {
+      window_.refuse_close(); // the workbench may have something to ask first
+      commands.push_back(command::Quit{});
+    }
+    window_.draw_frame();
+    done_ = workbench_.quitting() || is_last_frame();
+    if (done_ && limit_ > 0 && !options_.screenshot.empty()) screenshot();
+    window_.present();
+    workbench_.apply(commands);
+    window_.set_title(title(workbench_));
+    const job::Status& status = workbench_.status();
+    clock_.end(name_of(status.state), status.progress.fraction);
+  }
+
+  bool is_last_frame() const
+  {
+    if (limit_ == 0 || clock_.frames() + 1 < static_cast<std::size_t>(limit_)) return false;
+    const job::Status& status = workbench_.status();
+    if (options_.until <= 0) return true;
+    return is_over(status.state) || (options_.until < 1 && status.progress.fraction >= options_.until);
+  }
+
+  void screenshot() const
+  {
+    int width = 0, height = 0;
+    const std::vector<unsigned char> pixels = window_.read_back(width, height);
+    image::write_png_bytes(options_.screenshot, width, height, pixels);
+  }
+
+  void rest()
+  {
+    const job::State state = workbench_.status().state;
+    FrameClock::Pace pace = FrameClock::Pace::idle;
+    if (Clock::now() - last_touch_ < hands_rest)
+      pace = FrameClock::Pace::hands_on;
+    else if (!is_over(state) && state != job::State::paused)
+      pace = FrameClock::Pace::running;
+    if (const double seconds = clock_.rest(pace); seconds > 0) window_.wait(seconds);
+  }
+
+  const Options& options_;
+  GlfwWindow& window_;
+  Workbench& workbench_;
+  Workspace& workspace_;
+  FrameClock clock_;
+  Clock::time_point last_touch_{};
+  int limit_ = 0; ///< frames to draw before closing, 0: until the person closes it
+  bool done_ = false;
+};
+
+} // namespace
+
+int open_window(const Options& options)
+{
+  check_layout(options.layout);
+  GlfwWindow window("Nephroid", options.size);
+  compute::DeviceOptions device;
+  device.selector = options.device;
+  device.kernels = options.kernels;
+  const auto engine = std::make_shared<Engine>(device);
+  Workbench workbench([engine](const preset::Preset& preset) { return engine->make(preset); });
+  open_first(workbench, options);
+  {
+    Workspace workspace(options.layout);
+    Loop(options, window, workbench, workspace).run();
+    window.shut_down_back_ends(); // before the panels: their textures belong to the renderer
+  }
+  for (const Message& message : workbench.messages())
+    if (message.error) fmt::print(stderr, "nephroid: {}\n", message.line);
+  return 0;
+}
+
+} // namespace nephroid::ui

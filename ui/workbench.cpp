@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/workbench.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "ui/save.h"
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+
+namespace nephroid::ui {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto note_lifetime = 6s; ///< notes go by themselves, errors stay until they are dismissed
+
+bool is_shipped(const std::filesystem::path& file)
+{
+  std::error_code unknown;
+  try {
+    const std::filesystem::path inside = std::filesystem::relative(file, presets_folder(), unknown);
+    return !unknown && !inside.empty() && *inside.begin() != "..";
+  } catch (const Error&) {
+    return false; // there is no folder of shipped presets
+  }
+}
+
+} // namespace
+
+Workbench::Workbench(MakeJob make_job) : make_job_(std::move(make_job)) {}
+
+void Workbench::apply(const Commands& commands)
+{
+  for (const Command& command : commands) {
+    try {
+      std::visit([this](const auto& c) { carry_out(c); }, command);
+    } catch (const std::exception& error) {
+      say(true, error.what());
+    }
+  }
+}
+
+bool Workbench::open(const std::string& name, const preset::Overrides& overrides)
+{
+  try {
+    history_.emplace(preset::read_preset(name, overrides));
+  } catch (const std::exception& error) {
+    say(true, error.what());
+    return false;
+  }
+  std::erase_if(messages_, [](const Message& m) { return m.error; });
+  look_ = Look{};
+  snapshot_.reset(); // another preset's picture would be mistaken for this one's
+  question_ = Question::none;
+  start();
+  return true;
+}
+
+void Workbench::carry_out(const command::Open& c) { open(c.name); }
+
+void Workbench::carry_out(const command::Edit& c)
+{
+  if (!history_) return;
+  history_->push(c.label, c.preset, c.gesture);
+  restart_wanted_ = true;
+  gesture_lasts_ = c.live;
+  snapshot_is_current_ = false;
+}
+
+void Workbench::carry_out(const command::EndGesture&) { gesture_lasts_ = false; }
+
+void Workbench::carry_out(const command::Undo&)
+{
+  if (history_ && history_->undo()) start();
+}
+
+void Workbench::carry_out(const command::Redo&)
+{
+  if (history_ && history_->redo()) start();
+}
+
+void Workbench::carry_out(const command::Restart&)
+{
+  if (history_) start();
+}
+
+void Workbench::carry_out(const command::Cancel&)
+{
+  restart_wanted_ = false;
+  worker_.cancel();
+}
+
+void Workbench::carry_out(const command::Pause& c) { worker_.pause(c.on); }
+
+void Workbench::carry_out(const command::SetLook& c)
+{
+  look_ = c.look;
+  look_.exposure_stops = std::clamp(look_.exposure_stops, -20.0, 20.0);
+}
+
+void Workbench::carry_out(const command::Ask& c) { question_ = c.question; }
+
+void Workbench::carry_out(const command::SavePreset& c)
+{
+  if (!history_) return;
+  write_file_whole(c.file, preset::to_json(history_->current()));
+  history_->mark_saved(c.file.string());
+  question_ = Question::none;
+  say(false, "saved " + c.file.string());
+}
+
+void Workbench::carry_out(const command::SavePicture& c)
+{
+  if (!snapshot_) return;
+  question_ = Question::none;
+  background_.push_back(std::async(std::launch::async, [file = c.file, snapshot = snapshot_, stops = look_.exposure_stops] {
+    Message message;
+    try {
+      save_picture(file, *snapshot->picture, stops);
+      message.error = false;
+      message.line = "saved " + file.string();
+    } catch (const std::exception& error) {
+      message.line = error.what();
+    }
+    return message;
+  }));
+}
+
+void Workbench::carry_out(const command::Dismiss& c)
+{
+  std::erase_if(messages_, [&](const Message& m) { return m.id == c.message; });
+}
+
+void Workbench::carry_out(const command::ShowHelp& c) { help_shown_ = c.on; }
+
+void Workbench::carry_out(const command::ResetLayout&) { layout_reset_ = true; }
+
+void Workbench::carry_out(const command::Report& c) { say(true, c.line); }
+
+void Workbench::carry_out(const command::Quit& c)
+{
+  if (c.sure || !history_ || !history_->modified())
+    quitting_ = true;
+  else
+    question_ = Question::quit;
+}
+
+void Workbench::say(bool error, std::string line)
+{
+  // The same thing again (a panel that fails every frame) is one message.
+  for (const Message& m : messages_)
+    if (m.line == line && m.error == error) return;
+  messages_.push_back({++last_message_, error, std::move(line), Clock::now()});
+}
+
+void Workbench::start()
+{
+  restart_wanted_ = gesture_lasts_ = false;
+  snapshot_is_current_ = shown_since_start_ = false;
+  std::erase_if(messages_, [&](const Message& m) { return m.id == failure_message_; });
+  before_start_ = worker_.snapshot();
+  worker_.start([make = make_job_, preset = history_->current()] { return make(preset); });
+}
+
+void Workbench::take_snapshot()
+{
+  std::shared_ptr<const job::Snapshot> newest = worker_.snapshot();
+  if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_) return;
+  snapshot_ = std::move(newest);
+  shown_since_start_ = true;
+  snapshot_is_current_ = !restart_wanted_;
+}
+
+void Workbench::collect_messages(Clock::time_point now)
+{
+  if (status_.state == job::State::failed && status_.generation != reported_failure_) {
+    reported_failure_ = status_.generation;
+    say(true, status_.message);
+    failure_message_ = last_message_;
+  }
+  for (std::future<Message>& saved : background_)
+    if (saved.wait_for(0s) == std::future_status::ready) {
+      const Message message = saved.get();
+      say(message.error, message.line);
+    }
+  std::erase_if(background_, [](const std::future<Message>& f) { return !f.valid(); });
+  std::erase_if(messages_, [&](const Message& m) { return !m.error && now - m.since > note_lifetime; });
+}
+
+void Workbench::update(Clock::time_point now)
+{
+  // In this order: the worker makes a run's last snapshot before it says that the run is over.
+  status_ = worker_.status();
+  take_snapshot();
+  collect_messages(now);
+  // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device every move of
+  // the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen until the mouse rests.
+  const bool working = status_.state == job::State::preparing || status_.state == job::State::running;
+  if (restart_wanted_ && (!gesture_lasts_ || !working || shown_since_start_)) start();
+}
+
+std::filesystem::path Workbench::save_target() const
+{
+  if (!history_ || history_->current().source.empty()) return {};
+  const std::filesystem::path source = history_->current().source;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(source, ignored) || is_shipped(source)) return {};
+  return source;
+}
+
+std::string Workbench::proposed_name(Question question) const
+{
+  if (!history_) return {};
+  const std::filesystem::path source = history_->current().source;
+  const std::string stem = source.empty() ? "untitled" : source.stem().string();
+  return question == Question::save_picture ? stem + ".png" : stem + "-edited.json";
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// The state behind the window: the preset with its history, the run it started, the newest snapshot, the messages. Knows nothing of
+// Dear ImGui. Panels read it; commands change it; update() runs once a frame and never waits for a device or a disk.
+#pragma once
+#include "job/worker.h"
+#include "preset/preset.h"
+#include "preset/read.h"
+#include "ui/commands.h"
+#include "ui/history.h"
+
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nephroid::ui {
+
+struct Message {
+  std::uint64_t id = 0;
+  bool error = true;
+  std::string line;
+  std::chrono::steady_clock::time_point since;
+};
+
+class Workbench {
+public:
+  using Clock = std::chrono::steady_clock;
+  /// Makes the job of a preset; called on the worker's thread. The program gives ui::Engine, tests a job of their own.
+  using MakeJob = std::function<std::unique_ptr<job::Job>(const preset::Preset&)>;
+
+  explicit Workbench(MakeJob make_job);
+
+  /// Carries out commands in their order. Whatever goes wrong becomes a message; nothing is thrown.
+  void apply(const Commands& commands);
+  /// Opens a preset with overrides (--set). False, with a message, where it cannot be read.
+  bool open(const std::string& name, const preset::Overrides& overrides = {});
+  /// Once a frame: takes the newest snapshot, starts the run that edits ask for, collects what finished in the background.
+  void update(Clock::time_point now = Clock::now());
+
+  /// Null before a preset is opened.
+  const preset::Preset* preset() const { return history_ ? &history_->current() : nullptr; }
+  const History* history() const { return history_ ? &*history_ : nullptr; }
+  /// The newest picture there is, also of an earlier run until the present one has shown its first; null before the first of all.
+  const std::shared_ptr<const job::Snapshot>& snapshot() const { return snapshot_; }
+  /// Whether snapshot() is of the preset as it is now.
+  bool snapshot_is_current() const { return snapshot_is_current_; }
+  const job::Status& status() const { return status_; }
+  const std::vector<Message>& messages() const { return messages_; }
+  const Look& look() const { return look_; }
+  Question question() const { return question_; }
+  bool help_shown() const { return help_shown_; }
+  bool quitting() const { return quitting_; }
+  /// True once after ResetLayout.
+  bool take_layout_reset() { return std::exchange(layout_reset_, false); }
+  /// Where "save" writes without asking: the file that was opened, unless it is one of the shipped presets. Empty: ask.
+  std::filesystem::path save_target() const;
+  /// A proposal for a dialog's file name, in the current folder.
+  std::string proposed_name(Question question) const;
+
+private:
+  void carry_out(const command::Open& c);
+  void carry_out(const command::Edit& c);
+  void carry_out(const command::EndGesture&);
+  void carry_out(const command::Undo&);
+  void carry_out(const command::Redo&);
+  void carry_out(const command::Restart&);
+  void carry_out(const command::Cancel&);
+  void carry_out(const command::Pause& c);
+  void carry_out(const command::SetLook& c);
+  void carry_out(const command::Ask& c);
+  void carry_out(const command::SavePreset& c);
+  void carry_out(const command::SavePicture& c);
+  void carry_out(const command::Dismiss& c);
+  void carry_out(const command::ShowHelp& c);
+  void carry_out(const command::ResetLayout&);
+  void carry_out(const command::Report& c);
+  void carry_out(const command::Quit& c);
+
+  void say(bool error, std::string line);
+  void start();
+  void take_snapshot();
+  void collect_messages(Clock::time_point now);
+
+  MakeJob make_job_;
+  std::optional<History> history_;
+  Look look_;
+  Question question_ = Question::none;
+  bool help_shown_ = false, quitting_ = false, layout_reset_ = false;
+
+  bool restart_wanted_ = false;    ///< the preset changed since the last start
+  bool gesture_lasts_ = false;     ///< ... by a gesture that goes on
+  bool shown_since_start_ = false; ///< a snapshot of the run in hand has come
+  bool snapshot_is_current_ = false;
+  std::uint64_t reported_failure_ = 0; ///< generation of the run whose failure is among the messages
+  std::uint64_t failure_message_ = 0;  ///< its message's id
+  job::Status status_;
+  std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
+
+  std::uint64_t last_message_ = 0;
+  std::vector<Message> messages_;
+  std::vector<std::future<Message>> background_; ///< files being written
+  job::Worker worker_;                           ///< last: its thread uses make_job_
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame of the whole window, from menu bar to status line, without a back end: the window and the tests draw the same thing.
+#pragma once
+#include "ui/dialogs.h"
+#include "ui/panel.h"
+#include "ui/view_panel.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+class Workspace {
+public:
+  /// Throws bad_input where there is no such layout.
+  explicit Workspace(std::string layout = {});
+  /// Between ImGui::NewFrame and ImGui::Render. Returns what the person asked for; the caller gives it to Workbench::apply.
+  /// No exception leaves it.
+  Commands draw(Workbench& workbench);
+  /// One more panel; the program's own are there from the start.
+  void add(std::unique_ptr<Panel> panel) { panels_.push_back(std::move(panel)); }
+  const ViewPanel& view() const { return *view_; }
+
+private:
+  void draw_dock_space(Workbench& workbench);
+  void draw_panel(Panel& panel, const Workbench& workbench, Commands& commands) const;
+
+  std::string layout_;
+  bool laid_out_ = false;
+  std::vector<std::unique_ptr<Panel>> panels_;
+  ViewPanel* view_ = nullptr;
+  Dialogs dialogs_;
+};
+
+} // namespace nephroid::ui
