@@ -19,10 +19,10 @@ struct Material {
   enum class Type { diffuse, dielectric, mirror };
   std::string name;
   Type type = Type::diffuse;
-  optics::Spectrum n{};             ///< dielectric
-  optics::Spectrum k{};             ///< dielectric; all zero where it does not absorb
+  optics::Spectrum n{}; ///< dielectric
+  optics::Spectrum k{}; ///< dielectric; all zero where it does not absorb
   bool absorbs = false;
-  optics::Spectrum reflectance{};   ///< diffuse, mirror
+  optics::Spectrum reflectance{}; ///< diffuse, mirror
 };
 
 struct Sphere {
@@ -32,24 +32,24 @@ struct Sphere {
 
 struct Object {
   std::string name;
-  int material = 0;                 ///< index into Scene::materials
+  int material = 0; ///< index into Scene::materials
   int priority = 0;
-  bool smooth = false;              ///< interpolate vertex normals
+  bool smooth = false; ///< interpolate vertex normals
   std::uint32_t first_triangle = 0, triangle_count = 0;
-  Sphere bounds;                    ///< encloses every vertex
-  bool closed = true;               ///< every edge is shared by exactly two triangles of opposite direction
+  Sphere bounds;      ///< encloses every vertex
+  bool closed = true; ///< every edge is shared by exactly two triangles of opposite direction
 };
 
 struct Light {
   preset::Light::Type type = preset::Light::Type::point;
   glm::vec3 position{0};
-  glm::vec3 direction{0, -1, 0};    ///< unit, the way the light goes
-  glm::vec3 edge_u{0}, edge_v{0};   ///< area: the full edges; edge_u x edge_v points along direction
-  double cos_half_angle = -1;       ///< spot
-  double power_w = 0;               ///< point, spot, area
-  double irradiance_w_m2 = 0;       ///< directional
-  optics::Spectrum spectrum{};      ///< sums to 1
-  std::vector<int> inside;          ///< dielectric objects that contain it, outermost first
+  glm::vec3 direction{0, -1, 0};  ///< unit, the way the light goes
+  glm::vec3 edge_u{0}, edge_v{0}; ///< area: the full edges; edge_u x edge_v points along direction
+  double cos_half_angle = -1;     ///< spot
+  double power_w = 0;             ///< point, spot, area
+  double irradiance_w_m2 = 0;     ///< directional
+  optics::Spectrum spectrum{};    ///< sums to 1
+  std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
 };
 
 /// Pinhole. right, up, forward: orthonormal; a pixel centre (x, y) looks along
@@ -58,24 +58,35 @@ struct Camera {
   glm::vec3 position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
   double tan_x = 1, tan_y = 1;
   int width = 0, height = 0;
-  std::vector<int> inside;          ///< dielectric objects that contain it, outermost first
+  std::vector<int> inside; ///< dielectric objects that contain it, outermost first
 };
 
 struct Scene {
+  std::string source; ///< the preset's file, for messages
   double metres_per_unit = 1;
-  glm::dvec3 origin{0};             ///< preset coordinates of the scene's (0, 0, 0)
+  glm::dvec3 origin{0}; ///< preset coordinates of the scene's (0, 0, 0)
   Camera camera;
   std::vector<Material> materials;
   std::vector<Object> objects;
   std::vector<Light> lights;
-  Mesh geometry;                    ///< every object's triangles, one after the other; normals for every vertex
+  Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex
   std::vector<std::uint32_t> object_of_triangle;
   std::vector<std::string> warnings; ///< one line each: open meshes, dropped triangles, extrapolated dispersion
 };
 
-/// Reads every file and checks every reference. Throws bad_input at FILE#/pointer or at the mesh file.
+/// Reads every file and checks every reference. A scene without lights or objects is legal: the plan says what is left out then.
+/// Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; a closed dielectric that is inside
+/// out is turned round with a warning; triangles without area and duplicates are dropped with a warning.
+/// Throws bad_input at FILE#/pointer or at the mesh file.
 Scene load_scene(const preset::Preset& preset);
-/// The camera alone, for a view that changes while everything else stays.
+
+/// The camera alone, for a view that changes while everything else stays. Throws bad_input at FILE#/scene/camera/...
 Camera make_camera(const preset::Camera& camera, const Scene& scene);
+
+/// where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of range, unknown spectrum.
+Light make_light(const preset::Light& light, const Scene& scene, const std::string& where);
+
+/// The dielectric objects that contain p (scene coordinates), largest volume first: where they are nested, outermost first.
+std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p);
 
 } // namespace nephroid::scene

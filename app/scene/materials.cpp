@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/materials.h"
+
+#include "base/error.h"
+#include "optics/spectrum.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::scene {
+namespace {
+
+/// What optics throws names a curve or a file; the person needs the preset's field as well.
+template <class Make>
+auto at(const std::string& where, const Make& make)
+{
+  try {
+    return make();
+  } catch (const Error& error) {
+    if (error.where() == where) throw;
+    throw Error(error.kind(), where, error.line());
+  }
+}
+
+} // namespace
+
+optics::Outside outside_policy(preset::Outside outside)
+{
+  switch (outside) {
+  case preset::Outside::automatic:
+    return optics::Outside::automatic;
+  case preset::Outside::hold:
+    return optics::Outside::hold;
+  case preset::Outside::extrapolate:
+    return optics::Outside::extrapolate;
+  case preset::Outside::refuse:
+    return optics::Outside::refuse;
+  }
+  return optics::Outside::automatic;
+}
+
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const std::string& where)
+{
+  using Type = preset::Dispersion::Type;
+  return at(where, [&] {
+    switch (dispersion.type) {
+    case Type::file:
+      return optics::load_dispersion(finder.find(dispersion.file, where));
+    case Type::sellmeier:
+      return optics::sellmeier(dispersion.b, dispersion.c_um2);
+    case Type::cauchy:
+      return optics::cauchy(dispersion.coefficients);
+    case Type::table:
+      return optics::tabulated(dispersion.table);
+    case Type::points:
+      return optics::control_points(dispersion.table);
+    case Type::constant:
+      break;
+    }
+    return optics::constant_index(dispersion.n);
+  });
+}
+
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const std::string& where)
+{
+  using Type = preset::LightSpectrum::Type;
+  return at(where, [&] {
+    switch (spectrum.type) {
+    case Type::blackbody:
+      return optics::blackbody(spectrum.temperature_k);
+    case Type::lines:
+      return optics::light_lines(spectrum.table);
+    case Type::table:
+      return optics::light_table(spectrum.table);
+    case Type::illuminant:
+      break;
+    }
+    return optics::illuminant(spectrum.illuminant);
+  });
+}
+
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const std::string& where)
+{
+  using Type = preset::Reflectance::Type;
+  return at(where, [&] {
+    switch (reflectance.type) {
+    case Type::patch:
+      return optics::colorchecker_patch(reflectance.patch);
+    case Type::table:
+      return optics::reflectance_table(reflectance.table);
+    case Type::constant:
+      break;
+    }
+    if (!(reflectance.value >= 0 && reflectance.value <= 1))
+      throw bad_input(where, fmt::format("the reflectance is {}", reflectance.value), "0 to 1");
+    return optics::constant_spectrum(reflectance.value);
+  });
+}
+
+Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder, const std::string& where,
+                       std::vector<std::string>& warnings)
+{
+  Material result;
+  result.name = name;
+  if (material.type != preset::Material::Type::dielectric) {
+    const bool mirror = material.type == preset::Material::Type::mirror;
+    result.type = mirror ? Material::Type::mirror : Material::Type::diffuse;
+    result.reflectance = make_reflectance(material.reflectance, where + "/reflectance");
+    return result;
+  }
+  result.type = Material::Type::dielectric;
+  const std::string field = where + "/dispersion";
+  const optics::DispersionCurve curve = make_curve(material.dispersion, finder, field);
+  const optics::Outside outside = outside_policy(material.dispersion.outside);
+  at(field, [&] {
+    result.n = optics::sample_n(curve, outside);
+    if (material.absorption && curve.k) result.k = optics::sample_k(curve, outside);
+    return 0;
+  });
+  result.absorbs = std::any_of(result.k.begin(), result.k.end(), [](double k) { return k > 0; });
+  if (const std::string note = optics::outside_note(curve, outside); !note.empty())
+    warnings.push_back(fmt::format("material '{}': {}", name, note));
+  return result;
+}
+
+} // namespace nephroid::scene

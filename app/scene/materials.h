@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a preset's materials and spectra, which are words and numbers, to values on the 401 wavelengths.
+#pragma once
+#include "base/files.h"
+#include "optics/dispersion.h"
+#include "optics/wavelength.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace nephroid::scene {
+
+/// The preset's word for it, which knows nothing of optics.
+optics::Outside outside_policy(preset::Outside outside);
+
+/// where (all four): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const std::string& where);
+/// Sums to 1.
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const std::string& where);
+/// Each value in 0..1.
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const std::string& where);
+/// where: the material's. Adds a warning where n is wanted outside the data's range.
+Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder, const std::string& where,
+                       std::vector<std::string>& warnings);
+
+} // namespace nephroid::scene

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/place.h"
+
+#include "base/error.h"
+#include "scene/directions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace nephroid::scene {
+namespace {
+
+constexpr double min_extent = 1e-6; ///< smaller triangles have squared areas near the smallest floats
+
+/// About x, then y, then z, each counter-clockwise seen from the axis' positive end.
+glm::dmat3 rotation(const preset::Vec3& degrees)
+{
+  glm::dmat3 result(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double angle = degrees[static_cast<std::size_t>(axis)] * std::numbers::pi / 180;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    glm::dmat3 turn(1); // columns are the images of the axes
+    turn[u][u] = turn[v][v] = std::cos(angle);
+    turn[u][v] = std::sin(angle);
+    turn[v][u] = -std::sin(angle);
+    result = turn * result;
+  }
+  return result;
+}
+
+Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin)
+{
+  const glm::dvec3 offset = placement.offset - origin;
+  const glm::dmat3 normal_transform = glm::transpose(glm::inverse(placement.linear));
+  Mesh result;
+  result.positions.reserve(mesh.positions.size());
+  result.normals.reserve(mesh.normals.size());
+  for (const glm::vec3& p : mesh.positions) result.positions.emplace_back(placement.linear * glm::dvec3(p) + offset);
+  for (const glm::vec3& n : mesh.normals) result.normals.emplace_back(glm::normalize(normal_transform * glm::dvec3(n)));
+  result.triangles = mesh.triangles;
+  if (glm::determinant(placement.linear) < 0)
+    for (glm::uvec3& triangle : result.triangles) std::swap(triangle.y, triangle.z);
+  return result;
+}
+
+/// About the middle of the bounds: encloses every vertex that a triangle uses, rounding included.
+Sphere enclosing_sphere(const Mesh& mesh)
+{
+  glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+  for (const glm::uvec3& triangle : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      low = glm::min(low, mesh.positions[triangle[i]]);
+      high = glm::max(high, mesh.positions[triangle[i]]);
+    }
+  Sphere sphere{0.5f * low + 0.5f * high, 0};
+  double radius = 0;
+  for (const glm::uvec3& triangle : mesh.triangles)
+    for (int i = 0; i < 3; ++i)
+      radius = std::max(radius, glm::distance(glm::dvec3(mesh.positions[triangle[i]]), glm::dvec3(sphere.centre)));
+  sphere.radius = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::max());
+  return sphere;
+}
+
+void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const std::string& where, Placed& placed)
+{
+  const Bounds bounds = placed_bounds(mesh, placement, where);
+  const glm::dvec3 low = bounds.low - origin, high = bounds.high - origin;
+  double farthest = 0, extent = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    farthest = std::max({farthest, std::abs(low[axis]), std::abs(high[axis])});
+    extent = std::max(extent, high[axis] - low[axis]);
+  }
+  if (!(farthest <= max_coordinate))
+    throw bad_input(where, fmt::format("reaches {:g} units away from the refracting and mirroring objects' middle", farthest),
+                    fmt::format("at most {:g}", max_coordinate), "choose a larger unit or move it closer");
+  if (!(extent >= min_extent))
+    throw bad_input(where, fmt::format("is {:g} units across", extent), fmt::format("at least {:g}", min_extent), "choose a smaller unit");
+  const double spacing = farthest * 0x1p-23;
+  if (spacing > 1e-4 * extent)
+    placed.warnings.push_back(fmt::format("is {:g} units across but {:g} away from the refracting and mirroring objects' middle: single "
+                                          "precision moves its vertices by up to {:g}",
+                                          extent, farthest, spacing / 2));
+}
+
+const char* plural(std::uint32_t count) { return count == 1 ? "" : "s"; }
+
+void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
+{
+  if (report.degenerate > 0)
+    placed.warnings.push_back(fmt::format("{} triangle{} without area dropped", report.degenerate, plural(report.degenerate)));
+  if (report.duplicated > 0)
+    placed.warnings.push_back(fmt::format("{} duplicated triangle{} dropped", report.duplicated, plural(report.duplicated)));
+  placed.closed = report.closed();
+  if (!dielectric) return;
+  if (report.open_edges > 0)
+    placed.warnings.push_back(fmt::format("dielectric, but not closed: {} edge{} with one triangle; light that enters may never leave",
+                                          report.open_edges, plural(report.open_edges)));
+  if (report.crowded_edges > 0)
+    placed.warnings.push_back(
+        fmt::format("dielectric, but its inside is not clear: {} edge{} with more than two triangles, or with two that "
+                    "face opposite ways",
+                    report.crowded_edges, plural(report.crowded_edges)));
+  if (report.closed() && report.signed_volume < 0) {
+    turn_round(placed.mesh);
+    placed.warnings.emplace_back("was inside out; its triangles are turned round");
+  }
+}
+
+} // namespace
+
+Placement make_placement(const preset::Transform& transform, const std::string& where)
+{
+  Placement placement;
+  glm::dmat3 scale(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double factor = transform.scale[i];
+    if (factor == 0 || !std::isfinite(factor))
+      throw bad_input(fmt::format("{}/scale/{}", where, axis), fmt::format("the factor is {}", factor), "a number other than 0");
+    if (!std::isfinite(transform.rotate_deg[i])) throw bad_input(fmt::format("{}/rotate_deg/{}", where, axis), "is not a finite number");
+    if (!std::isfinite(transform.translate[i])) throw bad_input(fmt::format("{}/translate/{}", where, axis), "is not a finite number");
+    scale[axis][axis] = factor;
+    placement.offset[axis] = transform.translate[i];
+  }
+  placement.linear = rotation(transform.rotate_deg) * scale;
+  return placement;
+}
+
+Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const std::string& where)
+{
+  Bounds bounds{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(-std::numeric_limits<double>::max())};
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 p = placement.linear * glm::dvec3(mesh.positions[triangle[i]]) + placement.offset;
+      bounds = enclosing(bounds, {p, p});
+      for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(p[axis]) < 1e30))
+          throw bad_input(where, fmt::format("has a vertex at {:g}", p[axis]), "less than 1e30", "use a smaller scale");
+    }
+  }
+  return bounds;
+}
+
+Bounds enclosing(const Bounds& a, const Bounds& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
+
+Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const std::string& where)
+{
+  Placed placed;
+  check_extent(mesh, placement, origin, where, placed);
+  placed.mesh = transformed(mesh, placement, origin);
+  check_surface(inspect(placed.mesh), dielectric, placed);
+  drop_useless(placed.mesh);
+  if (placed.mesh.triangles.empty())
+    throw bad_input(where, "no triangle has an area after scaling", "a mesh with a surface", "use a scale closer to 1");
+  if (placed.mesh.normals.empty()) compute_smooth_normals(placed.mesh);
+  placed.bounds = enclosing_sphere(placed.mesh);
+  return placed;
+}
+
+} // namespace nephroid::scene

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// One object's mesh into the scene: transformed in double, moved to the scene's origin, rounded once, then checked. Private to scene/.
+#pragma once
+#include "preset/preset.h"
+#include "scene/scene.h"
+
+#include <glm/glm.hpp>
+
+#include <string>
+#include <vector>
+
+namespace nephroid::scene {
+
+/// p -> linear p + offset, from the mesh's coordinates to the preset's.
+struct Placement {
+  glm::dmat3 linear{1};
+  glm::dvec3 offset{0};
+};
+
+struct Bounds {
+  glm::dvec3 low{0}, high{0};
+};
+
+struct Placed {
+  Mesh mesh; ///< with normals, without degenerate or duplicated triangles
+  Sphere bounds;
+  bool closed = true;
+  std::vector<std::string> warnings; ///< without the object's name
+};
+
+/// Throws bad_input at where/scale for a factor of 0, and where a number is not finite.
+Placement make_placement(const preset::Transform& transform, const std::string& where);
+/// In the preset's coordinates. Throws bad_input at where: they leave single precision.
+Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const std::string& where);
+Bounds enclosing(const Bounds& a, const Bounds& b);
+
+/// origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation matter then.
+/// Throws bad_input at where: too large, too small or too far away for single precision.
+Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const std::string& where);
+
+} // namespace nephroid::scene

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// Puts the scene together: materials, then objects in place, then the lights and the camera, which need to know the objects.
+#include "scene/scene.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/nearest.h"
+#include "scene/directions.h"
+#include "scene/materials.h"
+#include "scene/place.h"
+#include "scene/shapes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+namespace nephroid::scene {
+namespace {
+
+/// A key inside a JSON pointer (RFC 6901).
+std::string escaped(const std::string& key)
+{
+  std::string result;
+  for (char c : key) result += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return result;
+}
+
+int find_material(const Scene& scene, const std::string& name, const std::string& where)
+{
+  std::vector<std::string> known;
+  for (const Material& material : scene.materials) known.push_back(material.name);
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found != known.end()) return static_cast<int>(found - known.begin());
+  const std::string near = nearest(name, known);
+  throw bad_input(where, fmt::format("there is no material '{}'", name),
+                  known.empty() ? "scene.materials is empty" : fmt::format("one of {}", fmt::join(known, ", ")),
+                  near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+}
+
+void check_names(const std::vector<preset::Object>& objects, const std::string& where)
+{
+  std::map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].name.empty()) continue;
+    const auto [entry, added] = first.try_emplace(objects[i].name, i);
+    if (!added)
+      throw bad_input(fmt::format("{}/{}/name", where, i), fmt::format("'{}' is also object {}", objects[i].name, entry->second),
+                      "a name of its own");
+  }
+}
+
+/// Reads each file once, however many objects name it.
+class Meshes {
+public:
+  explicit Meshes(const FileFinder& finder) : finder_(finder) {}
+  const Mesh& get(const std::string& name, const std::string& where)
+  {
+    const std::filesystem::path file = finder_.find(name, where);
+    auto found = meshes_.find(file);
+    if (found == meshes_.end()) found = meshes_.emplace(file, load_mesh(file)).first;
+    return found->second;
+  }
+
+private:
+  const FileFinder& finder_;
+  std::map<std::filesystem::path, Mesh> meshes_;
+};
+
+Mesh object_mesh(const preset::Object& object, Meshes& meshes, const std::string& where)
+{
+  if (object.mesh.has_value() == object.shape.has_value())
+    throw bad_input(where, object.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'", "exactly one of them");
+  return object.mesh ? meshes.get(*object.mesh, where + "/mesh") : make_shape(*object.shape, where + "/shape");
+}
+
+/// An object on its way: still in its own coordinates.
+struct Pending {
+  Mesh mesh;
+  Placement placement;
+  int material = 0;
+  std::string where;
+};
+
+/// The middle of what bends light, or of everything where nothing does.
+glm::dvec3 choose_origin(const std::vector<Pending>& pending, const Scene& scene, const preset::Camera& camera)
+{
+  std::optional<Bounds> bending, all;
+  for (const Pending& object : pending) {
+    const Bounds bounds = placed_bounds(object.mesh, object.placement, object.where);
+    all = all ? enclosing(*all, bounds) : bounds;
+    if (scene.materials[static_cast<std::size_t>(object.material)].type != Material::Type::diffuse)
+      bending = bending ? enclosing(*bending, bounds) : bounds;
+  }
+  if (bending) return 0.5 * bending->low + 0.5 * bending->high;
+  return all ? 0.5 * all->low + 0.5 * all->high : to_dvec3(camera.target);
+}
+
+void append(Scene& scene, const Mesh& mesh)
+{
+  Mesh& all = scene.geometry;
+  const auto first = static_cast<std::uint32_t>(all.positions.size());
+  all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
+  for (const glm::uvec3& triangle : mesh.triangles) all.triangles.push_back(triangle + first);
+  scene.object_of_triangle.resize(all.triangles.size(), static_cast<std::uint32_t>(scene.objects.size()));
+}
+
+void add_object(Scene& scene, const preset::Object& object, const Pending& pending)
+{
+  const std::string label = object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
+  const bool dielectric = scene.materials[static_cast<std::size_t>(pending.material)].type == Material::Type::dielectric;
+  Placed placed = place(pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
+  for (const std::string& warning : placed.warnings) scene.warnings.push_back(label + ": " + warning);
+  if (scene.geometry.triangles.size() + placed.mesh.triangles.size() > max_triangles)
+    throw bad_input(pending.where, fmt::format("the scene has more than {} triangles", max_triangles));
+
+  Object result;
+  result.name = object.name;
+  result.material = pending.material;
+  result.priority = object.priority;
+  result.smooth = object.normals == preset::Object::Normals::smooth;
+  result.first_triangle = static_cast<std::uint32_t>(scene.geometry.triangles.size());
+  result.triangle_count = static_cast<std::uint32_t>(placed.mesh.triangles.size());
+  result.bounds = placed.bounds;
+  result.closed = placed.closed;
+  append(scene, placed.mesh);
+  scene.objects.push_back(result);
+}
+
+/// A rectangle that reaches through a surface has points inside and outside; its photons all start in what is around its centre.
+void warn_if_straddling(Scene& scene, const Light& light, std::size_t index)
+{
+  if (light.type != preset::Light::Type::area) return;
+  for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)}) {
+    const glm::vec3 p = light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v);
+    if (dielectrics_around(scene, p) == light.inside) continue;
+    scene.warnings.push_back(
+        fmt::format("light {}: reaches through the surface of a dielectric; its rays start in what is around its centre", index));
+    return;
+  }
+}
+
+} // namespace
+
+std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
+{
+  std::vector<std::pair<double, int>> found;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (scene.materials[static_cast<std::size_t>(object.material)].type != Material::Type::dielectric) continue;
+    if (glm::distance(p, glm::dvec3(object.bounds.centre)) > object.bounds.radius) continue;
+    if (winding_number(scene.geometry, object.first_triangle, object.triangle_count, p) > 0.5)
+      found.emplace_back(-signed_volume(scene.geometry, object.first_triangle, object.triangle_count), static_cast<int>(i));
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<int> result;
+  for (const auto& [volume, object] : found) result.push_back(object);
+  return result;
+}
+
+Scene load_scene(const preset::Preset& preset)
+{
+  const FileFinder finder(std::filesystem::path(preset.source).parent_path());
+  const std::string where = preset.source + "#/scene";
+  Scene scene;
+  scene.source = preset.source;
+  scene.metres_per_unit = preset::metres(preset.unit);
+  for (const auto& [name, material] : preset.scene.materials)
+    scene.materials.push_back(make_material(name, material, finder, where + "/materials/" + escaped(name), scene.warnings));
+
+  check_names(preset.scene.objects, where + "/objects");
+  Meshes meshes(finder);
+  std::vector<Pending> pending;
+  for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
+    const preset::Object& object = preset.scene.objects[i];
+    const std::string object_where = fmt::format("{}/objects/{}", where, i);
+    const int material = find_material(scene, object.material, object_where + "/material");
+    const Placement placement = make_placement(object.transform, object_where + "/transform");
+    pending.push_back({object_mesh(object, meshes, object_where), placement, material, object_where});
+  }
+  scene.origin = choose_origin(pending, scene, preset.scene.camera);
+  for (std::size_t i = 0; i < pending.size(); ++i) {
+    add_object(scene, preset.scene.objects[i], pending[i]);
+    pending[i].mesh = {}; // a large scene is not held twice
+  }
+  for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
+    scene.lights.push_back(make_light(preset.scene.lights[i], scene, fmt::format("{}/lights/{}", where, i)));
+    warn_if_straddling(scene, scene.lights.back(), i);
+  }
+  scene.camera = make_camera(preset.scene.camera, scene);
+  return scene;
+}
+
+} // namespace nephroid::scene
