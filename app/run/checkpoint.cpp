@@ -28,10 +28,10 @@ std::uint64_t hash_of(std::string_view bytes)
 }
 
 /// How long a run goes on is not part of what it computes: a run may be resumed with a later stop.
-std::uint64_t preset_hash(preset::Preset preset)
+std::uint64_t preset_hash(preset::Preset preset, const fs::path& folder)
 {
   preset.stop = {};
-  return hash_of(preset::to_json(preset));
+  return hash_of(preset::to_json(preset, folder));
 }
 
 template <class T>
@@ -48,7 +48,7 @@ void write_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job
 {
   const std::vector<std::byte> payload = job.save();
   Header header;
-  header.preset_hash = preset_hash(prepared.preset);
+  header.preset_hash = preset_hash(prepared.preset, folder);
   header.payload_bytes = payload.size();
   std::string bytes(bytes_of(header));
   bytes.append(reinterpret_cast<const char*>(payload.data()), payload.size());
@@ -73,7 +73,7 @@ bool load_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job&
   if (header.version != ours.version) throw refuse("was written by another version of the program");
   const std::string_view hashed(bytes.data(), bytes.size() - sizeof hash);
   if (hashed.size() - sizeof header != header.payload_bytes || hash_of(hashed) != hash) throw refuse("is cut or damaged");
-  if (header.preset_hash != preset_hash(prepared.preset)) throw refuse("belongs to another preset or seed");
+  if (header.preset_hash != preset_hash(prepared.preset, folder)) throw refuse("belongs to another preset or seed");
   job.load(std::as_bytes(std::span(bytes).subspan(sizeof header, header.payload_bytes)));
   return true;
 }

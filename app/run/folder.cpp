@@ -2,7 +2,6 @@
 // The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files only.
 #include "base/files.h"
 #include "plan/plan.h"
-#include "preset/files.h"
 #include "preset/read.h"
 #include "run/run.h"
 
@@ -56,8 +55,6 @@ void claim(const fs::path& folder)
 
 } // namespace
 
-preset::Preset resolved_for(const fs::path& folder, const preset::Preset& preset) { return preset::moved_to(preset, folder); }
-
 void claim_folder(const fs::path& folder)
 {
   try {
@@ -79,17 +76,23 @@ void begin_run(const fs::path& folder, const Prepared& prepared)
 
 void write_settings(const fs::path& folder, const Prepared& prepared)
 {
-  write_file_whole(folder / "preset.json", preset::to_json(resolved_for(folder, prepared.preset)) + "\n");
+  write_file_whole(folder / "preset.json", preset::to_json(prepared.preset, folder) + "\n");
   write_file_whole(folder / "plan.json", plan::to_json(prepared.plan) + "\n");
 }
 
-bool is_finished(const fs::path& folder, const preset::Preset& preset)
+std::optional<job::Progress> finished_run(const fs::path& folder, const preset::Preset& preset)
 {
   for (const char* name : {"image.exr", "run.json", "preset.json"})
-    if (!is_there(folder / name)) return false;
-  if (read_file(folder / "preset.json") != preset::to_json(resolved_for(folder, preset)) + "\n") return false;
+    if (!is_there(folder / name)) return std::nullopt;
+  if (read_file(folder / "preset.json") != preset::to_json(preset, folder) + "\n") return std::nullopt;
   const auto run = nlohmann::json::parse(read_file(folder / "run.json"), nullptr, false);
-  return run.is_object() && run.value("finished", false);
+  if (!run.is_object() || !run.value("finished", false)) return std::nullopt;
+  job::Progress progress;
+  progress.fraction = 1;
+  progress.step = run.value("passes", std::int64_t{0});
+  progress.photons = run.value("photons", std::uint64_t{0});
+  progress.work_seconds = run.value("work_seconds", 0.0);
+  return progress;
 }
 
 } // namespace nephroid::run

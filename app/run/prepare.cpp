@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/run.h"
 
-#include "base/error.h"
-#include "preset/read.h"
 #include "spectral/engine.h"
 
 #include <cstring>
@@ -10,14 +8,12 @@
 namespace nephroid::run {
 namespace {
 
-/// Everything that a loaded scene depends on, but the camera.
-std::string scene_key(const preset::Preset& preset)
+/// Whether two presets load the same scene but for the camera.
+bool same_but_camera(const preset::Preset& a, const preset::Preset& b)
 {
-  preset::Preset scene_only;
-  scene_only.unit = preset.unit;
-  scene_only.scene = preset.scene;
-  scene_only.scene.camera = {};
-  return preset.source + '\n' + preset::to_json(scene_only);
+  preset::Scene scene = a.scene;
+  scene.camera = b.scene.camera;
+  return a.source == b.source && a.unit == b.unit && scene == b.scene;
 }
 
 template <class T>
@@ -33,7 +29,7 @@ bool same_triangles(const scene::Mesh& a, const scene::Mesh& b)
 
 LoadedScene load(const preset::Preset& preset, const Prepared* previous)
 {
-  if (previous && scene_key(preset) == scene_key(previous->preset)) {
+  if (previous && same_but_camera(preset, previous->preset)) {
     LoadedScene loaded = *previous->loaded;
     loaded.scene.camera = scene::make_camera(preset.scene.camera, loaded.scene);
     return loaded;

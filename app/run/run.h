@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace nephroid::run {
 
@@ -41,10 +42,8 @@ void claim_folder(const std::filesystem::path& folder);
 void begin_run(const std::filesystem::path& folder, const Prepared& prepared);
 /// preset.json and plan.json alone: what begin_run and write_run write, and a resumed run whose stop differs.
 void write_settings(const std::filesystem::path& folder, const Prepared& prepared);
-/// Whether the folder holds the finished run of exactly this preset.
-bool is_finished(const std::filesystem::path& folder, const preset::Preset& preset);
-/// The preset with file names that mean the same from `folder`: what preset.json and image.exr hold.
-preset::Preset resolved_for(const std::filesystem::path& folder, const preset::Preset& preset);
+/// How far the run in the folder came, if it is the finished run of exactly this preset.
+std::optional<job::Progress> finished_run(const std::filesystem::path& folder, const preset::Preset& preset);
 
 /// Writes image.exr, image.png, preset.json, plan.json and run.json into folder (made if missing), each whole.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,

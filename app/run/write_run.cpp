@@ -16,9 +16,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::map<std::string, std::string> attributes(const preset::Preset& preset, const compute::DeviceInfo& device)
+std::map<std::string, std::string> attributes(const preset::Preset& preset, const std::filesystem::path& folder,
+                                              const compute::DeviceInfo& device)
 {
-  return {{"nephroid:preset", preset::to_json(preset)},
+  return {{"nephroid:preset", preset::to_json(preset, folder)},
           {"nephroid:seed", std::to_string(preset.seed)},
           {"nephroid:device", device.name},
           {"nephroid:version", version()}};
@@ -76,7 +77,7 @@ void write_run(const std::filesystem::path& folder, const Prepared& prepared, co
   if (error) throw failed(folder.string(), "cannot be made: " + error.message());
   const job::Picture& picture = *snapshot.picture;
   image::Image exr = with_layers(picture);
-  exr.attributes = attributes(resolved_for(folder, prepared.preset), device);
+  exr.attributes = attributes(prepared.preset, folder, device);
   image::write_exr(folder / "image.exr", exr);
   image::write_png(folder / "image.png", picture.width, picture.height, picture.rgb);
   write_settings(folder, prepared);

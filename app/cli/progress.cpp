@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/progress.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace nephroid::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::chrono::milliseconds rhythm(ProgressStyle style)
+{
+  switch (style) {
+  case ProgressStyle::live:
+    return 100ms;
+  case ProgressStyle::json:
+    return 500ms;
+  default:
+    return 3s;
+  }
+}
+
+int terminal_columns()
+{
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+/// "1.21 M": three figures and the SI prefix.
+std::string with_prefix(double amount)
+{
+  const char* const prefixes[] = {"", "k", "M", "G", "T"};
+  int prefix = 0;
+  for (; amount >= 1000 && prefix < 4; ++prefix) amount /= 1000;
+  return fmt::format("{:.{}f} {}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, prefixes[prefix]);
+}
+
+/// "0:07", "12:30", "3:00:00"
+std::string clock_time(double seconds)
+{
+  const auto whole = static_cast<long long>(std::min(std::round(seconds), 1e9));
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+std::string bar(double fraction, int width)
+{
+  const int done = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);
+  return std::string(static_cast<std::size_t>(done), '#') + std::string(static_cast<std::size_t>(width - done), '-');
+}
+
+} // namespace
+
+ProgressStyle progress_style(bool json)
+{
+  if (json) return ProgressStyle::json;
+  const char* terminal = std::getenv("TERM");
+  const bool moves = terminal && std::string_view(terminal) != "dumb";
+  return ::isatty(STDERR_FILENO) && moves ? ProgressStyle::live : ProgressStyle::lines;
+}
+
+Pace pace_between(const job::Progress& start, const job::Progress& now)
+{
+  Pace pace;
+  const double seconds = now.work_seconds - start.work_seconds, fraction = now.fraction - start.fraction;
+  if (seconds <= 0) return pace;
+  pace.photons_per_second = static_cast<double>(now.photons - start.photons) / seconds;
+  if (fraction > 0) pace.seconds_left = std::max(0.0, seconds * (1 - now.fraction) / fraction);
+  return pace;
+}
+
+std::string progress_line(const std::string& name, const job::Progress& now, const Pace& pace, int columns)
+{
+  std::string figures = fmt::format("{:3.0f} %  pass {}", std::floor(now.fraction * 100), now.step);
+  if (pace.photons_per_second > 0) figures += fmt::format("  {}photons/s", with_prefix(pace.photons_per_second));
+  if (pace.seconds_left >= 0) figures += fmt::format("  {} left", clock_time(pace.seconds_left));
+  const int room = columns - static_cast<int>(name.size() + figures.size()) - 6;
+  std::string line = room >= 5 ? fmt::format("{}  [{}]  {}", name, bar(now.fraction, std::min(room, 30)), figures) : figures;
+  line.resize(std::min(line.size(), static_cast<std::size_t>(std::max(columns, 1))));
+  return line;
+}
+
+std::string progress_json(const std::string& name, const job::Progress& now, const Pace& pace)
+{
+  const nlohmann::ordered_json all{
+      {"type", "progress"},
+      {"name", name},
+      {"fraction", now.fraction},
+      {"step", now.step},
+      {"steps", now.steps >= 0 ? nlohmann::ordered_json(now.steps) : nlohmann::ordered_json()},
+      {"photons", now.photons},
+      {"work_seconds", now.work_seconds},
+      {"photons_per_second", pace.photons_per_second},
+      {"seconds_left", pace.seconds_left >= 0 ? nlohmann::ordered_json(pace.seconds_left) : nlohmann::ordered_json()}};
+  return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string name, const job::Progress& start)
+    : style_(style), name_(std::move(name)), start_(start), next_(Clock::now() + rhythm(style))
+{
+}
+
+ProgressDisplay::~ProgressDisplay() { clear(); }
+
+void ProgressDisplay::update(const job::Progress& now)
+{
+  if (Clock::now() < next_) return;
+  show(now);
+  next_ = Clock::now() + rhythm(style_);
+}
+
+void ProgressDisplay::finish(const job::Progress& now)
+{
+  clear();
+  if (style_ == ProgressStyle::json) show(now);
+}
+
+void ProgressDisplay::clear()
+{
+  if (!line_is_shown_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  line_is_shown_ = false;
+}
+
+void ProgressDisplay::show(const job::Progress& now)
+{
+  const Pace pace = pace_between(start_, now);
+  if (style_ == ProgressStyle::json) {
+    fmt::print("{}\n", progress_json(name_, now, pace));
+    std::fflush(stdout);
+  } else if (style_ == ProgressStyle::lines) {
+    fmt::print(stderr, "{}\n", progress_line(name_, now, pace, 200));
+  } else {
+    fmt::print(stderr, "\r{}\033[K", progress_line(name_, now, pace, terminal_columns() - 1));
+    std::fflush(stderr);
+    line_is_shown_ = true;
+  }
+}
+
+} // namespace nephroid::cli

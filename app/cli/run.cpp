@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
+#include "run/run.h"
+#include "base/interrupts.h"
+#include "cli/progress.h"
+#include "cli/verbs.h"
+#include "preset/read.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace nephroid::cli {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* result_files[] = {"image.exr", "image.png", "preset.json", "plan.json", "run.json", "checkpoint.bin"};
+
+struct RunOptions {
+  std::string preset;
+  fs::path folder;
+  std::vector<std::string> overrides;
+  std::optional<double> seconds;
+  std::optional<int> passes;
+  std::optional<std::uint64_t> seed;
+  compute::DeviceOptions device;
+  double checkpoint_seconds = 10;
+  bool resume = false, json = false;
+};
+
+struct Target {
+  preset::Preset preset;
+  fs::path folder;
+  std::string label; ///< what progress and notes call it
+};
+
+/// The runs to do: one, or those of a sweep in numbered folders.
+std::vector<Target> targets_of(const RunOptions& options)
+{
+  std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
+  const std::string stem = fs::path(options.preset).stem().string();
+  const fs::path folder = options.folder.empty() ? fs::path("out") / stem : options.folder;
+  std::vector<Target> targets;
+  for (preset::Preset& preset : presets) {
+    if (options.seconds || options.passes) preset.stop = {options.seconds, options.passes};
+    if (options.seed) preset.seed = *options.seed;
+    const std::string number = fmt::format("{:03}", targets.size() + 1);
+    const bool sweep = presets.size() > 1;
+    targets.push_back({std::move(preset), sweep ? folder / number : folder, sweep ? stem + "/" + number : stem});
+  }
+  return targets;
+}
+
+/// The last words about one run, on standard output.
+void report_result(const RunOptions& options, const Target& target, const job::Progress& progress, bool finished)
+{
+  std::vector<std::string> files;
+  for (const char* name : result_files)
+    if (fs::exists(target.folder / name)) files.emplace_back(name);
+  if (options.json) {
+    const nlohmann::ordered_json all{
+        {"type", "result"},     {"name", target.label},    {"folder", target.folder.string()}, {"files", files},
+        {"finished", finished}, {"passes", progress.step}, {"photons", progress.photons},      {"work_seconds", progress.work_seconds}};
+    fmt::print("{}\n", all.dump());
+  } else {
+    fmt::print("{}: {} passes, {:.1f} million photons in {:.1f} s of work\n", (target.folder / "image.exr").string(), progress.step,
+               static_cast<double>(progress.photons) * 1e-6, progress.work_seconds);
+  }
+  std::fflush(stdout);
+}
+
+/// Renders one target on a device that is open for all of them.
+class Run {
+public:
+  Run(const RunOptions& options, const Target& target, const std::stop_token& interrupted)
+      : options_(options), target_(target), interrupted_(interrupted)
+  {
+  }
+
+  /// Opens the device at the first run that needs one.
+  void operator()(std::optional<compute::Context>& context, std::optional<run::Prepared>& prepared)
+  {
+    prepared = run::prepare(target_.preset, prepared ? &*prepared : nullptr);
+    for (const std::string& note : prepared->plan.notes) fmt::print(stderr, "note: {}\n", note);
+    if (!context) context = compute::Context::open(options_.device);
+    run::claim_folder(target_.folder);
+    stop_if_interrupted_early();
+    const std::unique_ptr<job::Job> job = run::make_job(*prepared, *context);
+    begin_or_resume(*prepared, *job);
+    stop_if_interrupted_early();
+    work(*prepared, *job);
+    save(*prepared, context->device(), *job);
+  }
+
+private:
+  void stop_if_interrupted_early() const
+  {
+    if (interrupted_.stop_requested()) throw Error(ErrorKind::interrupted, target_.folder.string(), "interrupted before rendering began");
+  }
+
+  void begin_or_resume(const run::Prepared& prepared, job::Job& job) const
+  {
+    if (options_.resume && run::load_checkpoint(target_.folder, prepared, job)) {
+      const job::Progress progress = job.progress();
+      fmt::print(stderr, "{}: going on after pass {} ({:.1f} s of work)\n", target_.label, progress.step, progress.work_seconds);
+      run::write_settings(target_.folder, prepared);
+      return;
+    }
+    if (options_.resume)
+      fmt::print(stderr, "{}: no checkpoint in {}, starting from the beginning\n", target_.label, target_.folder.string());
+    run::begin_run(target_.folder, prepared);
+  }
+
+  void work(const run::Prepared& prepared, job::Job& job)
+  {
+    ProgressDisplay display(progress_style(options_.json), target_.label, job.progress());
+    double saved_at = job.progress().work_seconds;
+    while (!job.finished() && !interrupted_.stop_requested()) {
+      job.step();
+      const job::Progress progress = job.progress();
+      display.update(progress);
+      if (progress.work_seconds - saved_at < options_.checkpoint_seconds) continue;
+      saved_at = progress.work_seconds;
+      checkpoint(prepared, job, display);
+    }
+    display.finish(job.progress());
+  }
+
+  /// A disk that is full now may not be when the run ends: the work in hand is worth more than its checkpoint.
+  void checkpoint(const run::Prepared& prepared, job::Job& job, ProgressDisplay& display)
+  {
+    try {
+      run::write_checkpoint(target_.folder, prepared, job);
+    } catch (const Error& error) {
+      if (std::exchange(warned_, true)) return;
+      display.clear();
+      fmt::print(stderr, "warning: {}; going on without checkpoints\n", error.line());
+    }
+  }
+
+  void save(const run::Prepared& prepared, const compute::DeviceInfo& device, job::Job& job) const
+  {
+    const bool finished = job.finished();
+    const job::Snapshot snapshot = job.snapshot();
+    run::write_checkpoint(target_.folder, prepared, job);
+    run::write_run(target_.folder, prepared, device, snapshot, finished);
+    report_result(options_, target_, snapshot.progress, finished);
+    if (!finished)
+      throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted after pass {}", snapshot.progress.step),
+                  "the image and a checkpoint are saved", "go on with --resume");
+  }
+
+  const RunOptions& options_;
+  const Target& target_;
+  std::stop_token interrupted_;
+  bool warned_ = false;
+};
+
+void run_preset(const RunOptions& options)
+{
+  const Interrupts interrupts; // before OpenCL starts its threads
+  const std::vector<Target> targets = targets_of(options);
+  std::optional<compute::Context> context;
+  std::optional<run::Prepared> prepared;
+  for (const Target& target : targets) {
+    if (const auto done = options.resume ? run::finished_run(target.folder, target.preset) : std::nullopt) {
+      fmt::print(stderr, "{}: this run is finished\n", target.label);
+      report_result(options, target, *done, true);
+      continue;
+    }
+    Run(options, target, interrupts.token())(context, prepared);
+  }
+}
+
+} // namespace
+
+void add_run(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* verb = program.add_subcommand("run", "Render a preset into a folder");
+  verb->footer(
+      "Ctrl-C saves the image and a checkpoint; `--resume` goes on from there with the same result as an uninterrupted run.\n"
+      "Files: image.exr (linear, with layers), image.png (as shown), preset.json (complete), plan.json, run.json, checkpoint.bin.");
+  verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset")->required();
+  verb->add_option("-o,--output", options->folder, "Folder for the run's files (default out/NAME; a sweep's runs in 001, 002, ...)")
+      ->type_name("DIR");
+  verb->add_option("--set", options->overrides, "Change a setting: scene.lights.0.power_w=2; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+  verb->add_option("--seconds", options->seconds, "Stop after this much work, instead of where the preset says")
+      ->type_name("S")
+      ->check(CLI::Range(0.001, 1e9));
+  verb->add_option("--passes", options->passes, "Stop after this many passes, instead of where the preset says")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1 << 30));
+  verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")->type_name("N");
+  verb->add_option("--device", options->device.selector, "An index or part of a name (see nephroid devices)")->type_name("SEL");
+  verb->add_option("--kernels", options->device.kernels, "Load kernels from this folder instead of the built-in ones")->type_name("DIR");
+  verb->add_option("--checkpoint-seconds", options->checkpoint_seconds, "Work between checkpoints (default 10)")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e9));
+  verb->add_flag("--resume", options->resume, "Go on from the folder's checkpoint");
+  verb->add_flag("--json", options->json, "Progress and result as JSON lines on standard output");
+  verb->callback([options] { run_preset(*options); });
+}
+
+} // namespace nephroid::cli
