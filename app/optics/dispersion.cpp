@@ -26,7 +26,7 @@ bool is_outside(double nm, double low_nm, double high_nm)
 Error refusal(const DispersionCurve& curve, const char* quantity, double nm, double low_nm, double high_nm)
 {
   return bad_input(curve.source, fmt::format("{} has no {} at {} nm", curve.name, quantity, nm),
-                   fmt::format("a wavelength in its range {:.6g}..{:.6g} nm", low_nm, high_nm),
+                   fmt::format("expected a wavelength in its range {:.6g}..{:.6g} nm", low_nm, high_nm),
                    "outside \"hold\" or \"extrapolate\" goes beyond it");
 }
 
@@ -38,7 +38,7 @@ double value_at(const Curve& curve, double nm, Outside outside)
 
 void require_finite(std::span<const double> values, const char* kind)
 {
-  if (values.empty()) throw bad_input(kind, "there are no coefficients", "at least one");
+  if (values.empty()) throw bad_input(kind, "there are no coefficients", "expected at least one");
   for (double value : values)
     if (!std::isfinite(value)) throw bad_input(kind, "a coefficient is not finite");
 }
@@ -46,7 +46,7 @@ void require_finite(std::span<const double> values, const char* kind)
 void require_range(double low_nm, double high_nm, const char* kind)
 {
   if (!(low_nm > 0) || !(high_nm >= low_nm))
-    throw bad_input(kind, fmt::format("the range is {}..{} nm", low_nm, high_nm), "0 < low <= high");
+    throw bad_input(kind, fmt::format("the range is {}..{} nm", low_nm, high_nm), "expected 0 < low <= high");
 }
 
 DispersionCurve index_only(const char* kind, Curve n) { return {kind, kind, std::move(n), std::nullopt}; }
@@ -61,7 +61,7 @@ std::array<double, 2> DispersionCurve::range_nm() const
 
 IndexSample DispersionCurve::sample(double nm, Outside outside) const
 {
-  if (!std::isfinite(nm) || !(nm > 0)) throw bad_input(source, fmt::format("the wavelength is {} nm", nm), "a number above 0");
+  if (!std::isfinite(nm) || !(nm > 0)) throw bad_input(source, fmt::format("the wavelength is {} nm", nm), "expected a number above 0");
   const auto [low, high] = range_nm();
   IndexSample result;
   result.nm = nm;
@@ -86,7 +86,7 @@ Spectrum sample_n(const DispersionCurve& curve, Outside outside)
       throw bad_input(curve.source, fmt::format("the formula of {} gives no number at {} nm", curve.name, nm),
                       fmt::format("its range is {:.6g}..{:.6g} nm", curve.n->low_nm, curve.n->high_nm),
                       "use outside \"hold\", or choose another file");
-    if (!(*n > 0)) throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm), "n above 0");
+    if (!(*n > 0)) throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm), "expected n above 0");
     result[static_cast<std::size_t>(i)] = *n;
   }
   return result;
@@ -121,7 +121,8 @@ std::string outside_note(const DispersionCurve& curve, Outside outside)
 
 DispersionCurve constant_index(double n)
 {
-  if (!std::isfinite(n) || !(n > 0)) throw bad_input("constant", fmt::format("the index of refraction is {}", n), "a number above 0");
+  if (!std::isfinite(n) || !(n > 0))
+    throw bad_input("constant", fmt::format("the index of refraction is {}", n), "expected a number above 0");
   return index_only("constant", {[n](double) { return n; }, 0, std::numeric_limits<double>::infinity(), true});
 }
 
@@ -129,7 +130,7 @@ DispersionCurve sellmeier(std::span<const double> b, std::span<const double> c_u
 {
   if (b.size() != c_um2.size())
     throw bad_input("sellmeier", fmt::format("there are {} values of b and {} of c", b.size(), c_um2.size()),
-                    "as many of one as of the other");
+                    "expected as many of one as of the other");
   require_finite(b, "sellmeier");
   require_finite(c_um2, "sellmeier");
   require_range(low_nm, high_nm, "sellmeier");

@@ -44,7 +44,7 @@ double number(std::string_view word, const std::string& where)
   double value = 0;
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (code != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw bad_input(where, fmt::format("\"{}\" is no number", word.substr(0, 40)), "a finite number such as 1.5168 or 2.86E-06");
+    throw bad_input(where, fmt::format("\"{}\" is no number", word.substr(0, 40)), "expected a finite number such as 1.5168 or 2.86E-06");
   return value;
 }
 
@@ -60,7 +60,7 @@ YAML::Node text_of(const YAML::Node& block, const char* key, const std::string& 
 {
   const YAML::Node node = block[key];
   if (!node.IsDefined()) throw bad_input(place(file, block), fmt::format("the entry has no \"{}\"", key));
-  if (!node.IsScalar()) throw bad_input(place(file, node), fmt::format("\"{}\" is not text", key), "numbers separated by blanks");
+  if (!node.IsScalar()) throw bad_input(place(file, node), fmt::format("\"{}\" is not text", key), "expected numbers separated by blanks");
   return node;
 }
 
@@ -70,14 +70,14 @@ Curve formula_curve(const YAML::Node& block, int formula, const std::string& fil
   const std::vector<double> range = numbers(range_node.Scalar(), place(file, range_node));
   if (range.size() != 2 || !(range[0] > 0) || !(range[1] >= range[0]))
     throw bad_input(place(file, range_node), fmt::format("the wavelength range is \"{}\"", range_node.Scalar()),
-                    "two numbers in micrometres, the lower first, above 0");
+                    "expected two numbers in micrometres, the lower first, above 0");
 
   std::vector<double> coefficients = numbers(values.Scalar(), place(file, values));
   const auto most = static_cast<std::size_t>(most_coefficients(formula));
-  if (coefficients.empty()) throw bad_input(place(file, values), "there are no coefficients", "at least one");
+  if (coefficients.empty()) throw bad_input(place(file, values), "there are no coefficients", "expected at least one");
   if (most > 0 && coefficients.size() > most)
     throw bad_input(place(file, values), fmt::format("formula {} has {} coefficients", formula, coefficients.size()),
-                    fmt::format("at most {}", most));
+                    fmt::format("expected at most {}", most));
 
   const auto value = [formula, c = std::move(coefficients)](double nm) { return index_by_formula(formula, c, nm / 1000); };
   return {value, range[0] * 1000, range[1] * 1000, true};
@@ -99,11 +99,11 @@ std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t
     if (row.empty()) continue;
     if (row.size() != columns)
       throw bad_input(where, fmt::format("the row has {} numbers", row.size()),
-                      fmt::format("{}: the wavelength in micrometres{}", columns, columns == 3 ? ", n and k" : " and the value"));
-    if (!(row[0] > 0)) throw bad_input(where, fmt::format("the wavelength is {} um", row[0]), "a wavelength above 0");
+                      fmt::format("expected {}: the wavelength in micrometres{}", columns, columns == 3 ? ", n and k" : " and the value"));
+    if (!(row[0] > 0)) throw bad_input(where, fmt::format("the wavelength is {} um", row[0]), "expected a wavelength above 0");
     rows.push_back(std::move(row));
   }
-  if (rows.empty()) throw bad_input(place(file, data), "the table is empty", "at least one row of numbers");
+  if (rows.empty()) throw bad_input(place(file, data), "the table is empty", "expected at least one row of numbers");
   return rows;
 }
 
@@ -140,7 +140,7 @@ int formula_number(const std::string& type)
 
 void read_block(const YAML::Node& block, DispersionCurve& curve, const std::string& file)
 {
-  if (!block.IsMap()) throw bad_input(place(file, block), "the entry is not a map", "\"- type: ...\" and its data");
+  if (!block.IsMap()) throw bad_input(place(file, block), "the entry is not a map", "expected \"- type: ...\" and its data");
   const YAML::Node type_node = text_of(block, "type", file);
   const std::string& type = type_node.Scalar();
   if (const int formula = formula_number(type)) return keep_first(curve.n, formula_curve(block, formula, file));
@@ -157,7 +157,8 @@ void read_block(const YAML::Node& block, DispersionCurve& curve, const std::stri
                                               "formula 6",    "formula 7",   "formula 8",  "formula 9", "constant",
                                               "tabulated nk", "tabulated n", "tabulated k"};
   const std::string near = nearest(type, known);
-  throw bad_input(place(file, type_node), fmt::format("the type is \"{}\"", type), "formula 1 to 9, tabulated n, nk or k, or constant",
+  throw bad_input(place(file, type_node), fmt::format("the type is \"{}\"", type),
+                  "expected formula 1 to 9, tabulated n, nk or k, or constant",
                   near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
 }
 
@@ -171,14 +172,14 @@ DispersionCurve parse_dispersion(const std::string& yaml, const std::filesystem:
   curve.source = file;
   try {
     const YAML::Node root = YAML::Load(yaml);
-    if (!root.IsMap()) throw bad_input(file, "this is no refractiveindex.info file", "a YAML map with a DATA list");
+    if (!root.IsMap()) throw bad_input(file, "this is no refractiveindex.info file", "expected a YAML map with a DATA list");
     const YAML::Node data = root["DATA"];
-    if (!data.IsDefined()) throw bad_input(file, "there is no DATA", "a DATA list with formulas or tables");
+    if (!data.IsDefined()) throw bad_input(file, "there is no DATA", "expected a DATA list with formulas or tables");
     if (!data.IsSequence() || data.size() == 0)
-      throw bad_input(place(file, data), "DATA is not a list with entries", "a list of \"- type: ...\" entries");
+      throw bad_input(place(file, data), "DATA is not a list with entries", "expected a list of \"- type: ...\" entries");
     for (const YAML::Node& block : data) read_block(block, curve, file);
   } catch (const YAML::Exception& error) {
-    throw bad_input(place(file, error.mark.line), "broken YAML: " + error.msg, "a file of the refractiveindex.info database");
+    throw bad_input(place(file, error.mark.line), "broken YAML: " + error.msg, "expected a file of the refractiveindex.info database");
   }
   return curve;
 }

@@ -22,14 +22,14 @@ std::size_t interval(const std::vector<Row>& rows, double nm)
 void check_row(const Row& row, const std::string& where)
 {
   if (!std::isfinite(row[0]) || !std::isfinite(row[1])) throw bad_input(where, "a row holds a number that is not finite");
-  if (!(row[0] > 0)) throw bad_input(where, fmt::format("a row has the wavelength {} nm", row[0]), "a wavelength above 0");
+  if (!(row[0] > 0)) throw bad_input(where, fmt::format("a row has the wavelength {} nm", row[0]), "expected a wavelength above 0");
 }
 
 } // namespace
 
 std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const std::string& where)
 {
-  if (rows.empty()) throw bad_input(where, "the table is empty", "at least one row of (wavelength in nm, value)");
+  if (rows.empty()) throw bad_input(where, "the table is empty", "expected at least one row of (wavelength in nm, value)");
   for (const Row& row : rows) check_row(row, where);
   std::vector<Row> sorted(rows.begin(), rows.end());
   std::stable_sort(sorted.begin(), sorted.end(), [](const Row& a, const Row& b) { return a[0] < b[0]; });
@@ -41,7 +41,7 @@ std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const s
       if (repeats == Repeats::refuse && sorted[end][1] != sorted[begin][1])
         throw bad_input(where,
                         fmt::format("{} nm is given twice, with the values {} and {}", sorted[end][0], sorted[begin][1], sorted[end][1]),
-                        "each wavelength once");
+                        "expected each wavelength once");
       sum += sorted[end][1];
     }
     const bool once = end - begin == 1;

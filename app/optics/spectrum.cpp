@@ -21,7 +21,8 @@ Spectrum normalised(Spectrum spectrum, const std::string& what)
   double sum = 0;
   for (double value : spectrum) sum += value;
   if (!(sum > 0) || !std::isfinite(sum))
-    throw bad_input({}, what + fmt::format(" has no power in {}..{} nm", first_nm, last_nm), "at least one wavelength with power there");
+    throw bad_input({}, what + fmt::format(" has no power in {}..{} nm", first_nm, last_nm),
+                    "expected at least one wavelength with power there");
   for (double& value : spectrum) value /= sum;
   return spectrum;
 }
@@ -40,13 +41,13 @@ Spectrum sampled(const LinearTable& table, bool hold)
 void require_no_negative_power(std::span<const Row> rows)
 {
   for (const Row& row : rows)
-    if (row[1] < 0) throw bad_input({}, fmt::format("the light's power at {} nm is {}", row[0], row[1]), "0 or more");
+    if (row[1] < 0) throw bad_input({}, fmt::format("the light's power at {} nm is {}", row[0], row[1]), "expected 0 or more");
 }
 
 Error unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& known)
 {
   const std::string near = nearest(name, known);
-  return bad_input({}, fmt::format("no {} is called \"{}\"", kind, name), fmt::format("one of {}", fmt::join(known, ", ")),
+  return bad_input({}, fmt::format("no {} is called \"{}\"", kind, name), fmt::format("expected one of {}", fmt::join(known, ", ")),
                    near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
 }
 
@@ -75,7 +76,7 @@ Spectrum illuminant(const std::string& name)
 Spectrum blackbody(double temperature_k)
 {
   if (!std::isfinite(temperature_k) || !(temperature_k > 0))
-    throw bad_input({}, fmt::format("a black body of {} K", temperature_k), "a temperature above 0 K");
+    throw bad_input({}, fmt::format("a black body of {} K", temperature_k), "expected a temperature above 0 K");
   // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), with c2 = h c / k_B (SI 2019, exact figures). Divided by its value at the red
   // end, exponents stay small: a body of 1 K has e^-18000 of its red light in the blue, which is 0 here, and no 0 / 0.
   constexpr double c2_nm_k = 1.438776877503933e7;
@@ -124,7 +125,7 @@ Spectrum colorchecker_patch(const std::string& name)
 Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance)
 {
   for (const auto& [nm, value] : nm_reflectance)
-    if (!(value >= 0 && value <= 1)) throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "0 to 1");
+    if (!(value >= 0 && value <= 1)) throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "expected 0 to 1");
   return sampled(LinearTable(sorted_rows(nm_reflectance, Repeats::refuse, {})), true);
 }
 

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dispersion against published figures, hand-computed values of every formula, and the oddities of the refractiveindex.info
+// database. Malformed files are in dispersion_file_test.cpp.
+#include "base/error.h"
+#include "optics/dispersion.h"
+#include "optics/formulas.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace {
+
+using namespace nephroid::optics;
+using nephroid::Error;
+using Rows = std::vector<std::array<double, 2>>;
+
+const std::filesystem::path materials = std::filesystem::path(NEPHROID_SOURCE_DIR) / "presets/materials";
+const std::filesystem::path more = std::filesystem::path(NEPHROID_SOURCE_DIR) / "tests/data/dispersion";
+
+constexpr double line_F = 486.1327, line_d = 587.5618, line_C = 656.2725;
+
+double n_at(const DispersionCurve& curve, double nm, Outside outside = Outside::automatic)
+{
+  return curve.sample(nm, outside).n.value_or(std::nan(""));
+}
+
+DispersionCurve from_yaml(const std::string& data) { return parse_dispersion("DATA:\n" + data, "test.yml"); }
+
+std::string error_of(const std::function<void()>& call)
+{
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    return error.line();
+  }
+  return "no error";
+}
+
+struct Glass {
+  const char* file;
+  double n_d, abbe;
+};
+
+// Schott's catalogue (2017): n_d and V_d.
+TEST(Dispersion, SchottGlassesHaveTheirCatalogueFigures)
+{
+  for (const Glass& glass :
+       {Glass{"N-BK7", 1.51680, 64.17}, Glass{"N-SF66", 1.92286, 20.88}, Glass{"N-SF11", 1.78472, 25.68}, Glass{"SF66", 1.92286, 20.88}}) {
+    const DispersionCurve curve = load_dispersion(materials / (std::string(glass.file) + ".yml"));
+    EXPECT_EQ(curve.name, glass.file);
+    EXPECT_NEAR(n_at(curve, line_d), glass.n_d, 1e-5) << glass.file;
+    EXPECT_NEAR((n_at(curve, line_d) - 1) / (n_at(curve, line_F) - n_at(curve, line_C)), glass.abbe, 0.01) << glass.file;
+  }
+}
+
+TEST(Dispersion, OtherMaterialsHaveTheirPublishedFigures)
+{
+  const auto n = [](const char* file, double nm) { return n_at(load_dispersion(materials / file), nm); };
+  EXPECT_NEAR(n("fused-silica-Malitson.yml", 587.6), 1.45846, 1e-5);
+  // Daimon and Masumura measured against vacuum; tables of water say 1.33299 at 20 C, against air of n = 1.00027.
+  EXPECT_NEAR(n("water-20C-Daimon.yml", 589.3) / 1.00027, 1.33299, 2e-5);
+  EXPECT_NEAR(n("diamond-Peter.yml", 589.3), 2.417, 1e-3);
+  EXPECT_NEAR(n("sapphire-o-Malitson.yml", 589.3), 1.768, 1e-3);
+  EXPECT_NEAR(n("PMMA-Szczurowski.yml", 589.3), 1.490, 2e-3);
+}
+
+// The database's only files with formulas 7 and 9, and one of 8, against handbook values of the materials (CRC Handbook of
+// Chemistry and Physics, Handbook of Optics): silicon 3.42 in the far infrared, silver bromide 2.253 and urea 1.602
+// (extraordinary) for yellow light. The tolerance is the spread between authors; the arithmetic is tested below.
+TEST(Dispersion, FilesWithTheRareFormulas)
+{
+  EXPECT_NEAR(n_at(load_dispersion(more / "formula7-silicon-Edwards.yml"), 10000), 3.42, 3e-3);
+  EXPECT_NEAR(n_at(load_dispersion(more / "formula8-silver-bromide-Schroter.yml"), 587.6), 2.253, 6e-3);
+  EXPECT_NEAR(n_at(load_dispersion(more / "formula9-urea-e-Rosker.yml"), 587.6), 1.602, 6e-3);
+}
+
+// By hand, with l = 0.5 um (l^2 = 1/4) or l = 2 um (l^2 = 4) so that every term is a short fraction.
+TEST(Dispersion, EveryFormulaByHand)
+{
+  const auto n = [](int formula, std::vector<double> c, double um) { return index_by_formula(formula, c, um); };
+  EXPECT_NEAR(n(1, {0.25, 3, 1}, 2), std::sqrt(1 + 0.25 + 3 * 4.0 / 3), 1e-15);
+  EXPECT_NEAR(n(2, {0.25, 3, 1, 1, 2}, 2), std::sqrt(1 + 0.25 + 3 * 4.0 / 3 + 1 * 4.0 / 2), 1e-15);
+  EXPECT_NEAR(n(3, {2, 1, 2, 8, -2}, 2), std::sqrt(2 + 4 + 2.0), 1e-15);
+  EXPECT_NEAR(n(4, {1, 3, 2, 2, 1, 6, 0, 1, 2, 0.5, 2, 1, -1}, 2), std::sqrt(1 + 3 * 4.0 / (4 - 2) + 6.0 / (4 - 1) + 2 + 0.5), 1e-15);
+  EXPECT_NEAR(n(5, {1.5, 0.02, -2, 0.01, 1}, 0.5), 1.5 + 0.08 + 0.005, 1e-15);
+  EXPECT_NEAR(n(6, {0.1, 0.5, 6}, 0.5), 1 + 0.1 + 0.5 / (6 - 4), 1e-15);
+  const double pole = 1 / (4 - 0.028);
+  EXPECT_NEAR(n(7, {3, 0.1, 0.2, 0.01, 0.001, 0.0001}, 2), 3 + 0.1 * pole + 0.2 * pole * pole + 0.04 + 0.016 + 0.0064, 1e-15);
+  const double r = 0.2 + 0.1 * 4 / (4 - 2) - 0.01 * 4;
+  EXPECT_NEAR(n(8, {0.2, 0.1, 2, -0.01}, 2), std::sqrt((1 + 2 * r) / (1 - r)), 1e-15);
+  EXPECT_NEAR(n(9, {2, 0.5, 3, 0.3, 1.5, 0.05}, 2), std::sqrt(2 + 0.5 / (4 - 3) + 0.3 * 0.5 / (0.25 + 0.05)), 1e-15);
+}
+
+TEST(Dispersion, MissingCoefficientsAreZeroAndZeroTermsAreLeftOut)
+{
+  const auto n = [](int formula, std::vector<double> c, double um) { return index_by_formula(formula, c, um); };
+  EXPECT_NEAR(n(2, {0.5, 1, 2, 0.75}, 2), std::sqrt(1 + 0.5 + 2 + 0.75), 1e-15); // four: the last pole is at 0
+  EXPECT_NEAR(n(7, {3, 0, 0, 0.5, 0}, 2), 5, 1e-15);
+  EXPECT_NEAR(n(1, {3}, 0.4), 2, 1e-15);
+  // l^2 - 0^0 is 0 at 1 um: 0 / 0 unless the zero factor comes first.
+  EXPECT_NEAR(n(4, {4, 0, 0, 0, 0, 0, 0, 0, 0}, 1), 2, 1e-15);
+  EXPECT_NEAR(n(4, {4, 0, 0, 0, 0}, 1), 2, 1e-15);
+  EXPECT_NEAR(n(8, {0.25, 0, 4}, 2), std::sqrt(1.5 / 0.75), 1e-15);
+  EXPECT_NEAR(n(9, {4, 0, 4, 0, 2}, 2), 2, 1e-15);
+  EXPECT_TRUE(std::isnan(n(3, {-1}, 0.5)));
+}
+
+TEST(Dispersion, AFormulaWithoutAFiniteValueAnswersNothing)
+{
+  const DispersionCurve curve = from_yaml("  - type: formula 1\n    wavelength_range: 0.5 1\n    coefficients: 0 1.2 0.45\n");
+  EXPECT_TRUE(curve.sample(500).n);
+  const IndexSample below = curve.sample(445); // just below the pole at 450 nm: n^2 is far below 0
+  EXPECT_FALSE(below.n);
+  EXPECT_TRUE(below.extrapolated);
+  EXPECT_THAT(error_of([&] { sample_n(curve, Outside::automatic); }),
+              testing::AllOf(testing::HasSubstr("gives no number at"), testing::HasSubstr("500..1000 nm")));
+  EXPECT_NEAR(sample_n(curve, Outside::hold)[0], n_at(curve, 500), 1e-15);
+}
+
+TEST(Dispersion, RangeEndsCountAsInside)
+{
+  const DispersionCurve curve = from_yaml("  - type: formula 5\n    wavelength_range: 0.4861 0.5893\n    coefficients: 1.5\n");
+  for (double nm : {486.1, 589.3, 486.1 * (1 - 5e-7), 589.3 * (1 + 5e-7)}) EXPECT_FALSE(curve.sample(nm).extrapolated) << nm;
+  for (double nm : {486.0, 589.31}) EXPECT_TRUE(curve.sample(nm).extrapolated) << nm;
+  EXPECT_NO_THROW(curve.sample(589.3, Outside::refuse));
+  EXPECT_THAT(error_of([&] { curve.sample(600, Outside::refuse); }),
+              testing::HasSubstr("test.yml: test has no n at 600 nm; expected a wavelength in its range 486.1..589.3 nm"));
+}
+
+TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
+{
+  const DispersionCurve glass = load_dispersion(materials / "N-SF66.yml"); // n by formula and k by table, both from 390 nm
+  const double at_390 = n_at(glass, 390);
+  EXPECT_GT(n_at(glass, 380), at_390 + 0.001);
+  EXPECT_EQ(n_at(glass, 380, Outside::extrapolate), n_at(glass, 380));
+  EXPECT_EQ(n_at(glass, 380, Outside::hold), at_390);
+  EXPECT_TRUE(glass.sample(380).extrapolated);
+  EXPECT_TRUE(glass.sample(380, Outside::hold).extrapolated);
+  EXPECT_FALSE(glass.sample(390).extrapolated);
+  EXPECT_NEAR(*glass.sample(380).k, 4.8564e-6, 1e-12);
+  EXPECT_NEAR(*glass.sample(395).k, (4.8564e-6 + 2.1833e-6) / 2, 1e-12);
+  EXPECT_EQ(outside_note(glass, Outside::automatic), "N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)");
+  EXPECT_EQ(outside_note(glass, Outside::hold), "N-SF66: n is held below 390 nm (data: 390..2500 nm)");
+  EXPECT_EQ(outside_note(load_dispersion(materials / "N-BK7.yml"), Outside::automatic), "");
+  EXPECT_THAT(error_of([&] { sample_n(glass, Outside::refuse); }), testing::HasSubstr("no n at 380 nm"));
+  EXPECT_THAT(error_of([&] { sample_k(glass, Outside::refuse); }), testing::HasSubstr("no k at 380 nm"));
+
+  const DispersionCurve table = tabulated(Rows{{500, 1.6}, {600, 1.5}});
+  for (Outside outside : {Outside::automatic, Outside::hold, Outside::extrapolate}) {
+    EXPECT_EQ(n_at(table, 400, outside), 1.6);
+    EXPECT_EQ(n_at(table, 700, outside), 1.5);
+  }
+  EXPECT_EQ(outside_note(table, Outside::automatic), "table: n is held below 500 nm and above 600 nm (data: 500..600 nm)");
+}
+
+TEST(Dispersion, DatabaseTablesAreReadAsTheyAre)
+{
+  const DispersionCurve odd = from_yaml("  - type: tabulated nk\n    data: |\n        0.70 1.2 -0.01\n        0.50 1.6 0.03\n\n"
+                                        "        0.60 -1.4 0.02\n        0.60 -1.0 0.02\n");
+  EXPECT_EQ(odd.range_nm(), (std::array{500.0, 700.0}));
+  EXPECT_NEAR(n_at(odd, 600), -1.2, 1e-15); // given twice: the mean; negative n stays
+  EXPECT_NEAR(n_at(odd, 550), 0.2, 1e-12);
+  EXPECT_NEAR(*odd.sample(700).k, -0.01, 1e-15);
+  EXPECT_EQ(sample_k(odd, Outside::automatic)[700 - first_nm], 0); // but light does not gain from it
+  EXPECT_THAT(error_of([&] { sample_n(odd, Outside::automatic); }), testing::HasSubstr("n above 0"));
+
+  const DispersionCurve single = from_yaml("  - type: tabulated n\n    data: |\n        0.5893 1.33\n");
+  EXPECT_EQ(n_at(single, 589.3), 1.33);
+  EXPECT_FALSE(single.sample(589.3).extrapolated);
+  EXPECT_EQ(n_at(single, 400), 1.33);
+  EXPECT_TRUE(single.sample(400).extrapolated);
+}
+
+TEST(Dispersion, FilesWithOneOfNAndKOrWithBothApart)
+{
+  const DispersionCurve k_only = from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n        0.6 0.3\n");
+  EXPECT_FALSE(k_only.sample(500).n);
+  EXPECT_NEAR(*k_only.sample(500).k, 0.2, 1e-15);
+  EXPECT_EQ(k_only.range_nm(), (std::array{400.0, 600.0}));
+  EXPECT_THAT(error_of([&] { sample_n(k_only, Outside::automatic); }), testing::HasSubstr("no index of refraction n, only k"));
+
+  const DispersionCurve both = from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n  - type: constant\n    value: 1.7\n");
+  EXPECT_EQ(n_at(both, 500), 1.7);
+  EXPECT_EQ(both.sample(500).k, 0.1);
+  EXPECT_FALSE(both.sample(5).extrapolated);
+
+  const DispersionCurve first = from_yaml("  - type: formula 5\n    wavelength_range: 0.4 0.8\n    coefficients: 1.5\n"
+                                          "  - type: tabulated nk\n    data: |\n        0.4 1.9 0.1\n");
+  EXPECT_EQ(n_at(first, 500), 1.5);
+  EXPECT_EQ(first.sample(500).k, 0.1);
+}
+
+TEST(Dispersion, AnomalousTablesAreReadWithTheirAbsorption)
+{
+  for (const char* file : {"rhodamine-6G-Seckin.yml", "F8BT-e-Kamptner.yml"}) {
+    const DispersionCurve curve = load_dispersion(materials / file);
+    const Spectrum n = sample_n(curve, Outside::automatic), k = sample_k(curve, Outside::automatic);
+    EXPECT_GT(*std::max_element(k.begin(), k.end()), 0.1) << file;
+    EXPECT_FALSE(std::is_sorted(n.begin(), n.end(), std::greater<>())) << file; // n rises somewhere: anomalous
+  }
+}
+
+TEST(Dispersion, PathsMayHoldAnyCharacters)
+{
+  EXPECT_EQ(parse_dispersion("DATA:\n  - type: constant\n    value: 2\n", "a (b), c/Gauß 1.5 μm.yml").name, "Gauß 1.5 μm");
+}
+
+TEST(Dispersion, SellmeierAndCauchyOnTheirOwn)
+{
+  const double b[] = {1.03961212, 0.231792344, 1.01046945}, c[] = {0.00600069867, 0.0200179144, 103.560653};
+  EXPECT_NEAR(n_at(sellmeier(b, c), line_d), 1.51680, 1e-5);
+  EXPECT_EQ(sellmeier(b, c, 300, 2500).range_nm(), (std::array{300.0, 2500.0}));
+  const double cauchy_bk7[] = {1.5046, 0.0042, 0.0001};
+  EXPECT_NEAR(n_at(cauchy(cauchy_bk7), 500), 1.5046 + 0.0042 * 4 + 0.0001 * 16, 1e-15);
+  EXPECT_EQ(n_at(constant_index(1.25), 1e6), 1.25);
+  EXPECT_FALSE(constant_index(1.25).sample(1).extrapolated);
+}
+
+TEST(Dispersion, ControlPointsAreMetAndNeverOvershot)
+{
+  const Rows points{{380, 1.5}, {450, 1.5}, {460, 2.0}, {470, 2.0}, {600, 1.2}, {610, 1.7}, {780, 1.71}};
+  const DispersionCurve curve = control_points(points);
+  for (const auto& [nm, n] : points) EXPECT_NEAR(n_at(curve, nm), n, 1e-12) << nm;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const auto [low, high] = std::minmax(points[i][1], points[i + 1][1]);
+    double previous = points[i][1];
+    const double direction = points[i + 1][1] >= points[i][1] ? 1 : -1;
+    for (double nm = points[i][0]; nm <= points[i + 1][0]; nm += 0.25) {
+      const double n = n_at(curve, nm);
+      EXPECT_GE(n, low - 1e-12) << nm;
+      EXPECT_LE(n, high + 1e-12) << nm;
+      EXPECT_GE((n - previous) * direction, -1e-12) << nm; // monotone between two points
+      previous = n;
+    }
+  }
+  // On a straight line the cubic is the line, and one point is a constant.
+  EXPECT_NEAR(n_at(control_points(Rows{{400, 1.4}, {500, 1.5}, {800, 1.8}}), 650), 1.65, 1e-12);
+  EXPECT_EQ(n_at(control_points(Rows{{500, 1.5}}), 600), 1.5);
+}
+
+// The slope is continuous at the control points: a straight table would have corners there.
+TEST(Dispersion, ControlPointsAreJoinedSmoothly)
+{
+  const DispersionCurve curve = control_points(Rows{{400, 1.9}, {450, 1.7}, {600, 1.6}, {700, 1.58}});
+  for (double nm : {450.0, 600.0}) {
+    const double step = 1e-3, left = n_at(curve, nm) - n_at(curve, nm - step), right = n_at(curve, nm + step) - n_at(curve, nm);
+    EXPECT_NEAR(left / step, right / step, 1e-6) << nm;
+  }
+}
+
+TEST(Dispersion, BadCurvesAreRefused)
+{
+  using testing::HasSubstr;
+  const double two[] = {1, 2}, one[] = {1}, bad[] = {1, NAN};
+  EXPECT_THAT(error_of([&] { sellmeier(two, one); }), HasSubstr("2 values of b and 1 of c"));
+  EXPECT_THAT(error_of([&] { sellmeier({}, {}); }), HasSubstr("no coefficients"));
+  EXPECT_THAT(error_of([&] { sellmeier(two, bad); }), HasSubstr("not finite"));
+  EXPECT_THAT(error_of([&] { sellmeier(one, one, 700, 400); }), HasSubstr("0 < low <= high"));
+  EXPECT_THAT(error_of([&] { cauchy({}); }), HasSubstr("no coefficients"));
+  EXPECT_THAT(error_of([&] { constant_index(0); }), HasSubstr("a number above 0"));
+  EXPECT_THAT(error_of([&] { constant_index(INFINITY); }), HasSubstr("a number above 0"));
+  EXPECT_THAT(error_of([&] { tabulated({}); }), HasSubstr("the table is empty"));
+  EXPECT_THAT(error_of([&] { tabulated(Rows{{500, 1.5}, {500, 1.6}}); }), HasSubstr("500 nm is given twice, with the values 1.5 and 1.6"));
+  EXPECT_NO_THROW(tabulated(Rows{{500, 1.5}, {500, 1.5}}));
+  EXPECT_THAT(error_of([&] { tabulated(Rows{{-500, 1.5}}); }), HasSubstr("a wavelength above 0"));
+  EXPECT_THAT(error_of([&] { control_points(Rows{{500, NAN}}); }), HasSubstr("not finite"));
+  EXPECT_THAT(error_of([&] { constant_index(1.5).sample(-1); }), HasSubstr("the wavelength is -1 nm"));
+  EXPECT_THAT(error_of([&] { constant_index(1.5).sample(NAN); }), HasSubstr("a number above 0"));
+}
+
+} // namespace
