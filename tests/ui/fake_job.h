@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// A job without a device for tests of the window: its picture is one colour that tells which camera it was made for.
+#pragma once
+#include "base/error.h"
+#include "base/files.h"
+#include "job/job.h"
+#include "preset/preset.h"
+#include "ui/workbench.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace nephroid::test {
+
+inline constexpr const char* preset_text = R"({
+  "name": "Test", "engine": "spectral", "unit": "m",
+  "scene": {
+    "camera": {"position": [0, 0, 4], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40, "resolution": [64, 48]},
+    "materials": {"wall": {"type": "diffuse", "reflectance": 0.5}},
+    "objects": [{"name": "floor", "shape": {"type": "quad"}, "material": "wall"}],
+    "lights": [{"type": "point", "power_w": 1, "position": [0, 1, 0]}]
+  },
+  "stop": {"passes": 20}
+})";
+
+/// What the fake jobs did and shall do; outlives them.
+struct FakeRuns {
+  std::atomic<int> made{0};
+  std::atomic<int> steps{20};
+  std::atomic<int> step_ms{2}, make_ms{0};
+  std::atomic<bool> fails{false};
+};
+
+class FakeJob : public job::Job {
+public:
+  FakeJob(preset::Preset preset, FakeRuns& runs) : preset_(std::move(preset)), runs_(runs) {}
+  void step() override
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(runs_.step_ms));
+    if (runs_.fails && done_ == 2) throw failed("clEnqueueNDRangeKernel", "the device is gone", "", "start again");
+    ++done_;
+  }
+  bool finished() const override { return done_ >= runs_.steps; }
+  job::Progress progress() const override
+  {
+    job::Progress p;
+    p.step = done_;
+    p.steps = runs_.steps;
+    p.fraction = static_cast<double>(done_) / runs_.steps;
+    p.photons = 1000 * static_cast<std::uint64_t>(done_);
+    p.work_seconds = 0.002 * done_;
+    return p;
+  }
+  job::Snapshot snapshot() override
+  {
+    auto picture = std::make_shared<job::Picture>();
+    picture->width = preset_.scene.camera.resolution[0];
+    picture->height = preset_.scene.camera.resolution[1];
+    const std::size_t pixels = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height);
+    for (std::size_t i = 0; i < pixels; ++i)
+      for (double c : preset_.scene.camera.position) picture->rgb.push_back(static_cast<float>(c));
+    picture->layers = {{"direct", picture->rgb}};
+    job::Snapshot made;
+    made.picture = picture;
+    made.progress = progress();
+    return made;
+  }
+  std::vector<std::byte> save() override { return {}; }
+  void load(std::span<const std::byte>) override {}
+
+private:
+  preset::Preset preset_;
+  FakeRuns& runs_;
+  int done_ = 0;
+};
+
+inline ui::Workbench::MakeJob fake_jobs(FakeRuns& runs)
+{
+  return [&runs](const preset::Preset& preset) -> std::unique_ptr<job::Job> {
+    std::this_thread::sleep_for(std::chrono::milliseconds(runs.make_ms));
+    ++runs.made;
+    return std::make_unique<FakeJob>(preset, runs);
+  };
+}
+
+/// A folder of this test's own, removed with it.
+class TemporaryFolder {
+public:
+  TemporaryFolder()
+  {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    path = std::filesystem::temp_directory_path() / ("nephroid-" + std::string(info->test_suite_name()) + "-" + info->name());
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+  std::string file(const std::string& name, const std::string& content = preset_text) const
+  {
+    write_file_whole(path / name, content);
+    return (path / name).string();
+  }
+  std::filesystem::path path;
+};
+
+/// Calls step until done() or the time is over; says whether it was done.
+template <class Step, class Done>
+bool eventually(Step step, Done done, double seconds = 5)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!done()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    step();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+} // namespace nephroid::test

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole window without a display: the mouse and the keys are injected, the preset and the commands are looked at.
+#include "fake_job.h"
+#include "headless.h"
+#include "ui/actions.h"
+#include "ui/status_line.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+namespace nephroid::ui {
+namespace {
+
+using test::eventually;
+
+class PanelsTest : public ::testing::Test {
+protected:
+  test::FakeRuns runs;
+  test::TemporaryFolder folder;
+  test::Headless imgui;
+  Workbench workbench{test::fake_jobs(runs)};
+  Workspace workspace;
+
+  void frame() { imgui.frame(workspace, workbench); }
+  void frames(int count)
+  {
+    for (int i = 0; i < count; ++i) frame();
+  }
+  void open()
+  {
+    ASSERT_TRUE(workbench.open(folder.file("test.json")));
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.view().texture().empty(); }));
+  }
+  Point middle() const
+  {
+    const Canvas& canvas = workspace.view().canvas();
+    return {canvas.corner[0] + canvas.size[0] / 2, canvas.corner[1] + canvas.size[1] / 2};
+  }
+  void drag(int button, double dx, double dy)
+  {
+    imgui.move(middle()[0], middle()[1]);
+    frame();
+    imgui.button(button, true);
+    frame();
+    for (int step = 1; step <= 5; ++step) {
+      imgui.move(middle()[0] + dx * step / 5, middle()[1] + dy * step / 5);
+      frame();
+    }
+    imgui.button(button, false);
+    frame();
+  }
+  void press(ImGuiKey key, ImGuiKey modifier = ImGuiKey_None)
+  {
+    if (modifier) imgui.key(modifier, true);
+    imgui.key(key, true);
+    frame();
+    imgui.key(key, false);
+    if (modifier) imgui.key(modifier, false);
+    frame();
+  }
+  const preset::Camera& camera() const { return workbench.preset()->scene.camera; }
+  double distance() const
+  {
+    return std::hypot(camera().position[0] - camera().target[0], camera().position[1] - camera().target[1],
+                      camera().position[2] - camera().target[2]);
+  }
+};
+
+TEST_F(PanelsTest, DrawsWithNothingOpen)
+{
+  frames(3);
+  EXPECT_TRUE(imgui.commands.empty());
+  EXPECT_GT(workspace.view().canvas().size[0], 500);
+  drag(0, 50, 0);
+  EXPECT_EQ(workbench.preset(), nullptr);
+}
+
+TEST_F(PanelsTest, ShowsTheJobsPicture)
+{
+  open();
+  // The camera at (0, 0, 4): no red, no green, blue beyond white.
+  const auto pixels = workspace.view().texture().pixels();
+  ASSERT_EQ(pixels.size(), 4u * 64 * 48);
+  EXPECT_EQ(int(pixels[0]), 0);
+  EXPECT_EQ(int(pixels[2]), 255);
+}
+
+TEST_F(PanelsTest, LeftDragOrbitsAsOneEntry)
+{
+  open();
+  const double height = workspace.view().canvas().size[1];
+  drag(0, height / 2, 0); // half the height: a quarter round; the scene goes right, the camera left
+  EXPECT_NEAR(camera().position[0], -4, 0.1);
+  EXPECT_NEAR(camera().position[2], 0, 0.1);
+  EXPECT_NEAR(distance(), 4, 1e-9);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+  EXPECT_NEAR(workbench.snapshot()->picture->rgb[0], -4, 0.1) << "the run was started again with that camera";
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(camera().position, (preset::Vec3{0, 0, 4}));
+  EXPECT_FALSE(workbench.history()->modified());
+}
+
+TEST_F(PanelsTest, MiddleDragAndShiftDragPan)
+{
+  open();
+  drag(2, 40, 0);
+  EXPECT_LT(camera().target[0], 0) << "the scene follows the mouse: the camera goes the other way";
+  const preset::Camera by_middle = camera();
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  imgui.key(ImGuiMod_Shift, true);
+  drag(0, 40, 0);
+  imgui.key(ImGuiMod_Shift, false);
+  EXPECT_EQ(camera().target, by_middle.target);
+  EXPECT_EQ(camera().position, by_middle.position);
+}
+
+TEST_F(PanelsTest, TheWheelMovesTheCameraAndIsOneEntry)
+{
+  open();
+  imgui.move(middle()[0], middle()[1]);
+  frame();
+  for (int i = 0; i < 3; ++i) {
+    imgui.wheel(1);
+    frame();
+  }
+  EXPECT_NEAR(distance(), 4 / (1.1 * 1.1 * 1.1), 1e-9);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_NEAR(distance(), 4, 1e-12);
+}
+
+TEST_F(PanelsTest, RightDragMovesTheCamera)
+{
+  open();
+  drag(1, 0, -60);
+  EXPECT_LT(distance(), 4);
+  EXPECT_EQ(camera().target, (preset::Vec3{0, 0, 0}));
+}
+
+TEST_F(PanelsTest, WithCtrlThePictureMovesAndNotTheCamera)
+{
+  open();
+  const int made = runs.made;
+  imgui.key(ImGuiMod_Ctrl, true);
+  imgui.move(middle()[0], middle()[1]);
+  frame();
+  imgui.wheel(2);
+  frame();
+  const double zoom = workbench.look().zoom;
+  EXPECT_FALSE(workbench.look().fit);
+  drag(0, 30, 0);
+  imgui.key(ImGuiMod_Ctrl, false);
+  frame();
+  EXPECT_NEAR(workbench.look().centre[0], 32 - 30 / zoom, 0.1);
+  EXPECT_EQ(camera().position, (preset::Vec3{0, 0, 4}));
+  EXPECT_FALSE(workbench.history()->modified());
+  EXPECT_EQ(runs.made, made) << "how a picture is shown needs no new run";
+  press(ImGuiKey_F);
+  EXPECT_TRUE(workbench.look().fit);
+}
+
+TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
+{
+  runs.steps = 1;
+  ASSERT_TRUE(workbench.open(folder.file("test.json"), {"scene.camera.position=[0.1, 0.2, 0.4]"}));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::finished; }));
+  frame();
+  const unsigned char before = workspace.view().texture().pixels()[1];
+  press(ImGuiKey_E, ImGuiMod_Shift);
+  press(ImGuiKey_E, ImGuiMod_Shift);
+  frame();
+  EXPECT_EQ(workbench.look().exposure_stops, -1);
+  EXPECT_LT(workspace.view().texture().pixels()[1], before);
+  press(ImGuiKey_0);
+  frame();
+  EXPECT_EQ(workspace.view().texture().pixels()[1], before);
+  EXPECT_EQ(runs.made, 1);
+}
+
+TEST_F(PanelsTest, EscapeCancelsAndF5StartsAgain)
+{
+  runs.steps = 100000;
+  open();
+  press(ImGuiKey_Escape);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::cancelled; }));
+  press(ImGuiKey_F5);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::running; }));
+  press(ImGuiKey_Space);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::paused; }));
+}
+
+TEST_F(PanelsTest, AnErrorTakesAStripThatGoesWhenItIsDismissed)
+{
+  open();
+  frames(2);
+  const double height = workspace.view().canvas().size[1];
+  workbench.apply({command::Open{(folder.path / "missing.json").string()}});
+  frames(2);
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_LT(workspace.view().canvas().size[1], height - 20);
+  EXPECT_NE(workbench.preset(), nullptr);
+  workbench.apply({command::Dismiss{workbench.messages()[0].id}});
+  frames(2);
+  EXPECT_EQ(workspace.view().canvas().size[1], height);
+}
+
+/// A panel that fails with windows, groups and identifiers open.
+class FailingPanel : public Panel {
+public:
+  const char* name() const override { return "Failing"; }
+  void draw(const Workbench&, Commands&) override
+  {
+    ImGui::PushID("deep");
+    ImGui::BeginGroup();
+    ImGui::BeginChild("inside");
+    throw std::runtime_error("index out of range");
+  }
+};
+
+TEST_F(PanelsTest, APanelThatThrowsBecomesOneMessage)
+{
+  open();
+  workspace.add(std::make_unique<FailingPanel>());
+  frames(5);
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_EQ(workbench.messages()[0].line, "Failing: index out of range");
+  drag(0, 100, 0); // the others go on
+  EXPECT_TRUE(workbench.history()->modified());
+}
+
+TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
+{
+  runs.steps = 100000;
+  open();
+  press(ImGuiKey_S, ImGuiMod_Ctrl);
+  EXPECT_EQ(workbench.question(), Question::none) << "the preset has a file of its own";
+  workbench.apply({command::Ask{Question::save_picture}});
+  frames(2);
+  press(ImGuiKey_E);
+  EXPECT_EQ(workbench.look().exposure_stops, 0);
+  press(ImGuiKey_Escape);
+  frames(2);
+  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_NE(workbench.status().state, job::State::cancelled);
+}
+
+TEST_F(PanelsTest, ADialogOpensTheNameThatIsTyped)
+{
+  const std::string file = folder.file("typed.json");
+  press(ImGuiKey_O, ImGuiMod_Ctrl);
+  frames(3);
+  ASSERT_EQ(workbench.question(), Question::open);
+  ImGui::GetIO().AddInputCharactersUTF8(file.c_str());
+  frames(2);
+  press(ImGuiKey_Enter);
+  frames(2);
+  ASSERT_NE(workbench.preset(), nullptr);
+  EXPECT_EQ(workbench.preset()->source, file);
+  EXPECT_EQ(workbench.question(), Question::none);
+}
+
+TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture)
+{
+  open();
+  for (int size : {32, 80, 16}) {
+    preset::Preset edited = *workbench.preset();
+    edited.scene.camera.resolution = {size, size};
+    workbench.apply({command::Edit{"resolution", edited}});
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+    frames(3);
+    EXPECT_EQ(workspace.view().texture().pixels().size(), 4u * static_cast<unsigned>(size * size));
+  }
+}
+
+TEST_F(PanelsTest, TheHelpListsEveryShortcutAndCloses)
+{
+  press(ImGuiKey_F1);
+  EXPECT_TRUE(workbench.help_shown());
+  frames(3);
+  press(ImGuiKey_F1);
+  EXPECT_FALSE(workbench.help_shown());
+}
+
+TEST(Actions, HaveNamesOfTheirOwnAndShortcutsOfTheirOwn)
+{
+  std::set<std::string> names;
+  std::set<int> shortcuts;
+  for (const Action& a : actions()) {
+    EXPECT_TRUE(names.insert(a.name).second) << a.name;
+    if (a.shortcut) EXPECT_TRUE(shortcuts.insert(a.shortcut).second) << a.name;
+  }
+  EXPECT_THROW(action("Fly"), Error);
+}
+
+TEST(StatusLine, SaysRatesAndTimesAsAPersonWould)
+{
+  job::Progress p;
+  EXPECT_EQ(rate_text(p), "");
+  EXPECT_LT(seconds_left(p), 0);
+  p.fraction = 0.25;
+  p.work_seconds = 5;
+  p.photons = 9'000'000;
+  EXPECT_DOUBLE_EQ(seconds_left(p), 15);
+  EXPECT_EQ(rate_text(p), "1.80 M photons/s");
+  EXPECT_EQ(duration_text(9.6), "10 s");
+  EXPECT_EQ(duration_text(185), "3 min 05 s");
+  EXPECT_EQ(duration_text(7800), "2 h 10 min");
+}
+
+} // namespace
+} // namespace nephroid::ui

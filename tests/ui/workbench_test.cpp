@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// The workbench with a job of the test's own and the program's real worker thread: commands in, preset, picture and messages out.
+#include "base/files.h"
+#include "fake_job.h"
+#include "preset/read.h"
+#include "ui/workbench.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using namespace std::chrono_literals;
+using test::eventually;
+using ::testing::HasSubstr;
+
+class WorkbenchTest : public ::testing::Test {
+protected:
+  test::FakeRuns runs;
+  test::TemporaryFolder folder;
+  Workbench workbench{test::fake_jobs(runs)};
+
+  bool until(const std::function<bool()>& done)
+  {
+    return eventually([&] { workbench.update(); }, done);
+  }
+  bool until(job::State state)
+  {
+    return until([&] { return workbench.status().state == state; });
+  }
+  void edit_z(double z, std::uint64_t gesture = 0, bool live = false)
+  {
+    preset::Preset edited = *workbench.preset();
+    edited.scene.camera.position = {0, 0, z};
+    workbench.apply({command::Edit{"camera", edited, gesture, live}});
+  }
+  float picture_z() const { return workbench.snapshot() ? workbench.snapshot()->picture->rgb[2] : -1; }
+};
+
+TEST_F(WorkbenchTest, OpensRunsAndFinishes)
+{
+  EXPECT_EQ(workbench.preset(), nullptr);
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  EXPECT_EQ(workbench.preset()->name, "Test");
+  ASSERT_TRUE(until(job::State::finished));
+  EXPECT_EQ(workbench.status().progress.fraction, 1);
+  EXPECT_EQ(workbench.snapshot()->picture->width, 64);
+  EXPECT_EQ(workbench.snapshot()->progress.step, 20) << "a finished run shows its last picture";
+  EXPECT_TRUE(workbench.snapshot_is_current());
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(WorkbenchTest, OverridesApplyToWhatIsOpened)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json"), {"seed=42"}));
+  EXPECT_EQ(workbench.preset()->seed, 42u);
+}
+
+TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(until(job::State::finished));
+  runs.make_ms = 50;
+  edit_z(2);
+  workbench.update();
+  EXPECT_EQ(runs.made, 1);
+  EXPECT_EQ(picture_z(), 4) << "the last image stays";
+  EXPECT_FALSE(workbench.snapshot_is_current());
+  ASSERT_TRUE(until([&] { return picture_z() == 2; }));
+  EXPECT_TRUE(workbench.snapshot_is_current());
+  EXPECT_EQ(runs.made, 2);
+}
+
+TEST_F(WorkbenchTest, AnEditReplacesARunningJobWithin100Milliseconds)
+{
+  runs.steps = 100000;
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
+  const auto before = std::chrono::steady_clock::now();
+  edit_z(3);
+  ASSERT_TRUE(until([&] { return runs.made == 2; }));
+  EXPECT_LT(std::chrono::steady_clock::now() - before, 100ms);
+}
+
+TEST_F(WorkbenchTest, DuringAGestureEveryRunShowsAPictureBeforeTheNextReplacesIt)
+{
+  runs.steps = 100000;
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
+  runs.make_ms = 20; // slower than the mouse moves
+  int pictures = 0;
+  std::shared_ptr<const job::Snapshot> last = workbench.snapshot();
+  for (int move = 0; move < 100; ++move) {
+    edit_z(3 + 0.01 * move, 1, true);
+    workbench.update();
+    if (workbench.snapshot() != last) ++pictures;
+    last = workbench.snapshot();
+    std::this_thread::sleep_for(3ms);
+  }
+  EXPECT_GE(pictures, 4) << "something is seen while the mouse moves";
+  workbench.apply({command::EndGesture{}});
+  ASSERT_TRUE(until([&] { return picture_z() == static_cast<float>(3 + 0.01 * 99); }));
+  workbench.apply({command::Undo{}});
+  EXPECT_EQ(workbench.preset()->scene.camera.position[2], 4) << "the gesture is one entry";
+}
+
+TEST_F(WorkbenchTest, UndoAndRedoRunAgain)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  edit_z(2);
+  ASSERT_TRUE(until([&] { return picture_z() == 2; }));
+  workbench.apply({command::Undo{}});
+  ASSERT_TRUE(until([&] { return picture_z() == 4; }));
+  workbench.apply({command::Redo{}});
+  ASSERT_TRUE(until([&] { return picture_z() == 2; }));
+}
+
+TEST_F(WorkbenchTest, CancelAndPauseHoldTheRun)
+{
+  runs.steps = 100000;
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(until(job::State::running));
+  workbench.apply({command::Pause{true}});
+  ASSERT_TRUE(until(job::State::paused));
+  workbench.apply({command::Pause{false}});
+  ASSERT_TRUE(until(job::State::running));
+  workbench.apply({command::Cancel{}});
+  ASSERT_TRUE(until(job::State::cancelled));
+  EXPECT_NE(workbench.snapshot(), nullptr) << "its picture stays";
+  workbench.apply({command::Restart{}});
+  ASSERT_TRUE(until(job::State::running));
+  EXPECT_EQ(runs.made, 2);
+}
+
+TEST_F(WorkbenchTest, AFailureIsOneMessageUntilTheNextRun)
+{
+  runs.fails = true;
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(until(job::State::failed));
+  for (int i = 0; i < 5; ++i) workbench.update();
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_EQ(workbench.messages()[0].line, "clEnqueueNDRangeKernel: the device is gone; start again");
+  EXPECT_TRUE(workbench.messages()[0].error);
+  runs.fails = false;
+  workbench.apply({command::Restart{}});
+  EXPECT_TRUE(workbench.messages().empty());
+  ASSERT_TRUE(until(job::State::finished));
+}
+
+TEST_F(WorkbenchTest, AFileThatCannotBeOpenedLeavesWhatIsThereAlone)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  const std::string broken = folder.file("broken.json", R"({"engine": "spectral", "sceen": {}})");
+  workbench.apply({command::Open{broken}});
+  EXPECT_EQ(workbench.preset()->name, "Test");
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("sceen"));
+  workbench.apply({command::Dismiss{workbench.messages()[0].id}});
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  edit_z(2.5);
+  EXPECT_TRUE(workbench.history()->modified());
+  EXPECT_EQ(workbench.save_target(), folder.path / "test.json");
+  workbench.apply({command::SavePreset{folder.path / "other.json"}});
+  EXPECT_FALSE(workbench.history()->modified());
+  const preset::Preset saved = preset::read_preset((folder.path / "other.json").string());
+  EXPECT_EQ(preset::to_json(saved), preset::to_json(*workbench.preset()));
+  EXPECT_EQ(saved.scene.camera.position[2], 2.5);
+  EXPECT_EQ(workbench.save_target(), folder.path / "other.json");
+}
+
+TEST_F(WorkbenchTest, WhereAPresetCannotBeSavedItSaysSoAndStaysUnsaved)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  edit_z(2.5);
+  workbench.apply({command::SavePreset{folder.path / "missing" / "other.json"}});
+  EXPECT_TRUE(workbench.history()->modified());
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_TRUE(workbench.messages()[0].error);
+}
+
+TEST_F(WorkbenchTest, ThePictureIsWrittenInTheBackground)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(until(job::State::finished));
+  workbench.apply({command::SavePicture{folder.path / "a.png"}, command::SavePicture{folder.path / "a.gif"}});
+  ASSERT_TRUE(until([&] { return workbench.messages().size() == 2; }));
+  EXPECT_TRUE(std::filesystem::file_size(folder.path / "a.png") > 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "a.gif"));
+  int errors = 0;
+  for (const Message& m : workbench.messages()) errors += m.error;
+  EXPECT_EQ(errors, 1);
+  workbench.update(Workbench::Clock::now() + 1h);
+  EXPECT_EQ(workbench.messages().size(), 1u) << "notes go by themselves, errors stay";
+}
+
+TEST_F(WorkbenchTest, AsksBeforeItThrowsChangesAway)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  edit_z(2);
+  workbench.apply({command::Quit{}});
+  EXPECT_FALSE(workbench.quitting());
+  EXPECT_EQ(workbench.question(), Question::quit);
+  workbench.apply({command::Quit{true}});
+  EXPECT_TRUE(workbench.quitting());
+}
+
+} // namespace
+} // namespace nephroid::ui
