@@ -33,14 +33,14 @@ bool no_direction(const Vec3& v) { return length(v) < 1e-12; }
 
 void check_direction(const Vec3& v, const std::string& pointer, const Where& where)
 {
-  if (no_direction(v)) throw bad_input(where(pointer), "has no length", "a direction");
+  if (no_direction(v)) throw bad_input(where(pointer), "has no length", "expected a direction");
 }
 
 void check_up(const Vec3& up, const Vec3& forward, const std::string& pointer, const Where& where)
 {
   check_direction(up, pointer, where);
   if (parallel(up, forward))
-    throw bad_input(where(pointer), "is parallel to the view or light direction", "another direction", "turn it away");
+    throw bad_input(where(pointer), "points along the line of sight or of light", "expected a direction across it");
 }
 
 /// Two values at one wavelength contradict each other.
@@ -51,13 +51,15 @@ void check_rows(const Rows& rows, const std::string& pointer, const Where& where
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rows[a][0] < rows[b][0]; });
   for (std::size_t i = 1; i < order.size(); ++i)
     if (rows[order[i]][0] == rows[order[i - 1]][0])
-      throw bad_input(where(child(pointer, order[i])), fmt::format("{} nm is given twice", rows[order[i]][0]), "each wavelength once");
+      throw bad_input(where(child(pointer, order[i])), fmt::format("{} nm is given twice", rows[order[i]][0]),
+                      "expected each wavelength once");
 }
 
 void check_dispersion(const Dispersion& d, const std::string& pointer, const Where& where)
 {
   if (d.type == Dispersion::Type::sellmeier && d.b.size() != d.c_um2.size())
-    throw bad_input(where(pointer), fmt::format("has {} values in 'b' and {} in 'c_um2'", d.b.size(), d.c_um2.size()), "as many of both");
+    throw bad_input(where(pointer), fmt::format("has {} values in 'b' and {} in 'c_um2'", d.b.size(), d.c_um2.size()),
+                    "expected as many of both");
   if (d.type == Dispersion::Type::table || d.type == Dispersion::Type::points) check_rows(d.table, child(pointer, "table"), where);
 }
 
@@ -76,19 +78,20 @@ void check_spectrum(const LightSpectrum& s, const std::string& pointer, const Wh
   const std::string table = child(pointer, "table");
   if (!lines) check_rows(s.table, table, where);
   if (std::none_of(s.table.begin(), s.table.end(), [](const auto& row) { return row[1] > 0; }))
-    throw bad_input(where(table), "has no power at any wavelength", "at least one power above 0");
+    throw bad_input(where(table), "has no power at any wavelength", "expected at least one power above 0");
   if (lines && std::none_of(s.table.begin(), s.table.end(), [](const auto& row) { return row[0] >= 380 && row[0] <= 780 && row[1] > 0; }))
-    throw bad_input(where(table), "has no line that is rendered", "at least one from 380 to 780 nm");
+    throw bad_input(where(table), "has no line that is rendered", "expected at least one from 380 to 780 nm");
 }
 
 void check_object(const Object& o, const Scene& scene, const std::string& pointer, const Where& where)
 {
   if (o.mesh.has_value() == o.shape.has_value())
-    throw bad_input(where(pointer), o.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'", "exactly one of them");
+    throw bad_input(where(pointer), o.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'",
+                    "expected exactly one of them");
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (std::abs(o.transform.scale[axis]) < 1e-6)
       throw bad_input(where(child(child(child(pointer, "transform"), "scale"), axis)), fmt::format("is {}", o.transform.scale[axis]),
-                      "a factor of at least 1e-06 or at most -1e-06", "for a thin object use a plate");
+                      "expected a factor of at least 1e-06 or at most -1e-06", "for a thin object use a plate");
   if (scene.materials.contains(o.material)) return;
   std::vector<std::string> known;
   for (const auto& [name, material] : scene.materials) known.push_back(name);
@@ -109,7 +112,7 @@ void check_light(const Light& l, const std::string& pointer, const Where& where)
 void check_camera(const Camera& c, const Where& where)
 {
   const Vec3 forward = minus(c.target, c.position);
-  if (no_direction(forward)) throw bad_input(where("/scene/camera/target"), "is where the camera stands", "another point");
+  if (no_direction(forward)) throw bad_input(where("/scene/camera/target"), "is where the camera stands", "expected another point");
   check_up(c.up, forward, "/scene/camera/up", where);
 }
 

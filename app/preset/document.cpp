@@ -138,9 +138,10 @@ void apply_override(Document& document, const std::string& text)
   Origin origin{"--set " + text, false, document.main().folder};
   if (text.size() > 200) origin.name = "--set " + text.substr(0, 200) + "...";
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) throw bad_input(origin.name, "has no '='", "KEY=VALUE, for instance spectral.threshold_deg=0.1");
+  if (equals == std::string::npos)
+    throw bad_input(origin.name, "has no '='", "expected KEY=VALUE, for instance spectral.threshold_deg=0.1");
   const std::vector<std::string> path = split_path(std::string_view(text).substr(0, equals));
-  if (path.empty()) throw bad_input(origin.name, "has an empty key", "keys joined by dots, for instance scene.lights.0.power_w=2");
+  if (path.empty()) throw bad_input(origin.name, "has an empty key", "expected keys joined by dots, for instance scene.lights.0.power_w=2");
   if (path.size() > max_depth) throw bad_input(origin.name, fmt::format("is nested deeper than {} levels", max_depth));
 
   const std::string value = text.substr(equals + 1);

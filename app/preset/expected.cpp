@@ -27,7 +27,9 @@ std::string expected_number(const Bounds& bounds, std::string_view unit) { retur
 std::string expected_integer(const Bounds& bounds, std::string_view unit)
 {
   // Whole numbers read better without an exponent: 16777216, not 1.6777216e+07.
-  return fmt::format("a whole number from {:.0f} to {:.0f}", bounds.low, bounds.high) + in(unit);
+  // 2^64 as a bound stands for the largest 64-bit number, which no double is.
+  const std::string high = bounds.high < 18446744073709551615.0 ? fmt::format("{:.0f}", bounds.high) : "18446744073709551615";
+  return fmt::format("a whole number from {:.0f} to {}", bounds.low, high) + in(unit);
 }
 
 std::string expected_list(std::size_t count, const std::string& each) { return fmt::format("a list of {} items, each {}", count, each); }

@@ -27,10 +27,10 @@ std::string expected_word()
 template <Described S>
 std::string expected_struct()
 {
-  std::string text = "an object";
+  std::string text;
   if constexpr (WithShorthands<S>)
-    for (const auto& shorthand : About<S>::shorthands) text += shorthand.bare == Bare::number ? " or a number" : " or a string";
-  return text;
+    for (const auto& shorthand : About<S>::shorthands) text += shorthand.bare == Bare::number ? "a number, " : "a string, ";
+  return text.empty() ? "an object" : text.replace(text.size() - 2, 2, " or an object");
 }
 
 } // namespace nephroid::preset

@@ -34,8 +34,9 @@ public:
   {
     Level& level = levels_.back();
     const std::string where = source_ + "#" + child(level.pointer, name);
-    if (!level.keys.insert(name).second) throw bad_input(where, fmt::format("key {} is given twice", in_quotes(name)), "each key once");
-    if (level.keys.size() > max_keys) throw bad_input(where, "too many keys", fmt::format("at most {} in one object", max_keys));
+    if (!level.keys.insert(name).second)
+      throw bad_input(where, fmt::format("key {} is given twice", in_quotes(name)), "expected each key once");
+    if (level.keys.size() > max_keys) throw bad_input(where, "too many keys", fmt::format("expected at most {} in one object", max_keys));
     level.key = name;
     return true;
   }

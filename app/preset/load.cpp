@@ -45,9 +45,9 @@ std::string read_text(const fs::path& file)
 {
   std::error_code ignored;
   if (const auto size = fs::file_size(file, ignored); !ignored && size > max_file_bytes)
-    throw bad_input(file.string(), fmt::format("is {} bytes long", size), fmt::format("a preset has at most {}", max_file_bytes));
+    throw bad_input(file.string(), fmt::format("is {} bytes long", size), fmt::format("expected at most {}", max_file_bytes));
   if (is_file(file) && !fs::is_regular_file(file, ignored)) // reading might never end
-    throw bad_input(file.string(), "is not a regular file", "a preset in JSON");
+    throw bad_input(file.string(), "is not a regular file", "expected a preset in JSON");
   return read_file(file);
 }
 
@@ -64,18 +64,19 @@ Document document_from(const std::string& text, const fs::path& file, std::vecto
 {
   const std::string name = file.string();
   if (std::all_of(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }))
-    throw bad_input(name, "is empty", "a preset: one JSON object");
+    throw bad_input(name, "is empty", "expected a preset: one JSON object");
   Json value = parse_json(text, name);
-  if (!value.is_object()) throw bad_input(name + "#", "is " + shown(value), "a preset: one JSON object");
+  if (!value.is_object()) throw bad_input(name + "#", "is " + shown(value), "expected a preset: one JSON object");
   if (value.contains("$schema")) { // for editors; says nothing about the run
-    if (!value["$schema"].is_string()) throw bad_input(name + "#/$schema", "is " + shown(value["$schema"]), "a string");
+    if (!value["$schema"].is_string()) throw bad_input(name + "#/$schema", "is " + shown(value["$schema"]), "expected a string");
     value.erase("$schema");
   }
   const Origin origin{name, true, file.parent_path()};
   if (!value.contains("parent")) return Document(std::move(value), origin);
 
   const std::string where = name + "#/parent";
-  if (!value["parent"].is_string()) throw bad_input(where, "is " + shown(value["parent"]), "a path or the name of a shipped preset");
+  if (!value["parent"].is_string())
+    throw bad_input(where, "is " + shown(value["parent"]), "expected a path or the name of a shipped preset");
   const fs::path parent = find_preset(value["parent"].get<std::string>(), origin.folder, where);
   value.erase("parent");
   chain.push_back(file);
@@ -102,8 +103,8 @@ fs::path find_preset(const std::string& name, const fs::path& folder, const std:
     for (const char* extension : {"", ".json"})
       if (const fs::path candidate = f / (name + extension); is_file(candidate)) return candidate;
   std::error_code ignored;
-  if (fs::is_directory(folder / name, ignored)) throw bad_input(where, fmt::format("{} is a folder", in_quotes(name)), "a preset file");
-  throw bad_input(where, fmt::format("there is no preset {}", in_quotes(name)), "a file or the name of a shipped preset",
+  if (fs::is_directory(folder / name, ignored)) throw bad_input(where, fmt::format("{} is a folder", in_quotes(name)), "expected a file");
+  throw bad_input(where, fmt::format("there is no preset {}", in_quotes(name)), "expected a file or the name of a shipped preset",
                   nearest_shipped(name));
 }
 

@@ -43,7 +43,11 @@ Keys keys_of(S& s)
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known)
 {
-  const std::string found = nearest(word.substr(0, 64), known);
+  std::string found = nearest(word.substr(0, 64), known);
+  if (found.empty() && word.size() >= 3) // the unit left out: "fov" for "fov_deg"
+    if (const auto longer = std::find_if(known.begin(), known.end(), [&](const std::string& k) { return k.starts_with(word); });
+        longer != known.end())
+      found = *longer;
   return found.empty() ? std::string() : fmt::format("did you mean '{}'?", found);
 }
 
@@ -59,7 +63,7 @@ public:
   {
     if constexpr (WithShorthands<S>)
       if (read_shorthand(document, json, pointer, s)) return;
-    if (!json.is_object()) throw bad_input(document.where(pointer), "is " + shown(json), expected_struct<S>());
+    if (!json.is_object()) throw bad_input(document.where(pointer), "is " + shown(json), "expected " + expected_struct<S>());
     Reader reader(document, json, pointer);
     describe(reader, s);
     reader.refuse_unknown(s);
@@ -70,7 +74,8 @@ public:
   void type(const Field& f, E& value)
   {
     const auto found = object_.find(f.name);
-    if (found == object_.end()) throw bad_input(document_.where(pointer_), fmt::format("has no '{}'", f.name), expected_word<E>());
+    if (found == object_.end())
+      throw bad_input(document_.where(pointer_), fmt::format("has no '{}'", f.name), "expected " + expected_word<E>());
     read_value(*found, child(pointer_, f.name), f, value);
   }
 
@@ -133,7 +138,7 @@ private:
 
   [[noreturn]] void refuse(const Json& json, const std::string& pointer, const std::string& expected, const std::string& remedy = {}) const
   {
-    throw bad_input(document_.where(pointer), "is " + shown(json), expected, remedy);
+    throw bad_input(document_.where(pointer), "is " + shown(json), "expected " + expected, remedy);
   }
 
   void read_value(const Json& json, const std::string& pointer, const Field&, bool& value) const

@@ -167,7 +167,10 @@ Json alternatives(Json& definitions, Presence presence)
     schema["required"] = presence == Presence::whole ? properties.required() : Json::array({key});
     all.push_back(std::move(schema));
     for (const auto& [name, property] : properties.properties().items())
-      if (name != key) any_field[name] = Json::object();
+      if (name != key) { // fields of one name and several meanings: anything goes, the program knows
+        const bool clear = !any_field.contains(name) || any_field[name] == property;
+        any_field[name] = clear ? property : Json::object();
+      }
     if constexpr (WithShorthands<S>)
       for (const auto& shorthand : About<S>::shorthands)
         if (shorthand.type == choice.value) bare.push_back(properties.properties()[std::string(shorthand.field)]);

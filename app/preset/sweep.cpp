@@ -47,10 +47,10 @@ Axis make_axis(const std::string& key, Json values, const Document& document)
 {
   Axis axis{key, split_path(key), std::move(values), {}, document.where(child("/sweep", key))};
   if (axis.path.empty())
-    throw bad_input(axis.where, in_quotes(key) + " is no path", "keys joined by dots, for instance spectral.threshold_deg");
+    throw bad_input(axis.where, in_quotes(key) + " is no path", "expected keys joined by dots, for instance spectral.threshold_deg");
   if (axis.path.front() == "sweep" || axis.path.front() == "parent") throw bad_input(axis.where, in_quotes(key) + " cannot be swept");
   if (!axis.values.is_array() || axis.values.empty())
-    throw bad_input(axis.where, "is " + shown(axis.values), "a list of at least one value");
+    throw bad_input(axis.where, "is " + shown(axis.values), "expected a list of at least one value");
   axis.labels = labels(axis.values);
   return axis;
 }
@@ -61,7 +61,7 @@ void refuse_overlaps(const std::vector<Axis>& axes)
     for (const Axis& b : axes)
       if (&a != &b && starts_with(b.path, a.path))
         throw bad_input(b.where, fmt::format("{} lies inside {}, which is swept too", in_quotes(b.key), in_quotes(a.key)),
-                        "keys apart from each other");
+                        "expected keys apart from each other");
 }
 
 /// An override of a swept key fixes it; one inside a swept value would be overwritten in every run.
@@ -92,7 +92,7 @@ std::vector<Axis> read_axes(Document& document, const std::vector<std::string>& 
   const std::string where = document.where("/sweep");
   const Json sweep = document.take("sweep");
   if (sweep.is_null()) return {};
-  if (!sweep.is_object()) throw bad_input(where, "is " + shown(sweep), "an object of lists, for instance {\"seed\": [1, 2]}");
+  if (!sweep.is_object()) throw bad_input(where, "is " + shown(sweep), "expected an object of lists, for instance {\"seed\": [1, 2]}");
   std::vector<Axis> axes;
   for (const auto& [key, values] : sweep.items()) axes.push_back(make_axis(key, values, document));
   refuse_overlaps(axes);
@@ -100,7 +100,7 @@ std::vector<Axis> read_axes(Document& document, const std::vector<std::string>& 
   double runs = 1;
   for (const Axis& axis : axes) runs *= static_cast<double>(axis.values.size());
   if (runs > static_cast<double>(max_runs))
-    throw bad_input(where, fmt::format("gives {:.0f} runs", runs), fmt::format("at most {}", max_runs));
+    throw bad_input(where, fmt::format("gives {:.0f} runs", runs), fmt::format("expected at most {}", max_runs));
   return axes;
 }
 

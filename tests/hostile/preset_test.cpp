@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad presets: each is refused with exactly one line that says where, what is wrong, what is expected and what to do.
+#include "base/error.h"
+#include "preset/read.h"
+#include "tests/support/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid;
+
+struct Case {
+  std::string what, text, line;
+};
+
+std::string top(const std::string& fields) { return R"({"engine":"spectral",)" + fields + "}"; }
+std::string scene(const std::string& fields) { return top(R"("scene":{)" + fields + "}"); }
+std::string object(const std::string& json) { return scene(R"("materials":{"m":{"type":"diffuse"}},"objects":[)" + json + "]"); }
+std::string light(const std::string& json) { return scene(R"("lights":[)" + json + "]"); }
+std::string glass(const std::string& dispersion)
+{
+  return scene(R"("materials":{"glass":{"type":"dielectric","dispersion":)" + dispersion + "}}");
+}
+
+/// "[1,2,...,count]"
+std::string numbers(int count)
+{
+  std::string list = "[1";
+  for (int i = 2; i <= count; ++i) list += fmt::format(",{}", i);
+  return list + "]";
+}
+
+std::string zeros(int count)
+{
+  std::string pointer;
+  for (int i = 0; i < count; ++i) pointer += "/0";
+  return pointer;
+}
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+/// The line of the error; anything but an Error of bad input fails the test.
+template <class Call>
+std::string line_of(Call call)
+{
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    return error.line();
+  }
+  return "was accepted";
+}
+
+class BadPresets : public testing::Test {
+protected:
+  test::TemporaryFolder folder;
+  fs::path before = fs::current_path();
+  void SetUp() override { fs::current_path(folder.path()); } // so that lines show short names
+  void TearDown() override { fs::current_path(before); }
+};
+
+TEST_F(BadPresets, AreRefusedInOneLine)
+{
+  const std::vector<Case> cases = {
+      {"an empty file", R"()", R"(bad.json: is empty; expected a preset: one JSON object)"},
+      {"only white space", "\n\n  ", R"(bad.json: is empty; expected a preset: one JSON object)"},
+      {"broken JSON", "{\"engine\":\"spectral\",\n  \"seed\" 1}",
+       R"(bad.json:2:10: is not JSON; syntax error while parsing object separator - unexpected number literal; expected ':')"},
+      {"cut off in the middle", R"({"engine":"spectral","scene":{"camera")",
+       R"(bad.json:1:39: is not JSON; syntax error while parsing object separator - unexpected end of input; expected ':')"},
+      {"a comment", "{\"engine\":\"spectral\" // which\n}",
+       R"(bad.json:1:22: is not JSON; syntax error while parsing object - invalid literal; last read: '"spectral" /'; expected '}')"},
+      {"a trailing comma", R"({"engine":"spectral",})",
+       R"(bad.json:1:22: is not JSON; syntax error while parsing object key - unexpected '}'; expected string literal)"},
+      {"two values", R"({"engine":"spectral"} {})",
+       R"(bad.json:1:23: is not JSON; syntax error while parsing value - unexpected '{'; expected end of input)"},
+      {"a number beyond a double", "{\"engine\":\"spectral\",\n\"white\":1e999}",
+       R"(bad.json:2:13: is not JSON; number overflow parsing '1e999')"},
+      {"not a number", top(R"("white":NaN)"),
+       R"(bad.json:1:30: is not JSON; syntax error while parsing value - invalid literal; last read: '"white":N')"},
+      {"bytes that are no UTF-8", "{\"engine\":\"spectral\",\"name\":\"\xff\"}",
+       R"(bad.json:1:30: is not JSON; syntax error while parsing value - invalid string: ill-formed UTF-8 byte; last read: '"')"},
+      {"a list instead of an object", R"([1, 2])", R"(bad.json#: is a list of 2 items; expected a preset: one JSON object)"},
+      {"a bare number", R"(3)", R"(bad.json#: is 3; expected a preset: one JSON object)"},
+      {"a key twice", top(R"("seed":1,"seed":2)"), R"(bad.json#/seed: key 'seed' is given twice; expected each key once)"},
+      {"a key twice inside", top(R"("scene":{"camera":{"fov_deg":30,"fov_deg":40}})"),
+       R"(bad.json#/scene/camera/fov_deg: key 'fov_deg' is given twice; expected each key once)"},
+      {"no engine", R"({"seed":1})", R"(bad.json#: has no 'engine'; expected one of spectral)"},
+      {"an unknown engine", R"({"engine":"spectrel"})",
+       R"(bad.json#/engine: is the string 'spectrel'; expected one of spectral; did you mean 'spectral'?)"},
+      {"an engine that is no word", R"({"engine":7})", R"(bad.json#/engine: is 7; expected one of spectral)"},
+      {"a mistyped key", top(R"("sceen":{})"),
+       R"(bad.json#/sceen: unknown key 'sceen'; the keys here are name, description, engine, unit, seed, white, scene, spectral, stop; did you mean 'scene'?)"},
+      {"a key nothing is near to", top(R"("reference":"a.exr")"),
+       R"(bad.json#/reference: unknown key 'reference'; the keys here are name, description, engine, unit, seed, white, scene, spectral, stop)"},
+      {"a mistyped key inside", top(R"("scene":{"camera":{"fov":40}})"),
+       R"(bad.json#/scene/camera/fov: unknown key 'fov'; the keys here are position, target, up, fov_deg, resolution; did you mean 'fov_deg'?)"},
+      {"a key with a slash and a tilde", top(R"("a/b~c":1)"),
+       R"(bad.json#/a~1b~0c: unknown key 'a/b~c'; the keys here are name, description, engine, unit, seed, white, scene, spectral, stop)"},
+      {"a key with a line break", top(R"("a\nb":1)"),
+       R"(bad.json#/a\nb: unknown key 'a\nb'; the keys here are name, description, engine, unit, seed, white, scene, spectral, stop)"},
+      {"a string for a number", top(R"("seed":"1")"),
+       R"(bad.json#/seed: is the string '1'; expected a whole number from 0 to 18446744073709551615)"},
+      {"a fraction for a whole number", top(R"("seed":1.5)"),
+       R"(bad.json#/seed: is 1.5; expected a whole number from 0 to 18446744073709551615)"},
+      {"a negative seed", top(R"("seed":-1)"), R"(bad.json#/seed: is -1; expected a whole number from 0 to 18446744073709551615)"},
+      {"a seed of 2^64", top(R"("seed":18446744073709551616)"),
+       R"(bad.json#/seed: is 1.8446744073709552e+19; expected a whole number from 0 to 18446744073709551615)"},
+      {"null for a number", top(R"("seed":null)"), R"(bad.json#/seed: is null; expected a whole number from 0 to 18446744073709551615)"},
+      {"an unknown unit", top(R"("unit":"inch")"), R"(bad.json#/unit: is the string 'inch'; expected one of mm, cm, m)"},
+      {"white of 0", top(R"("white":0)"), R"(bad.json#/white: is 0; expected a number from 1e-12 to 1000000000000 W/(m^2 sr))"},
+      {"a section that is no object", top(R"("spectral":3)"), R"(bad.json#/spectral: is 3; expected an object)"},
+      {"a threshold of 0", top(R"("spectral":{"threshold_deg":0})"),
+       R"(bad.json#/spectral/threshold_deg: is 0; expected a number above 0 and below 90 degrees)"},
+      {"a threshold of 90", top(R"("spectral":{"threshold_deg":90})"),
+       R"(bad.json#/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees)"},
+      {"no photons", top(R"("spectral":{"photons_per_pass":0})"),
+       R"(bad.json#/spectral/photons_per_pass: is 0; expected a whole number from 1 to 16777216)"},
+      {"too many photons", top(R"("spectral":{"photons_per_pass":16777217})"),
+       R"(bad.json#/spectral/photons_per_pass: is 16777217; expected a whole number from 1 to 16777216)"},
+      {"a number for true or false", top(R"("spectral":{"direct":1})"), R"(bad.json#/spectral/direct: is 1; expected true or false)"},
+      {"an unknown method", top(R"("spectral":{"method":"bruteforce"})"),
+       R"(bad.json#/spectral/method: is the string 'bruteforce'; expected one of optimal, thesis, brute_force; did you mean 'brute_force'?)"},
+      {"no time", top(R"("stop":{"seconds":0})"), R"(bad.json#/stop/seconds: is 0; expected a number from 0.001 to 10000000 s)"},
+      {"half a pass", top(R"("stop":{"passes":0.5})"), R"(bad.json#/stop/passes: is 0.5; expected a whole number from 1 to 1000000000)"},
+      {"a description of two lines", top(R"("description":"a\nb")"),
+       R"(bad.json#/description: is the string 'a\nb'; expected one line without control characters)"},
+      {"a field of view of 0", top(R"("scene":{"camera":{"fov_deg":0}})"),
+       R"(bad.json#/scene/camera/fov_deg: is 0; expected a number from 0.001 to 179.9 degrees)"},
+      {"a field of view of 180", top(R"("scene":{"camera":{"fov_deg":180}})"),
+       R"(bad.json#/scene/camera/fov_deg: is 180; expected a number from 0.001 to 179.9 degrees)"},
+      {"no pixels", top(R"("scene":{"camera":{"resolution":[512,0]}})"),
+       R"(bad.json#/scene/camera/resolution/1: is 0; expected a whole number from 1 to 16384 pixels)"},
+      {"too many pixels", top(R"("scene":{"camera":{"resolution":[512,16385]}})"),
+       R"(bad.json#/scene/camera/resolution/1: is 16385; expected a whole number from 1 to 16384 pixels)"},
+      {"one number for two", top(R"("scene":{"camera":{"resolution":[512]}})"),
+       R"(bad.json#/scene/camera/resolution: is a list of 1 item; expected a list of 2 items, each a whole number from 1 to 16384 pixels)"},
+      {"two numbers for three", top(R"("scene":{"camera":{"position":[0,1]}})"),
+       R"(bad.json#/scene/camera/position: is a list of 2 items; expected a list of 3 items, each a number from -10000000 to 10000000 length units)"},
+      {"a word in a vector", top(R"("scene":{"camera":{"position":[0,"1",2]}})"),
+       R"(bad.json#/scene/camera/position/1: is the string '1'; expected a number from -10000000 to 10000000 length units)"},
+      {"a camera that looks at itself", top(R"("scene":{"camera":{"position":[1,2,3],"target":[1,2,3]}})"),
+       R"(bad.json#/scene/camera/target: is where the camera stands; expected another point)"},
+      {"up along the view", top(R"("scene":{"camera":{"position":[0,5,0],"target":[0,0,0]}})"),
+       R"(bad.json#/scene/camera/up: points along the line of sight or of light; expected a direction across it)"},
+      {"an up of no length", top(R"("scene":{"camera":{"up":[0,0,0]}})"),
+       R"(bad.json#/scene/camera/up: has no length; expected a direction)"},
+      {"a position too far away", top(R"("scene":{"camera":{"position":[0,0,1e8]}})"),
+       R"(bad.json#/scene/camera/position/2: is 100000000.0; expected a number from -10000000 to 10000000 length units)"},
+      {"materials as a list", top(R"("scene":{"materials":[]})"),
+       R"(bad.json#/scene/materials: is an empty list; expected an object of names with at most 1000 items, each an object)"},
+      {"a material without a type", top(R"("scene":{"materials":{"glass":{}}})"),
+       R"(bad.json#/scene/materials/glass: has no 'type'; expected one of diffuse, dielectric, mirror)"},
+      {"an unknown kind of material", top(R"("scene":{"materials":{"m":{"type":"difuse"}}})"),
+       R"(bad.json#/scene/materials/m/type: is the string 'difuse'; expected one of diffuse, dielectric, mirror; did you mean 'diffuse'?)"},
+      {"glass without dispersion", top(R"("scene":{"materials":{"glass":{"type":"dielectric"}}})"),
+       R"(bad.json#/scene/materials/glass: has no 'dispersion'; this key is required)"},
+      {"a field of another type", top(R"("scene":{"materials":{"m":{"type":"mirror","dispersion":1.5}}})"),
+       R"(bad.json#/scene/materials/m/dispersion: 'dispersion' has no meaning for the type 'mirror'; it belongs to 'dielectric'; remove it or change the type)"},
+      {"a reflectance above 1", top(R"("scene":{"materials":{"m":{"type":"diffuse","reflectance":1.2}}})"),
+       R"(bad.json#/scene/materials/m/reflectance: is 1.2; expected a number from 0 to 1)"},
+      {"a reflectance that is a list", top(R"("scene":{"materials":{"m":{"type":"diffuse","reflectance":[1]}}})"),
+       R"(bad.json#/scene/materials/m/reflectance: is a list of 1 item; expected a number, a string or an object)"},
+      {"n of 0", glass(R"(0)"), R"(bad.json#/scene/materials/glass/dispersion: is 0; expected a number from 0.01 to 100)"},
+      {"an empty file name", glass(R"("")"),
+       R"(bad.json#/scene/materials/glass/dispersion: is the string ''; expected the name of a file)"},
+      {"a NUL in a file name", glass(R"("a\u0000b")"),
+       R"(bad.json#/scene/materials/glass/dispersion: is the string 'a\u0000b'; expected one line without control characters)"},
+      {"an unknown kind of dispersion", glass(R"({"type":"selmeier","b":[1],"c_um2":[0]})"),
+       R"(bad.json#/scene/materials/glass/dispersion/type: is the string 'selmeier'; expected one of constant, file, sellmeier, cauchy, table, points; did you mean 'sellmeier'?)"},
+      {"Sellmeier with unequal lists", glass(R"({"type":"sellmeier","b":[1,2],"c_um2":[0.1]})"),
+       R"(bad.json#/scene/materials/glass/dispersion: has 2 values in 'b' and 1 in 'c_um2'; expected as many of both)"},
+      {"Cauchy without coefficients", glass(R"({"type":"cauchy","coefficients":[]})"),
+       R"(bad.json#/scene/materials/glass/dispersion/coefficients: is an empty list; expected a list of 1 to 16 items, each a number from -1000000 to 1000000)"},
+      {"a table with a wavelength twice", glass(R"({"type":"table","table":[[400,1.5],[500,1.4],[400,1.6]]})"),
+       R"(bad.json#/scene/materials/glass/dispersion/table/2: 400 nm is given twice; expected each wavelength once)"},
+      {"a row of three", glass(R"({"type":"points","table":[[400,1.5],[500,1.4,1]]})"),
+       R"(bad.json#/scene/materials/glass/dispersion/table/1: is a list of 3 items; expected a row [wavelength, n])"},
+      {"one control point", glass(R"({"type":"points","table":[[400,1.5]]})"),
+       R"(bad.json#/scene/materials/glass/dispersion/table: is a list of 1 item; expected a list of 2 to 100000 items, each [wavelength, n])"},
+      {"outside of a constant", glass(R"({"type":"constant","n":1.5,"outside":"hold"})"),
+       R"(bad.json#/scene/materials/glass/dispersion/outside: 'outside' has no meaning for the type 'constant'; it belongs to 'file', 'sellmeier', 'cauchy', 'table', 'points'; remove it or change the type)"},
+      {"an object with nothing in it", object(R"({"material":"m"})"),
+       R"(bad.json#/scene/objects/0: has neither 'mesh' nor 'shape'; expected exactly one of them)"},
+      {"an object with both", object(R"({"material":"m","mesh":"a.obj","shape":{"type":"sphere"}})"),
+       R"(bad.json#/scene/objects/0: has both 'mesh' and 'shape'; expected exactly one of them)"},
+      {"an object without material", object(R"({"shape":{"type":"sphere"}})"),
+       R"(bad.json#/scene/objects/0: has no 'material'; this key is required)"},
+      {"a mistyped material",
+       R"({"engine":"spectral","scene":{"materials":{"glass":{"type":"diffuse"}},"objects":[{"material":"glas","shape":{"type":"sphere"}}]}})",
+       R"(bad.json#/scene/objects/0/material: there is no material 'glas'; scene.materials has glass; did you mean 'glass'?)"},
+      {"an unknown shape", object(R"({"material":"m","shape":{"type":"teapot"}})"),
+       R"(bad.json#/scene/objects/0/shape/type: is the string 'teapot'; expected one of quad, box, sphere, cylinder, prism, plate, brilliant)"},
+      {"a shape without type", object(R"({"material":"m","shape":{"radius":1}})"),
+       R"(bad.json#/scene/objects/0/shape: has no 'type'; expected one of quad, box, sphere, cylinder, prism, plate, brilliant)"},
+      {"a sphere with an apex", object(R"({"material":"m","shape":{"type":"sphere","apex_deg":60}})"),
+       R"(bad.json#/scene/objects/0/shape/apex_deg: 'apex_deg' has no meaning for the type 'sphere'; it belongs to 'prism'; remove it or change the type)"},
+      {"a radius of 0", object(R"({"material":"m","shape":{"type":"sphere","radius":0}})"),
+       R"(bad.json#/scene/objects/0/shape/radius: is 0; expected a number from 1e-06 to 10000000 length units)"},
+      {"two segments", object(R"({"material":"m","shape":{"type":"sphere","segments":2}})"),
+       R"(bad.json#/scene/objects/0/shape/segments: is 2; expected a whole number from 3 to 4096)"},
+      {"a scale of 0", object(R"({"material":"m","shape":{"type":"sphere"},"transform":{"scale":[1,0,1]}})"),
+       R"(bad.json#/scene/objects/0/transform/scale/1: is 0; expected a factor of at least 1e-06 or at most -1e-06; for a thin object use a plate)"},
+      {"a light without type", light(R"({"power_w":1})"),
+       R"(bad.json#/scene/lights/0: has no 'type'; expected one of point, spot, directional, area)"},
+      {"an unknown kind of light", light(R"({"type":"spotlight"})"),
+       R"(bad.json#/scene/lights/0/type: is the string 'spotlight'; expected one of point, spot, directional, area)"},
+      {"negative power", light(R"({"type":"point","power_w":-1})"),
+       R"(bad.json#/scene/lights/0/power_w: is -1; expected a number from 0 to 1000000000 W)"},
+      {"power of parallel light", light(R"({"type":"directional","power_w":1})"),
+       R"(bad.json#/scene/lights/0/power_w: 'power_w' has no meaning for the type 'directional'; it belongs to 'point', 'spot', 'area'; remove it or change the type)"},
+      {"a direction of no length", light(R"({"type":"spot","direction":[0,0,0]})"),
+       R"(bad.json#/scene/lights/0/direction: has no length; expected a direction)"},
+      {"an area light with up along it", light(R"({"type":"area","direction":[0,-1,0],"up":[0,1,0]})"),
+       R"(bad.json#/scene/lights/0/up: points along the line of sight or of light; expected a direction across it)"},
+      {"a spectrum that is a number", light(R"({"type":"point","spectrum":5})"),
+       R"(bad.json#/scene/lights/0/spectrum: is 5; expected a string or an object)"},
+      {"a cold black body", light(R"({"type":"point","spectrum":{"type":"blackbody","temperature_k":0}})"),
+       R"(bad.json#/scene/lights/0/spectrum/temperature_k: is 0; expected a number from 300 to 1000000 K)"},
+      {"a lamp without power", light(R"({"type":"point","spectrum":{"type":"table","table":[[400,0],[700,0]]}})"),
+       R"(bad.json#/scene/lights/0/spectrum/table: has no power at any wavelength; expected at least one power above 0)"},
+      {"only invisible lines", light(R"({"type":"point","spectrum":{"type":"lines","table":[[1064,1]]}})"),
+       R"(bad.json#/scene/lights/0/spectrum/table: has no line that is rendered; expected at least one from 380 to 780 nm)"},
+      {"a parent that is not there", top(R"("parent":"nobody.json")"),
+       R"(bad.json#/parent: there is no preset 'nobody.json'; expected a file or the name of a shipped preset; see `nephroid presets`)"},
+      {"a parent that is no string", top(R"("parent":["first-light"])"),
+       R"(bad.json#/parent: is a list of 1 item; expected a path or the name of a shipped preset)"},
+      {"its own parent", top(R"("parent":"bad.json")"), R"(bad.json#/parent: parents go round in a circle: bad.json -> bad.json)"},
+      {"$schema that is no string", top(R"("$schema":1)"), R"(bad.json#/$schema: is 1; expected a string)"},
+      {"a sweep that is a list", top(R"("sweep":[1,2])"),
+       R"(bad.json#/sweep: is a list of 2 items; expected an object of lists, for instance {"seed": [1, 2]})"},
+      {"an empty sweep list", top(R"("sweep":{"seed":[]})"),
+       R"(bad.json#/sweep/seed: is an empty list; expected a list of at least one value)"},
+      {"a swept number that is no list", top(R"("sweep":{"seed":3})"),
+       R"(bad.json#/sweep/seed: is 3; expected a list of at least one value)"},
+      {"a sweep of an unknown key", top(R"("sweep":{"spectral.treshold_deg":[0.1]})"),
+       R"(bad.json#/sweep/spectral.treshold_deg/0: unknown key 'treshold_deg'; the keys here are method, threshold_deg, photons_per_pass, pixel_samples, max_surfaces, direct, caustic; did you mean 'threshold_deg'?)"},
+      {"a sweep with a bad value", top(R"("sweep":{"seed":[1,-2]})"),
+       R"(bad.json#/sweep/seed/1: is -2; expected a whole number from 0 to 18446744073709551615)"},
+      {"a sweep of a key and its inside", top(R"("sweep":{"spectral":[{}],"spectral.direct":[true]})"),
+       R"(bad.json#/sweep/spectral.direct: 'spectral.direct' lies inside 'spectral', which is swept too; expected keys apart from each other)"},
+      {"too many runs", top("\"sweep\":{\"seed\":" + numbers(101) + ",\"white\":" + numbers(100) + "}"),
+       R"(bad.json#/sweep: gives 10100 runs; expected at most 10000)"},
+      {"nested too deep", "{\"engine\":\"spectral\",\"scene\":" + std::string(70, '[') + std::string(70, ']') + "}",
+       fmt::format("bad.json#/scene{}: is nested deeper than 64 levels", zeros(63))},
+  };
+  for (const Case& c : cases) {
+    write("bad.json", c.text);
+    EXPECT_EQ(line_of([] { preset::read_presets("bad.json"); }), c.line) << c.what;
+  }
+}
+
+TEST_F(BadPresets, OverridesAreRefusedInOneLine)
+{
+  const std::vector<Case> cases = {
+      {"no equals sign", R"(seed)", R"(--set seed: has no '='; expected KEY=VALUE, for instance spectral.threshold_deg=0.1)"},
+      {"an empty key", R"(.seed=1)",
+       R"(--set .seed=1: has an empty key; expected keys joined by dots, for instance scene.lights.0.power_w=2)"},
+      {"a mistyped key", R"(spectral.treshold_deg=0.1)",
+       R"(--set spectral.treshold_deg=0.1: unknown key 'treshold_deg'; the keys here are method, threshold_deg, photons_per_pass, pixel_samples, max_surfaces, direct, caustic; did you mean 'threshold_deg'?)"},
+      {"a mistyped section", R"(spectra.threshold_deg=0.1)",
+       R"(--set spectra.threshold_deg=0.1: unknown key 'spectra'; the keys here are name, description, engine, unit, seed, white, scene, spectral, stop; did you mean 'spectral'?)"},
+      {"an index beyond the end", R"(scene.lights.0.power_w=2)",
+       R"(--set scene.lights.0.power_w=2: 'scene.lights' is a list and has no item '0'; it is empty)"},
+      {"an index that is no number", R"(scene.objects.first.material=m)",
+       R"(--set scene.objects.first.material=m: 'scene.objects' is a list and has no item 'first'; it is empty)"},
+      {"a field of a plain value", R"(seed.low=2)",
+       R"(--set seed.low=2: is an object; expected a whole number from 0 to 18446744073709551615)"},
+      {"broken JSON", R"(scene.camera={"fov_deg":})",
+       R"(--set scene.camera={"fov_deg":}:1:12: is not JSON; syntax error while parsing value - unexpected '}'; expected '[', '{', or a literal)"},
+      {"out of range", R"(spectral.threshold_deg=180)",
+       R"(--set spectral.threshold_deg=180: is 180; expected a number above 0 and below 90 degrees)"},
+      {"a word for a number", R"(seed=many)",
+       R"(--set seed=many: is the string 'many'; expected a whole number from 0 to 18446744073709551615)"},
+      {"not a number", R"(white=nan)", R"(--set white=nan: is the string 'nan'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr))"},
+      {"beyond a double", R"(white=1e999)",
+       R"(--set white=1e999: is the string '1e999'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr))"},
+      {"a field inside a value", R"(scene.camera={"fov":30})",
+       R"(--set scene.camera={"fov":30}: unknown key 'fov'; the keys here are position, target, up, fov_deg, resolution; did you mean 'fov_deg'?)"},
+  };
+  write("good.json", scene(R"("objects":[],"lights":[])"));
+  for (const Case& c : cases) EXPECT_EQ(line_of([&] { preset::read_presets("good.json", {c.text}); }), c.line) << c.what;
+}
+
+TEST_F(BadPresets, FilesThatAreNone)
+{
+  fs::create_directory("folder");
+  fs::create_symlink("gone.json", "link.json");
+  std::ofstream("huge.json").put('{');
+  fs::resize_file("huge.json", std::uintmax_t(1) << 30); // sparse: takes no space
+  const std::vector<Case> cases = {
+      {"a folder", "folder", "preset: 'folder' is a folder; expected a file"},
+      {"a dangling link", "link.json",
+       "preset: there is no preset 'link.json'; expected a file or the name of a shipped preset; see `nephroid presets`"},
+      {"no name", "", "preset: the name of a preset is empty or holds a NUL"},
+      {"a device that never ends", "/dev/zero", "/dev/zero: is not a regular file; expected a preset in JSON"},
+      {"a gigabyte", "huge.json", "huge.json: is 1073741824 bytes long; expected at most 8388608"},
+      {"a mistyped shipped preset", "first-ligth",
+       "preset: there is no preset 'first-ligth'; expected a file or the name of a shipped preset; did you mean 'first-light'?"},
+  };
+  for (const Case& c : cases) EXPECT_EQ(line_of([&] { preset::read_preset(c.text); }), c.line) << c.what;
+}
+
+TEST_F(BadPresets, ErrorsNameTheFileThatTheyStandIn)
+{
+  write("parent.json", top(R"("spectral":{"threshold_deg":90,"method":"optimal"},"scene":{"materials":{"m":{"type":"diffuse"}}})"));
+  const std::vector<Case> cases = {
+      {"an inherited value", R"("seed":2)", "parent.json#/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees"},
+      {"an inherited value beside own ones", R"("spectral":{"method":"thesis"})",
+       "parent.json#/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees"},
+      {"an own value in an inherited object", R"("spectral":{"threshold_deg":91})",
+       "child.json#/spectral/threshold_deg: is 91; expected a number above 0 and below 90 degrees"},
+      {"a new type that lacks a field", R"("scene":{"materials":{"m":{"type":"dielectric"}}})",
+       "child.json#/scene/materials/m: has no 'dispersion'; this key is required"},
+  };
+  for (const Case& c : cases) {
+    write("child.json", R"({"parent":"parent.json",)" + c.text + "}");
+    EXPECT_EQ(line_of([] { preset::read_preset("child.json"); }), c.line) << c.what;
+  }
+  write("parent.json", R"({"parent":"child.json"})");
+  EXPECT_EQ(line_of([] { preset::read_preset("child.json"); }),
+            "parent.json#/parent: parents go round in a circle: child.json -> parent.json -> child.json");
+}
+
+TEST_F(BadPresets, HugeAndDeepTextEndsQuickly)
+{
+  const std::string deep(1'000'000, '[');
+  EXPECT_EQ(line_of([&] { preset::parse_preset(deep, "bad.json"); }),
+            fmt::format("bad.json#{}: is nested deeper than 64 levels", zeros(64)));
+  std::string keys = top(R"("seed":1)");
+  keys.pop_back();
+  for (int i = 0; i < 1000; ++i) keys += fmt::format(",\"k{}\":0", i);
+  EXPECT_EQ(line_of([&] { preset::parse_preset(keys + "}", "bad.json"); }),
+            "bad.json#/k998: too many keys; expected at most 1000 in one object");
+}
+
+TEST_F(BadPresets, ASweepIsNotOnePreset)
+{
+  const std::string sweep = top(R"("sweep":{"seed":[1,2,3]})");
+  EXPECT_EQ(line_of([&] { preset::parse_preset(sweep, "bad.json"); }),
+            "bad.json#/sweep: gives 3 runs; one preset is wanted here; fix the swept keys by --set, or --set sweep=null");
+  EXPECT_EQ(preset::parse_preset(sweep, "bad.json", {"seed=7"}).seed, 7u);
+  EXPECT_EQ(line_of([&] { preset::parse_preset(top(R"("sweep":{"scene.camera":[{}]})"), "bad.json", {"scene.camera.fov_deg=30"}); }),
+            "--set scene.camera.fov_deg=30: the preset sweeps 'scene.camera', which would overwrite it; set scene.camera as a whole");
+}
+
+} // namespace
