@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid clusters`: the wavelength clusters of a preset's glass or of a dispersion file.
+#include "spectral/clusters.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/dispersion_input.h"
+#include "cli/verbs.h"
+#include "preset/read.h"
+#include "scene/materials.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace nephroid::cli {
+namespace {
+
+using spectral::Clustering;
+using spectral::ClusterMethod;
+
+struct ClusterOptions {
+  std::string preset, ior, material, outside;
+  std::optional<double> threshold_deg;
+  std::optional<std::string> method;
+  bool json = false;
+};
+
+/// A curve and how it is to be clustered where the command line does not say.
+struct Task {
+  optics::DispersionCurve curve;
+  optics::Outside outside = optics::Outside::automatic;
+  double threshold_deg = preset::Spectral{}.threshold_deg;
+  ClusterMethod method = ClusterMethod::optimal;
+};
+
+constexpr std::array<std::pair<const char*, ClusterMethod>, 3> methods{
+    {{"optimal", ClusterMethod::optimal}, {"thesis", ClusterMethod::thesis}, {"brute_force", ClusterMethod::brute_force}}};
+
+const char* name_of(ClusterMethod method)
+{
+  for (const auto& [name, value] : methods)
+    if (value == method) return name;
+  return "";
+}
+
+ClusterMethod method_of(preset::Spectral::Method method)
+{
+  switch (method) {
+  case preset::Spectral::Method::thesis:
+    return ClusterMethod::thesis;
+  case preset::Spectral::Method::brute_force:
+    return ClusterMethod::brute_force;
+  default:
+    return ClusterMethod::optimal;
+  }
+}
+
+/// The dielectric to cluster: the wanted one, or the only one that an object is made of.
+std::string chosen_material(const preset::Preset& preset, const std::string& wanted)
+{
+  std::set<std::string> dielectrics;
+  for (const preset::Object& object : preset.scene.objects) {
+    const auto found = preset.scene.materials.find(object.material);
+    if (found != preset.scene.materials.end() && found->second.type == preset::Material::Type::dielectric) dielectrics.insert(found->first);
+  }
+  const std::string names = fmt::format("{}", fmt::join(dielectrics, ", "));
+  if (dielectrics.empty()) throw bad_input(preset.source, "no object is made of a dielectric", "expected a material with dispersion");
+  if (wanted.empty() && dielectrics.size() == 1) return *dielectrics.begin();
+  if (wanted.empty())
+    throw bad_input(preset.source, "objects are made of several dielectrics: " + names, "expected one of them with --material");
+  if (!dielectrics.contains(wanted))
+    throw bad_input("--material", fmt::format("no object is made of a dielectric \"{}\"", wanted), "expected one of " + names);
+  return wanted;
+}
+
+Task preset_task(const ClusterOptions& options)
+{
+  const preset::Preset preset = preset::read_preset(options.preset);
+  const std::string name = chosen_material(preset, options.material);
+  const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
+  const std::string where = fmt::format("{}#/scene/materials/{}/dispersion", preset.source, name);
+  const FileFinder finder(std::filesystem::path(preset.source).parent_path());
+  return {scene::make_curve(dispersion, finder, where), scene::outside_policy(dispersion.outside), preset.spectral.threshold_deg,
+          method_of(preset.spectral.method)};
+}
+
+Task make_task(const ClusterOptions& options)
+{
+  if (options.preset.empty() == options.ior.empty())
+    throw bad_input("clusters", options.ior.empty() ? "nothing to cluster" : "both a preset and --ior are given",
+                    "expected a PRESET or --ior FILE");
+  Task task = options.ior.empty() ? preset_task(options) : Task{.curve = find_dispersion(options.ior)};
+  if (options.outside != "automatic") task.outside = outside_policy(options.outside);
+  if (options.threshold_deg) task.threshold_deg = *options.threshold_deg;
+  if (options.method)
+    for (const auto& [name, value] : methods)
+      if (*options.method == name) task.method = value;
+  return task;
+}
+
+std::vector<int> wavelengths_nm(const spectral::Cluster& cluster)
+{
+  std::vector<int> result;
+  for (int index : cluster.wavelengths) result.push_back(optics::wavelength_nm(index));
+  return result;
+}
+
+void print_json(const Clustering& clustering)
+{
+  using Json = nlohmann::ordered_json;
+  Json clusters = Json::array();
+  for (const spectral::Cluster& c : clustering.clusters)
+    clusters.push_back({{"wavelengths_nm", wavelengths_nm(c)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});
+  const Json all{{"method", name_of(clustering.method)},
+                 {"threshold_deg", clustering.threshold_deg},
+                 {"total_theta_deg2", clustering.total_theta_deg2},
+                 {"count", clustering.clusters.size()},
+                 {"clusters", std::move(clusters)}};
+  fmt::print("{}\n", all.dump());
+}
+
+/// "380-384,390 nm": runs of neighbouring wavelengths, by rising wavelength.
+std::string runs(const spectral::Cluster& cluster)
+{
+  const std::vector<int> members = wavelengths_nm(cluster);
+  const std::set<int> sorted(members.begin(), members.end());
+  std::string text;
+  for (auto i = sorted.begin(); i != sorted.end();) {
+    const int first = *i;
+    int last = first;
+    while (++i != sorted.end() && *i == last + 1) last = *i;
+    if (!text.empty()) text += ',';
+    text += first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last);
+  }
+  return text + " nm";
+}
+
+void print_text(const std::string& name, const Clustering& clustering)
+{
+  fmt::print("{}: {} clusters by the method {} at {} degrees; the angle changes by {:.2f} square degrees in all\n", name,
+             clustering.clusters.size(), name_of(clustering.method), clustering.threshold_deg, clustering.total_theta_deg2);
+  fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "mean n", "deg^2", "wavelengths");
+  for (const spectral::Cluster& c : clustering.clusters)
+    fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2, runs(c));
+}
+
+void print_clusters(const ClusterOptions& options)
+{
+  const Task task = make_task(options);
+  const optics::Spectrum n = optics::sample_n(task.curve, task.outside);
+  if (const std::string note = optics::outside_note(task.curve, task.outside); !note.empty()) fmt::print(stderr, "nephroid: {}\n", note);
+  const Clustering clustering = spectral::cluster_wavelengths(n, task.threshold_deg, task.method);
+  if (options.json)
+    print_json(clustering);
+  else
+    print_text(task.curve.name, clustering);
+}
+
+} // namespace
+
+void add_clusters(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<ClusterOptions>();
+  CLI::App* verb = program.add_subcommand("clusters", "Which wavelengths share one path through a glass");
+  verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset");
+  verb->add_option("--ior", options->ior, "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset")
+      ->type_name("FILE");
+  verb->add_option("--material", options->material, "Which dielectric of the preset, where it has several")->type_name("NAME");
+  verb->add_option("--threshold", options->threshold_deg,
+                   "The largest change of the refraction angle inside a cluster, in degrees; default 0.05")
+      ->type_name("DEG");
+  std::vector<std::string> names;
+  for (const auto& [name, value] : methods) names.emplace_back(name);
+  verb->add_option("--method", options->method, "optimal (default), thesis (Algorithm 4.1) or brute_force")
+      ->check(CLI::IsMember(names))
+      ->type_name("METHOD");
+  add_outside_option(*verb, options->outside);
+  verb->add_flag("--json", options->json, "One JSON object instead of text");
+  verb->callback([options] { print_clusters(*options); });
+}
+
+} // namespace nephroid::cli

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid dispersion`: n and k of dispersion files at wavelengths. A file that fails is reported and the others go on.
+#include "base/error.h"
+#include "cli/dispersion_input.h"
+#include "cli/verbs.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace nephroid::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct DispersionOptions {
+  std::vector<std::string> files;
+  std::vector<double> nm;
+  std::string outside;
+  bool json = false;
+};
+
+/// Fraunhofer's lines e, d, F and C (Hg, He, H, H), by which glass catalogues tell n and the Abbe number, and the ends of the grid.
+constexpr double line_F = 486.1327, line_e = 546.0740, line_d = 587.5618, line_C = 656.2725;
+const std::vector<double> usual_nm{optics::first_nm, line_F, line_e, line_d, line_C, optics::last_nm};
+
+Json or_null(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
+
+std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Json to_json(const std::string& file, const optics::DispersionCurve& curve, const std::vector<optics::IndexSample>& samples)
+{
+  const auto [low, high] = curve.range_nm();
+  Json rows = Json::array();
+  for (const optics::IndexSample& s : samples)
+    rows.push_back({{"nm", s.nm}, {"n", or_null(s.n)}, {"k", or_null(s.k)}, {"extrapolated", s.extrapolated}});
+  return {{"file", file}, {"name", curve.name}, {"range_nm", {low, or_null(high)}}, {"samples", std::move(rows)}};
+}
+
+/// V_d = (n_d - 1) / (n_F - n_C); empty where the data does not reach the three lines or has no dispersion.
+std::optional<double> abbe_number(const optics::DispersionCurve& curve)
+{
+  const optics::IndexSample d = curve.sample(line_d), f = curve.sample(line_F), c = curve.sample(line_C);
+  if (d.extrapolated || f.extrapolated || c.extrapolated || !d.n || !f.n || !c.n || *f.n == *c.n) return std::nullopt;
+  return (*d.n - 1) / (*f.n - *c.n);
+}
+
+void print_text(const std::string& file, const optics::DispersionCurve& curve, const std::vector<optics::IndexSample>& samples)
+{
+  const auto cell = [](const std::optional<double>& value, const char* format) {
+    return value ? fmt::format(fmt::runtime(format), *value) : std::string("-");
+  };
+  const auto [low, high] = curve.range_nm();
+  fmt::print("{} ({}), {} {:.6g}..{:.6g} nm\n", curve.name, file, !curve.n ? "k" : curve.n->formula ? "formula" : "table", low, high);
+  fmt::print("{:>10} {:>10} {:>11}\n", "nm", "n", "k");
+  for (const optics::IndexSample& s : samples)
+    fmt::print("{:>10.8g} {:>10} {:>11}{}\n", s.nm, cell(s.n, "{:.6f}"), cell(s.k, "{:.4e}"), s.extrapolated ? "  outside the range" : "");
+  if (const std::optional<double> abbe = abbe_number(curve)) fmt::print("Abbe number V_d {:.2f}\n", *abbe);
+}
+
+/// Says on standard error where a formula has no value; the sample itself is null.
+void note_missing(const std::string& file, const optics::DispersionCurve& curve, const std::vector<optics::IndexSample>& samples)
+{
+  if (!curve.n) return;
+  for (const optics::IndexSample& s : samples)
+    if (!s.n) fmt::print(stderr, "nephroid: {}: the formula gives no finite n at {:.8g} nm\n", file, s.nm);
+}
+
+void print_file(const std::string& file, const DispersionOptions& options)
+{
+  const optics::DispersionCurve curve = find_dispersion(file);
+  std::vector<optics::IndexSample> samples;
+  for (double nm : options.nm.empty() ? usual_nm : options.nm) samples.push_back(curve.sample(nm, outside_policy(options.outside)));
+  note_missing(file, curve, samples);
+  if (options.json)
+    fmt::print("{}\n", line_of(to_json(file, curve, samples)));
+  else
+    print_text(file, curve, samples);
+}
+
+void print_dispersion(const DispersionOptions& options, Session& session)
+{
+  for (double nm : options.nm)
+    if (!std::isfinite(nm) || !(nm > 0)) throw bad_input("--nm", fmt::format("the wavelength is {} nm", nm), "expected a number above 0");
+  for (const std::string& file : options.files) {
+    try {
+      print_file(file, options);
+    } catch (const Error& error) {
+      session.exit_code = static_cast<int>(ErrorKind::bad_input);
+      if (options.json)
+        fmt::print("{}\n", line_of({{"file", file}, {"error", error.line()}}));
+      else
+        fmt::print(stderr, "nephroid: {}\n", error.line());
+    }
+  }
+}
+
+} // namespace
+
+void add_dispersion(CLI::App& program, Session& session)
+{
+  const auto options = std::make_shared<DispersionOptions>();
+  CLI::App* verb = program.add_subcommand("dispersion", "Index of refraction n and extinction coefficient k of dispersion files");
+  verb->add_option("FILE", options->files, "refractiveindex.info files, or shipped materials by name (N-BK7)")->required();
+  verb->add_option("--nm", options->nm, "Wavelength in nm; may be repeated; default: lines F, e, d, C, and 380 and 780 nm")
+      ->type_name("L")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+  add_outside_option(*verb, options->outside);
+  verb->add_flag("--json", options->json, "One JSON line a file");
+  verb->callback([options, &session] { print_dispersion(*options, session); });
+}
+
+} // namespace nephroid::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/dispersion_input.h"
+
+#include "base/files.h"
+
+#include <map>
+
+namespace nephroid::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, optics::Outside>& policies()
+{
+  static const std::map<std::string, optics::Outside> names{{"automatic", optics::Outside::automatic},
+                                                            {"hold", optics::Outside::hold},
+                                                            {"extrapolate", optics::Outside::extrapolate},
+                                                            {"refuse", optics::Outside::refuse}};
+  return names;
+}
+
+fs::path find_file(const std::string& name)
+{
+  std::error_code ignored;
+  if (fs::exists(name, ignored)) return name;
+  const FileFinder finder;
+  if (!name.empty() && !fs::path(name).is_absolute())
+    for (const fs::path& folder : finder.folders())
+      for (const std::string& candidate : {name, name + ".yml"})
+        if (const fs::path path = folder / "materials" / candidate; fs::is_regular_file(path, ignored)) return path;
+  return finder.find(name, name);
+}
+
+} // namespace
+
+optics::DispersionCurve find_dispersion(const std::string& name) { return optics::load_dispersion(find_file(name)); }
+
+void add_outside_option(CLI::App& verb, std::string& chosen)
+{
+  chosen = "automatic";
+  verb.add_option("--outside", chosen,
+                  "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table")
+      ->check(CLI::IsMember(policies()))
+      ->type_name("POLICY");
+}
+
+optics::Outside outside_policy(const std::string& chosen) { return policies().at(chosen); }
+
+} // namespace nephroid::cli

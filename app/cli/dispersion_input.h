@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the verbs that read dispersion files share: finding a file, and the option for wavelengths outside its range.
+#pragma once
+#include "optics/dispersion.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace nephroid::cli {
+
+/// name as given, else among the shipped materials, where the ending ".yml" may be left out ("N-BK7").
+/// Throws bad_input naming the folders that were looked into.
+optics::DispersionCurve find_dispersion(const std::string& name);
+
+/// --outside hold|extrapolate|refuse; chosen is read back by outside_policy after parsing and is "automatic" without the option.
+void add_outside_option(CLI::App& verb, std::string& chosen);
+optics::Outside outside_policy(const std::string& chosen);
+
+} // namespace nephroid::cli
