@@ -9,7 +9,10 @@ namespace {
 
 void unregister_and_delete(ImTextureData* texture)
 {
-  if (ImGui::GetCurrentContext()) ImGui::UnregisterUserTexture(texture);
+  if (ImGui::GetCurrentContext()) {
+    ImGui::UnregisterUserTexture(texture);
+    ImGui::GetPlatformIO().Textures.find_erase(texture); // the list a back end goes through; made anew with every frame only
+  }
   IM_DELETE(texture);
 }
 

@@ -7,13 +7,24 @@
 namespace nephroid::ui {
 namespace {
 
+Placement exact_place(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
+{
+  const double width = picture[0], height = picture[1];
+  const Point centre = look.fit ? Point{width / 2, height / 2} : look.centre;
+  Placement placement;
+  placement.scale = look.fit ? std::max(1e-3, std::min(canvas.size[0] / width, canvas.size[1] / height)) : look.zoom;
+  for (int axis = 0; axis < 2; ++axis)
+    placement.origin[axis] = canvas.corner[axis] + canvas.size[axis] / 2 - placement.scale * centre[axis];
+  return placement;
+}
+
 /// The same picture on the screen, said by zoom and centre instead of fit.
 Look explicit_look(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
 {
   if (!look.fit) return look;
   Look said = look;
   said.fit = false;
-  said.zoom = place(look, canvas, picture).scale;
+  said.zoom = exact_place(look, canvas, picture).scale;
   said.centre = {picture[0] / 2.0, picture[1] / 2.0};
   return said;
 }
@@ -22,21 +33,16 @@ Look explicit_look(const Look& look, const Canvas& canvas, const std::array<int,
 
 Placement place(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
 {
-  const double width = picture[0], height = picture[1];
-  const double scale = look.fit ? std::max(1e-3, std::min(canvas.size[0] / width, canvas.size[1] / height)) : look.zoom;
-  const Point centre = look.fit ? Point{width / 2, height / 2} : look.centre;
-  Placement placement;
-  placement.scale = scale;
+  Placement placement = exact_place(look, canvas, picture);
   // Whole pixels of the screen: at 100 % the texture is then shown as it is, not interpolated.
-  for (int axis = 0; axis < 2; ++axis)
-    placement.origin[axis] = std::round(canvas.corner[axis] + canvas.size[axis] / 2 - scale * centre[axis]);
+  for (double& coordinate : placement.origin) coordinate = std::round(coordinate);
   return placement;
 }
 
 Look zoomed(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen, double factor)
 {
   Look next = explicit_look(look, canvas, picture);
-  const Point still = place(next, canvas, picture).to_picture(screen);
+  const Point still = exact_place(next, canvas, picture).to_picture(screen);
   next.zoom = std::clamp(next.zoom * factor, 1.0 / 64, 256.0);
   for (int axis = 0; axis < 2; ++axis)
     next.centre[axis] = still[axis] - (screen[axis] - canvas.corner[axis] - canvas.size[axis] / 2) / next.zoom;

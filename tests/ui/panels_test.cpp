@@ -33,6 +33,7 @@ protected:
   {
     ASSERT_TRUE(workbench.open(folder.file("test.json")));
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.view().texture().empty(); }));
+    frames(3); // strips and docks take their final places
   }
   Point middle() const
   {
@@ -249,6 +250,7 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
 TEST_F(PanelsTest, ADialogOpensTheNameThatIsTyped)
 {
   const std::string file = folder.file("typed.json");
+  frames(3); // Dear ImGui gives a shortcut its route in the frame before
   press(ImGuiKey_O, ImGuiMod_Ctrl);
   frames(3);
   ASSERT_EQ(workbench.question(), Question::open);
@@ -276,6 +278,7 @@ TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture)
 
 TEST_F(PanelsTest, TheHelpListsEveryShortcutAndCloses)
 {
+  frames(3);
   press(ImGuiKey_F1);
   EXPECT_TRUE(workbench.help_shown());
   frames(3);
@@ -289,7 +292,8 @@ TEST(Actions, HaveNamesOfTheirOwnAndShortcutsOfTheirOwn)
   std::set<int> shortcuts;
   for (const Action& a : actions()) {
     EXPECT_TRUE(names.insert(a.name).second) << a.name;
-    if (a.shortcut) EXPECT_TRUE(shortcuts.insert(a.shortcut).second) << a.name;
+    const bool own = a.shortcut == 0 || shortcuts.insert(a.shortcut).second;
+    EXPECT_TRUE(own) << a.name;
   }
   EXPECT_THROW(action("Fly"), Error);
 }
