@@ -20,10 +20,10 @@ constexpr double star = 0.5;           ///< horizontal length over the way from 
 constexpr double lower_girdle = 0.8;   ///< horizontal length over the way from girdle to axis
 constexpr double girdle_height = 0.06; ///< over the radius: 3 % of the diameter
 
-/// A point at `step` times 22.5 degrees around the axis.
+/// A point at `step` times 22.5 degrees around the axis; the same bits again after a whole turn.
 glm::dvec3 around(int step, double radius, double y)
 {
-  const double angle = step * 22.5 * radians;
+  const double angle = (step + 16) % 16 * 22.5 * radians;
   return {radius * std::cos(angle), y, -radius * std::sin(angle)};
 }
 

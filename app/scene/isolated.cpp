@@ -40,7 +40,7 @@ void lower_limit(int resource, rlim_t value)
 {
   rlimit limit{};
   if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0) return;
-  limit.rlim_cur = std::min(value, limit.rlim_max);
+  limit.rlim_cur = std::min(value, limit.rlim_cur); // RLIM_INFINITY is the largest value
   setrlimit(static_cast<__rlimit_resource_t>(resource), &limit);
 }
 
@@ -80,6 +80,7 @@ void send(int descriptor, std::uint64_t done, std::string_view bytes)
   lower_limit(RLIMIT_CORE, 0);
   lower_limit(RLIMIT_CPU, cpu_seconds);
   lower_limit(RLIMIT_AS, memory_bytes);
+  lower_limit(RLIMIT_STACK, 8 << 20); // so that endless recursion ends early whatever the shell's limit
   try {
     send(descriptor, 1, work());
   } catch (const std::bad_alloc&) {

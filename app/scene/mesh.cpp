@@ -67,16 +67,18 @@ std::vector<char> find_duplicates(const Mesh& mesh, const std::vector<std::uint3
 }
 
 /// Every directed edge as low << 33 | high << 1 | (runs from high to low): sorted, the uses of an edge lie side by side.
-/// Joined indices stay below 2^31 because max_triangles does. An edge from a vertex to itself is none.
+/// Joined indices stay below 2^31 because max_triangles does. A triangle with two equal corners closes nothing and is left out; a
+/// sliver with three different ones does close the surface between its neighbours.
 std::vector<std::uint64_t> directed_edges(const Mesh& mesh, const std::vector<std::uint32_t>& joined, const std::vector<char>& duplicate)
 {
   std::vector<std::uint64_t> edges;
   edges.reserve(3 * mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (duplicate[i]) continue;
-    for (int side = 0; side < 3; ++side) {
-      const std::uint64_t from = joined[mesh.triangles[i][side]], to = joined[mesh.triangles[i][(side + 1) % 3]];
-      if (from != to) edges.push_back(std::min(from, to) << 33 | std::max(from, to) << 1 | (from > to ? 1 : 0));
+    const auto corner = canonical(mesh.triangles[i], joined);
+    if (duplicate[i] || corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const std::uint64_t from = corner[side], to = corner[(side + 1) % 3];
+      edges.push_back(std::min(from, to) << 33 | std::max(from, to) << 1 | (from > to ? 1 : 0));
     }
   }
   std::sort(edges.begin(), edges.end());
@@ -150,7 +152,6 @@ MeshReport inspect(const Mesh& mesh)
     else if (is_degenerate(mesh, mesh.triangles[i]))
       ++report.degenerate;
   }
-  // A sliver with three different corners still closes the surface between its neighbours, so its edges count.
   count_edges(directed_edges(mesh, joined, duplicate), report);
   double sum = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)

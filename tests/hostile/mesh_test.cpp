@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mesh files that are broken on purpose: each is refused with one line that names the file and says why, quickly, and nothing
+// crashes, hangs or takes all memory, whatever the reader underneath does.
+#include "base/error.h"
+#include "base/files.h"
+#include "scene/isolated.h"
+#include "scene/mesh.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <random>
+#include <string>
+#include <unistd.h>
+
+namespace nephroid::scene {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr const char* corners = "0 0 0\n1 0 0\n0 1 0\n";
+
+std::string ply(const std::string& vertices, const std::string& faces, const std::string& body, const char* format = "ascii")
+{
+  return fmt::format("ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+                     "element face {}\nproperty list uchar int vertex_indices\nend_header\n{}",
+                     format, vertices, faces, body);
+}
+
+/// 36 bytes: three vertices of a binary PLY file.
+std::string binary_corners()
+{
+  const float values[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  return {reinterpret_cast<const char*>(values), sizeof values};
+}
+
+std::string little_endian(std::uint32_t value)
+{
+  std::string bytes;
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 255);
+  return bytes;
+}
+
+/// One triangle whose buffer is 42 bytes; the words are replaced in it.
+std::string gltf(const std::string& from = {}, const std::string& to = {})
+{
+  std::string text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+    "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}],
+    "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+                 {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
+  const std::size_t at = from.empty() ? std::string::npos : text.find(from);
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// A chain of nodes, each the child of the one before: readers that recurse overrun their stack.
+std::string deep_gltf()
+{
+  std::string nodes;
+  for (int i = 1; i <= 200000; ++i) nodes += fmt::format(R"({{"children":[{}]}},)", i);
+  return gltf(R"("nodes":[{"mesh":0}])", fmt::format(R"("nodes":[{}{{"mesh":0}}])", nodes));
+}
+
+struct BadFile {
+  const char* name;
+  std::string bytes;
+  const char* says;
+};
+
+std::vector<BadFile> bad_files()
+{
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const std::string stl_head(80, 'x');
+  const std::string little = "binary_little_endian", three_bytes("\3\0\0", 3);
+  return {
+      {"empty.obj", "", "the mesh file is empty"},
+      {"words.obj", "This is no mesh at all.\nNot one line of it.\n", "the mesh"},
+      {"points.obj", triangle + "l 1 2\np 3\n", "no triangles"},
+      {"truncated.obj", "v 0 0 0\nv 1 0 0\nv 0 1", "no triangles"},
+      {"beyond.obj", triangle + "f 1 2 9\n", "out of range"},
+      {"zero.obj", triangle + "f 0 1 2\n", "Invalid face index"},
+      {"negative.obj", triangle + "f -1 -2 -9\n", "out of range"},
+      {"nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "not a finite number"},
+      {"huge.obj", "v 1e999 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "not a finite number"},
+      {"flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangle of the mesh has an area"},
+      {"no_format", "hello", "No suitable reader"},
+      {"picture.png", "\x89PNG\r\n\x1a\n....................", "No suitable reader"},
+      {"vertices.ply", ply("4000000000", "1", corners), "of the 4000000000 that its header declares"},
+      {"faces.ply", ply("3", "4000000000", std::string(corners) + "3 0 1 2\n"), "'face' of the 4000000000"},
+      {"minus.ply", ply("-3", "1", corners), "declares '-3' elements 'vertex'"},
+      {"more_than_64_bits.ply", ply("99999999999999999999", "1", corners), "declares '99999999999999999999'"},
+      {"truncated.ply", ply("3", "1", "0 0 0\n1 0"), "ends in element 1 'vertex'"},
+      {"beyond.ply", ply("3", "1", std::string(corners) + "3 0 1 9\n"), "names vertex 9 of 3"},
+      {"negative.ply", ply("3", "1", std::string(corners) + "3 0 1 -1\n"), "names vertex -1 of 3"},
+      {"nan.ply", ply("3", "1", "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"), "not a finite number"},
+      {"list.ply", ply("3", "1", std::string(corners) + "4000000000 0 1 2\n"), "ends in element 0 'face'"},
+      {"binary.ply", ply("100000000", "1", binary_corners(), little.c_str()), "'vertex' of the 100000000"},
+      {"binary_list.ply", ply("3", "1", binary_corners() + "\xff" + three_bytes, little.c_str()), "'face' of the 1"},
+      {"type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n0\n", "unknown type 'quad'"},
+      {"format.ply", "ply\nformat ebcdic 1.0\nend_header\n", "unknown format 'ebcdic'"},
+      {"header.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "no end_header"},
+      {"count.stl", stl_head + little_endian(0xffffffff) + std::string(50, '\0'), "cannot be read"},
+      {"truncated.stl", stl_head + little_endian(1) + std::string(20, '\0'), "cannot be read"},
+      {"none.stl", stl_head + little_endian(0), "no facets"},
+      {"ascii.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0", "cannot be read"},
+      {"ascii_none.stl", "solid a\nendsolid a\n", "no triangles"},
+      {"truncated.gltf", gltf().substr(0, 300), "cannot be read"},
+      {"count.gltf", gltf(R"("count":3,"type":"VEC3")", R"("count":4000000000,"type":"VEC3")"), "out of range"},
+      {"buffer.gltf", gltf(R"("byteLength":42)", R"("byteLength":4000000000)"), "expected 4000000000 bytes"},
+      {"missing.gltf", gltf("data:application/octet-stream;base64,", "missing_"), "could not open referenced file"},
+      {"cycle.gltf", gltf(R"("nodes":[{"mesh":0}])", R"("nodes":[{"children":[1]},{"children":[0]}])"), "recursive reference"},
+      {"no_mesh.gltf", gltf(R"({"mesh":0})", R"({"mesh":7})"), "out of bounds"},
+      {"deep.gltf", deep_gltf(), "crashed"},
+      {"length.glb", "glTF" + little_endian(2) + little_endian(4000000000u) + "JSON", "of the 4000000000 that its header declares"},
+      {"stub.glb", "glTF", "header declares"},
+      {"stub.3ds", std::string("MM\x10\0\0\0\x3d\x3d\xff\xff\xff\x7f", 12), "cannot be read"},
+  };
+}
+
+class HostileMesh : public testing::Test {
+protected:
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+  std::string refusal(const fs::path& file) const
+  {
+    try {
+      load_mesh(file);
+      return "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input) << error.line();
+      EXPECT_EQ(error.line().find('\n'), std::string::npos) << error.line();
+      return error.line();
+    }
+  }
+  fs::path folder = fs::temp_directory_path() / fmt::format("nephroid_hostile_mesh_{}", std::random_device{}());
+};
+
+TEST_F(HostileMesh, EachIsRefusedWithItsReason)
+{
+  for (const BadFile& bad : bad_files()) {
+    const fs::path file = folder / bad.name;
+    write_file_whole(file, bad.bytes);
+    const auto start = std::chrono::steady_clock::now();
+    const std::string line = refusal(file);
+    EXPECT_THAT(line, StartsWith(file.string() + ": ")) << bad.name;
+    EXPECT_THAT(line, HasSubstr(bad.says)) << bad.name;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8)) << bad.name;
+  }
+}
+
+TEST_F(HostileMesh, TheGoodFileOfTheFamilyIsRead)
+{
+  write_file_whole(folder / "good.gltf", gltf());
+  EXPECT_EQ(load_mesh(folder / "good.gltf").triangles.size(), 1u);
+  write_file_whole(folder / "good.ply", ply("3", "1", std::string(corners) + "3 0 1 2\n"));
+  EXPECT_EQ(load_mesh(folder / "good.ply").triangles.size(), 1u);
+}
+
+TEST_F(HostileMesh, MissingFilesAndFolders)
+{
+  EXPECT_THAT(refusal(folder / "nowhere.obj"), StartsWith((folder / "nowhere.obj").string() + ": "));
+  EXPECT_THAT(refusal(folder), HasSubstr("folder"));
+}
+
+// Whatever is cut out of a good file's end, and whichever byte is changed, it is read or refused; this process stays.
+TEST_F(HostileMesh, CutAndChangedFilesDoNotBringTheProgramDown)
+{
+  const std::string good[] = {ply("3", "2", std::string(corners) + "3 0 1 2\n3 0 2 1\n"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"};
+  const char* names[] = {"fuzz.ply", "fuzz.obj"};
+  std::mt19937 random(1);
+  for (int i = 0; i < 60; ++i) {
+    std::string bytes = good[i % 2];
+    if (i % 3 == 0) bytes.resize(1 + random() % (bytes.size() - 1));
+    if (i % 3 != 0) bytes[random() % bytes.size()] = "09-#\n\xff "[random() % 7];
+    const fs::path file = folder / names[i % 2];
+    write_file_whole(file, bytes);
+    try {
+      load_mesh(file);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input) << error.line();
+    }
+  }
+}
+
+std::string failure_of(const std::function<std::string()>& work, const IsolationLimits& limits = {})
+{
+  try {
+    run_isolated(work, limits);
+    return "came back";
+  } catch (const IsolatedFailure& failure) {
+    return failure.what();
+  }
+}
+
+TEST(Isolated, GivesBackBytesAndReasons)
+{
+  std::string large(3'000'000, 'x');
+  large[7] = '\0';
+  EXPECT_EQ(run_isolated([&] { return large; }), large);
+  EXPECT_EQ(run_isolated([] { return std::string(); }), "");
+  EXPECT_EQ(failure_of([]() -> std::string { throw std::runtime_error("no good"); }), "no good");
+  EXPECT_THAT(failure_of([]() -> std::string {
+                std::raise(SIGSEGV);
+                return {};
+              }),
+              HasSubstr("crashed ("));
+  EXPECT_THAT(failure_of([]() -> std::string { std::abort(); }), HasSubstr("crashed ("));
+  EXPECT_EQ(failure_of([]() -> std::string { _exit(0); }), "ended early");
+}
+
+TEST(Isolated, EndsWorkThatNeverEnds)
+{
+  IsolationLimits limits;
+  limits.cpu_seconds = 1;
+  EXPECT_EQ(failure_of(
+                []() -> std::string {
+                  for (volatile bool on = true; on;) {
+                  }
+                  return {};
+                },
+                limits),
+            "did not end within 1 s of processor time");
+}
+
+} // namespace
+} // namespace nephroid::scene

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shapes against their closed forms: volume, area, closedness, normals; the brilliant against the angles of its cut.
+#include "base/error.h"
+#include "preset/preset.h"
+#include "scene/mesh.h"
+#include "scene/shapes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace nephroid::scene {
+namespace {
+
+using Type = preset::Shape::Type;
+constexpr double pi = std::numbers::pi;
+
+preset::Shape shape(Type type)
+{
+  preset::Shape result;
+  result.type = type;
+  return result;
+}
+
+glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t)
+{
+  const glm::dvec3 a = mesh.positions[t.x];
+  return 0.5 * glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
+}
+
+double area(const Mesh& mesh)
+{
+  double sum = 0;
+  for (const glm::uvec3& t : mesh.triangles) sum += glm::length(area_vector(mesh, t));
+  return sum;
+}
+
+/// Closed, clean, and every vertex normal is unit and on the triangle's own side.
+void expect_sound(const Mesh& mesh)
+{
+  const MeshReport report = inspect(mesh);
+  EXPECT_TRUE(report.closed()) << report.open_edges << " open, " << report.crowded_edges << " crowded";
+  EXPECT_EQ(report.degenerate, 0u);
+  EXPECT_EQ(report.duplicated, 0u);
+  ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+  for (const glm::uvec3& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(glm::length(mesh.normals[t[i]]), 1, 1e-6);
+      EXPECT_GT(glm::dot(glm::dvec3(mesh.normals[t[i]]), glm::normalize(area_vector(mesh, t))), 0.99);
+    }
+}
+
+TEST(Shapes, QuadFacesUp)
+{
+  preset::Shape quad = shape(Type::quad);
+  quad.size = {2, 99, 3};
+  const Mesh mesh = make_shape(quad);
+  EXPECT_NEAR(area(mesh), 6, 1e-6);
+  for (const glm::uvec3& t : mesh.triangles) EXPECT_GT(area_vector(mesh, t).y, 0);
+  EXPECT_EQ(inspect(mesh).open_edges, 4u);
+}
+
+TEST(Shapes, BoxAndPlate)
+{
+  for (Type type : {Type::box, Type::plate}) {
+    preset::Shape box = shape(type);
+    box.size = {2, 3, 4};
+    const Mesh mesh = make_shape(box);
+    expect_sound(mesh);
+    EXPECT_EQ(mesh.triangles.size(), 12u);
+    EXPECT_NEAR(inspect(mesh).signed_volume, 24, 1e-9);
+    EXPECT_NEAR(area(mesh), 2 * (6 + 8 + 12), 1e-9);
+    glm::vec3 high(0);
+    for (const glm::vec3& p : mesh.positions) high = glm::max(high, p);
+    EXPECT_EQ(high, glm::vec3(1, 1.5, 2));
+  }
+}
+
+// A ball's volume is 4/3 pi r^3. With N segments around and N/2 from pole to pole a regular lattice of flat triangles inside it
+// misses a share of about (pi / N)^2 (5/3): the expectation below is only that order, and that it falls with 1 / N^2.
+TEST(Shapes, SphereConverges)
+{
+  double previous = 0;
+  for (int segments : {64, 128, 256}) {
+    preset::Shape sphere = shape(Type::sphere);
+    sphere.radius = 2;
+    sphere.segments = segments;
+    const Mesh mesh = make_shape(sphere);
+    EXPECT_TRUE(inspect(mesh).closed());
+    EXPECT_EQ(mesh.triangles.size(), static_cast<std::size_t>(segments) * (segments / 2 - 1) * 2);
+    const double missing = 1 - inspect(mesh).signed_volume / (4.0 / 3 * pi * 8);
+    EXPECT_GT(missing, 0);
+    EXPECT_LT(missing, 3 * std::pow(pi / segments, 2));
+    if (previous > 0) {
+      EXPECT_NEAR(previous / missing, 4, 0.05);
+    }
+    previous = missing;
+    EXPECT_NEAR(area(mesh) / (4 * pi * 4), 1, 3 * std::pow(pi / segments, 2));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      EXPECT_NEAR(glm::length(mesh.positions[i]), 2, 1e-6);
+      EXPECT_LT(glm::length(mesh.positions[i] / 2.0f - mesh.normals[i]), 2e-7);
+    }
+  }
+  expect_sound(make_shape(shape(Type::sphere)));
+}
+
+// The inscribed prism over a regular N-gon, exactly: volume N/2 sin(2 pi / N) r^2 h; area twice the base plus N sides.
+TEST(Shapes, CylinderIsTheInscribedPrism)
+{
+  preset::Shape cylinder = shape(Type::cylinder);
+  cylinder.radius = 0.5;
+  cylinder.height = 3;
+  cylinder.segments = 100;
+  const Mesh mesh = make_shape(cylinder);
+  expect_sound(mesh);
+  const double base = 50 * std::sin(2 * pi / 100) * 0.25;
+  EXPECT_NEAR(inspect(mesh).signed_volume, base * 3, 1e-6);
+  EXPECT_NEAR(area(mesh), 2 * base + 100 * (2 * 0.5 * std::sin(pi / 100)) * 3, 1e-5);
+  // The rim is sharp: normals there are along y or across it, never between.
+  for (const glm::vec3& n : mesh.normals) EXPECT_TRUE(n.y == 0 || std::abs(n.y) == 1) << n.y;
+}
+
+TEST(Shapes, PrismHasItsApexAtPlusZ)
+{
+  preset::Shape prism = shape(Type::prism);
+  prism.apex_deg = 40;
+  prism.side = 2;
+  prism.height = 5;
+  const Mesh mesh = make_shape(prism);
+  expect_sound(mesh);
+  EXPECT_EQ(mesh.triangles.size(), 8u);
+  EXPECT_NEAR(inspect(mesh).signed_volume, 0.5 * 4 * std::sin(40 * pi / 180) * 5, 1e-5);
+  // The two facets at the apex: their outward normals are 180 - 40 degrees apart and lean to +z; the third faces -z.
+  std::set<std::pair<float, float>> sides;
+  for (const glm::vec3& n : mesh.normals)
+    if (std::abs(n.y) < 0.5) sides.insert({n.x, n.z});
+  ASSERT_EQ(sides.size(), 3u);
+  const auto [left, right] = std::pair(*sides.begin(), *sides.rbegin());
+  EXPECT_NEAR(left.first * right.first + left.second * right.second, std::cos(140 * pi / 180), 1e-6);
+  EXPECT_GT(left.second, 0);
+  EXPECT_TRUE(std::any_of(sides.begin(), sides.end(), [](const auto& n) { return std::abs(n.second + 1) < 1e-6f; }));
+}
+
+/// Triangles by the plane of their vertex normal: facets have one exact normal each.
+std::map<std::tuple<float, float, float>, std::vector<glm::uvec3>> facets(const Mesh& mesh)
+{
+  std::map<std::tuple<float, float, float>, std::vector<glm::uvec3>> result;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::vec3 n = mesh.normals[t.x];
+    result[{n.x, n.y, n.z}].push_back(t);
+  }
+  return result;
+}
+
+TEST(Shapes, BrilliantHas57FacetsAndAGirdle)
+{
+  preset::Shape stone = shape(Type::brilliant);
+  stone.radius = 3;
+  const Mesh mesh = make_shape(stone);
+  expect_sound(mesh);
+  EXPECT_GT(inspect(mesh).signed_volume, 0);
+  const auto planes = facets(mesh);
+  EXPECT_EQ(planes.size(), 57u + 16u);
+  int table = 0, bezels = 0, mains = 0, girdle = 0;
+  for (const auto& [normal, triangles] : planes) {
+    const double tilt = std::acos(std::clamp(double(std::get<1>(normal)), -1.0, 1.0)) * 180 / pi; // from +y
+    table += tilt < 1e-3;
+    bezels += std::abs(tilt - 34.5) < 1e-3;
+    mains += std::abs(tilt - (180 - 40.75)) < 1e-3;
+    girdle += std::abs(tilt - 90) < 1e-3;
+  }
+  EXPECT_EQ(table, 1);
+  EXPECT_EQ(bezels, 8);
+  EXPECT_EQ(mains, 8);
+  EXPECT_EQ(girdle, 16);
+}
+
+TEST(Shapes, BrilliantIsConvexPlanarAndEightfold)
+{
+  const Mesh mesh = make_shape(shape(Type::brilliant)); // girdle radius 0.5
+  for (const auto& [normal, triangles] : facets(mesh)) {
+    const glm::dvec3 n(std::get<0>(normal), std::get<1>(normal), std::get<2>(normal));
+    const double plane = glm::dot(n, glm::dvec3(mesh.positions[triangles[0].x]));
+    for (const glm::uvec3& t : triangles)
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(glm::dot(n, glm::dvec3(mesh.positions[t[i]])), plane, 1e-7); // planar
+    for (const glm::vec3& p : mesh.positions) EXPECT_LT(glm::dot(n, glm::dvec3(p)), plane + 1e-7);         // convex
+  }
+  // Turned by 45 degrees, or mirrored, every vertex lies on a vertex again.
+  for (const glm::vec3& p : mesh.positions) {
+    const glm::vec3 turned{(p.x + p.z) * std::sqrt(0.5f), p.y, (p.z - p.x) * std::sqrt(0.5f)}, mirrored{p.x, p.y, -p.z};
+    float near_turned = 1, near_mirrored = 1;
+    for (const glm::vec3& q : mesh.positions) {
+      near_turned = std::min(near_turned, glm::distance(q, turned));
+      near_mirrored = std::min(near_mirrored, glm::distance(q, mirrored));
+    }
+    EXPECT_LT(near_turned, 2e-7f);
+    EXPECT_LT(near_mirrored, 2e-7f);
+  }
+}
+
+// Tolkowsky's stone: the table is 53 % of the diameter; crown height (1 - 0.53) / 2 tan 34.5 = 16.2 %, pavilion depth
+// tan 40.75 / 2 = 43.1 % of it; the girdle adds 3 %.
+TEST(Shapes, BrilliantProportions)
+{
+  const Mesh mesh = make_shape(shape(Type::brilliant)); // diameter 1
+  float low = 0, high = 0, widest = 0, table = 0;
+  for (const glm::vec3& p : mesh.positions) {
+    low = std::min(low, p.y);
+    high = std::max(high, p.y);
+    widest = std::max(widest, std::hypot(p.x, p.z));
+  }
+  for (const glm::vec3& p : mesh.positions)
+    if (p.y == high) table = std::max(table, std::hypot(p.x, p.z));
+  EXPECT_NEAR(high - low, 0.1615 + 0.4308 + 0.03, 2e-4);
+  EXPECT_NEAR(low, -high, 1e-6);
+  EXPECT_NEAR(widest, 0.5, 1e-6);
+  EXPECT_NEAR(table, 0.265, 1e-6);
+}
+
+TEST(Shapes, InwardsTurnsEverythingRound)
+{
+  for (Type type : {Type::box, Type::sphere, Type::cylinder, Type::prism, Type::plate, Type::brilliant}) {
+    preset::Shape room = shape(type);
+    const double volume = inspect(make_shape(room)).signed_volume;
+    room.inwards = true;
+    const Mesh mesh = make_shape(room);
+    EXPECT_GT(volume, 0);
+    EXPECT_DOUBLE_EQ(inspect(mesh).signed_volume, -volume);
+    expect_sound(mesh);
+  }
+}
+
+void expect_refused(const preset::Shape& bad, const char* pointer)
+{
+  try {
+    make_shape(bad, "p.json#/scene/objects/0/shape");
+    FAIL() << pointer << " was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+    EXPECT_EQ(error.where(), std::string("p.json#/scene/objects/0/shape/") + pointer) << error.line();
+  }
+}
+
+TEST(Shapes, RefusesWhatIsNoShape)
+{
+  preset::Shape bad = shape(Type::sphere);
+  bad.radius = 0;
+  expect_refused(bad, "radius");
+  bad.radius = std::nan("");
+  expect_refused(bad, "radius");
+  bad = shape(Type::sphere);
+  bad.segments = 2;
+  expect_refused(bad, "segments");
+  bad.segments = 1 << 20; // would be 10^12 triangles
+  expect_refused(bad, "segments");
+  bad = shape(Type::box);
+  bad.size = {1, -1, 1};
+  expect_refused(bad, "size/1");
+  bad = shape(Type::prism);
+  bad.apex_deg = 180;
+  expect_refused(bad, "apex_deg");
+  bad = shape(Type::cylinder);
+  bad.height = 0;
+  expect_refused(bad, "height");
+}
+
+TEST(Shapes, CoarsestRoundShapesAreClosed)
+{
+  for (Type type : {Type::sphere, Type::cylinder})
+    for (int segments : {3, 4, 5}) {
+      preset::Shape coarse = shape(type);
+      coarse.segments = segments;
+      const MeshReport report = inspect(make_shape(coarse));
+      EXPECT_TRUE(report.closed());
+      EXPECT_GT(report.signed_volume, 0);
+    }
+}
+
+} // namespace
+} // namespace nephroid::scene
