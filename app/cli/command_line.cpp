@@ -54,16 +54,17 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error)
   const CLI::App& app = erring_app(program);
   const std::string where = app.get_parent() ? app.get_name() : "";
   const std::string see = fmt::format("see {}", help_command(app));
-  for (const std::string& extra : app.remaining()) // before what is missing: a mistyped option often explains it
+  const std::vector<std::string> extras = program.remaining(true);
+  for (const std::string& extra : extras) // before what is missing: a mistyped option often explains it
     if (extra.size() > 1 && extra.front() == '-') {
       const std::string name = extra.substr(0, extra.find('='));
       return bad_input(where, fmt::format("unknown option '{}'", name), did_you_mean(nearest(name, option_names(app))), see);
     }
-  if (error.get_name() == "ExtrasError") {
-    const std::vector<std::string> extras = app.remaining();
-    return bad_input(where, fmt::format("unexpected argument '{}'", extras.empty() ? error.what() : extras.front()), {}, see);
-  }
   std::string text = error.what();
+  if (error.get_name() == "ExtrasError") { // "The following argument was not expected: WORDS"
+    const std::size_t words = text.find(": ");
+    return bad_input(where, fmt::format("unexpected argument '{}'", text.substr(words == std::string::npos ? 0 : words + 2)), {}, see);
+  }
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
   return bad_input(where, text, {}, see);
 }

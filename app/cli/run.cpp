@@ -9,9 +9,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <charconv>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace nephroid::cli {
@@ -19,6 +22,23 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* result_files[] = {"image.exr", "image.png", "preset.json", "plan.json", "run.json", "checkpoint.bin"};
+
+/// CLI11 reads "nan" as a number in any range, -1 as 2^64 - 1 and 1e30 as the largest whole number: what is left of the text and
+/// what is out of range are looked at here.
+template <class Number>
+CLI::Validator number_from_to(Number lowest, Number highest)
+{
+  return CLI::Validator(
+      [=](const std::string& text) -> std::string {
+        Number number{};
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool good = error == std::errc() && end == text.data() + text.size() && number >= lowest && number <= highest;
+        return good ? ""
+                    : fmt::format("'{}' is not {} from {} to {}", text, std::is_integral_v<Number> ? "a whole number" : "a number", lowest,
+                                  highest);
+      },
+      "");
+}
 
 struct RunOptions {
   std::string preset;
@@ -194,16 +214,18 @@ void add_run(CLI::App& program, Session&)
       ->take_all();
   verb->add_option("--seconds", options->seconds, "Stop after this much work, instead of where the preset says")
       ->type_name("S")
-      ->check(CLI::Range(0.001, 1e9));
+      ->check(number_from_to(0.001, 1e9));
   verb->add_option("--passes", options->passes, "Stop after this many passes, instead of where the preset says")
       ->type_name("N")
-      ->check(CLI::Range(1, 1 << 30));
-  verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")->type_name("N");
+      ->check(number_from_to(1, 1 << 30));
+  verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")
+      ->type_name("N")
+      ->check(number_from_to<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max()));
   verb->add_option("--device", options->device.selector, "An index or part of a name (see nephroid devices)")->type_name("SEL");
   verb->add_option("--kernels", options->device.kernels, "Load kernels from this folder instead of the built-in ones")->type_name("DIR");
   verb->add_option("--checkpoint-seconds", options->checkpoint_seconds, "Work between checkpoints (default 10)")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_from_to(0.0, 1e9));
   verb->add_flag("--resume", options->resume, "Go on from the folder's checkpoint");
   verb->add_flag("--json", options->json, "Progress and result as JSON lines on standard output");
   verb->callback([options] { run_preset(*options); });

@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "base/interrupts.h"
 #include "base/nearest.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
@@ -23,9 +24,8 @@ using testing::HasSubstr;
 
 class Files : public testing::Test {
 protected:
-  fs::path folder = fs::path(testing::TempDir()) / ("nephroid-files-" + std::to_string(::getpid()));
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
+  nephroid::test::TemporaryFolder temporary;
+  fs::path folder = temporary.path();
 
   std::vector<std::string> names() const
   {
@@ -111,7 +111,6 @@ class Finder : public Files {
 protected:
   void SetUp() override
   {
-    Files::SetUp();
     for (const char* name : {"beside", "presets", "data/glmark2/models"}) fs::create_directories(folder / name);
     ::setenv("NEPHROID_PRESETS", (folder / "presets").c_str(), 1);
     ::setenv("XDG_DATA_DIRS", (folder / "data").c_str(), 1);
@@ -120,7 +119,6 @@ protected:
   {
     ::unsetenv("NEPHROID_PRESETS");
     ::unsetenv("XDG_DATA_DIRS");
-    Files::TearDown();
   }
 };
 

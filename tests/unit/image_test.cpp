@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/image.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
@@ -22,9 +23,8 @@ using testing::HasSubstr;
 
 class Pictures : public testing::Test {
 protected:
-  fs::path folder = fs::path(testing::TempDir()) / ("nephroid-image-" + std::to_string(::getpid()));
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
+  nephroid::test::TemporaryFolder temporary;
+  fs::path folder = temporary.path();
 };
 
 Image example(int width = 33, int height = 17)

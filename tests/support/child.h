@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the built program as a child process, the way a person or a script does: arguments, environment, folder, signals.
+#pragma once
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+namespace nephroid::test {
+
+struct Ended {
+  int exit_code = -1; ///< -1 where a signal ended it
+  int signal = 0;
+  std::string out, err;
+};
+
+/// Set, or unset where empty, on top of the test's own environment.
+using Environment = std::map<std::string, std::optional<std::string>>;
+
+class Child {
+public:
+  /// Starts NEPHROID_PROGRAM in `folder`, with its output going to files in `logs`.
+  Child(const std::vector<std::string>& arguments, const std::filesystem::path& folder, const std::filesystem::path& logs,
+        const Environment& environment = {})
+      : out_(logs / "stdout"), err_(logs / "stderr")
+  {
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    for (const auto& [name, value] : environment) value ? ::setenv(name.c_str(), value->c_str(), 1) : ::unsetenv(name.c_str());
+    std::vector<char*> argv{const_cast<char*>(NEPHROID_PROGRAM)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    const bool ready = std::freopen(out_.c_str(), "w", stdout) && std::freopen(err_.c_str(), "w", stderr) && ::chdir(folder.c_str()) == 0;
+    if (ready) ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ~Child()
+  {
+    if (pid_ <= 0) return;
+    ::kill(pid_, SIGKILL);
+    wait();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  void send(int signal) const { ::kill(pid_, signal); }
+
+  /// Until condition() holds or the child is gone or a minute is over.
+  template <class Condition>
+  bool until(Condition condition) const
+  {
+    using namespace std::chrono;
+    for (const auto end = steady_clock::now() + minutes(1); steady_clock::now() < end; std::this_thread::sleep_for(milliseconds(5))) {
+      if (condition()) return true;
+      siginfo_t gone{};
+      if (::waitid(P_PID, static_cast<id_t>(pid_), &gone, WEXITED | WNOHANG | WNOWAIT) == 0 && gone.si_pid == pid_) return false;
+    }
+    return false;
+  }
+
+  Ended wait()
+  {
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    pid_ = -1;
+    Ended ended;
+    if (WIFEXITED(status)) ended.exit_code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) ended.signal = WTERMSIG(status);
+    ended.out = text_of(out_);
+    ended.err = text_of(err_);
+    return ended;
+  }
+
+private:
+  static std::string text_of(const std::filesystem::path& file)
+  {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  pid_t pid_ = -1;
+  std::filesystem::path out_, err_;
+};
+
+/// Runs the program to its end.
+inline Ended nephroid(const std::vector<std::string>& arguments, const std::filesystem::path& folder, const std::filesystem::path& logs,
+                      const Environment& environment = {})
+{
+  return Child(arguments, folder, logs, environment).wait();
+}
+
+} // namespace nephroid::test
