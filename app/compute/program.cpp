@@ -32,17 +32,19 @@ std::string compiler_options(const DeviceInfo& device, const Defines& defines)
   return options;
 }
 
-/// "trace.cl:12:5: error: ..." as place and message, from the first such line of the log.
+/// The first error of the compiler's log as place and message. Compilers write "trace.cl:12:5: error: ...", PoCL 3
+/// "error: trace.cl:12:5: ...".
 BuildError build_error(const std::string& file, const std::string& device, const std::string& log)
 {
-  static const std::regex located(R"(^\s*([^\s:]+:\d+)(?::\d+)?: (?:fatal )?error: (.*)$)");
+  static const std::regex located(R"(^\s*(?:(?:fatal )?error: )?([^\s:]+:\d+)(?::\d+)?: (?:(?:fatal )?error: )?(.*)$)");
   std::istringstream lines(log);
   std::string first;
   for (std::string line; std::getline(lines, line);) {
+    if (line.find("error: ") == std::string::npos) continue;
     std::smatch match;
     if (std::regex_match(line, match, located))
       return {match[1], fmt::format("{} (building {} for {})", match[2].str(), file, device), log};
-    if (first.empty() && line.find("rror") != std::string::npos) first = line;
+    if (first.empty()) first = line;
   }
   return {file, fmt::format("clBuildProgram gave CL_BUILD_PROGRAM_FAILURE for {}: {}", device, first.empty() ? log : first), log};
 }

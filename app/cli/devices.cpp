@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid devices`: what --device chooses from.
+#include "cli/verbs.h"
+#include "compute/compute.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace nephroid::cli {
+namespace {
+
+nlohmann::ordered_json to_json(const compute::DeviceInfo& device)
+{
+  return {{"index", device.index},
+          {"name", device.name},
+          {"type", device.type},
+          {"platform", device.platform},
+          {"driver", device.driver},
+          {"version", device.version},
+          {"compute_units", device.compute_units},
+          {"memory_bytes", device.memory_bytes},
+          {"max_buffer_bytes", device.max_buffer_bytes},
+          {"fp64", device.fp64},
+          {"int64_atomics", device.int64_atomics}};
+}
+
+std::string to_line(const compute::DeviceInfo& device)
+{
+  return fmt::format("{}  {}  ({}, {} compute units, {:.1f} GB, {} {}{}{})", device.index, device.name, device.type, device.compute_units,
+                     static_cast<double>(device.memory_bytes) * 1e-9, device.platform, device.driver, device.fp64 ? "" : ", no fp64",
+                     device.int64_atomics ? "" : ", no 64-bit atomics");
+}
+
+void print_devices(bool json)
+{
+  if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "nephroid: {}\n", note);
+  const std::vector<compute::DeviceInfo> devices = compute::list_devices();
+  if (devices.empty()) throw compute::no_device_error();
+  if (json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const compute::DeviceInfo& device : devices) list.push_back(to_json(device));
+    fmt::print("{}\n", nlohmann::ordered_json{{"devices", list}}.dump());
+    return;
+  }
+  for (const compute::DeviceInfo& device : devices) fmt::print("{}\n", to_line(device));
+}
+
+} // namespace
+
+void add_devices(CLI::App& program, Session&)
+{
+  CLI::App* verb = program.add_subcommand("devices", "The OpenCL devices that --device chooses from");
+  const auto json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *json, "One object: {\"devices\":[{\"index\",\"name\",\"type\",...}]}");
+  verb->callback([json] { print_devices(*json); });
+}
+
+} // namespace nephroid::cli

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// compute/: devices, buffers, programs from embedded and from edited sources, and what each failure says.
+#include "base/error.h"
+#include "compute/compute.h"
+#include "compute/embedded.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <numeric>
+#include <sys/wait.h>
+
+namespace {
+
+using namespace nephroid;
+using compute::Buffer;
+using compute::Context;
+using compute::Program;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::Not;
+namespace fs = std::filesystem;
+
+/// The line of the Error that f throws.
+template <class F>
+std::string error_line(const F& f, ErrorKind kind = ErrorKind::failed)
+{
+  try {
+    f();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kind) << error.line();
+    EXPECT_THAT(error.line(), Not(HasSubstr("\n")));
+    return error.line();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+/// A folder of kernels that a test writes, and a context that takes its programs from there.
+class EditedKernels : public testing::Test {
+protected:
+  EditedKernels() : folder_(make_folder()) {}
+  ~EditedKernels() override { fs::remove_all(folder_); }
+
+  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
+  Context open() const { return Context::open({.kernels = folder_}); }
+  const fs::path& folder() const { return folder_; }
+
+private:
+  static fs::path make_folder()
+  {
+    std::string name = fs::temp_directory_path() / "nephroid-compute-XXXXXX";
+    return mkdtemp(name.data());
+  }
+  fs::path folder_;
+};
+
+TEST(Devices, AreListedWithWhatTheyCanDo)
+{
+  const std::vector<compute::DeviceInfo> devices = compute::list_devices();
+  ASSERT_FALSE(devices.empty()) << compute::no_device_error().line();
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    EXPECT_EQ(devices[i].index, static_cast<int>(i));
+    EXPECT_GT(devices[i].compute_units, 0);
+    EXPECT_GT(devices[i].max_buffer_bytes, 0u);
+    EXPECT_THAT(devices[i].type, testing::AnyOf("cpu", "gpu", "accelerator"));
+  }
+}
+
+TEST(Devices, AreChosenByNumberAndByPartOfTheirName)
+{
+  const compute::DeviceInfo first = compute::list_devices().at(0);
+  EXPECT_EQ(Context::open({.selector = "0"}).device().name, first.name);
+  std::string part = first.name.substr(1, 5);
+  std::transform(part.begin(), part.end(), part.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  EXPECT_EQ(Context::open({.selector = part}).device().name, first.name);
+  for (const std::string selector : {"17", "no such device"})
+    EXPECT_THAT(error_line([&] { Context::open({.selector = selector}); }, ErrorKind::no_device),
+                AllOf(HasSubstr(selector), HasSubstr(first.name)));
+}
+
+TEST(Buffers, KeepWhatIsWritten)
+{
+  const Context context = Context::open();
+  std::vector<int> numbers(1001);
+  std::iota(numbers.begin(), numbers.end(), -3);
+  Buffer<int> buffer(context, "numbers", std::span<const int>(numbers));
+  EXPECT_EQ(buffer.read(), numbers);
+  const std::vector<int> three{7, 8, 9};
+  buffer.write(three, 998);
+  std::copy(three.begin(), three.end(), numbers.begin() + 998);
+  EXPECT_EQ(buffer.read(), numbers);
+  buffer.fill_zero();
+  EXPECT_EQ(buffer.read(), std::vector<int>(1001, 0));
+  EXPECT_THAT(error_line([&] { buffer.write(three, 999); }), HasSubstr("numbers"));
+  EXPECT_TRUE(Buffer<int>(context, "nothing", 0).read().empty());
+}
+
+TEST(Buffers, SayWhatDoesNotFit)
+{
+  const Context context = Context::open();
+  const std::size_t bytes = context.device().max_buffer_bytes + 1;
+  EXPECT_THAT(error_line([&] { Buffer<char>(context, "film", bytes); }),
+              AllOf(HasSubstr("film"), HasSubstr("MB"), HasSubstr(context.device().name)));
+}
+
+TEST(Programs, EveryEmbeddedSourceIsTheFileItWasMadeFrom)
+{
+  EXPECT_FALSE(compute::embedded_sources().empty());
+  for (const compute::EmbeddedSource& source : compute::embedded_sources()) {
+    std::ifstream file(fs::path(NEPHROID_SOURCE_DIR) / "kernels" / source.name);
+    EXPECT_EQ(source.text, std::string(std::istreambuf_iterator<char>(file), {})) << source.name;
+  }
+}
+
+TEST_F(EditedKernels, RunWithIncludesDefinesAndRoundedSizes)
+{
+  write("twice.h", "// once\ninline int twice(int a) { return 2 * a; }\n");
+  write("also.h", "#include \"twice.h\"\n");
+  write("test.cl", "#include \"twice.h\"\n#include \"also.h\"\n"
+                   "kernel void fill(global int* a, int first, uint count)\n"
+                   "{ const uint i = get_global_id(0); if (i < count) a[i] = twice(first) + OFFSET + get_local_size(0); }\n");
+  const Context context = open();
+  Buffer<int> a(context, "a", 100);
+  for (const int offset : {5, 6}) {
+    Program program(context, "test.cl", {{"OFFSET", std::to_string(offset)}});
+    program.kernel("fill").run(a.size(), 64, a, 4, 100u);
+    EXPECT_EQ(a.read(), std::vector<int>(100, 8 + offset + 64));
+  }
+}
+
+TEST_F(EditedKernels, ErrorsNameTheFileAndLineThatIsWrong)
+{
+  write("wrong.h", "// a comment\ninline int f(int a) { return a + b; }\n");
+  write("test.cl", "\n#include \"wrong.h\"\nkernel void k(global int* a) { a[0] = f(1); }\n");
+  write("below.cl", "#include \"fine.h\"\nkernel void k(global int* a) {\n  a[0] = nothing;\n}\n");
+  write("fine.h", "#define A 1\n#define B 2\n");
+  write("missing.cl", "// a comment\n  #  include \"not there.h\"\n");
+  const Context context = open();
+  EXPECT_THAT(error_line([&] { Program(context, "test.cl"); }),
+              AllOf(testing::StartsWith("wrong.h:2: "), HasSubstr("'b'"), HasSubstr("test.cl")));
+  EXPECT_THAT(error_line([&] { Program(context, "below.cl"); }), testing::StartsWith("below.cl:3: "));
+  EXPECT_THAT(error_line([&] { Program(context, "missing.cl"); }), AllOf(testing::StartsWith("missing.cl:2: "), HasSubstr("not there.h")));
+  EXPECT_THAT(error_line([&] { Program(Context::open(), "nothing.cl"); }), AllOf(HasSubstr("nothing.cl"), HasSubstr("trace.cl")));
+  try {
+    Program(context, "test.cl");
+  } catch (const compute::BuildError& error) {
+    EXPECT_THAT(error.log(), HasSubstr("\n"));
+  }
+}
+
+TEST_F(EditedKernels, CallsWithOtherArgumentsAreRefused)
+{
+  write("test.cl", "kernel void k(global int* a, int b) { a[0] = b; }\n");
+  const Context context = open();
+  Program program(context, "test.cl");
+  compute::Kernel kernel = program.kernel("k");
+  Buffer<int> a(context, "a", 1);
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, a); }), AllOf(HasSubstr("test.cl: k"), HasSubstr("1 argument"), HasSubstr("takes 2")));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, 1, 2); }), AllOf(HasSubstr("argument 0"), HasSubstr("takes a buffer")));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, a, a); }), AllOf(HasSubstr("argument 1"), HasSubstr("takes a value")));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, Buffer<int>(), 2); }), HasSubstr("never made"));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, a, 2.0); }), AllOf(HasSubstr("argument 1 of 8 bytes"), HasSubstr("CL_INVALID_ARG_SIZE")));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1000000, a, 2); }), AllOf(HasSubstr("clEnqueueNDRangeKernel"), HasSubstr("CL_INVALID_WORK_")));
+  EXPECT_THAT(error_line([&] { program.kernel("other"); }), AllOf(HasSubstr("other"), HasSubstr("there are: k")));
+  EXPECT_THAT(error_line([&] { Program(context, "test.cl", {{"A", "1 -DB=2"}}); }), HasSubstr("-DA="));
+  kernel.run(0, 1, a, 3); // nothing to do is no error
+  kernel.run(1, 1, a, 4);
+  EXPECT_EQ(a.read().at(0), 4);
+}
+
+TEST_F(EditedKernels, AChangeIsSeenOnceAndBuilt)
+{
+  write("test.cl", "kernel void k(global int* a) { a[0] = 1; }\n");
+  const Context context = open();
+  EXPECT_FALSE(compute::kernels_changed(context));
+  EXPECT_FALSE(compute::kernels_changed(Context::open()));
+  Buffer<int> a(context, "a", 1);
+  Program(context, "test.cl").kernel("k").run(1, 1, a);
+  EXPECT_EQ(a.read().at(0), 1);
+  write("test.cl", "kernel void k(global int* a) { a[0] = 2; }\n");
+  fs::last_write_time(folder() / "test.cl", fs::file_time_type::clock::now() + std::chrono::seconds(2));
+  EXPECT_TRUE(compute::kernels_changed(context));
+  EXPECT_FALSE(compute::kernels_changed(context));
+  Program(context, "test.cl").kernel("k").run(1, 1, a);
+  EXPECT_EQ(a.read().at(0), 2);
+  EXPECT_THAT(error_line([&] { Context::open({.kernels = folder() / "none"}); }, ErrorKind::bad_input), HasSubstr("not a folder"));
+}
+
+/// `env ENVIRONMENT nephroid devices`: exit code and everything it wrote.
+struct Answer {
+  int exit_code = 0;
+  std::string text;
+};
+
+Answer devices_with(const std::string& environment)
+{
+  const std::string command = fmt::format("env {} '{}' devices 2>&1", environment, NEPHROID_PROGRAM);
+  FILE* pipe = popen(command.c_str(), "r");
+  Answer answer;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) answer.text += static_cast<char>(c);
+  answer.exit_code = WEXITSTATUS(pclose(pipe));
+  return answer;
+}
+
+TEST(Environment, WithoutAPlatformThereIsOneClearLine)
+{
+  const Answer answer = devices_with("OCL_ICD_VENDORS=/nonexistent");
+  EXPECT_EQ(answer.exit_code, 3);
+  EXPECT_THAT(answer.text,
+              AllOf(testing::StartsWith("nephroid: "), HasSubstr("no OpenCL platform"), HasSubstr("apt install pocl-opencl-icd")));
+  EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1);
+}
+
+TEST(Environment, WithoutHomeOrAWritableCacheThereIsANoteAndAWayOn)
+{
+  for (const char* environment :
+       {"-u HOME -u XDG_CACHE_HOME -u POCL_CACHE_DIR", "POCL_CACHE_DIR=/dev/null/cache", "-u POCL_CACHE_DIR XDG_CACHE_HOME=/dev/null"}) {
+    const Answer answer = devices_with(environment);
+    EXPECT_EQ(answer.exit_code, 0) << environment << ": " << answer.text;
+    EXPECT_THAT(answer.text, AllOf(HasSubstr("kernels are kept in"), HasSubstr("cpu")));
+    EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1 + static_cast<long>(compute::list_devices().size()));
+  }
+}
+
+} // namespace
