@@ -111,7 +111,7 @@ __kernel void direct(__global const float* nodes, __global const float* blocks, 
 #endif
     const float side = dot(direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
     if (material.type == MATERIAL_DIFFUSE) {
-      const float3 from = offset_from_surface(surface.position, side * surface.geometric);
+      const float3 from = start_on_side(&surface, side);
       float3 xyz = (float3)(0.0f);
       for (int l = 0; l < scene.light_count; ++l) {
         const DeviceLight light = lights[l];
@@ -164,7 +164,7 @@ __kernel void direct(__global const float* nodes, __global const float* blocks, 
       radiance_scale *= n_ratio * n_ratio; // radiance over n^2 is what a path keeps
     }
     direction = bend.direction;
-    origin = offset_from_surface(surface.position, (bend.transmitted ? -side : side) * surface.geometric);
+    origin = start_on_side(&surface, bend.transmitted ? -side : side);
     skip = hit.primitive;
   }
 }

@@ -65,7 +65,10 @@ static inline float sample_targets(__global const DeviceTarget* targets, int tar
   int chosen = 0;
   float rest = random.x * sum;
   while (chosen + 1 < target_count && rest >= one_minus_cos[chosen]) rest -= one_minus_cos[chosen++];
-  *direction = sample_cone(normalize(targets[chosen].centre_radius.xyz - from), one_minus_cos[chosen], random.y, random.z);
+  const float3 way = targets[chosen].centre_radius.xyz - from;
+  const float distance2 = dot(way, way); // 0 in the very middle of a target, where any axis will do
+  const float3 axis = distance2 > 0.0f ? way * rsqrt(distance2) : (float3)(0.0f, 0.0f, 1.0f);
+  *direction = sample_cone(normalize(axis), one_minus_cos[chosen], random.y, random.z);
   int count = 1;
   for (int i = 0; i < target_count; ++i)
     if (i != chosen && meets_sphere(targets[i].centre_radius, from, *direction)) ++count;

@@ -133,7 +133,7 @@ __kernel void photons(__global const float* nodes, __global const float* blocks,
         float weight;
         const int pixel = project_to_pixel(&camera, surface.position, surface.geometric, direction, scene.metres_per_unit, &weight);
         if (pixel < 0) break;
-        const float3 from = offset_from_surface(surface.position, dot(direction, surface.geometric) < 0.0f ? surface.geometric : -surface.geometric);
+        const float3 from = start_on_side(&surface, dot(direction, surface.geometric) < 0.0f ? 1.0f : -1.0f);
         const float3 way = camera.position.xyz - from;
         const float distance = length(way);
         if (any_hit(nodes, blocks, scene.root, from, way / distance, distance, hit.primitive)) break;
@@ -160,8 +160,7 @@ __kernel void photons(__global const float* nodes, __global const float* blocks,
         if (!cross_interface(&media, &surface, objects, n_of, medium, direction, choice, &bend, &n_ratio)) break;
       }
       direction = bend.direction;
-      const float side = outside == bend.transmitted ? -1.0f : 1.0f;
-      origin = offset_from_surface(surface.position, side * surface.geometric);
+      origin = start_on_side(&surface, outside == bend.transmitted ? -1.0f : 1.0f);
       skip = hit.primitive;
     }
 #if NEPHROID_ATTENUATORS > 0

@@ -18,6 +18,7 @@ typedef struct {
   float3 position;
   float3 geometric; // unit normal of the triangle, outwards
   float3 shading;   // unit; equals geometric unless the object is smooth
+  float offset;     // how far a new ray starts from the triangle, along the geometric normal
   int object;
 } Surface;
 
@@ -30,6 +31,10 @@ static inline Surface surface_at(const Geometry* geometry, __global const Device
   const float3 ab = vload3(corner.y, geometry->positions) - a, ac = vload3(corner.z, geometry->positions) - a;
   surface.position = a + hit.u * ab + hit.v * ac;
   surface.geometric = normalize(cross(ab, ac));
+  // Both the interpolated point and the distance at which a ray meets a neighbour in the same plane are off by a few 2^-24 of the
+  // triangle's largest coordinate. Starting farther away than that keeps a new ray from meeting the surface that it leaves.
+  const float3 size = max(fabs(a), max(fabs(ab), fabs(ac)));
+  surface.offset = 0x1p-21f * max(max(size.x, size.y), size.z);
   surface.object = (int)geometry->object_of_triangle[hit.primitive];
   surface.shading = surface.geometric;
 #if NEPHROID_SMOOTH
@@ -42,13 +47,8 @@ static inline Surface surface_at(const Geometry* geometry, __global const Device
   return surface;
 }
 
-// A start for a ray that leaves on the side that `towards` points to. The interpolated point is off its triangle by up to 2^-23 of its
-// largest coordinate; four times that keeps a ray that starts at an edge from meeting the neighbouring triangle at once.
-static inline float3 offset_from_surface(float3 position, float3 towards)
-{
-  const float3 size = fabs(position);
-  return position + (0x1p-21f * max(max(size.x, size.y), size.z)) * towards;
-}
+// A start for a ray that leaves on the outer (side 1) or inner (side -1) side.
+static inline float3 start_on_side(const Surface* surface, float side) { return surface->position + side * surface->offset * surface->geometric; }
 
 // What a mirror or dielectric does to a ray: the new direction, and whether the ray went through.
 typedef struct {

@@ -120,14 +120,25 @@ TEST(Emission, FillsAConeUniformly)
   EXPECT_LT(chi2, 193);
 }
 
+// Uniform on the sphere: each coordinate has mean 0 and mean square 1/3, also from the very middle of a target.
 TEST(Emission, FromInsideATargetItIsTheWholeSphere)
 {
-  double mean_z = 0;
-  for (const float4& s : sample({{{0, 0, 0.1f, 1}}}, 1 << 16)) {
-    EXPECT_FLOAT_EQ(s.w, static_cast<float>(4 * M_PI));
-    mean_z += s.z / (1 << 16);
+  constexpr std::size_t count = 1 << 16;
+  for (const float z : {0.1f, 0.0f}) {
+    std::array<double, 3> mean{}, square{};
+    for (const float4& s : sample({{{0, 0, z, 1}}}, count)) {
+      EXPECT_FLOAT_EQ(s.w, static_cast<float>(4 * M_PI));
+      const std::array<double, 3> d{s.x, s.y, s.z};
+      for (std::size_t i = 0; i < 3; ++i) {
+        mean[i] += d[i] / count;
+        square[i] += d[i] * d[i] / count;
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(mean[i], 0, 4 * std::sqrt(1 / 3.0 / count));
+      EXPECT_NEAR(square[i], 1 / 3.0, 4 * std::sqrt(4 / 45.0 / count));
+    }
   }
-  EXPECT_NEAR(mean_z, 0, 4 / std::sqrt(3.0 * (1 << 16)));
 }
 
 } // namespace
