@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reading presets: defaults, shorthands, parents, overrides, sweeps, the names of shipped presets.
+#include "base/error.h"
+#include "base/files.h"
+#include "preset/read.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid;
+using preset::Preset;
+using testing::ElementsAre;
+
+Preset parse(const std::string& fields, const preset::Overrides& overrides = {})
+{
+  return preset::parse_preset(R"({"engine":"spectral",)" + fields + "}", "a.json", overrides);
+}
+
+TEST(PresetReading, WhatIsNotGivenHasItsDefault)
+{
+  Preset expected;
+  expected.name = "a"; // from the file's name
+  expected.source = "a.json";
+  EXPECT_TRUE(preset::parse_preset(R"({"engine":"spectral"})", "a.json") == expected);
+}
+
+TEST(PresetReading, BareValuesStandForObjects)
+{
+  const Preset p = parse(R"("scene":{"materials":{
+      "n":{"type":"dielectric","dispersion":1.33},
+      "file":{"type":"dielectric","dispersion":"N-BK7.yml"},
+      "grey":{"type":"diffuse","reflectance":0.18},
+      "red":{"type":"mirror","reflectance":"red"}},
+      "lights":[{"type":"point","spectrum":"F10"}]})");
+  const auto& m = p.scene.materials;
+  EXPECT_EQ(m.at("n").dispersion.type, preset::Dispersion::Type::constant);
+  EXPECT_EQ(m.at("n").dispersion.n, 1.33);
+  EXPECT_EQ(m.at("file").dispersion.type, preset::Dispersion::Type::file);
+  EXPECT_EQ(m.at("file").dispersion.file, "N-BK7.yml");
+  EXPECT_EQ(m.at("grey").reflectance.value, 0.18);
+  EXPECT_EQ(m.at("red").reflectance.type, preset::Reflectance::Type::patch);
+  EXPECT_EQ(m.at("red").reflectance.patch, "red");
+  EXPECT_EQ(p.scene.lights.at(0).spectrum.illuminant, "F10");
+}
+
+TEST(PresetReading, WholeNumbersMayHaveAPoint)
+{
+  EXPECT_EQ(parse(R"("spectral":{"photons_per_pass":1e3})").spectral.photons_per_pass, 1000);
+}
+
+TEST(PresetReading, UnitsInMetres)
+{
+  EXPECT_EQ(preset::metres(parse(R"("unit":"mm")").unit), 1e-3);
+  EXPECT_EQ(preset::metres(parse(R"("unit":"cm")").unit), 1e-2);
+  EXPECT_EQ(preset::metres(parse(R"("unit":"m")").unit), 1);
+}
+
+TEST(PresetOverrides, ReachEveryKindOfValue)
+{
+  const Preset p =
+      parse(R"("scene":{"lights":[{"type":"point"},{"type":"point"}],"materials":{"g":{"type":"dielectric","dispersion":1.5}}})",
+            {"scene.lights.1.power_w=2.5", "unit=cm", "stop.passes=3", "scene.materials.g.dispersion=materials/N-BK7.yml", "name=1 and 2",
+             "spectral.direct=false", "scene.camera.position=[1,2,3]", "scene.camera.position.2=4", "seed=1", "seed=9"});
+  EXPECT_EQ(p.scene.lights[0].power_w, 1);
+  EXPECT_EQ(p.scene.lights[1].power_w, 2.5);
+  EXPECT_EQ(p.unit, Preset::Unit::cm);
+  EXPECT_EQ(p.stop.passes, 3);
+  EXPECT_EQ(p.scene.materials.at("g").dispersion.file, "materials/N-BK7.yml");
+  EXPECT_EQ(p.name, "1 and 2");
+  EXPECT_FALSE(p.spectral.direct);
+  EXPECT_THAT(p.scene.camera.position, ElementsAre(1, 2, 4));
+  EXPECT_EQ(p.seed, 9u); // the last one wins
+  EXPECT_FALSE(parse(R"("stop":{"seconds":5})", {"stop.seconds=null"}).stop.seconds);
+}
+
+class PresetFiles : public testing::Test {
+protected:
+  test::TemporaryFolder folder;
+  std::string write(const std::string& name, const std::string& text) const
+  {
+    const fs::path file = folder.path() / name;
+    fs::create_directories(file.parent_path());
+    write_file_whole(file, text);
+    return file.string();
+  }
+};
+
+TEST_F(PresetFiles, AChildTakesOverItsParent)
+{
+  write("base/parent.json", R"({"engine":"spectral","name":"P","description":"of the parent","seed":5,"stop":{"seconds":3,"passes":7},
+      "scene":{"materials":{"a":{"type":"dielectric","dispersion":1.5,"absorption":false},"b":{"type":"diffuse"},"c":{"type":"mirror"}},
+               "lights":[{"type":"point"},{"type":"point"}]}})");
+  const Preset p = preset::read_preset(write("child.json", R"({"$schema":"x","parent":"base/parent","stop":{"seconds":null},
+      "scene":{"materials":{"a":{"dispersion":1.7},"b":null,"c":{"type":"diffuse","reflectance":0.5}},"lights":[{"type":"spot"}]}})"));
+  EXPECT_EQ(p.name, "child");
+  EXPECT_EQ(p.description, "");
+  EXPECT_EQ(p.seed, 5u);
+  EXPECT_FALSE(p.stop.seconds);
+  EXPECT_EQ(p.stop.passes, 7);
+  ASSERT_EQ(p.scene.materials.size(), 2u);                // null took b away
+  EXPECT_EQ(p.scene.materials.at("a").dispersion.n, 1.7); // objects merge
+  EXPECT_FALSE(p.scene.materials.at("a").absorption);
+  EXPECT_EQ(p.scene.materials.at("c").reflectance.value, 0.5); // a new type starts anew
+  ASSERT_EQ(p.scene.lights.size(), 1u);                        // lists replace
+  EXPECT_EQ(p.scene.lights[0].type, preset::Light::Type::spot);
+  EXPECT_EQ(p.source, (folder.path() / "child.json").string());
+}
+
+TEST_F(PresetFiles, InheritedFileNamesMeanTheSameFile)
+{
+  const std::string own = write("base/own.yml", "");
+  write("base/both.yml", "the parent's");
+  write("both.yml", "the child's");
+  write("base/parent.json", R"({"engine":"spectral","scene":{"materials":{
+      "own":{"type":"dielectric","dispersion":"own.yml"},
+      "both":{"type":"dielectric","dispersion":{"type":"file","file":"both.yml"}},
+      "shipped":{"type":"dielectric","dispersion":"materials/N-BK7.yml"}}}})");
+  const std::string child = write("child.json", R"({"parent":"base/parent.json","scene":{"materials":{
+      "mine":{"type":"dielectric","dispersion":"both.yml"}}}})");
+  const auto materials = preset::read_preset(child).scene.materials;
+  EXPECT_EQ(materials.at("own").dispersion.file, fs::canonical(own));
+  EXPECT_EQ(materials.at("both").dispersion.file, fs::canonical(folder.path() / "base/both.yml"));
+  EXPECT_EQ(materials.at("shipped").dispersion.file, "materials/N-BK7.yml");
+  EXPECT_EQ(materials.at("mine").dispersion.file, "both.yml");
+}
+
+TEST_F(PresetFiles, AShippedPresetCanBeAParent)
+{
+  const Preset parent = preset::read_preset("spectral/ball-lens.json");
+  Preset child =
+      preset::read_preset(write("mine.json", R"({"parent":"spectral/ball-lens","description":")" + parent.description + R"("})"));
+  child.name = parent.name;
+  child.source = parent.source;
+  EXPECT_TRUE(child == parent);
+}
+
+TEST_F(PresetFiles, SweepsAreNestedLoopsInTheOrderOfTheirKeys)
+{
+  const std::string file = write("s.json", R"({"engine":"spectral","sweep":{"spectral.threshold_deg":[0.5,0.1],"seed":[3,1,2]}})");
+  std::vector<std::string> names;
+  std::vector<std::pair<double, std::uint64_t>> values;
+  for (const Preset& p : preset::read_presets(file)) {
+    names.push_back(p.name);
+    values.emplace_back(p.spectral.threshold_deg, p.seed);
+  }
+  using P = std::pair<double, std::uint64_t>;
+  EXPECT_THAT(values, ElementsAre(P(.5, 3), P(.5, 1), P(.5, 2), P(.1, 3), P(.1, 1), P(.1, 2)));
+  EXPECT_THAT(names, ElementsAre("s,threshold_deg=0.5,seed=3", "s,threshold_deg=0.5,seed=1", "s,threshold_deg=0.5,seed=2",
+                                 "s,threshold_deg=0.1,seed=3", "s,threshold_deg=0.1,seed=1", "s,threshold_deg=0.1,seed=2"));
+  EXPECT_EQ(preset::read_presets(file, {"seed=8"}).size(), 2u); // an override fixes what was swept
+  EXPECT_EQ(preset::read_presets(file, {"sweep=null"}).size(), 1u);
+  EXPECT_EQ(preset::read_presets(file, {R"(sweep={"seed":[1,2,3,4]})"}).size(), 4u);
+}
+
+TEST_F(PresetFiles, NamesOfSweptRunsAreUniqueAndGoodForFolders)
+{
+  const std::string file = write("s.json", R"({"engine":"spectral","scene":{"materials":{"g":{"type":"dielectric","dispersion":1.5}},
+      "lights":[{"type":"point"},{"type":"point"}]},
+      "sweep":{"scene.materials.g.dispersion":["a/b.yml",{"type":"constant","n":2}],"scene.lights.0.power_w":[1],"scene.lights.1.power_w":[2],
+               "stop":[{"passes":1},{"passes":2}],"unit":["m","m"]}})");
+  std::set<std::string> names;
+  for (const Preset& p : preset::read_presets(file)) {
+    names.insert(p.name);
+    EXPECT_EQ(p.name.find('/'), std::string::npos) << p.name;
+  }
+  EXPECT_EQ(names.size(), 8u);
+  EXPECT_TRUE(names.contains("s,dispersion=0,scene.lights.0.power_w=1,scene.lights.1.power_w=2,stop=1,unit=0"));
+}
+
+TEST(ShippedPresets, AreListedByNameWithALineEach)
+{
+  std::vector<std::string> names;
+  for (const preset::ShippedPreset& s : preset::shipped_presets()) {
+    names.push_back(s.name);
+    EXPECT_FALSE(s.description.empty()) << s.name;
+    EXPECT_TRUE(preset::read_presets(s.name) == preset::read_presets(s.file.string())) << s.name;
+  }
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+  EXPECT_THAT(names,
+              testing::IsSupersetOf({"first-light", "spectral/ball-lens", "spectral/brilliant", "spectral/plate", "spectral/prism"}));
+}
+
+} // namespace
