@@ -13,8 +13,9 @@ namespace nephroid::scene {
 glm::dvec3 unit_direction(const glm::dvec3& v, const std::string& where)
 {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0) || !std::isfinite(largest))
-    throw bad_input(where, fmt::format("({}, {}, {}) has no direction", v.x, v.y, v.z), "a vector with a length");
+  const bool finite = std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  if (!finite || largest == 0)
+    throw bad_input(where, fmt::format("({:g}, {:g}, {:g}) has no direction", v.x, v.y, v.z), "a vector with a length");
   return glm::normalize(v / largest); // so that no square overflows or vanishes
 }
 
@@ -23,8 +24,8 @@ glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, c
   const glm::dvec3 unit_up = unit_direction(to_dvec3(up), where);
   const glm::dvec3 rest = unit_up - glm::dot(unit_up, forward) * forward;
   if (!(glm::length(rest) > 1e-6))
-    throw bad_input(where, fmt::format("({}, {}, {}) is parallel to the view or light direction", up[0], up[1], up[2]), "another direction",
-                    "turn it away");
+    throw bad_input(where, fmt::format("({:g}, {:g}, {:g}) is parallel to the view or light direction", up[0], up[1], up[2]),
+                    "another direction", "turn it away");
   return glm::normalize(rest);
 }
 
@@ -33,8 +34,8 @@ glm::dvec3 local_position(const preset::Vec3& position, const Scene& scene, cons
   const glm::dvec3 local = to_dvec3(position) - scene.origin;
   for (int axis = 0; axis < 3; ++axis)
     if (!(std::abs(local[axis]) <= max_coordinate))
-      throw bad_input(where, fmt::format("({}, {}, {}) is too far away", position[0], position[1], position[2]),
-                      fmt::format("at most {} units from the refracting and mirroring objects", max_coordinate), "choose a larger unit");
+      throw bad_input(where, fmt::format("({:g}, {:g}, {:g}) is too far away", position[0], position[1], position[2]),
+                      fmt::format("at most {:g} units from the refracting and mirroring objects", max_coordinate), "choose a larger unit");
   return local;
 }
 

@@ -51,7 +51,7 @@ std::size_t type_bytes(std::string_view type, const std::string& where)
       {"int", 4},  {"uint", 4},  {"int32", 4}, {"uint32", 4}, {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
   for (const auto& [name, bytes] : types)
     if (name == type) return bytes;
-  throw bad_input(where, fmt::format("the PLY header has the unknown type '{}'", type),
+  throw bad_input(where, fmt::format("the PLY header has the unknown type '{}'", printable(type)),
                   "char, short, int, float, double or a kin of these");
 }
 
@@ -87,14 +87,14 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& where)
                       : format == "binary_little_endian" ? PlyHeader::Format::little_endian
                       : format == "binary_big_endian"
                           ? PlyHeader::Format::big_endian
-                          : throw bad_input(where, fmt::format("the PLY header has the unknown format '{}'", format),
+                          : throw bad_input(where, fmt::format("the PLY header has the unknown format '{}'", printable(format)),
                                             "ascii, binary_little_endian or binary_big_endian");
     } else if (word == "element") {
       Element element{std::string(next_token(line)), 0, {}};
       const std::string_view count = next_token(line);
       const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
       if (error != std::errc() || stop != count.data() + count.size())
-        throw bad_input(where, fmt::format("the PLY header declares '{}' elements '{}'", count, element.name),
+        throw bad_input(where, fmt::format("the PLY header declares '{}' elements '{}'", printable(count), printable(element.name)),
                         "a number from 0 to 2^64 - 1");
       header.elements.push_back(std::move(element));
     } else if (word == "property") {
@@ -161,9 +161,10 @@ void check_ply(std::string_view bytes, const std::string& where)
                              ? skip_text(rest, element)
                              : skip_binary(rest, element, header.format == PlyHeader::Format::big_endian);
       if (!there)
-        throw bad_input(where,
-                        fmt::format("the file ends in element {} '{}' of the {} that its header declares", i, element.name, element.count),
-                        "a whole file", "copy or write it again");
+        throw bad_input(
+            where,
+            fmt::format("the file ends in element {} '{}' of the {} that its header declares", i, printable(element.name), element.count),
+            "a whole file", "copy or write it again");
     }
   }
 }
@@ -182,6 +183,16 @@ void check_declared_size(std::string_view bytes, const std::string& where)
 {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) check_ply(bytes, where);
   if (bytes.starts_with("glTF")) check_glb(bytes, where);
+}
+
+std::string printable(std::string_view text)
+{
+  constexpr std::size_t longest = 200;
+  std::string result(text.substr(0, longest));
+  for (char& c : result)
+    if (c < ' ' || c > '~') c = c == '\n' || c == '\t' ? ' ' : '?';
+  while (!result.empty() && (result.back() == '.' || result.back() == ' ')) result.pop_back();
+  return result;
 }
 
 } // namespace nephroid::scene

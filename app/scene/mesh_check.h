@@ -11,4 +11,7 @@ namespace nephroid::scene {
 /// makes no sense. Other files pass.
 void check_declared_size(std::string_view bytes, const std::string& where);
 
+/// Text from a file or its reader as one short line of printable ASCII, without a full stop at its end.
+std::string printable(std::string_view text);
+
 } // namespace nephroid::scene

@@ -174,15 +174,6 @@ Mesh unpack(std::string_view bytes)
   return mesh;
 }
 
-/// One line, without the full stop: Assimp's messages are sentences.
-std::string tidy(std::string text)
-{
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
-  return text;
-}
-
 } // namespace
 
 Mesh load_mesh(const std::filesystem::path& file)
@@ -203,7 +194,8 @@ Mesh load_mesh(const std::filesystem::path& file)
   try {
     mesh = unpack(run_isolated([&file] { return pack(read_with_assimp(file)); }, limits));
   } catch (const IsolatedFailure& failure) {
-    throw bad_input(where, "the mesh cannot be read: " + tidy(failure.what()), std::string(formats), "check the file in another program");
+    throw bad_input(where, "the mesh cannot be read: " + printable(failure.what()), std::string(formats),
+                    "check the file in another program");
   }
   const MeshReport report = inspect(mesh);
   if (mesh.triangles.size() == report.degenerate + report.duplicated)
