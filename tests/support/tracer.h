@@ -7,6 +7,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -42,11 +43,13 @@ static_assert(sizeof(Hit) == 16);
 class KernelTracer {
 public:
   KernelTracer(const compute::Context& context, const scene::Mesh& mesh) : KernelTracer(context, scene::build_bvh(mesh)) {}
-  KernelTracer(const compute::Context& context, const scene::Bvh& bvh)
-      : bvh_(bvh), context_(context), nodes_(context, "nodes", std::span(bvh.nodes)), blocks_(context, "blocks", std::span(bvh.blocks)),
-        program_(context, "trace.cl", {{"NEPHROID_BVH_STACK", std::to_string(bvh.stack)}}), closest_(program_.kernel("closest_hits")),
-        any_(program_.kernel("any_hits"))
+  KernelTracer(const compute::Context& context, const scene::Bvh& bvh, compute::Defines defines = {})
+      : bvh_(bvh), context_(context), nodes_(context, "nodes", std::span(bvh.nodes)), blocks_(context, "blocks", std::span(bvh.blocks))
   {
+    defines["NEPHROID_BVH_STACK"] = std::to_string(bvh.stack);
+    const compute::Program program(context, "trace.cl", defines);
+    closest_ = program.kernel("closest_hits");
+    any_ = program.kernel("any_hits");
   }
 
   void set_rays(const std::vector<Ray>& rays)
@@ -82,7 +85,6 @@ private:
   scene::Bvh bvh_;
   compute::Context context_;
   compute::Buffer<float> nodes_, blocks_;
-  compute::Program program_;
   compute::Kernel closest_, any_;
   compute::Buffer<DeviceRay> rays_;
   compute::Buffer<Hit> hits_;
