@@ -83,7 +83,8 @@ Task preset_task(const ClusterOptions& options)
   const preset::Preset preset = preset::read_preset(options.preset);
   const std::string name = chosen_material(preset, options.material);
   const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
-  const std::string where = fmt::format("{}#/scene/materials/{}/dispersion", preset.source, name);
+  const auto pointer = nlohmann::json::json_pointer() / "scene" / "materials" / name / "dispersion";
+  const std::string where = preset.source + "#" + pointer.to_string();
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   return {scene::make_curve(dispersion, finder, where), scene::outside_policy(dispersion.outside), preset.spectral.threshold_deg,
           method_of(preset.spectral.method)};
@@ -142,7 +143,7 @@ std::string runs(const spectral::Cluster& cluster)
 
 void print_text(const std::string& name, const Clustering& clustering)
 {
-  fmt::print("{}: {} clusters by the method {} at {} degrees; the angle changes by {:.2f} square degrees in all\n", name,
+  fmt::print("{}: {} clusters by the method {} at {} degrees; the angle changes by {:.3f} square degrees in all\n", name,
              clustering.clusters.size(), name_of(clustering.method), clustering.threshold_deg, clustering.total_theta_deg2);
   fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "mean n", "deg^2", "wavelengths");
   for (const spectral::Cluster& c : clustering.clusters)

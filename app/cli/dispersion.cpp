@@ -49,13 +49,17 @@ std::optional<double> abbe_number(const optics::DispersionCurve& curve)
   return (*d.n - 1) / (*f.n - *c.n);
 }
 
-void print_text(const std::string& file, const optics::DispersionCurve& curve, const std::vector<optics::IndexSample>& samples)
+void print_text(const optics::DispersionCurve& curve, const std::vector<optics::IndexSample>& samples)
 {
   const auto cell = [](const std::optional<double>& value, const char* format) {
     return value ? fmt::format(fmt::runtime(format), *value) : std::string("-");
   };
   const auto [low, high] = curve.range_nm();
-  fmt::print("{} ({}), {} {:.6g}..{:.6g} nm\n", curve.name, file, !curve.n ? "k" : curve.n->formula ? "formula" : "table", low, high);
+  fmt::print("{} ({}), {} {:.6g}..{:.6g} nm\n", curve.name, curve.source,
+             !curve.n           ? "k"
+             : curve.n->formula ? "formula"
+                                : "table",
+             low, high);
   fmt::print("{:>10} {:>10} {:>11}\n", "nm", "n", "k");
   for (const optics::IndexSample& s : samples)
     fmt::print("{:>10.8g} {:>10} {:>11}{}\n", s.nm, cell(s.n, "{:.6f}"), cell(s.k, "{:.4e}"), s.extrapolated ? "  outside the range" : "");
@@ -79,7 +83,7 @@ void print_file(const std::string& file, const DispersionOptions& options)
   if (options.json)
     fmt::print("{}\n", line_of(to_json(file, curve, samples)));
   else
-    print_text(file, curve, samples);
+    print_text(curve, samples);
 }
 
 void print_dispersion(const DispersionOptions& options, Session& session)

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid dispersion` and `nephroid clusters` as scripts use them: JSON as the contract has it, good files among bad ones, odd
+// names, and one line for whatever is wrong.
+#include "tests/support/child.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid::test;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class SpectralVerbs : public testing::Test {
+protected:
+  TemporaryFolder scratch;
+  fs::path folder = scratch.path() / "here", logs = scratch.path();
+  void SetUp() override { fs::create_directory(folder); }
+  Ended run(const std::vector<std::string>& arguments) const { return nephroid::test::nephroid(arguments, folder, logs); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+};
+
+std::vector<json> lines(const std::string& text)
+{
+  std::vector<json> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) result.push_back(json::parse(line));
+  return result;
+}
+
+TEST_F(SpectralVerbs, GoodFilesAmongBadOnesAreStillAnswered)
+{
+  write("Gauß (o), 1.5 μm.yml", "DATA:\n  - type: tabulated nk\n    data: |\n        0.4 1.6 -0.1\n        0.6 1.5 0.1\n");
+  write("broken.yml", "DATA:\n  - type: tabulated n\n    data: |\n        0.4 one\n");
+  write("k.yml", "DATA:\n  - type: tabulated k\n    data: |\n        0.4 0.5\n");
+  const Ended ended =
+      run({"dispersion", "N-BK7", "missing.yml", "Gauß (o), 1.5 μm.yml", "broken.yml", "k.yml", "--nm", "500", "--nm", "700", "--json"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_EQ(ended.err, "");
+  const std::vector<json> answers = lines(ended.out);
+  ASSERT_EQ(answers.size(), 5u);
+
+  EXPECT_EQ(answers[0]["file"], "N-BK7");
+  EXPECT_EQ(answers[0]["range_nm"], json({300, 2500}));
+  EXPECT_NEAR(answers[0]["samples"][0]["n"].get<double>(), 1.521415, 1e-5);
+  EXPECT_EQ(answers[0]["samples"][0]["extrapolated"], false);
+  EXPECT_EQ(answers[1]["file"], "missing.yml");
+  EXPECT_THAT(answers[1]["error"].get<std::string>(), HasSubstr("not found; looked in"));
+  EXPECT_EQ(answers[2]["name"], "Gauß (o), 1.5 μm");
+  EXPECT_EQ(answers[2]["samples"][0], json({{"nm", 500.0}, {"n", 1.55}, {"k", 0.0}, {"extrapolated", false}}));
+  EXPECT_EQ(answers[2]["samples"][1], json({{"nm", 700.0}, {"n", 1.5}, {"k", 0.1}, {"extrapolated", true}}));
+  EXPECT_THAT(answers[3]["error"].get<std::string>(), StartsWith("broken.yml:4: \"one\" is no number"));
+  EXPECT_EQ(answers[4]["samples"][0]["n"], nullptr);
+  EXPECT_EQ(answers[4]["samples"][0]["k"], 0.5);
+}
+
+TEST_F(SpectralVerbs, AFormulaWithoutAValueIsNullAndSaid)
+{
+  write("pole.yml", "DATA:\n  - type: formula 1\n    wavelength_range: 0.5 1\n    coefficients: 0 1.2 0.45\n");
+  const Ended ended = run({"dispersion", "pole.yml", "--nm", "445", "--json"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_EQ(lines(ended.out).at(0)["samples"][0], json({{"nm", 445.0}, {"n", nullptr}, {"k", nullptr}, {"extrapolated", true}}));
+  EXPECT_EQ(ended.err, "nephroid: pole.yml: the formula gives no finite n at 445 nm\n");
+}
+
+TEST_F(SpectralVerbs, TextHasTheUsualLinesAndTheAbbeNumber)
+{
+  const Ended ended = run({"dispersion", "N-SF66"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.out,
+              testing::AllOf(HasSubstr("587.5618   1.922860"), HasSubstr("Abbe number V_d 20.88"), HasSubstr("outside the range")));
+}
+
+TEST_F(SpectralVerbs, ClustersOfAFileAndOfAPreset)
+{
+  const Ended ended = run({"clusters", "--ior", "N-SF66", "--threshold", "0.1", "--method", "thesis", "--json"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_EQ(ended.err, "nephroid: N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)\n");
+  const json all = json::parse(ended.out);
+  EXPECT_EQ(all["method"], "thesis");
+  EXPECT_EQ(all["threshold_deg"], 0.1);
+  EXPECT_EQ(all["count"], 21);
+  EXPECT_NEAR(all["total_theta_deg2"].get<double>(), 130.936, 0.001);
+  std::set<int> wavelengths;
+  double total = 0;
+  for (const json& cluster : all["clusters"]) {
+    for (int nm : cluster["wavelengths_nm"]) wavelengths.insert(nm);
+    total += cluster["theta_deg2"].get<double>();
+  }
+  EXPECT_EQ(wavelengths.size(), 401u);
+  EXPECT_EQ(*wavelengths.begin(), 380);
+  EXPECT_EQ(*wavelengths.rbegin(), 780);
+  EXPECT_NEAR(total, all["total_theta_deg2"].get<double>(), 1e-9);
+
+  const json plate = json::parse(run({"clusters", "spectral/plate", "--json"}).out);
+  const json crown = json::parse(run({"clusters", "--ior", "N-BK7", "--json"}).out);
+  EXPECT_EQ(plate, crown);
+}
+
+TEST_F(SpectralVerbs, APresetWithSeveralGlassesAsksForOne)
+{
+  write("two.json", R"({"parent": "spectral/plate", "scene": {
+    "materials": {"glass": {"type": "dielectric", "dispersion": "materials/N-BK7.yml"},
+                  "dense/flint": {"type": "dielectric", "dispersion": "materials/missing.yml"},
+                  "screen": {"type": "diffuse", "reflectance": 0.8}},
+    "objects": [{"name": "a", "shape": {"type": "plate"}, "material": "glass"},
+                {"name": "b", "shape": {"type": "sphere"}, "material": "dense/flint"}]}})");
+  const Ended ended = run({"clusters", "two.json"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("objects are made of several dielectrics: dense/flint, glass; expected one of them with --material\n"));
+  EXPECT_EQ(run({"clusters", "two.json", "--material", "glass"}).exit_code, 0);
+  EXPECT_THAT(run({"clusters", "two.json", "--material", "screen"}).err, HasSubstr("no object is made of a dielectric \"screen\""));
+  EXPECT_THAT(run({"clusters", "two.json", "--material", "dense/flint"}).err, HasSubstr("#/scene/materials/dense~1flint/dispersion: "));
+}
+
+struct Wrong {
+  std::vector<std::string> arguments;
+  std::string says;
+};
+
+TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
+{
+  write("empty.yml", "");
+  write("binary.yml", std::string("\0\x01\xff\"\\\x02", 6));
+  write("k.yml", "DATA:\n  - type: tabulated k\n    data: |\n        0.4 0.5\n");
+  write("negative.yml", "DATA:\n  - type: tabulated n\n    data: |\n        0.4 -1.5\n");
+  const Wrong cases[] = {
+      {{"dispersion"}, "FILE is required"},
+      {{"dispersion", ""}, "the file name is empty"},
+      {{"dispersion", "/"}, "it is a folder"},
+      {{"dispersion", "empty.yml"}, "empty.yml: this is no refractiveindex.info file"},
+      {{"dispersion", "binary.yml"}, "binary.yml"},
+      {{"dispersion", std::string(5000, 'x')}, "not found"},
+      {{"dispersion", "N-BK7", "--nm"}, "--nm"},
+      {{"dispersion", "N-BK7", "--nm", "green"}, "--nm"},
+      {{"dispersion", "N-BK7", "--nm", "0"}, "--nm: the wavelength is 0 nm; expected a number above 0"},
+      {{"dispersion", "N-BK7", "--nm", "-500"}, "--nm: the wavelength is -500 nm"},
+      {{"dispersion", "N-BK7", "--nm", "nan"}, "expected a number above 0"},
+      {{"dispersion", "N-BK7", "--outside", "guess"}, "guess not in"},
+      {{"dispersion", "N-BK7", "--outside", "refuse", "--nm", "200"}, "expected a wavelength in its range 300..2500 nm"},
+      {{"clusters"}, "nothing to cluster; expected a PRESET or --ior FILE"},
+      {{"clusters", "spectral/plate", "--ior", "N-BK7"}, "both a preset and --ior are given"},
+      {{"clusters", "no-such-preset"}, "no-such-preset"},
+      {{"clusters", "--ior", "no-such-glass"}, "'no-such-glass' not found"},
+      {{"clusters", "--ior", "k.yml"}, "k has no index of refraction n, only k"},
+      {{"clusters", "--ior", "negative.yml"}, "negative has n = -1.5 at 380 nm; expected n above 0"},
+      {{"clusters", "--ior", "N-BK7", "--threshold", "0"}, "expected above 0 and below 90"},
+      {{"clusters", "--ior", "N-BK7", "--threshold", "wide"}, "--threshold"},
+      {{"clusters", "--ior", "N-BK7", "--threshold", "nan"}, "expected above 0 and below 90"},
+      {{"clusters", "--ior", "N-BK7", "--method", "best"}, "best not in"},
+      {{"clusters", "--ior", "N-SF66", "--outside", "refuse"}, "N-SF66 has no n at 380 nm"},
+  };
+  for (const Wrong& wrong : cases) {
+    SCOPED_TRACE(wrong.says);
+    const Ended ended = run(wrong.arguments);
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err, testing::AllOf(StartsWith("nephroid: "), HasSubstr(wrong.says)));
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
+}
+
+} // namespace
