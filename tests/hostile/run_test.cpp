@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or a clear line.
+#include "base/files.h"
+#include "image/image.h"
+#include "preset/read.h"
+#include "run/run.h"
+#include "tests/support/child.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <sys/mount.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid::test;
+using nephroid::read_file;
+using nephroid::write_file_whole;
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// A plate of glass, small enough for passes of a few milliseconds. Needs no mesh file.
+const std::vector<std::string> small_run{
+    "run", "spectral/plate", "--set", "scene.camera.resolution=[48,40]", "--set", "spectral.photons_per_pass=20000"};
+
+class Runs : public testing::Test {
+protected:
+  TemporaryFolder scratch;
+  fs::path logs = scratch.path();
+
+  /// "a" becomes the folder a run writes to.
+  std::vector<std::string> into(const std::string& name, const std::vector<std::string>& more) const
+  {
+    std::vector<std::string> arguments = small_run;
+    arguments.insert(arguments.end(), {"-o", (scratch.path() / name).string()});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  Ended run(const std::string& name, const std::vector<std::string>& more, const Environment& environment = {}) const
+  {
+    return nephroid::test::nephroid(into(name, more), scratch.path(), logs, environment);
+  }
+  fs::path file(const std::string& name, const char* which) const { return scratch.path() / name / which; }
+  std::string picture(const std::string& name) const { return read_file(file(name, "image.exr")); }
+  json run_json(const std::string& name) const { return json::parse(read_file(file(name, "run.json"))); }
+};
+
+std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+
+TEST_F(Runs, LeaveEveryFileOfTheContract)
+{
+  const Ended ended = run("a", {"--passes", "3"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "") << "short runs and finished ones are quiet";
+  EXPECT_THAT(ended.out, HasSubstr(file("a", "image.exr").string() + ": 3 passes, 0.1 million photons"));
+
+  const auto image = nephroid::image::read_image(file("a", "image.exr"));
+  EXPECT_EQ(image.width, 48);
+  EXPECT_EQ(image.height, 40);
+  ASSERT_THAT(image.channels, testing::IsSupersetOf({"R", "G", "B", "caustic.R", "direct.G"}));
+  const auto channel = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(image.channels.begin(), image.channels.end(), name) - image.channels.begin());
+  };
+  double sum = 0;
+  for (std::size_t i = 0; i < image.data.size(); i += image.channels.size()) {
+    EXPECT_EQ(image.data[i + channel("R")], image.data[i + channel("direct.R")] + image.data[i + channel("caustic.R")]);
+    sum += image.data[i + channel("caustic.G")];
+  }
+  EXPECT_GT(sum, 0);
+  EXPECT_EQ(image.attributes.at("nephroid:seed"), "1");
+  EXPECT_EQ(image.attributes.at("nephroid:preset") + "\n", read_file(file("a", "preset.json")));
+
+  const json result = run_json("a");
+  EXPECT_EQ(result["finished"], true);
+  EXPECT_EQ(result["passes"], 3);
+  EXPECT_EQ(result["photons"], 60000);
+  const json& energy = result["energy"];
+  EXPECT_GT(energy["emitted_w"].get<double>(), 0);
+  EXPECT_NEAR(energy["unaccounted_w"].get<double>(), 0, 1e-9 * energy["emitted_w"].get<double>());
+  EXPECT_TRUE(json::parse(read_file(file("a", "plan.json"))).contains("passes"));
+  const auto png = nephroid::image::read_image(file("a", "image.png"));
+  EXPECT_EQ(png.width * png.height, 48 * 40);
+}
+
+TEST_F(Runs, AreTheSameBitsForTheSameSeedOnAnyThreadsAndFromTheirOwnPreset)
+{
+  ASSERT_EQ(run("one", {"--passes", "5"}, {{"POCL_MAX_PTHREAD_COUNT", "1"}}).exit_code, 0);
+  ASSERT_EQ(run("two", {"--passes", "5"}, {{"POCL_MAX_PTHREAD_COUNT", "2"}}).exit_code, 0);
+  ASSERT_EQ(run("other", {"--passes", "5", "--seed", "2"}).exit_code, 0);
+  const auto again = nephroid::test::nephroid({"run", file("one", "preset.json").string(), "-o", "again"}, scratch.path(), logs);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(picture("one") == picture("two"));
+  EXPECT_TRUE(picture("one") == picture("again"));
+  const auto one = nephroid::image::read_image(file("one", "image.exr")), other = nephroid::image::read_image(file("other", "image.exr"));
+  EXPECT_NE(one.data, other.data);
+}
+
+TEST_F(Runs, KilledAndResumedEqualUninterruptedOnes)
+{
+  ASSERT_EQ(run("whole", {"--passes", "150"}).exit_code, 0);
+  {
+    Child child(into("killed", {"--passes", "150", "--checkpoint-seconds", "0.05"}), scratch.path(), logs);
+    ASSERT_TRUE(child.until([&] { return fs::exists(file("killed", "checkpoint.bin")); }));
+    child.send(SIGKILL);
+    ASSERT_EQ(child.wait().signal, SIGKILL) << "the run was over before it could be killed";
+  }
+  EXPECT_FALSE(fs::exists(file("killed", "image.exr")));
+  write_file_whole(scratch.path() / "killed" / ".image.1-1.tmp.exr", "half a picture"); // as a writer killed at its work leaves it
+  const Ended resumed = run("killed", {"--passes", "150", "--resume"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("going on after pass"));
+  EXPECT_TRUE(picture("whole") == picture("killed"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "killed" / ".image.1-1.tmp.exr"));
+}
+
+TEST_F(Runs, InterruptedOnesLeaveAPictureAndACheckpoint)
+{
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::string name = "a" + std::to_string(signal);
+    Child child(into(name, {"--passes", "1000000", "--checkpoint-seconds", "0.05"}), scratch.path(), logs);
+    ASSERT_TRUE(child.until([&] { return fs::exists(file(name, "checkpoint.bin")); }));
+    child.send(signal);
+    const Ended ended = child.wait();
+    EXPECT_EQ(ended.exit_code, 130);
+    EXPECT_THAT(ended.err, HasSubstr("interrupted after pass"));
+    EXPECT_THAT(ended.err, HasSubstr("--resume"));
+    EXPECT_EQ(nephroid::image::read_image(file(name, "image.exr")).width, 48);
+    EXPECT_EQ(run_json(name)["finished"], false);
+    const int passes = run_json(name)["passes"];
+    const Ended resumed = run(name, {"--passes", std::to_string(passes + 2), "--resume"});
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(run_json(name)["passes"], passes + 2);
+  }
+}
+
+TEST_F(Runs, FinishedOnesSaySoAndCanBeExtended)
+{
+  ASSERT_EQ(run("a", {"--passes", "3"}).exit_code, 0);
+  const std::string before = picture("a");
+  const Ended again = run("a", {"--passes", "3", "--resume", "--device", "no such device"}); // nothing is opened
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("this run is finished"));
+  EXPECT_TRUE(picture("a") == before);
+  ASSERT_EQ(run("a", {"--passes", "6", "--resume"}).exit_code, 0);
+  ASSERT_EQ(run("b", {"--passes", "6"}).exit_code, 0);
+  EXPECT_TRUE(picture("a") == picture("b"));
+}
+
+TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
+{
+  ASSERT_EQ(run("a", {"--passes", "2"}).exit_code, 0);
+  const std::string good = read_file(file("a", "checkpoint.bin"));
+  const auto answer = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"--passes", "4", "--resume"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = run("a", arguments);
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(lines(ended.err), 1u) << ended.err;
+    return ended.err;
+  };
+  EXPECT_THAT(answer({"--seed", "2"}), HasSubstr("belongs to another preset or seed; run without --resume"));
+  EXPECT_THAT(answer({"--set", "scene.camera.fov_deg=41"}), HasSubstr("belongs to another preset"));
+  std::string changed = good;
+  changed[changed.size() / 2] ^= 1;
+  for (const std::string& bytes : {good.substr(0, good.size() - 1), good.substr(0, good.size() / 2), good + "x", changed}) {
+    write_file_whole(file("a", "checkpoint.bin"), bytes);
+    EXPECT_THAT(answer({}), HasSubstr("is cut or damaged"));
+  }
+  for (const std::string& bytes : {std::string(), std::string(100, 'x')}) {
+    write_file_whole(file("a", "checkpoint.bin"), bytes);
+    EXPECT_THAT(answer({}), HasSubstr("is no checkpoint"));
+  }
+  EXPECT_EQ(run("a", {"--passes", "1"}).exit_code, 0) << "without --resume it starts over";
+}
+
+TEST_F(Runs, SweepsFillNumberedFolders)
+{
+  write_file_whole(scratch.path() / "sweep.json",
+                   R"({"parent": "spectral/plate.json", "scene": {"camera": {"resolution": [16, 16]}}, "sweep": {"seed": [4, 5, 6]}})");
+  const std::vector<std::string> arguments{"run", "sweep.json", "--passes", "1", "--json"};
+  const Ended ended = nephroid::test::nephroid(arguments, scratch.path(), logs);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  for (int i = 1; i <= 3; ++i) EXPECT_EQ(run_json("out/sweep/00" + std::to_string(i))["seed"], 3 + i);
+}
+
+TEST_F(Runs, JsonLinesEndWithTheResult)
+{
+  const Ended ended = run("a", {"--seconds", "1.2", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  std::vector<json> all;
+  std::istringstream stream(ended.out);
+  for (std::string line; std::getline(stream, line);) all.push_back(json::parse(line));
+  ASSERT_GE(all.size(), 3u);
+  double fraction = 0;
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    EXPECT_EQ(all[i]["type"], "progress");
+    EXPECT_GE(all[i]["fraction"], fraction);
+    fraction = all[i]["fraction"];
+    EXPECT_GT(all[i]["photons_per_second"], 0);
+  }
+  EXPECT_EQ(fraction, 1);
+  EXPECT_EQ(all.back()["type"], "result");
+  EXPECT_EQ(all.back()["folder"], (scratch.path() / "a").string());
+  for (const std::string name : all.back()["files"]) EXPECT_TRUE(fs::exists(scratch.path() / "a" / name));
+  EXPECT_GE(all.back()["work_seconds"], 1.2);
+}
+
+TEST_F(Runs, BadOutputFoldersAreRefusedBeforeRendering)
+{
+  write_file_whole(scratch.path() / "file", "mine");
+  fs::create_directory(scratch.path() / "full");
+  write_file_whole(scratch.path() / "full/letter.txt", "mine");
+  const auto refused = [&](const std::string& name, int exit_code, const char* says) {
+    const Ended ended = run(name, {"--seconds", "1000"});
+    EXPECT_EQ(ended.exit_code, exit_code);
+    EXPECT_EQ(lines(ended.err), 1u) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr(says));
+  };
+  refused("file", 2, "is a file");
+  refused("file/below", 1, "cannot be used");
+  refused("full", 2, "holds files that are not of a run");
+  refused("/proc/nephroid", 1, "cannot be used");
+  EXPECT_EQ(read_file(scratch.path() / "file"), "mine");
+  EXPECT_EQ(read_file(scratch.path() / "full/letter.txt"), "mine");
+}
+
+TEST_F(Runs, AFullDiskIsALineAndNoHalfFile)
+{
+  const fs::path disk = scratch.path() / "disk";
+  fs::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=40k") != 0) GTEST_SKIP() << "mounting a small disk needs root";
+  const Ended ended = run("disk/a", {"--passes", "20", "--checkpoint-seconds", "0.05"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_THAT(ended.err, HasSubstr("No space left on device; free some space"));
+  EXPECT_LE(lines(ended.err), 2u) << ended.err; // a warning at the first checkpoint, the error at the end
+  for (const auto& entry : fs::directory_iterator(disk / "a")) EXPECT_THAT(entry.path().extension(), ".json") << entry.path();
+  ::umount(disk.c_str());
+}
+
+TEST_F(Runs, NeedNoHome)
+{
+  const Ended ended =
+      run("a", {"--passes", "1"}, {{"HOME", std::nullopt}, {"XDG_CACHE_HOME", std::nullopt}, {"POCL_CACHE_DIR", std::nullopt}});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
+TEST(Prepare, LendsTheTreeWhereTheTrianglesAreTheSame)
+{
+  using nephroid::run::prepare;
+  const auto preset = nephroid::preset::read_preset("spectral/plate");
+  const auto first = prepare(preset);
+  auto seen_from_above = preset;
+  seen_from_above.scene.camera.position = {0, 30, 0.1};
+  const auto second = prepare(seen_from_above, &first);
+  EXPECT_EQ(second.loaded->bvh, first.loaded->bvh);
+  const auto fresh = prepare(seen_from_above);
+  EXPECT_NE(fresh.loaded->bvh, first.loaded->bvh);
+  EXPECT_EQ(second.loaded->scene.camera.position, fresh.loaded->scene.camera.position) << "the camera is the new one";
+  EXPECT_NE(second.loaded->scene.camera.position, first.loaded->scene.camera.position);
+
+  auto brighter = preset;
+  brighter.scene.lights[0].irradiance_w_m2 *= 2;
+  EXPECT_EQ(prepare(brighter, &first).loaded->bvh, first.loaded->bvh);
+  EXPECT_EQ(prepare(brighter, &first).loaded->scene.lights[0].irradiance_w_m2, brighter.scene.lights[0].irradiance_w_m2);
+
+  auto turned = preset;
+  turned.scene.objects[0].transform.rotate_deg = {0, 10, 0};
+  EXPECT_NE(prepare(turned, &first).loaded->bvh, first.loaded->bvh);
+}
+
+} // namespace
