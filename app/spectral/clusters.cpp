@@ -23,12 +23,12 @@ using Ends = std::vector<std::size_t>;
 void check_input(const optics::Spectrum& n, double threshold_deg)
 {
   if (!(threshold_deg > 0 && threshold_deg < 90))
-    throw bad_input("clusters", fmt::format("the threshold is {} degrees", threshold_deg), "above 0 and below 90");
+    throw bad_input("clusters", fmt::format("the threshold is {} degrees", threshold_deg), "expected above 0 and below 90");
   for (int i = 0; i < optics::wavelength_count; ++i) {
     const double value = n[static_cast<std::size_t>(i)];
     if (!std::isfinite(value) || !(value > 0))
       throw bad_input("clusters", fmt::format("the index of refraction is {} at {} nm", value, optics::wavelength_nm(i)),
-                      "a number above 0");
+                      "expected a number above 0");
   }
 }
 

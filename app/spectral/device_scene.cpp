@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/device_scene.h"
 
+#include "spectral/targets.h"
 #include "spectral/wavelength_tables.h"
 
 #include <algorithm>
@@ -8,9 +9,6 @@
 
 namespace nephroid::spectral {
 namespace {
-
-/// As in kernels/emission.h; more caustic objects than this share one target around them all.
-constexpr std::size_t max_targets = 16;
 
 shared::float4 to_float4(const glm::vec3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
@@ -20,33 +18,6 @@ shared::Media to_media(const std::vector<int>& inside)
   media.count = static_cast<int>(std::min<std::size_t>(inside.size(), MEDIA_DEPTH));
   std::copy_n(inside.begin(), media.count, media.objects);
   return media;
-}
-
-bool is_caustic_object(const scene::Scene& scene, const scene::Object& object)
-{
-  return scene.materials[static_cast<std::size_t>(object.material)].type != scene::Material::Type::diffuse;
-}
-
-scene::Sphere enclosing(const scene::Sphere& a, const scene::Sphere& b)
-{
-  const float distance = glm::length(b.centre - a.centre);
-  if (distance + b.radius <= a.radius) return a;
-  if (distance + a.radius <= b.radius) return b;
-  const float radius = 0.5f * (distance + a.radius + b.radius);
-  return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / distance), radius * 1.000001f};
-}
-
-std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
-{
-  std::vector<scene::Sphere> spheres;
-  for (const scene::Object& object : scene.objects)
-    if (object.triangle_count > 0 && is_caustic_object(scene, object)) spheres.push_back(object.bounds);
-  if (spheres.size() > max_targets) {
-    scene::Sphere all = spheres.front();
-    for (const scene::Sphere& sphere : spheres) all = enclosing(all, sphere);
-    spheres = {all};
-  }
-  return spheres;
 }
 
 shared::DeviceLight device_light(const scene::Light& light)

@@ -16,7 +16,7 @@ namespace nephroid::spectral {
 plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 
 /// The scene and tree are copied to the device; they need not outlive the call.
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
-                                   const plan::Plan& plan, const compute::Context& context);
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
+                                   const compute::Context& context);
 
 } // namespace nephroid::spectral

@@ -71,7 +71,8 @@ TEST_P(Plate, TransmittanceIsFresnels)
   RecordProperty("measured", std::to_string(measured));
   RecordProperty("truth", std::to_string(truth));
   RecordProperty("sigmas", std::to_string((measured - truth) / sigma));
-  EXPECT_NEAR(measured, truth, 3 * sigma) << "at " << theta << " degrees: " << (measured - truth) / sigma << " sigma";
+  // 3.8 sigma: three sigma for all sixteen angles together (Sidak), so that no seed fails oftener than one in 370.
+  EXPECT_NEAR(measured, truth, 3.8 * sigma) << "at " << theta << " degrees: " << (measured - truth) / sigma << " sigma";
   EXPECT_NEAR(emitted, 1, 1e-4); // the whole pencil
 }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where photons are sent: spheres that together enclose every caustic object, as tightly as a few spheres can.
+#pragma once
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace nephroid::spectral {
+
+/// As in kernels/emission.h.
+inline constexpr std::size_t max_targets = 16;
+
+/// At most max_targets spheres that hold every triangle of every dielectric and mirror object. A bunny in one sphere lets two photons
+/// of three pass beside it; an object is cut into pieces, each with its own sphere, as long as that makes the shadow of all spheres
+/// smaller. Empty where there is no such object.
+std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);
+
+/// The area of the shadow that the spheres cast together, as a mean over directions, in square units; estimated to about 2 %.
+double mean_shadow(const std::vector<scene::Sphere>& spheres);
+
+} // namespace nephroid::spectral

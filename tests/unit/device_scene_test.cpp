@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables that engine 1 hands to its kernels: targets that enclose, photons dealt out, sums over wavelength; and the plan's reasons.
+#include "optics/colour.h"
+#include "optics/spectrum.h"
+#include "plan/plan.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+#include "spectral/device_scene.h"
+#include "spectral/engine.h"
+#include "spectral/targets.h"
+#include "spectral/wavelength_tables.h"
+#include "tests/support/presets.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numeric>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
+{
+  using testing::ElementsAre;
+  EXPECT_THAT(spectral::deal_out({1, 1, 2}, 8), ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
+  EXPECT_THAT(spectral::deal_out({1, 0, 1e-9}, 100), ElementsAre(99, 0, 1));
+  EXPECT_THAT(spectral::deal_out({1, 1, 1}, 1), ElementsAre(1, 1, 1));
+  EXPECT_THAT(spectral::deal_out({0, 0}, 10), ElementsAre(0, 0));
+  std::vector<double> weights(401);
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::pow(0.9, static_cast<double>(i));
+  const std::vector<unsigned> counts = spectral::deal_out(weights, 1 << 18);
+  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 1u << 18);
+}
+
+preset::Preset scene_with(const preset::Shape& shape, const preset::Material& material)
+{
+  preset::Preset p = empty_preset();
+  p.scene.materials["thing"] = material;
+  p.scene.materials["white"] = white(0.5);
+  p.scene.objects = {object("thing", shape, "thing"), object("floor", quad(10, 10), "white", at({0, -2, 0}))};
+  preset::Light light;
+  light.position = {0, 5, 0};
+  p.scene.lights = {light};
+  p.spectral.direct = true;
+  return p;
+}
+
+void expect_enclosed(const scene::Scene& scene, const std::vector<scene::Sphere>& spheres)
+{
+  const scene::Object& thing = scene.objects[0];
+  for (std::uint32_t t = thing.first_triangle; t < thing.first_triangle + thing.triangle_count; ++t) {
+    bool enclosed = false;
+    for (const scene::Sphere& s : spheres) {
+      bool all = true;
+      for (int corner = 0; corner < 3; ++corner)
+        all = all && glm::length(scene.geometry.positions[scene.geometry.triangles[t][corner]] - s.centre) <= s.radius * 1.000001f;
+      enclosed = enclosed || all;
+    }
+    ASSERT_TRUE(enclosed) << "triangle " << t;
+  }
+}
+
+TEST(Targets, ABallIsOneAndARodIsMany)
+{
+  preset::Shape ball;
+  const scene::Scene round = scene::load_scene(scene_with(ball, glass(1.5)));
+  EXPECT_EQ(spectral::caustic_targets(round).size(), 1u);
+  expect_enclosed(round, spectral::caustic_targets(round));
+
+  preset::Shape rod;
+  rod.type = preset::Shape::Type::sphere;
+  preset::Preset p = scene_with(rod, glass(1.5));
+  p.scene.objects[0].transform.scale = {1, 8, 1};
+  const scene::Scene scene = scene::load_scene(p);
+  const std::vector<scene::Sphere> spheres = spectral::caustic_targets(scene);
+  EXPECT_GE(spheres.size(), 4u);
+  EXPECT_LE(spheres.size(), spectral::max_targets);
+  expect_enclosed(scene, spheres);
+  EXPECT_LT(spectral::mean_shadow(spheres), 0.5 * M_PI * 4 * 4); // of the one sphere about it, radius 4
+}
+
+TEST(Targets, TheShadowOfSpheresInAClosedForm)
+{
+  EXPECT_NEAR(spectral::mean_shadow({{{0, 0, 0}, 2}}), 4 * M_PI, 1e-9);
+  EXPECT_NEAR(spectral::mean_shadow({{{0, 0, 0}, 1}, {{0, 0, 0}, 1}}), M_PI, 1e-6);
+  // Two unit spheres touching: the shadow along the line that joins them is one disc, across it two. For the angle t to that line the
+  // discs' distance is d = 2 sin t and their union 2 pi - 2 acos(d / 2) + (d / 2) sqrt(4 - d^2); averaged over the sphere by quadrature.
+  double mean = 0;
+  constexpr int steps = 2000;
+  for (int i = 0; i < steps; ++i) {
+    const double c = (i + 0.5) / steps, d = 2 * std::sqrt(1 - c * c);
+    mean += (2 * M_PI - 2 * std::acos(d / 2) + d / 2 * std::sqrt(4 - d * d)) / steps;
+  }
+  EXPECT_NEAR(spectral::mean_shadow({{{0, 0, -1}, 1}, {{0, 0, 1}, 1}}) / mean, 1, 0.02);
+}
+
+TEST(WavelengthTables, AddUpToTheWholeSpectrum)
+{
+  preset::Material coloured = glass(1.5);
+  coloured.dispersion.type = preset::Dispersion::Type::cauchy;
+  coloured.dispersion.coefficients = {1.5, 0.01};
+  const preset::Preset p = scene_with({}, coloured);
+  const scene::Scene scene = scene::load_scene(p);
+  const spectral::DeviceTables tables = spectral::make_device_tables(p, scene);
+  const spectral::WavelengthTables& w = tables.wavelengths;
+  EXPECT_GT(w.clusters.size(), 3u);
+  EXPECT_EQ(w.cluster_wavelengths.size(), 401u);
+  EXPECT_NEAR(std::accumulate(w.share[0].begin(), w.share[0].end(), 0.0), 1, 1e-12);
+  const optics::Colour truth = optics::to_xyz(optics::illuminant("D65")); // times the reflectance .5
+  double y = 0;
+  for (std::size_t c = 0; c < w.clusters.size(); ++c) y += w.reflected_xyz[c * static_cast<std::size_t>(w.reflector_count)].y;
+  EXPECT_NEAR(y, 0.5 * truth[1], 1e-6);
+  EXPECT_NEAR(w.reflected_xyz_all[0].y, 0.5 * truth[1], 1e-7);
+  EXPECT_EQ(w.cluster_cdf.front(), 0);
+  EXPECT_EQ(w.cluster_cdf.back(), 1);
+  EXPECT_TRUE(std::is_sorted(w.cluster_cdf.begin(), w.cluster_cdf.end()));
+  EXPECT_EQ(w.attenuator_count, 0);
+  // Every index of refraction is the mean of its cluster.
+  for (std::size_t c = 0; c < w.clusters.size(); ++c) {
+    double mean = 0;
+    for (const int i : w.clusters[c]) mean += scene.materials[0].n[static_cast<std::size_t>(i)] / static_cast<double>(w.clusters[c].size());
+    EXPECT_NEAR(w.index_of_refraction[c * scene.materials.size()], mean, 1e-6);
+  }
+}
+
+TEST(WavelengthTables, AMirrorOfOneIsNoAttenuatorAndABlackOneIs)
+{
+  preset::Material mirror;
+  mirror.type = preset::Material::Type::mirror;
+  mirror.reflectance.value = 1;
+  preset::Preset p = scene_with({}, mirror);
+  EXPECT_EQ(spectral::make_device_tables(p, scene::load_scene(p)).wavelengths.attenuator_count, 0);
+  p.scene.materials["thing"].reflectance.value = 0;
+  const spectral::WavelengthTables w = spectral::make_device_tables(p, scene::load_scene(p)).wavelengths;
+  EXPECT_EQ(w.attenuator_count, 1);
+  EXPECT_EQ(w.coefficient[0], 50);
+}
+
+bool runs(const plan::Plan& plan, const std::string& name, std::string* reason = nullptr)
+{
+  for (const plan::Pass& pass : plan.passes)
+    if (pass.name == name) {
+      if (reason) *reason = pass.reason;
+      return pass.runs;
+    }
+  ADD_FAILURE() << "no pass " << name;
+  return false;
+}
+
+plan::Plan plan_of(const preset::Preset& p)
+{
+  const scene::Scene scene = scene::load_scene(p);
+  return spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
+}
+
+TEST(SpectralPlan, LeavesOutWhatASceneDoesNotNeedAndSaysWhy)
+{
+  preset::Preset p = scene_with({}, glass(1.5));
+  EXPECT_TRUE(runs(plan_of(p), "photons"));
+  EXPECT_TRUE(runs(plan_of(p), "direct"));
+  EXPECT_FALSE(runs(plan_of(p), "mirrors"));
+  EXPECT_EQ(plan_of(p).defines.at("NEPHROID_MIRRORS"), "0");
+  std::string reason;
+  p.spectral.caustic = false;
+  EXPECT_FALSE(runs(plan_of(p), "photons", &reason));
+  EXPECT_EQ(reason, "spectral.caustic is false");
+  p = scene_with({}, white());
+  EXPECT_FALSE(runs(plan_of(p), "photons", &reason));
+  EXPECT_EQ(reason, "no object is of glass or a mirror");
+  p = scene_with({}, glass(1.5));
+  p.scene.lights[0].power_w = 0;
+  EXPECT_FALSE(runs(plan_of(p), "photons", &reason)) << reason;
+  p.scene.lights.clear();
+  EXPECT_FALSE(runs(plan_of(p), "direct", &reason));
+  EXPECT_EQ(reason, "the scene has no light");
+}
+
+TEST(SpectralPlan, SaysWhenAPassNeedsMorePhotons)
+{
+  preset::Preset p = scene_with({}, glass(1.5));
+  p.spectral.method = preset::Spectral::Method::brute_force;
+  p.spectral.photons_per_pass = 1;
+  EXPECT_THAT(plan_of(p).notes, testing::Contains(testing::HasSubstr("raised from 1 to 401")));
+}
+
+} // namespace
