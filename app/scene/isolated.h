@@ -15,7 +15,7 @@ struct IsolatedFailure : std::runtime_error {
 };
 
 struct IsolationLimits {
-  unsigned cpu_seconds = 10;
+  unsigned cpu_seconds = 5;
   std::size_t extra_memory_bytes = std::size_t{2} << 30; ///< address space beyond what this process has now
 };
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -181,7 +182,8 @@ void check_glb(std::string_view bytes, const std::string& where)
 
 void check_declared_size(std::string_view bytes, const std::string& where)
 {
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) check_ply(bytes, where);
+  const bool named_ply = bytes.starts_with("ply") && (bytes.size() == 3 || !std::isalnum(static_cast<unsigned char>(bytes[3])));
+  if (named_ply) check_ply(bytes, where);
   if (bytes.starts_with("glTF")) check_glb(bytes, where);
 }
 

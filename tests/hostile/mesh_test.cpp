@@ -107,6 +107,7 @@ std::vector<BadFile> bad_files()
       {"binary_list.ply", ply("3", "1", binary_corners() + "\xff" + three_bytes, little.c_str()), "'face' of the 1"},
       {"type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n0\n", "unknown type 'quad'"},
       {"format.ply", "ply\nformat ebcdic 1.0\nend_header\n", "unknown format 'ebcdic'"},
+      {"zero_byte.ply", std::string("ply\0format ascii 1.0\nelement vertex 4\n", 39), "no end_header"},
       {"header.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "no end_header"},
       {"count.stl", stl_head + little_endian(0xffffffff) + std::string(50, '\0'), "cannot be read"},
       {"truncated.stl", stl_head + little_endian(1) + std::string(20, '\0'), "cannot be read"},
@@ -153,7 +154,7 @@ TEST_F(HostileMesh, EachIsRefusedWithItsReason)
     const std::string line = refusal(file);
     EXPECT_THAT(line, StartsWith(file.string() + ": ")) << bad.name;
     EXPECT_THAT(line, HasSubstr(bad.says)) << bad.name;
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8)) << bad.name;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30)) << bad.name;
   }
 }
 

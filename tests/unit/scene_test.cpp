@@ -152,17 +152,20 @@ TEST(Scene, TransformsInOrder)
   expect_near(high - low, {3, 2, 2}, 1e-6);
   expect_near(0.5 * (low + high), {10, 20, 30}, 1e-6);
 
-  // A prism tells directions apart: its apex edge at +z goes to -y by 90 degrees about x ((x, y, z) -> (x, -z, y)).
+  // A prism tells directions apart: its apex edge, at +z and along y, goes to -y and along z by 90 degrees about x:
+  // (x, y, z) -> (x, -z, y).
   preset.scene.objects[0] = shape_object("prism", Shape::Type::prism, "glass");
   preset.scene.objects[0].transform.rotate_deg = {90, 0, 0};
   const Scene scene = load_scene(preset);
-  for (const glm::uvec3& t : scene.geometry.triangles)
+  int apex_corners = 0;
+  for (std::uint32_t t = 0; t < scene.objects[0].triangle_count; ++t)
     for (int i = 0; i < 3; ++i) {
-      const glm::vec3 p = scene.geometry.positions[t[i]];
-      if (scene.object_of_triangle[0] == 0 && std::abs(p.x) < 1e-6f && std::abs(p.z) > 0.4f) {
-        EXPECT_LT(p.y, 0);
-      }
+      const glm::vec3 p = scene.geometry.positions[scene.geometry.triangles[t][i]];
+      if (std::abs(p.x) > 1e-6f) continue;
+      EXPECT_NEAR(p.y, -std::sqrt(3.0) / 4, 1e-6);
+      ++apex_corners;
     }
+  EXPECT_GT(apex_corners, 0);
 }
 
 TEST(Scene, MirroringKeepsTrianglesOutwards)
