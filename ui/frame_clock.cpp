@@ -21,14 +21,17 @@ void FrameClock::begin() { previous_ = std::exchange(began_, Clock::now()); }
 void FrameClock::end(const std::string& state, double fraction)
 {
   ++frames_;
+  last_draw_s_ = milliseconds(Clock::now() - began_) / 1000;
   if (!keep_) return;
   const double period = previous_ == Clock::time_point{} ? 0 : milliseconds(began_ - previous_);
-  times_.push_back({milliseconds(Clock::now() - began_), period, state, fraction});
+  times_.push_back({1000 * last_draw_s_, period, state, fraction});
 }
 
 double FrameClock::rest(Pace pace) const
 {
-  const double period_s = pace == Pace::hands_on ? 1.0 / 60 : pace == Pace::running ? 1.0 / 20 : 1.0 / 4;
+  double period_s = 1.0 / 60;
+  if (pace == Pace::running) period_s = std::max(1.0 / 30, 4 * last_draw_s_);
+  if (pace == Pace::idle) period_s = 1.0 / 4;
   return std::max(0.0, period_s - milliseconds(Clock::now() - began_) / 1000);
 }
 

@@ -27,7 +27,8 @@ public:
 
   void begin();
   void end(const std::string& state, double fraction);
-  /// Seconds to sleep before the next frame. The device may be the processor that draws: a window that draws without need slows the run.
+  /// Seconds to sleep before the next frame. The device may be the processor that draws, too: while nobody touches the window it
+  /// takes at most a quarter of the time, so that drawing without need does not slow the run.
   double rest(Pace pace) const;
   std::size_t frames() const { return frames_; }
   /// "N frames, draw median A ms, 99 % B ms, most C ms" over what was drawn so far.
@@ -38,6 +39,7 @@ public:
 private:
   bool keep_ = false;
   std::size_t frames_ = 0;
+  double last_draw_s_ = 0;
   Clock::time_point began_{}, previous_{};
   std::vector<FrameTime> times_;
 };

@@ -8,6 +8,7 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <utility>
@@ -99,6 +100,8 @@ void GlfwWindow::begin_frame()
 {
   glfwPollEvents();
   follow_scale();
+  // Mouse, keys and focus; Dear ImGui may deal one burst of them out to several frames.
+  if (ImGui::GetCurrentContext()->InputEventsQueue.Size > 0) activity_ = true;
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
@@ -144,11 +147,7 @@ void GlfwWindow::set_title(const std::string& title)
 
 std::vector<std::string> GlfwWindow::take_dropped() { return std::exchange(events_of(window_).dropped, {}); }
 
-bool GlfwWindow::take_activity()
-{
-  const ImGuiIO& io = ImGui::GetIO();
-  return io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0 || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive();
-}
+bool GlfwWindow::take_activity() { return std::exchange(activity_, false); }
 
 std::string GlfwWindow::renderer() const
 {

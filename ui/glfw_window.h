@@ -33,7 +33,7 @@ public:
   void set_title(const std::string& title);
   /// Files that were dropped on the window since the last call.
   std::vector<std::string> take_dropped();
-  /// True where an event came since the last call.
+  /// True where the mouse or a key was used since the last call.
   bool take_activity();
   /// The renderer's name, for messages.
   std::string renderer() const;
@@ -46,7 +46,7 @@ private:
   GLFWwindow* window_ = nullptr;
   std::string title_;
   float scale_ = 0;
-  bool back_ends_ = false;
+  bool back_ends_ = false, activity_ = false;
 };
 
 } // namespace nephroid::ui

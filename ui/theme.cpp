@@ -74,6 +74,7 @@ void set_theme(float scale)
   style.FramePadding = {9, 5};
   style.ItemSpacing = {9, 7};
   style.WindowPadding = {9, 8};
+  style.WindowMenuButtonPosition = ImGuiDir_None;
   style.ScaleAllSizes(scale);
   style.FontSizeBase = font_size;
   style.FontScaleDpi = scale;

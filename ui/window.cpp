@@ -44,6 +44,11 @@ void open_first(Workbench& workbench, const Options& options)
   if (options.files.empty()) workbench.apply({command::Ask{Question::open}});
 }
 
+struct Screen {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgba8;
+};
+
 /// The loop of one window, from its first frame to its last.
 class Loop {
 public:
@@ -79,12 +84,14 @@ private:
     }
     window_.draw_frame();
     done_ = workbench_.quitting() || is_last_frame();
-    if (done_ && limit_ > 0 && !options_.screenshot.empty()) screenshot();
+    Screen screen;
+    if (done_ && !options_.screenshot.empty()) screen.rgba8 = window_.read_back(screen.width, screen.height);
     window_.present();
     workbench_.apply(commands);
     window_.set_title(title(workbench_));
     const job::Status& status = workbench_.status();
     clock_.end(name_of(status.state), status.progress.fraction);
+    if (!screen.rgba8.empty()) image::write_png_bytes(options_.screenshot, screen.width, screen.height, screen.rgba8);
   }
 
   bool is_last_frame() const
@@ -93,13 +100,6 @@ private:
     const job::Status& status = workbench_.status();
     if (options_.until <= 0) return true;
     return is_over(status.state) || (options_.until < 1 && status.progress.fraction >= options_.until);
-  }
-
-  void screenshot() const
-  {
-    int width = 0, height = 0;
-    const std::vector<unsigned char> pixels = window_.read_back(width, height);
-    image::write_png_bytes(options_.screenshot, width, height, pixels);
   }
 
   void rest()

@@ -23,8 +23,8 @@ inline constexpr const char* preset_text = R"({
   "scene": {
     "camera": {"position": [0, 0, 4], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40, "resolution": [64, 48]},
     "materials": {"wall": {"type": "diffuse", "reflectance": 0.5}},
-    "objects": [{"name": "floor", "shape": {"type": "quad"}, "material": "wall"}],
-    "lights": [{"type": "point", "power_w": 1, "position": [0, 1, 0]}]
+    "objects": [{"name": "wall", "shape": {"type": "quad", "size": [2, 1, 2]}, "material": "wall", "transform": {"rotate_deg": [90, 0, 0]}}],
+    "lights": [{"type": "point", "power_w": 10, "position": [0.5, 0.5, 1]}]
   },
   "stop": {"passes": 20}
 })";

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// The real program in a real window on a virtual display: what it shows against what `nephroid run` writes, real X events, and
+// what it says where there is no display. Skipped where there is no xvfb-run (or, for events, no xdotool).
+#include "base/files.h"
+#include "fake_job.h"
+#include "headless.h"
+#include "image/image.h"
+#include "preset/read.h"
+#include "ui/placement.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <sys/wait.h>
+
+namespace nephroid::ui {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string program = "'" NEPHROID_PROGRAM "'";
+const std::string on_display = "xvfb-run -a -s '-screen 0 1600x1000x24' ";
+
+bool there_is(const std::string& command) { return std::system(("command -v " + command + " > /dev/null 2>&1").c_str()) == 0; }
+
+/// Exit code of a line of shell, with what it printed in `output`.
+int shell(const std::string& line, const std::filesystem::path& output)
+{
+  const int status = std::system(("{ " + line + "; } > '" + output.string() + "' 2>&1").c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// Where a window of this size draws the picture: the window's own code, without a display, says so.
+Placement placement_in_window(int width, int height, const std::array<int, 2>& picture)
+{
+  const test::Headless imgui_owner;
+  test::Headless& imgui = const_cast<test::Headless&>(imgui_owner);
+  ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  test::FakeRuns runs;
+  Workbench workbench{test::fake_jobs(runs)};
+  Workspace workspace;
+  for (int i = 0; i < 5; ++i) imgui.frame(workspace, workbench);
+  return place(Look{}, workspace.view().canvas(), picture);
+}
+
+std::array<int, 3> bytes_at(const image::Image& picture, double x, double y)
+{
+  const std::size_t index = static_cast<std::size_t>(static_cast<int>(y) * picture.width + static_cast<int>(x)) * picture.channels.size();
+  std::array<int, 3> bytes{};
+  for (std::size_t c = 0; c < 3; ++c) bytes[c] = static_cast<int>(std::lround(255 * picture.data[index + c]));
+  return bytes;
+}
+
+class WindowTest : public ::testing::Test {
+protected:
+  test::TemporaryFolder folder;
+  std::filesystem::path log = folder.path / "log.txt";
+  std::string quoted(const std::string& name) const { return "'" + (folder.path / name).string() + "'"; }
+};
+
+TEST_F(WindowTest, WithoutADisplayItSaysWhatToDo)
+{
+  EXPECT_EQ(shell("env -u DISPLAY -u WAYLAND_DISPLAY " + program + " --frames 1", log), 1);
+  const std::string said = read_file(log);
+  EXPECT_THAT(said, StartsWith("nephroid: window: no display ("));
+  EXPECT_THAT(said, EndsWith("; run it in a desktop session or under xvfb-run; or use nephroid run PRESET\n"));
+}
+
+TEST_F(WindowTest, ALayoutThatThereIsNotIsBadUsage)
+{
+  EXPECT_EQ(shell("env -u DISPLAY " + program + " --layout sideways --frames 1", log), 2);
+  EXPECT_THAT(read_file(log), HasSubstr("sideways"));
+}
+
+TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
+{
+  if (!there_is("xvfb-run")) GTEST_SKIP() << "no xvfb-run";
+  const std::string file = folder.file("test.json");
+  ASSERT_EQ(shell(program + " run '" + file + "' -o " + quoted("out"), log), 0) << read_file(log);
+  const std::string options =
+      " --size 900x700 --frames 5 --until 1 --screenshot " + quoted("screen.png") + " --frame-times " + quoted("times.csv");
+  ASSERT_EQ(shell(on_display + program + " '" + file + "'" + options, log), 0) << read_file(log);
+  const image::Image screen = image::read_image(folder.path / "screen.png");
+  const image::Image written = image::read_image(folder.path / "out/image.png");
+  ASSERT_EQ(screen.width, 900);
+  ASSERT_EQ(screen.height, 700);
+  const Placement p = placement_in_window(900, 700, {written.width, written.height});
+  ASSERT_GT(p.scale, 3) << "pixels are squares";
+  int different = 0, brightest = 0;
+  // The mouse rests over the picture: the value under it is shown over the lower left corner.
+  for (int y = 0; y < written.height * 3 / 4; ++y)
+    for (int x = 0; x < written.width; ++x) {
+      const Point at = p.to_screen({x + 0.5, y + 0.5});
+      const auto shown = bytes_at(screen, at[0], at[1]), expected = bytes_at(written, x, y);
+      different += shown != expected;
+      brightest = std::max(brightest, expected[1]);
+    }
+  EXPECT_GT(brightest, 50) << "the picture is not black";
+  EXPECT_EQ(different, 0);
+  EXPECT_THAT(read_file(folder.path / "times.csv"), StartsWith("frame,draw_ms,period_ms,state,fraction\n0,"));
+}
+
+TEST_F(WindowTest, APresetThatCannotBeReadOpensTheWindowWithTheMessage)
+{
+  if (!there_is("xvfb-run")) GTEST_SKIP() << "no xvfb-run";
+  const std::string options = " --frames 3 --until 1 --screenshot " + quoted("screen.png");
+  EXPECT_EQ(shell(on_display + program + " " + quoted("missing.json") + options, log), 0);
+  EXPECT_THAT(read_file(log), HasSubstr("there is no preset"));
+  EXPECT_EQ(image::read_image(folder.path / "screen.png").width, 1280);
+}
+
+TEST_F(WindowTest, FollowsRealEvents)
+{
+  if (!there_is("xvfb-run") || !there_is("xdotool")) GTEST_SKIP() << "no xvfb-run or no xdotool";
+  // A run that does not end by itself; an orbit, a resize, a cancel, save, quit.
+  preset::Preset endless = preset::parse_preset(test::preset_text, "test");
+  endless.stop.passes.reset();
+  endless.stop.seconds = 3600;
+  const std::string file = folder.file("test.json", preset::to_json(endless));
+  const std::string options =
+      " --size 900x700 --frames 100000 --screenshot " + quoted("screen.png") + " --frame-times " + quoted("times.csv");
+  write_file_whole(folder.path / "events.sh", fmt::format(R"(#!/bin/sh
+{} '{}' {} &
+id=$(timeout 20 xdotool search --sync --onlyvisible --name Nephroid | head -n 1)
+xdotool windowfocus $id
+sleep 3
+xdotool mousemove --window $id 450 350 mousedown 1
+for x in 470 490 510 530 550 570 590 610; do xdotool mousemove --window $id $x 350; sleep 0.05; done
+xdotool mouseup 1
+sleep 1
+xdotool windowsize $id 1000 800
+sleep 1
+xdotool key ctrl+s
+sleep 0.5
+xdotool key Escape
+sleep 1
+xdotool key ctrl+q
+wait
+)",
+                                                          program, file, options));
+  ASSERT_EQ(shell("timeout 60 " + on_display + "sh " + quoted("events.sh"), log), 0) << read_file(log);
+  const preset::Preset saved = preset::read_preset(file);
+  EXPECT_LT(saved.scene.camera.position[0], -0.5) << "the scene was turned to the right, the camera to the left";
+  EXPECT_NEAR(saved.scene.camera.position[1], 0, 0.05);
+  const image::Image screen = image::read_image(folder.path / "screen.png");
+  EXPECT_EQ(screen.width, 1000);
+  EXPECT_EQ(screen.height, 800);
+  const std::string times = read_file(folder.path / "times.csv");
+  EXPECT_THAT(times, HasSubstr("running"));
+  EXPECT_THAT(times.substr(times.rfind('\n', times.size() - 2) + 1), HasSubstr("cancelled"));
+}
+
+} // namespace
+} // namespace nephroid::ui
