@@ -61,7 +61,7 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error)
       return bad_input(where, fmt::format("unknown option '{}'", name), did_you_mean(nearest(name, option_names(app))), see);
     }
   std::string text = error.what();
-  if (error.get_name() == "ExtrasError") { // "The following argument was not expected: WORDS"
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) { // "The following argument was not expected: WORDS"
     const std::size_t words = text.find(": ");
     return bad_input(where, fmt::format("unexpected argument '{}'", text.substr(words == std::string::npos ? 0 : words + 2)), {}, see);
   }

@@ -185,7 +185,8 @@ TEST_F(Runs, SweepsFillNumberedFolders)
   const std::vector<std::string> arguments{"run", "sweep.json", "--passes", "1", "--json"};
   const Ended ended = nephroid::test::nephroid(arguments, scratch.path(), logs);
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  for (int i = 1; i <= 3; ++i) EXPECT_EQ(run_json("out/sweep/00" + std::to_string(i))["seed"], 3 + i);
+  int seed = 4;
+  for (const char* folder : {"out/sweep/001", "out/sweep/002", "out/sweep/003"}) EXPECT_EQ(run_json(folder)["seed"], seed++);
 }
 
 TEST_F(Runs, JsonLinesEndWithTheResult)

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run says about itself while it works: figures, widths, JSON.
+#include "cli/progress.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::cli;
+using testing::HasSubstr;
+using testing::Not;
+
+job::Progress at(double fraction, std::int64_t step, std::uint64_t photons, double work_seconds)
+{
+  return {.fraction = fraction, .step = step, .steps = 100, .photons = photons, .work_seconds = work_seconds};
+}
+
+TEST(Pace, IsThatOfThisSessionOnly)
+{
+  // Resumed at half way after 100 s of work on a slow machine; here a quarter took 5 s.
+  const Pace pace = pace_between(at(0.5, 50, 1'000'000, 100), at(0.75, 75, 3'000'000, 105));
+  EXPECT_DOUBLE_EQ(pace.photons_per_second, 400'000);
+  EXPECT_DOUBLE_EQ(pace.seconds_left, 5);
+}
+
+TEST(Pace, IsUnknownAtTheStart)
+{
+  const Pace pace = pace_between(at(0, 0, 0, 0), at(0, 0, 0, 0));
+  EXPECT_EQ(pace.photons_per_second, 0);
+  EXPECT_LT(pace.seconds_left, 0);
+}
+
+TEST(ProgressLine, HasBarPassRateAndTimeLeft)
+{
+  const std::string line = progress_line("prism", at(0.5, 50, 0, 0), {1.214e6, 3661}, 100);
+  EXPECT_EQ(line, "prism  [###############---------------]   50 %  pass 50  1.21 Mphotons/s  1:01:01 left");
+  EXPECT_THAT(progress_line("prism", at(0.999, 99, 0, 0), {950, 7.4}, 100), HasSubstr(" 99 %  pass 99  950 photons/s  0:07 left"));
+  EXPECT_THAT(progress_line("prism", at(0, 0, 0, 0), {}, 100), Not(HasSubstr("left"))) << "no figure before there is one";
+}
+
+TEST(ProgressLine, NeverIsWiderThanTheTerminal)
+{
+  for (int columns = 0; columns < 200; ++columns)
+    EXPECT_LE(progress_line("a-rather-long-name-of-a-preset", at(1, 1'000'000, 0, 0), {1e12, 1e12}, columns).size(),
+              static_cast<std::size_t>(std::max(columns, 1)));
+}
+
+TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown)
+{
+  const std::string line = progress_json("odd \"name\"\n\xff", at(0.25, 3, 12, 0.5), {});
+  EXPECT_THAT(line, Not(HasSubstr("\n")));
+  const auto json = nlohmann::json::parse(line);
+  EXPECT_EQ(json["type"], "progress");
+  EXPECT_EQ(json["fraction"], 0.25);
+  EXPECT_EQ(json["step"], 3);
+  EXPECT_EQ(json["photons"], 12);
+  EXPECT_TRUE(json["seconds_left"].is_null());
+  job::Progress endless = at(0, 1, 0, 0);
+  endless.steps = -1;
+  EXPECT_TRUE(nlohmann::json::parse(progress_json("a", endless, {}))["steps"].is_null());
+}
+
+TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
+{
+  EXPECT_EQ(progress_style(true), ProgressStyle::json);
+  ::setenv("TERM", "dumb", 1);
+  EXPECT_EQ(progress_style(false), ProgressStyle::lines);
+}
+
+TEST(ProgressDisplay, JsonShowsTheEndWhateverTheRhythm)
+{
+  testing::internal::CaptureStdout();
+  {
+    ProgressDisplay display(ProgressStyle::json, "a", at(0, 0, 0, 0));
+    display.update(at(0.5, 1, 10, 1)); // within the first half second: not shown
+    display.finish(at(1, 2, 20, 2));
+  }
+  const std::string shown = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 1);
+  EXPECT_EQ(nlohmann::json::parse(shown)["fraction"], 1.0);
+}
+
+TEST(ProgressDisplay, TheLiveLineIsTakenAway)
+{
+  testing::internal::CaptureStderr();
+  {
+    ProgressDisplay display(ProgressStyle::live, "a", at(0, 0, 0, 0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));
+    display.update(at(0.5, 1, 10, 1));
+  }
+  const std::string shown = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(shown, HasSubstr("\ra  [##"));
+  EXPECT_THAT(shown, testing::EndsWith("\r\033[K"));
+}
+
+} // namespace
