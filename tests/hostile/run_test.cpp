@@ -120,8 +120,7 @@ TEST_F(Runs, KilledAndResumedEqualUninterruptedOnes)
 
 TEST_F(Runs, InterruptedOnesLeaveAPictureAndACheckpoint)
 {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    const std::string name = "a" + std::to_string(signal);
+  for (const auto& [signal, name] : {std::pair(SIGINT, "by Ctrl-C"), std::pair(SIGTERM, "by SIGTERM")}) {
     Child child(into(name, {"--passes", "1000000", "--checkpoint-seconds", "0.05"}), scratch.path(), logs);
     ASSERT_TRUE(child.until([&] { return fs::exists(file(name, "checkpoint.bin")); }));
     child.send(signal);
