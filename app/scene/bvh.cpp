@@ -17,7 +17,7 @@
 namespace nephroid::scene {
 namespace {
 
-constexpr int children_per_node = 8, triangles_per_block = 4, triangles_per_leaf = 4, floats_per_node = 64, floats_per_block = 40;
+constexpr int children_per_node = 8, triangles_per_block = 4, triangles_per_leaf = 8, floats_per_node = 64, floats_per_block = 40;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Box {
@@ -193,6 +193,7 @@ Bvh build_bvh(const Mesh& mesh)
   arguments.maxDepth = 32;
   arguments.sahBlockSize = triangles_per_block;
   arguments.maxLeafSize = triangles_per_leaf;
+  arguments.intersectionCost = 0.5f; // a block of triangles against a node: 5 to 10 % faster than 1 (tests/bench)
   arguments.bvh = build.get();
   arguments.primitives = boxes.data();
   arguments.primitiveCount = boxes.size();
