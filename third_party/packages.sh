@@ -12,8 +12,8 @@ program_packages=(
   libglm-dev libassimp-dev zlib1g-dev libembree-dev libopenimageio-dev glmark2-data)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
-# The tests: xvfb and xauth give the window a display where there is none.
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth)
+# The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets.
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema)
 # What .ci/run checks the sources with.
 check_packages=(clang-format clang-tidy shellcheck)
 
