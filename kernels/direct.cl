@@ -10,15 +10,12 @@
 #include "surface.h"
 #include "interface.h"
 #include "attenuation.h"
+#include "world.h"
 #include "light.h"
 
-// What the plan sets; these defaults make the file build alone.
-#ifndef NEPHROID_MAX_SURFACES
-#define NEPHROID_MAX_SURFACES 32
-#endif
-#ifndef NEPHROID_ATTENUATORS
-#define NEPHROID_ATTENUATORS 1
-#endif
+// A path through glass follows one cluster and one branch of each reflection, so it is noisy: a pixel that sees glass or a mirror takes
+// this many paths a sample.
+#define PATHS_THROUGH_GLASS 4u
 
 #define STREAM_CAMERA 1u
 #define STREAM_CAMERA_LIGHT 2u
@@ -59,112 +56,88 @@ static inline float3 primary_direction(const DeviceCamera* camera, int column, i
   return normalize(camera->forward.xyz + (x * camera->tan_x) * camera->right.xyz + (y * camera->tan_y) * camera->up.xyz);
 }
 
-// One sample of every pixel of rows first_row .. first_row + row_count - 1.
-__kernel void direct(__global const float* nodes, __global const float* blocks, __global const uint* corners,
-                     __global const float* positions, __global const float* normals, __global const uint* object_of_triangle,
-                     __global const DeviceObject* objects, __global const DeviceMaterial* materials, __global const DeviceLight* lights,
-                     __global const float* index_of_refraction, // [cluster][material]
-                     __global const float4* reflected_xyz,      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar)
-                     __global const float4* reflected_xyz_all,  // [light][reflector]: the same over all clusters
-                     __global const float* cluster_cdf,         // [cluster + 1]: which cluster a path through glass takes
-                     __global const int* cluster_first, __global const int* cluster_wavelengths, __global const float* coefficient,
-                     __global const float4* light_xyz, __global const float* reflectance, int reflector_count,
-                     volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                     DeviceScene scene, DeviceCamera camera, uint2 seed,
-                     uint frame, int first_row, int row_count, float film_scale)
+// XYZ radiance that a diffuse surface sends back along the path. cluster -1: all wavelengths, which went the same way.
+static inline float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector, int cluster,
+                           __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
 {
+  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  const float3 from = start_on_side(surface, side);
+  float3 xyz = (float3)(0.0f);
+  for (int l = 0; l < world->scene.light_count; ++l) {
+    const DeviceLight light = world->lights[l];
+    const float4 place = light.type == LIGHT_AREA ? random4(seed, sample, pixel, (uint)l, STREAM_CAMERA_LIGHT) : (float4)(0.0f);
+    const Arrival arrival = arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
+    if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) continue;
+    if (is_blocked(world, from, arrival.direction, arrival.distance, triangle)) continue;
+    float left;
+    const float3 reflected = cluster < 0 ? reflected_xyz_all[l * world->reflector_count + reflector].xyz
+                                         : reflected_light(world, &path->losses, l, cluster, reflector, &left);
+    xyz += reflected * (arrival.irradiance / PI_F);
+  }
+  return xyz;
+}
+
+// Takes a path that has hit `first` on through glass and mirrors in one cluster. Returns XYZ radiance, divided by nothing.
+static inline float3 follow(const World* world, Path path, Hit first, int cluster, __global const float4* reflected_xyz_all, uint2 seed,
+                            uint sample, uint pixel)
+{
+  float radiance_scale = 1.0f; // radiance over n^2 is what a path keeps
+  Hit hit = first;
+  float4 choices = (float4)(0.0f);
+  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+    if (surface_number > 0) hit = next_hit(world, &path);
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) break;
+    const Surface surface = surface_at(&world->geometry, world->objects, hit);
+    const DeviceMaterial material = material_of(world, surface.object);
+    lose_in_medium(world, &path, hit.t);
+    if (material.type == MATERIAL_DIFFUSE)
+      return radiance_scale * shade(world, &path, &surface, hit.primitive, material.reflector, cluster, reflected_xyz_all, seed, sample, pixel);
+    if ((surface_number & 3) == 0) choices = random4(seed, sample, pixel, 1u + (uint)surface_number / 4u, STREAM_CAMERA);
+    float n_ratio;
+    if (!bend_path(world, &path, hit.primitive, &surface, &material, cluster, choices.x, &n_ratio)) break;
+    radiance_scale *= n_ratio * n_ratio;
+    choices = choices.yzwx;
+  }
+  return (float3)(0.0f);
+}
+
+// Which cluster path number `sample` of a pixel takes: steps of the golden ratio from a start of the pixel's own, so that the
+// samples of a pixel spread over the clusters evenly.
+static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint sample, uint pixel)
+{
+  const uint start = philox4x32((uint4)(pixel, 0u, 0u, STREAM_CAMERA_CLUSTER), seed).x;
+  const float place = (float)((start + sample * 2654435769u) >> 8) * 0x1p-24f;
+  int cluster = 0;
+  while (cluster + 1 < count && place >= cdf[cluster + 1]) ++cluster;
+  return cluster;
+}
+
+// One sample of every pixel of rows first_row .. first_row + row_count - 1.
+__kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
+                     __global const float* cluster_cdf,                         // [cluster + 1]: which cluster a path through glass takes
+                     volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
+                     DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale)
+{
+  const World world = WORLD;
   const int index = (int)get_global_id(0);
   if (index >= row_count * camera.width) return;
   const int column = index % camera.width, row = first_row + index / camera.width;
   const uint pixel = (uint)(row * camera.width + column);
-  const Geometry geometry = {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root};
-#if NEPHROID_ATTENUATORS > 0
-  const SpectralTables tables = {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance};
-#endif
-  const float4 first_random = random4(seed, frame, pixel, 0u, STREAM_CAMERA);
+  const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_CAMERA);
+  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses()};
+  const Hit hit = next_hit(&world, &path);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
-  float3 origin = camera.position.xyz, direction = primary_direction(&camera, column, row, first_random.xy);
-  Media media = camera.inside;
-  int cluster = -1; // chosen where the path first meets glass; without glass all wavelengths go the same way
-  float radiance_scale = 1.0f;
-  uint skip = NEPHROID_NO_PRIMITIVE;
-#if NEPHROID_ATTENUATORS > 0
-  float lengths[NEPHROID_ATTENUATORS];
-  for (int a = 0; a < NEPHROID_ATTENUATORS; ++a) lengths[a] = 0.0f;
-  bool attenuated = false;
-#endif
-  float4 choices = (float4)(0.0f);
-  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
-    const Hit hit = closest_hit(nodes, blocks, scene.root, origin, direction, INFINITY, skip);
-    if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
-    const Surface surface = surface_at(&geometry, objects, hit);
-    const DeviceMaterial material = materials[objects[surface.object].material];
-    const int medium = medium_object(&media, objects);
-#if NEPHROID_ATTENUATORS > 0
-    if (medium >= 0) {
-      const int attenuator = materials[objects[medium].material].attenuator;
-      if (attenuator >= 0) {
-        lengths[attenuator] += hit.t * scene.metres_per_unit;
-        attenuated = true;
-      }
+  const bool unbent = material_of(&world, (int)object_of_triangle[hit.primitive]).type == MATERIAL_DIFFUSE && camera.inside.count == 0;
+  float3 xyz = (float3)(0.0f);
+  if (unbent)
+    xyz = follow(&world, path, hit, -1, reflected_xyz_all, seed, frame, pixel);
+  else
+    for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
+      const uint sample = frame * PATHS_THROUGH_GLASS + i;
+      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, sample, pixel);
+      const float probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
+      xyz += follow(&world, path, hit, cluster, reflected_xyz_all, seed, sample, pixel) / probability;
     }
-#endif
-    const float side = dot(direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
-    if (material.type == MATERIAL_DIFFUSE) {
-      const float3 from = start_on_side(&surface, side);
-      float3 xyz = (float3)(0.0f);
-      for (int l = 0; l < scene.light_count; ++l) {
-        const DeviceLight light = lights[l];
-        const float4 place = random4(seed, frame, pixel, (uint)l, STREAM_CAMERA_LIGHT);
-        const Arrival arrival = arrive_from(&light, surface.position, side * surface.shading, scene.metres_per_unit, place.xy);
-        if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface.geometric) > 0.0f)) continue;
-        if (any_hit(nodes, blocks, scene.root, from, arrival.direction, arrival.distance, hit.primitive)) continue;
-        float3 light_reflected;
-        if (cluster < 0)
-          light_reflected = reflected_xyz_all[l * reflector_count + material.reflector].xyz;
-        else {
-          light_reflected = reflected_xyz[(l * scene.cluster_count + cluster) * reflector_count + material.reflector].xyz;
-#if NEPHROID_ATTENUATORS > 0
-          if (attenuated) light_reflected = attenuated_sum(&tables, lengths, l, cluster, material.reflector).xyz;
-#endif
-          light_reflected /= cluster_cdf[cluster + 1] - cluster_cdf[cluster];
-        }
-        xyz += light_reflected * (arrival.irradiance * radiance_scale / PI_F);
-      }
-      if (!film_add(film, (int)pixel, xyz, film_scale)) add_exactly(energy + OUTCOME_REFUSED, 1);
-      return;
-    }
-    if (surface_number == NEPHROID_MAX_SURFACES) return;
-    if ((surface_number & 3) == 0) choices = random4(seed, frame, pixel, 1u + (uint)surface_number / 4u, STREAM_CAMERA);
-    const float choice = choices.x;
-    choices = choices.yzwx;
-    if (cluster < 0) {
-      // Steps of the golden ratio from a start of the pixel's own: successive frames spread over the clusters evenly.
-      const uint start = philox4x32((uint4)(pixel, 0u, 0u, STREAM_CAMERA_CLUSTER), seed).x;
-      const float place = (float)((start + frame * 2654435769u) >> 8) * 0x1p-24f;
-      cluster = 0;
-      while (cluster + 1 < scene.cluster_count && place >= cluster_cdf[cluster + 1]) ++cluster;
-    }
-    Bend bend;
-    float n_ratio = 1.0f;
-#if NEPHROID_MIRRORS
-    if (material.type == MATERIAL_MIRROR) {
-      bend = bend_at_surface(direction, &surface, 1.0f, 1.0f, -1.0f);
-#if NEPHROID_ATTENUATORS > 0
-      if (material.attenuator >= 0) {
-        lengths[material.attenuator] += 1.0f;
-        attenuated = true;
-      }
-#endif
-    } else
-#endif
-    {
-      __global const float* n_of = index_of_refraction + cluster * scene.material_count;
-      if (!cross_interface(&media, &surface, objects, n_of, medium, direction, choice, &bend, &n_ratio)) return;
-      radiance_scale *= n_ratio * n_ratio; // radiance over n^2 is what a path keeps
-    }
-    direction = bend.direction;
-    origin = start_on_side(&surface, bend.transmitted ? -side : side);
-    skip = hit.primitive;
-  }
+  if (!film_add(film, (int)pixel, xyz, film_scale)) add_exactly(energy + OUTCOME_REFUSED, 1);
 }

@@ -10,16 +10,10 @@
 #include "surface.h"
 #include "interface.h"
 #include "attenuation.h"
+#include "world.h"
 #include "light.h"
 #include "emission.h"
 
-// What the plan sets; these defaults make the file build alone.
-#ifndef NEPHROID_MAX_SURFACES
-#define NEPHROID_MAX_SURFACES 32
-#endif
-#ifndef NEPHROID_ATTENUATORS
-#define NEPHROID_ATTENUATORS 1
-#endif
 #ifndef NEPHROID_PHOTONS_PER_ITEM
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
@@ -30,7 +24,8 @@
 // F reflectance / pi * weight to the pixel's radiance.
 // A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A), with
 // dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
-static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving, float metres_per_unit, float* weight)
+static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving, float metres_per_unit,
+                                   float* weight)
 {
   const float3 to_camera = camera->position.xyz - position;
   const float cos_camera = dot(to_camera, geometric), cos_arriving = -dot(arriving, geometric);
@@ -62,26 +57,74 @@ static inline int emitter_of(__global const DeviceEmitter* emitters, int count, 
   return low;
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass with photons_per_pass.
-__kernel void photons(__global const float* nodes, __global const float* blocks, __global const uint* corners,
-                      __global const float* positions, __global const float* normals, __global const uint* object_of_triangle,
-                      __global const DeviceObject* objects, __global const DeviceMaterial* materials, __global const DeviceLight* lights,
-                      __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
-                      __global const float* index_of_refraction, // [cluster][material]
-                      __global const float4* reflected_xyz,      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar)
-                      __global const int* cluster_first, __global const int* cluster_wavelengths, __global const float* coefficient,
-                      __global const float4* light_xyz, __global const float* reflectance, int reflector_count,
-                      volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                      DeviceScene scene, DeviceCamera camera, uint2 seed, uint pass, uint offset, uint stride, uint count, float film_scale,
-                      float energy_scale)
+// Where a photon ended, and what is left of its power there.
+typedef struct {
+  int outcome; // OUTCOME_*
+  float left;  // 0..1
+  Surface surface; // of a deposit
+  uint triangle;
+  float3 xyz; // of a deposit: reflected light, as if the photon carried the light's whole power
+} PhotonEnd;
+
+static inline PhotonEnd trace_photon(const World* world, const DeviceEmitter* emitter, Path* path, uint2 seed, uint pass, uint photon)
 {
-  const Geometry geometry = {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root};
-#if NEPHROID_ATTENUATORS > 0
-  const SpectralTables tables = {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance};
-#endif
+  PhotonEnd end;
+  end.outcome = OUTCOME_LOST;
+  end.left = 1.0f;
+  bool met_caustic_object = false;
+  float4 choices = (float4)(0.0f);
+  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+    const Hit hit = next_hit(world, path);
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
+      end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
+      break;
+    }
+    end.surface = surface_at(&world->geometry, world->objects, hit);
+    end.triangle = hit.primitive;
+    const DeviceMaterial material = material_of(world, end.surface.object);
+    lose_in_medium(world, path, hit.t);
+    if (material.type == MATERIAL_DIFFUSE) {
+      end.outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
+      if (!met_caustic_object) return end;
+      float share = emitter->share;
+      end.xyz = reflected_light(world, &path->losses, emitter->light, emitter->cluster, material.reflector, &share);
+      end.left = share / emitter->share;
+      return end;
+    }
+    if (surface_number == NEPHROID_MAX_SURFACES) break;
+    met_caustic_object = true;
+    if ((surface_number & 3) == 0) choices = random4(seed, pass, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
+    float n_ratio;
+    if (!bend_path(world, path, hit.primitive, &end.surface, &material, emitter->cluster, choices.x, &n_ratio)) break;
+    choices = choices.yzwx;
+  }
+  if (path->losses.any) end.left = attenuated_sum(&world->tables, &path->losses, emitter->light, emitter->cluster, -1).w / emitter->share;
+  return end;
+}
+
+// Adds a deposited photon to the pixel that sees it. False where the film refused it.
+static inline bool splat(const World* world, const DeviceCamera* camera, const PhotonEnd* end, float3 arriving, float watts,
+                         volatile __global long* film, float film_scale)
+{
+  float weight;
+  const int pixel = project_to_pixel(camera, end->surface.position, end->surface.geometric, arriving, world->scene.metres_per_unit, &weight);
+  if (pixel < 0) return true;
+  const float3 from = start_on_side(&end->surface, dot(arriving, end->surface.geometric) < 0.0f ? 1.0f : -1.0f);
+  const float3 way = camera->position.xyz - from;
+  const float distance = length(way);
+  if (is_blocked(world, from, way / distance, distance, end->triangle)) return true;
+  return film_add(film, pixel, end->xyz * (watts * weight / PI_F), film_scale);
+}
+
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass.
+__kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
+                      volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                      DeviceCamera camera, uint2 seed, uint pass, uint offset, uint stride, uint count, float film_scale, float energy_scale)
+{
+  const World world = WORLD;
   long outcomes[OUTCOME_COUNT] = {0};
-  for (int k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + (uint)k;
+  for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
+    const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
     const uint photon = offset + stride * number;
     const DeviceEmitter emitter = emitters[emitter_of(emitters, scene.emitter_count, photon)];
@@ -90,86 +133,16 @@ __kernel void photons(__global const float* nodes, __global const float* blocks,
     const Emission emission = emit(&light, targets, &scene, random4(seed, pass, photon, 0u, STREAM_PHOTONS), place);
     if (emission.watts == 0.0f) continue;
     const float watts = emission.watts / (float)emitter.photon_count; // as if the cluster had all of the light's power
-    const long quanta = convert_long_rte(watts * emitter.share * energy_scale);
-    outcomes[OUTCOME_EMITTED] += quanta;
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses()};
+    const PhotonEnd end = trace_photon(&world, &emitter, &path, seed, pass, photon);
+    if (end.outcome == OUTCOME_DEPOSITED && !splat(&world, &camera, &end, path.direction, watts, film, film_scale))
+      ++outcomes[OUTCOME_REFUSED];
 
-    __global const float* n_of = index_of_refraction + emitter.cluster * scene.material_count;
-    Media media = light.inside;
-    float3 origin = emission.origin, direction = emission.direction;
-    uint skip = NEPHROID_NO_PRIMITIVE;
-    bool met_caustic_object = false;
-    int outcome = OUTCOME_LOST;
-    float kept = 1.0f; // of the photon's power when it ends
-#if NEPHROID_ATTENUATORS > 0
-    float lengths[NEPHROID_ATTENUATORS];
-    for (int a = 0; a < NEPHROID_ATTENUATORS; ++a) lengths[a] = 0.0f;
-#endif
-    float4 choices = (float4)(0.0f);
-    for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
-      const Hit hit = closest_hit(nodes, blocks, scene.root, origin, direction, INFINITY, skip);
-      if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
-        outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-        break;
-      }
-      const Surface surface = surface_at(&geometry, objects, hit);
-      const DeviceMaterial material = materials[objects[surface.object].material];
-      const int medium = medium_object(&media, objects);
-#if NEPHROID_ATTENUATORS > 0
-      if (medium >= 0) {
-        const int attenuator = materials[objects[medium].material].attenuator;
-        if (attenuator >= 0) lengths[attenuator] += hit.t * scene.metres_per_unit;
-      }
-#endif
-      if (material.type == MATERIAL_DIFFUSE) {
-        outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
-        if (!met_caustic_object) break;
-#if NEPHROID_ATTENUATORS > 0
-        const float4 sum = attenuated_sum(&tables, lengths, emitter.light, emitter.cluster, material.reflector);
-        const float3 xyz = sum.xyz;
-        kept = sum.w / emitter.share;
-#else
-        const float3 xyz = reflected_xyz[(emitter.light * scene.cluster_count + emitter.cluster) * reflector_count + material.reflector].xyz;
-#endif
-        float weight;
-        const int pixel = project_to_pixel(&camera, surface.position, surface.geometric, direction, scene.metres_per_unit, &weight);
-        if (pixel < 0) break;
-        const float3 from = start_on_side(&surface, dot(direction, surface.geometric) < 0.0f ? 1.0f : -1.0f);
-        const float3 way = camera.position.xyz - from;
-        const float distance = length(way);
-        if (any_hit(nodes, blocks, scene.root, from, way / distance, distance, hit.primitive)) break;
-        if (!film_add(film, pixel, xyz * (watts * weight / PI_F), film_scale)) ++outcomes[OUTCOME_REFUSED];
-        break;
-      }
-      if (surface_number == NEPHROID_MAX_SURFACES) break;
-      met_caustic_object = true;
-      if ((surface_number & 3) == 0) choices = random4(seed, pass, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
-      const float choice = choices.x;
-      choices = choices.yzwx;
-      const bool outside = dot(direction, surface.geometric) < 0.0f; // the side that the photon comes from
-      Bend bend;
-#if NEPHROID_MIRRORS
-      if (material.type == MATERIAL_MIRROR) {
-        bend = bend_at_surface(direction, &surface, 1.0f, 1.0f, -1.0f);
-#if NEPHROID_ATTENUATORS > 0
-        if (material.attenuator >= 0) lengths[material.attenuator] += 1.0f;
-#endif
-      } else
-#endif
-      {
-        float n_ratio;
-        if (!cross_interface(&media, &surface, objects, n_of, medium, direction, choice, &bend, &n_ratio)) break;
-      }
-      direction = bend.direction;
-      origin = start_on_side(&surface, outside == bend.transmitted ? -1.0f : 1.0f);
-      skip = hit.primitive;
-    }
-#if NEPHROID_ATTENUATORS > 0
-    if (outcome == OUTCOME_ESCAPED || outcome == OUTCOME_LOST)
-      kept = attenuated_sum(&tables, lengths, emitter.light, emitter.cluster, -1).w / emitter.share;
-#endif
-    const long kept_quanta = kept >= 1.0f ? quanta : convert_long_rte((float)quanta * kept);
-    outcomes[outcome] += kept_quanta;
-    outcomes[OUTCOME_ABSORBED] += quanta - kept_quanta;
+    const long quanta = convert_long_rte(watts * emitter.share * energy_scale);
+    const long left = end.left >= 1.0f ? quanta : convert_long_rte((float)quanta * end.left);
+    outcomes[OUTCOME_EMITTED] += quanta;
+    outcomes[end.outcome] += left;
+    outcomes[OUTCOME_ABSORBED] += quanta - left;
   }
   for (int i = 0; i < OUTCOME_COUNT; ++i)
     if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);

@@ -231,17 +231,24 @@ private:
     if (!photons_ && (passes_ < 0 || passes_ > pixel_samples_)) passes_ = pixel_samples_;
   }
 
+  /// Runs a kernel whose arguments begin with WORLD_ARGUMENTS (kernels/world.h), and waits for it.
+  template <class... Rest>
+  void run_in_world(compute::Kernel& kernel, std::size_t global, std::size_t local, const Rest&... rest)
+  {
+    const DeviceBuffers& b = buffers_;
+    kernel.run(global, local, b.nodes, b.blocks, b.corners, b.positions, b.normals, b.object_of_triangle, b.objects, b.materials, b.lights,
+               b.index_of_refraction, b.reflected_xyz, b.cluster_first, b.cluster_wavelengths, b.coefficient, b.light_xyz, b.reflectance,
+               tables_.wavelengths.reflector_count, tables_.scene, rest...);
+    context_.finish();
+  }
+
   void step_direct()
   {
     const auto rows = std::clamp<std::int64_t>(std::llround(row_pace_.amount()), 1, direct_left());
     const std::size_t items = static_cast<std::size_t>(rows) * static_cast<std::size_t>(tables_.camera.width);
-    const DeviceBuffers& b = buffers_;
-    direct_kernel_.run(items, 64, b.nodes, b.blocks, b.corners, b.positions, b.normals, b.object_of_triangle, b.objects, b.materials,
-                       b.lights, b.index_of_refraction, b.reflected_xyz, b.reflected_xyz_all, b.cluster_cdf, b.cluster_first,
-                       b.cluster_wavelengths, b.coefficient, b.light_xyz, b.reflectance, tables_.wavelengths.reflector_count, direct_film_,
-                       energy_, tables_.scene, tables_.camera, seed_, static_cast<std::uint32_t>(at_.pass), static_cast<int>(at_.row),
-                       static_cast<int>(rows), static_cast<float>(tables_.direct_scale));
-    context_.finish();
+    run_in_world(direct_kernel_, items, 64, buffers_.reflected_xyz_all, buffers_.cluster_cdf, direct_film_, energy_, tables_.camera, seed_,
+                 static_cast<std::uint32_t>(at_.pass), static_cast<int>(at_.row), static_cast<int>(rows),
+                 static_cast<float>(tables_.direct_scale));
     at_.row += rows;
     last_amount_ = rows;
   }
@@ -252,14 +259,9 @@ private:
     if (at_.slice == 0) at_.slices = std::clamp<std::int64_t>(std::llround(all / photon_pace_.amount()), 1, all);
     const auto slices = static_cast<std::uint32_t>(at_.slices), slice = static_cast<std::uint32_t>(at_.slice);
     const std::uint32_t count = (all - slice + slices - 1) / slices;
-    const DeviceBuffers& b = buffers_;
-    photon_kernel_.run((count + photons_per_item_ - 1) / photons_per_item_, 32, b.nodes, b.blocks, b.corners, b.positions, b.normals,
-                       b.object_of_triangle, b.objects, b.materials, b.lights, b.targets, b.emitters, b.index_of_refraction,
-                       b.reflected_xyz, b.cluster_first, b.cluster_wavelengths, b.coefficient, b.light_xyz, b.reflectance,
-                       tables_.wavelengths.reflector_count, caustic_film_, energy_, tables_.scene, tables_.camera, seed_,
-                       static_cast<std::uint32_t>(at_.pass), slice, slices, count, static_cast<float>(tables_.caustic_scale),
-                       static_cast<float>(tables_.energy_scale));
-    context_.finish();
+    run_in_world(photon_kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, buffers_.targets, buffers_.emitters,
+                 caustic_film_, energy_, tables_.camera, seed_, static_cast<std::uint32_t>(at_.pass), slice, slices, count,
+                 static_cast<float>(tables_.caustic_scale), static_cast<float>(tables_.energy_scale));
     ++at_.slice;
     last_amount_ = count;
   }

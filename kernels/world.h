@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything of the scene that a path meets, in one struct, and a path's step through it.
+#ifndef NEPHROID_WORLD_H
+#define NEPHROID_WORLD_H
+
+#ifndef NEPHROID_MAX_SURFACES
+#define NEPHROID_MAX_SURFACES 32
+#endif
+#ifndef NEPHROID_MIRRORS
+#define NEPHROID_MIRRORS 1
+#endif
+
+typedef struct {
+  Geometry geometry;
+  __global const DeviceObject* objects;
+  __global const DeviceMaterial* materials;
+  __global const DeviceLight* lights;
+  __global const float* index_of_refraction; // [cluster][material]
+  __global const float4* reflected_xyz;      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar)
+  SpectralTables tables;
+  int reflector_count;
+  DeviceScene scene;
+} World;
+
+// The buffers that a World is made of, as kernel arguments.
+#define WORLD_ARGUMENTS                                                                                                                  \
+  __global const float *nodes, __global const float *blocks, __global const uint *corners, __global const float *positions,             \
+      __global const float *normals, __global const uint *object_of_triangle, __global const DeviceObject *objects,                      \
+      __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_refraction,           \
+      __global const float4 *reflected_xyz, __global const int *cluster_first, __global const int *cluster_wavelengths,                  \
+      __global const float *coefficient, __global const float4 *light_xyz, __global const float *reflectance, int reflector_count,       \
+      DeviceScene scene
+#define WORLD                                                                                                                            \
+  {                                                                                                                                      \
+    {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root}, objects, materials, lights, index_of_refraction,      \
+        reflected_xyz, {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, reflector_count, scene                 \
+  }
+
+typedef struct {
+  float3 origin, direction;
+  uint skip;    // the triangle that the path leaves
+  Media media;  // that enclose it
+  Losses losses;
+} Path;
+
+static inline Hit next_hit(const World* world, const Path* path)
+{
+  return closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction, INFINITY, path->skip);
+}
+
+static inline bool is_blocked(const World* world, float3 from, float3 direction, float distance, uint skip)
+{
+  return any_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, from, direction, distance, skip);
+}
+
+static inline DeviceMaterial material_of(const World* world, int object) { return world->materials[world->objects[object].material]; }
+
+// The absorption of the medium that the path has crossed up to its next hit.
+static inline void lose_in_medium(const World* world, Path* path, float distance)
+{
+#if NEPHROID_ATTENUATORS > 0
+  const int medium = medium_object(&path->media, world->objects);
+  if (medium >= 0) lose(&path->losses, material_of(world, medium).attenuator, distance * world->scene.metres_per_unit);
+#endif
+}
+
+// Takes the path on from a mirror or dielectric that it hit. choice: uniform in [0, 1).
+// *n_ratio: n before over n after. False where the path is inside too many media.
+static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface, const DeviceMaterial* material,
+                             int cluster, float choice, float* n_ratio)
+{
+  const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
+  Bend bend;
+  *n_ratio = 1.0f;
+#if NEPHROID_MIRRORS
+  if (material->type == MATERIAL_MIRROR) {
+    bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, -1.0f);
+    lose(&path->losses, material->attenuator, 1.0f);
+  } else
+#endif
+  {
+    __global const float* n_of = world->index_of_refraction + cluster * world->scene.material_count;
+    if (!cross_interface(&path->media, surface, world->objects, n_of, path->direction, choice, &bend, n_ratio)) return false;
+  }
+  path->direction = bend.direction;
+  path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
+  path->skip = triangle;
+  return true;
+}
+
+// Light of `light` in `cluster` that a diffuse surface reflects after the path's losses: xyz; *left: the share of the light's power.
+static inline float3 reflected_light(const World* world, const Losses* losses, int light, int cluster, int reflector, float* left)
+{
+#if NEPHROID_ATTENUATORS > 0
+  if (losses->any) {
+    const float4 sum = attenuated_sum(&world->tables, losses, light, cluster, reflector);
+    *left = sum.w;
+    return sum.xyz;
+  }
+#endif
+  return world->reflected_xyz[(light * world->scene.cluster_count + cluster) * world->reflector_count + reflector].xyz;
+}
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photons a second of engine 1 on the first-light scene, by phase: traced only (the camera looks away, so nothing is projected into a
+// pixel), traced and splatted, and samples a second of the direct layer. Start-up and compiling are not counted.
+#include "compute/compute.h"
+#include "job/job.h"
+#include "preset/read.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+
+#include <benchmark/benchmark.h>
+
+namespace {
+
+using namespace nephroid;
+
+preset::Preset first_light()
+{
+  preset::Preset p = preset::read_preset("first-light");
+  p.stop.seconds.reset();
+  p.stop.passes = 1 << 20;
+  return p;
+}
+
+/// Steps the preset's job for as long as the benchmark wants; `unit` counts what is done.
+template <class Count>
+void step_through(benchmark::State& state, const preset::Preset& p, const Count& count)
+{
+  const scene::Scene scene = scene::load_scene(p);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  const compute::Context context = compute::Context::open();
+  const auto job = spectral::make_job(p, scene, bvh, spectral::make_plan(p, scene, bvh), context);
+  for (int warm_up = 0; warm_up < 20; ++warm_up) job->step();
+  const double before = count(job->progress());
+  for (auto _ : state) job->step();
+  state.counters["per_second"] = benchmark::Counter(count(job->progress()) - before, benchmark::Counter::kIsRate);
+}
+
+void photons_traced(benchmark::State& state)
+{
+  preset::Preset p = first_light();
+  p.spectral.direct = false;
+  const preset::Vec3 position = p.scene.camera.position, target = p.scene.camera.target;
+  for (std::size_t i = 0; i < 3; ++i) p.scene.camera.target[i] = 2 * position[i] - target[i];
+  step_through(state, p, [](const job::Progress& progress) { return static_cast<double>(progress.photons); });
+}
+
+void photons_traced_and_splatted(benchmark::State& state)
+{
+  preset::Preset p = first_light();
+  p.spectral.direct = false;
+  step_through(state, p, [](const job::Progress& progress) { return static_cast<double>(progress.photons); });
+}
+
+void direct_samples(benchmark::State& state)
+{
+  preset::Preset p = first_light();
+  p.spectral.caustic = false;
+  p.spectral.pixel_samples = 1 << 20;
+  const double pixels = double(p.scene.camera.resolution[0]) * p.scene.camera.resolution[1];
+  step_through(state, p, [&](const job::Progress& progress) { return progress.fraction * (1 << 20) * pixels; });
+}
+
+BENCHMARK(photons_traced)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(4);
+BENCHMARK(photons_traced_and_splatted)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(4);
+BENCHMARK(direct_samples)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(4);
+
+} // namespace
