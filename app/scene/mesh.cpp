@@ -2,7 +2,7 @@
 // Checks and repairs of triangle meshes. All sums are in double: positions are floats, so products of two of their differences
 // are exact or nearly so.
 #include "scene/mesh.h"
-#include "scene/vertex_join.h"
+#include "scene/mesh_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -32,13 +32,6 @@ struct VertexHash {
 std::array<glm::dvec3, 3> corners(const Mesh& mesh, const glm::uvec3& triangle)
 {
   return {mesh.positions[triangle.x], mesh.positions[triangle.y], mesh.positions[triangle.z]};
-}
-
-bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle)
-{
-  const auto [a, b, c] = corners(mesh, triangle);
-  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-  return !(glm::length(glm::cross(b - a, c - a)) > 0x1p-24 * longest * longest);
 }
 
 /// The triangle's joined corners, turned so that the lowest comes first: equal for triangles that face the same way.
@@ -104,6 +97,13 @@ double six_volumes(const Mesh& mesh, const glm::uvec3& triangle, const glm::dvec
 }
 
 } // namespace
+
+bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle)
+{
+  const auto [a, b, c] = corners(mesh, triangle);
+  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  return !(glm::length(glm::cross(b - a, c - a)) > 0x1p-24 * longest * longest);
+}
 
 std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals)
 {

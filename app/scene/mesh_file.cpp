@@ -5,7 +5,7 @@
 #include "scene/isolated.h"
 #include "scene/mesh.h"
 #include "scene/mesh_check.h"
-#include "scene/vertex_join.h"
+#include "scene/mesh_parts.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/importerdesc.h>
@@ -13,6 +13,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -197,8 +198,8 @@ Mesh load_mesh(const std::filesystem::path& file)
     throw bad_input(where, "the mesh cannot be read: " + printable(failure.what()), std::string(formats),
                     "check the file in another program");
   }
-  const MeshReport report = inspect(mesh);
-  if (mesh.triangles.size() == report.degenerate + report.duplicated)
+  if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                  [&mesh](const glm::uvec3& triangle) { return is_degenerate(mesh, triangle); }))
     throw bad_input(where, mesh.triangles.empty() ? "the mesh has no triangles" : "no triangle of the mesh has an area",
                     std::string(formats));
   return mesh;

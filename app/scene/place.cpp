@@ -152,8 +152,9 @@ Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& ori
   Placed placed;
   check_extent(mesh, placement, origin, where, placed);
   placed.mesh = transformed(mesh, placement, origin);
-  check_surface(inspect(placed.mesh), dielectric, placed);
-  drop_useless(placed.mesh);
+  const MeshReport report = inspect(placed.mesh);
+  check_surface(report, dielectric, placed);
+  if (report.degenerate + report.duplicated > 0) drop_useless(placed.mesh);
   if (placed.mesh.triangles.empty())
     throw bad_input(where, "no triangle has an area after scaling", "a mesh with a surface", "use a scale closer to 1");
   if (placed.mesh.normals.empty()) compute_smooth_normals(placed.mesh);

@@ -53,7 +53,7 @@ Mesh extrude(std::span<const glm::dvec3> outline, double height)
   add_facet(mesh, top);
   add_facet(mesh, bottom);
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const glm::dvec3 a = outline[i], b = outline[(i + 1) % outline.size()];
+    const glm::dvec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
     add_facet(mesh, Quad{a + up, a - up, b - up, b + up});
   }
   return mesh;

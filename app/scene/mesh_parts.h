@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which vertices of a mesh are one and the same. Used by mesh.cpp and mesh_file.cpp only.
+// What checks of meshes (mesh.cpp) and the reader of mesh files (mesh_file.cpp) share. Private to scene/.
 #pragma once
 #include "scene/mesh.h"
 
@@ -10,6 +10,9 @@ namespace nephroid::scene {
 
 /// For each vertex the first vertex with exactly the same position (0 and -0 are the same), or with the same position and normal.
 std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals);
+
+/// Without an area that single precision can tell from 0: see drop_useless().
+bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle);
 
 /// The angle-weighted mean normal of the triangles at each vertex, unit; vertices with the same entry in `same` share one mean.
 /// (0, 0, 0) where no triangle with an area meets.
