@@ -12,35 +12,35 @@
 namespace nephroid::job {
 
 struct Layer {
-  std::string name;            ///< "direct", "caustic", ... (contract.md)
-  std::vector<float> rgb;      ///< linear sRGB, 3 a pixel, row 0 at the top, divided by the preset's white
+  std::string name;       ///< "direct", "caustic", ... (contract.md)
+  std::vector<float> rgb; ///< linear sRGB, 3 a pixel, row 0 at the top, divided by the preset's white
 };
 
 struct Picture {
   int width = 0, height = 0;
-  std::vector<float> rgb;      ///< the sum of the layers
+  std::vector<float> rgb; ///< the sum of the layers
   std::vector<Layer> layers;
 };
 
 /// Where a job is. All counts are of the whole run, resumed parts included.
 struct Progress {
-  double fraction = 0;         ///< 0..1 of the preset's own stop; 1 when finished
+  double fraction = 0; ///< 0..1 of the preset's own stop; 1 when finished
   std::int64_t step = 0, steps = 0;
-  std::uint64_t photons = 0;   ///< work done
-  double work_seconds = 0;     ///< of stepping, without start-up and snapshots
+  std::uint64_t photons = 0; ///< work done
+  double work_seconds = 0;   ///< of stepping, without start-up and snapshots
 };
 
 /// Photons in = out: weights in watts. in = deposited + missed + absorbed + escaped + lost within rounding.
 struct EnergyBalance {
   double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
-  std::uint64_t refused_contributions = 0;  ///< film contributions too large for its fixed point: 0 in a sound run
+  std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run
 };
 
 struct Snapshot {
   std::shared_ptr<const Picture> picture;
   Progress progress;
   EnergyBalance energy;
-  std::vector<std::pair<std::string, double>> phases;  ///< seconds a phase, e.g. {"photons", 3.2}
+  std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
 };
 
 class Job {

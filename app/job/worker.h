@@ -18,18 +18,18 @@ enum class State { idle, preparing, running, paused, finished, cancelled, failed
 struct Status {
   State state = State::idle;
   Progress progress;
-  std::string message;                       ///< the error line where state is failed; notes otherwise
-  std::uint64_t generation = 0;              ///< counts start() calls: which job this is about
+  std::string message;          ///< the error line where state is failed; notes otherwise
+  std::uint64_t generation = 0; ///< counts start() calls: which job this is about
 };
 
 class Worker {
 public:
   Worker();
-  ~Worker();                                 ///< cancels and joins
+  ~Worker(); ///< cancels and joins
   /// Cancels what runs and starts over: make() runs on the worker thread (loading, kernels) and gives the job. Returns at once.
   /// An exception from make() or from a step becomes State::failed with its line. A pause ends.
   void start(std::function<std::unique_ptr<Job>()> make);
-  void cancel();                             ///< after the step in hand, or after make() where that is still running
+  void cancel(); ///< after the step in hand, or after make() where that is still running
   void pause(bool paused);
   Status status() const;
   /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first, so that a

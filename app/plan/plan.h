@@ -12,7 +12,7 @@ namespace nephroid::plan {
 struct Pass {
   std::string name;
   bool runs = true;
-  std::string reason;   ///< a sentence a person can read
+  std::string reason; ///< a sentence a person can read
 };
 
 struct PlannedBuffer {
@@ -25,7 +25,7 @@ struct Plan {
   std::vector<Pass> passes;
   std::vector<PlannedBuffer> buffers;
   std::map<std::string, std::string> defines;
-  std::vector<std::string> notes;  ///< what the run should say once: extrapolated data, open meshes
+  std::vector<std::string> notes; ///< what the run should say once: extrapolated data, open meshes
 };
 
 /// contract.md: {"engine","passes":[{"name","runs","reason"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes".
