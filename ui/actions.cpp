@@ -141,10 +141,11 @@ void draw_menus(const Workbench& workbench, Commands& commands)
 
 void run_shortcuts(const Workbench& workbench, Commands& commands)
 {
-  if (workbench.question() != Question::none) return;
+  if (workbench.question() != Question::none || ImGui::GetIO().WantTextInput) return;
   for (const Action& action : table) {
-    const ImGuiInputFlags flags = ImGuiInputFlags_RouteGlobal | (action.repeats ? ImGuiInputFlags_Repeat : 0);
-    if (action.shortcut && ImGui::Shortcut(action.shortcut, flags) && action.enabled(workbench)) action.run(workbench, commands);
+    // Not ImGui::Shortcut: it wants the modifier to be down two frames before the key, which a quick hand and a slow display miss.
+    const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
+    if (action.shortcut && ImGui::IsKeyChordPressed(action.shortcut, flags) && action.enabled(workbench)) action.run(workbench, commands);
   }
 }
 

@@ -118,6 +118,14 @@ TEST_F(WindowTest, FollowsRealEvents)
   if (!there_is("xvfb-run") || !there_is("xdotool")) GTEST_SKIP() << "no xvfb-run or no xdotool";
   // A run that does not end by itself; an orbit, a resize, a cancel, save, quit.
   preset::Preset endless = preset::parse_preset(test::preset_text, "test");
+  endless.scene.materials["glass"].type = preset::Material::Type::dielectric;
+  preset::Object ball;
+  ball.name = "ball";
+  ball.material = "glass";
+  ball.shape = preset::Shape{};
+  ball.shape->radius = 0.3;
+  ball.transform.translate = {0, 0, 0.5};
+  endless.scene.objects.push_back(ball);
   endless.stop.passes.reset();
   endless.stop.seconds = 3600;
   const std::string file = folder.file("test.json", preset::to_json(endless));
