@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// kernels/photons.cl against an independent tracer on Embree, pixel by pixel within the noise of both.
+#include "compute/compute.h"
+#include "optics/colour.h"
+#include "scene/scene.h"
+#include "spectral/device_scene.h"
+#include "spectral/engine.h"
+#include "tests/support/reference_photons.h"
+#include "tests/support/render.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+/// A smooth ball, a diamond and a mirror above a coloured floor, of dispersive glass; a point light.
+preset::Preset glass_preset()
+{
+  preset::Preset p = empty_preset(24);
+  p.unit = preset::Preset::Unit::cm;
+  preset::Material dispersive = glass(1.7);
+  dispersive.dispersion.type = preset::Dispersion::Type::cauchy;
+  dispersive.dispersion.coefficients = {1.65, 0.03};
+  p.scene.materials["glass"] = dispersive;
+  p.scene.materials["floor"].reflectance.type = preset::Reflectance::Type::patch;
+  p.scene.materials["floor"].reflectance.patch = "orange";
+  p.scene.materials["mirror"].type = preset::Material::Type::mirror;
+  p.scene.materials["mirror"].reflectance.value = 1;
+  preset::Shape ball, diamond;
+  ball.radius = 1;
+  diamond.type = preset::Shape::Type::brilliant;
+  diamond.radius = 1;
+  p.scene.objects = {object("ball", ball, "glass", at({-1.5, 1.5, 0})), object("diamond", diamond, "glass", at({1.5, 1.5, 0}, {20, 0, 15})),
+                     object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})), object("floor", quad(40, 40), "floor")};
+  p.scene.objects[0].normals = preset::Object::Normals::smooth;
+  preset::Light light;
+  light.position = {0.5, 6, 3};
+  light.power_w = 10;
+  p.scene.lights = {light};
+  p.scene.camera.position = {0, 9, 9};
+  p.scene.camera.target = {0, 0, -0.5};
+  p.scene.camera.fov_deg = 40;
+  p.spectral.threshold_deg = 1;
+  p.spectral.photons_per_pass = 1 << 16;
+  return p;
+}
+
+struct Moments {
+  double mean = 0, variance_of_mean = 0;
+};
+
+TEST(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
+{
+  preset::Preset p = glass_preset();
+  constexpr int runs = 24;
+  const std::size_t values = 3 * 24 * 24;
+  std::vector<Moments> kernel(values);
+  for (int run = 0; run < runs; ++run) {
+    p.seed = static_cast<std::uint64_t>(run + 1);
+    const job::Snapshot snapshot = render(p);
+    const job::Layer& caustic = layer(snapshot, "caustic");
+    for (std::size_t i = 0; i < values; i += 3) {
+      const optics::Colour xyz = optics::linear_srgb_to_xyz({caustic.rgb[i], caustic.rgb[i + 1], caustic.rgb[i + 2]});
+      for (std::size_t c = 0; c < 3; ++c) {
+        kernel[i + c].mean += xyz[c] / runs;
+        kernel[i + c].variance_of_mean += xyz[c] * xyz[c] / runs;
+      }
+    }
+  }
+  for (Moments& m : kernel) m.variance_of_mean = std::max(m.variance_of_mean - m.mean * m.mean, 0.0) / (runs - 1);
+
+  const scene::Scene scene = scene::load_scene(p);
+  const spectral::DeviceTables tables = spectral::make_device_tables(p, scene);
+  constexpr int photons = 1'500'000;
+  const ReferenceFilm film = ReferencePhotons(scene, tables, 99).trace(photons);
+
+  double sum_z2 = 0, worst = 0, sum_kernel = 0, sum_reference = 0;
+  int lit = 0;
+  for (std::size_t i = 0; i < values; ++i) {
+    const double mean = film.sum[i / 3][static_cast<int>(i % 3)];
+    const double variance = film.sum_of_squares[i / 3][static_cast<int>(i % 3)] - mean * mean / photons;
+    sum_kernel += kernel[i].mean;
+    sum_reference += mean;
+    const double total = variance + kernel[i].variance_of_mean;
+    if (!(variance > 0) || !(kernel[i].variance_of_mean > 0) || mean * mean / variance < 30) continue; // fewer than 30 photons
+    const double z = (kernel[i].mean - mean) / std::sqrt(total);
+    sum_z2 += z * z;
+    worst = std::max(worst, std::abs(z));
+    ++lit;
+  }
+  ASSERT_GT(lit, 300);
+  // Sums over the picture are known to better than 0.2 %.
+  EXPECT_NEAR(sum_kernel / sum_reference, 1, 0.01);
+  // Student's t with 23 degrees of freedom has variance 23 / 21; the three channels of a pixel move together, so about lit / 3 are
+  // independent.
+  EXPECT_NEAR(sum_z2 / lit, 1.05, 0.35);
+  EXPECT_LT(worst, 6.5);
+  RecordProperty("lit", lit);
+  RecordProperty("mean_z2", std::to_string(sum_z2 / lit));
+}
+
+// What a run adds up may not depend on how its steps are cut: the job cuts them by the clock, so two runs differ in that.
+TEST(PhotonKernel, SameSeedSameBitsAnotherSeedNot)
+{
+  preset::Preset p = glass_preset();
+  p.stop.passes = 3;
+  p.spectral.direct = true;
+  const job::Snapshot first = render(p), second = render(p);
+  EXPECT_EQ(first.picture->rgb, second.picture->rgb);
+  p.seed = 2;
+  EXPECT_NE(first.picture->rgb, render(p).picture->rgb);
+}
+
+} // namespace

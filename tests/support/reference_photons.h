@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// An independent photon tracer: Embree finds the hits, everything else is double precision and written from the laws themselves, with
+// random numbers of its own. Slow and plain: what kernels/photons.cl is judged by.
+#pragma once
+#include "optics/fresnel.h"
+#include "scene/scene.h"
+#include "spectral/device_scene.h"
+#include "tests/support/tracer.h"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace nephroid::test {
+
+/// XYZ sums a pixel, and of their squares.
+struct ReferenceFilm {
+  std::vector<glm::dvec3> sum, sum_of_squares;
+};
+
+/// Photons from a point light into the cone about everything that is glass or a mirror. No absorption, no coloured mirrors.
+class ReferencePhotons {
+public:
+  ReferencePhotons(const scene::Scene& scene, const spectral::DeviceTables& tables, unsigned seed)
+      : scene_(scene), tables_(tables), tracer_(scene.geometry, RTC_SCENE_FLAG_ROBUST), random_(seed)
+  {
+    for (const shared::DeviceTarget& target : tables.targets) {
+      const glm::dvec3 way = glm::dvec3(target.centre_radius.x, target.centre_radius.y, target.centre_radius.z) - light();
+      axis_ += glm::normalize(way);
+    }
+    axis_ = glm::normalize(axis_);
+    for (const shared::DeviceTarget& target : tables.targets) {
+      const glm::dvec3 way = glm::dvec3(target.centre_radius.x, target.centre_radius.y, target.centre_radius.z) - light();
+      const double off_axis = std::acos(glm::dot(glm::normalize(way), axis_));
+      half_angle_ = std::max(half_angle_, off_axis + std::asin(target.centre_radius.w / glm::length(way)));
+    }
+  }
+
+  /// `count` photons; sums are of single photons' contributions to a pixel, for the light's whole power shared among `count`.
+  ReferenceFilm trace(int count)
+  {
+    const auto pixels = static_cast<std::size_t>(scene_.camera.width) * static_cast<std::size_t>(scene_.camera.height);
+    ReferenceFilm film{std::vector<glm::dvec3>(pixels, glm::dvec3(0)), std::vector<glm::dvec3>(pixels, glm::dvec3(0))};
+    const double cone_share = (1 - std::cos(half_angle_)) / 2;
+    for (int i = 0; i < count; ++i) {
+      const int cluster = static_cast<int>(uniform() * static_cast<double>(tables_.wavelengths.clusters.size()));
+      const double watts = scene_.lights[0].power_w * cone_share * static_cast<double>(tables_.wavelengths.clusters.size()) / count;
+      trace_one(cluster, watts, film);
+    }
+    return film;
+  }
+
+private:
+  struct Contact {
+    glm::dvec3 position, geometric, shading;
+    int object = 0;
+    std::uint32_t triangle = 0;
+  };
+
+  glm::dvec3 light() const { return scene_.lights[0].position; }
+  double uniform() { return uniform_(random_); }
+  const scene::Material& material(int object) const
+  {
+    return scene_.materials[static_cast<std::size_t>(scene_.objects[static_cast<std::size_t>(object)].material)];
+  }
+
+  bool meet(const glm::dvec3& from, const glm::dvec3& direction, double t_max, Contact& contact) const
+  {
+    const Hit hit = tracer_.closest({.origin = glm::vec3(from), .t_max = static_cast<float>(t_max), .direction = glm::vec3(direction)});
+    if (hit.primitive == no_primitive) return false;
+    const scene::Mesh& mesh = scene_.geometry;
+    const glm::uvec3 c = mesh.triangles[hit.primitive];
+    const glm::dvec3 a = mesh.positions[c.x], ab = glm::dvec3(mesh.positions[c.y]) - a, ac = glm::dvec3(mesh.positions[c.z]) - a;
+    const double u = hit.u, v = hit.v;
+    contact.position = a + u * ab + v * ac;
+    contact.geometric = contact.shading = glm::normalize(glm::cross(ab, ac));
+    contact.object = static_cast<int>(scene_.object_of_triangle[hit.primitive]);
+    contact.triangle = hit.primitive;
+    if (scene_.objects[static_cast<std::size_t>(contact.object)].smooth)
+      contact.shading = glm::normalize((1 - u - v) * glm::dvec3(mesh.normals[c.x]) + u * glm::dvec3(mesh.normals[c.y]) +
+                                       v * glm::dvec3(mesh.normals[c.z]));
+    return true;
+  }
+
+  /// Reflects or refracts about `normal`, which is on the near side. True: went through.
+  bool bend(glm::dvec3& direction, const glm::dvec3& normal, double n_i, double n_t, bool mirror)
+  {
+    const double cos_i = -glm::dot(direction, normal);
+    if (mirror || uniform() < optics::fresnel_reflectance(cos_i, n_i, n_t)) {
+      direction = glm::normalize(direction + 2 * cos_i * normal);
+      return false;
+    }
+    const double eta = n_i / n_t;
+    direction = glm::normalize(eta * direction + (eta * cos_i - *optics::refracted_cosine(cos_i, n_i, n_t)) * normal);
+    return true;
+  }
+
+  void trace_one(int cluster, double watts, ReferenceFilm& film)
+  {
+    const double cosine = 1 - uniform() * (1 - std::cos(half_angle_)), phi = 2 * M_PI * uniform(), sine = std::sqrt(1 - cosine * cosine);
+    const glm::dvec3 x = glm::normalize(glm::cross(axis_, std::abs(axis_.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+    glm::dvec3 direction = cosine * axis_ + sine * (std::cos(phi) * x + std::sin(phi) * glm::cross(axis_, x)), from = light();
+    int inside = -1; // objects do not overlap here
+    for (int surface = 0; surface <= 32; ++surface) {
+      Contact contact;
+      if (!meet(from, direction, INFINITY, contact)) return;
+      const scene::Material& here = material(contact.object);
+      if (here.type == scene::Material::Type::diffuse) {
+        if (surface > 0) deposit(contact, direction, cluster, watts, film);
+        return;
+      }
+      const double side = glm::dot(direction, contact.geometric) < 0 ? 1 : -1;
+      const double n = tables_.wavelengths.index_of_refraction[static_cast<std::size_t>(cluster) * scene_.materials.size() +
+                                                               static_cast<std::size_t>(&here - scene_.materials.data())];
+      const bool mirror = here.type == scene::Material::Type::mirror;
+      glm::dvec3 next = direction;
+      glm::dvec3 normal = side * (glm::dot(direction, side * contact.shading) < 0 ? contact.shading : contact.geometric);
+      bool through = bend(next, normal, inside < 0 ? 1 : n, inside < 0 ? n : 1, mirror);
+      // A shading normal may not send light to the wrong side of the triangle.
+      if ((glm::dot(next, side * contact.geometric) < 0) != through) {
+        next = direction;
+        through = bend(next, side * contact.geometric, inside < 0 ? 1 : n, inside < 0 ? n : 1, mirror);
+      }
+      if (through) inside = inside < 0 ? contact.object : -1;
+      direction = next;
+      from = contact.position + 1e-5 * (through ? -side : side) * contact.geometric;
+    }
+  }
+
+  void deposit(const Contact& contact, const glm::dvec3& arriving, int cluster, double watts, ReferenceFilm& film)
+  {
+    const scene::Camera& camera = scene_.camera;
+    const glm::dvec3 way = glm::dvec3(camera.position) - contact.position;
+    const double distance = glm::length(way), cos_camera = glm::dot(way, contact.geometric) / distance;
+    if (cos_camera * -glm::dot(arriving, contact.geometric) <= 0) return;
+    const glm::dvec3 seen = -way;
+    const double z = glm::dot(seen, glm::dvec3(camera.forward));
+    if (z <= 0) return;
+    const double px = (glm::dot(seen, glm::dvec3(camera.right)) / (z * camera.tan_x) + 1) / 2 * camera.width;
+    const double py = (1 - glm::dot(seen, glm::dvec3(camera.up)) / (z * camera.tan_y)) / 2 * camera.height;
+    if (px < 0 || py < 0 || px >= camera.width || py >= camera.height) return;
+    Contact between;
+    const glm::dvec3 start = contact.position + 1e-5 * (cos_camera > 0 ? 1.0 : -1.0) * contact.geometric;
+    if (meet(start, way / distance, distance, between)) return;
+    // The pixel sees the solid angle dA cos / distance^2 of the deposit's surface; on the plane at distance 1 that is larger by 1 / cos^3.
+    const double cos_axis = z / distance, pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
+    const double metres = distance * scene_.metres_per_unit;
+    const double weight = std::abs(cos_camera) / (metres * metres * std::pow(cos_axis, 3) * pixel_area);
+    const auto& diffuse = material(contact.object).reflectance;
+    glm::dvec3 xyz(0);
+    for (const int w : tables_.wavelengths.clusters[static_cast<std::size_t>(cluster)]) {
+      const shared::float4& light = tables_.wavelengths.light_xyz[static_cast<std::size_t>(w)];
+      xyz += diffuse[static_cast<std::size_t>(w)] * glm::dvec3(light.x, light.y, light.z);
+    }
+    xyz *= watts * weight / M_PI;
+    const auto pixel = static_cast<std::size_t>(static_cast<int>(py) * camera.width + static_cast<int>(px));
+    film.sum[pixel] += xyz;
+    film.sum_of_squares[pixel] += xyz * xyz;
+  }
+
+  const scene::Scene& scene_;
+  const spectral::DeviceTables& tables_;
+  EmbreeTracer tracer_;
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> uniform_{0, 1};
+  glm::dvec3 axis_{0};
+  double half_angle_ = 0;
+};
+
+} // namespace nephroid::test
