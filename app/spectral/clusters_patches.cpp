@@ -40,7 +40,8 @@ constexpr std::array<double, 16> volume_weights()
 {
   std::array<double, 16> weights{};
   for (std::size_t row = 0; row < 16; ++row) {
-    const double b = 1.0 / static_cast<double>((row % 4 + 1) * (row / 4 + 1));
+    const std::size_t i = row % 4, j = row / 4;
+    const double b = 1.0 / static_cast<double>((i + 1) * (j + 1));
     for (std::size_t column = 0; column < 16; ++column) weights[column] += m_inverse[row][column] * b;
   }
   return weights;
