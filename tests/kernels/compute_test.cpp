@@ -3,17 +3,20 @@
 #include "base/error.h"
 #include "compute/compute.h"
 #include "compute/embedded.h"
+#include "tests/support/child.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
+#include <algorithm>
+#include <cctype>
+#include <chrono>
 #include <filesystem>
-#include <fmt/format.h>
 #include <fstream>
 #include <numeric>
-#include <sys/wait.h>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -23,7 +26,6 @@ using compute::Context;
 using compute::Program;
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::MatchesRegex;
 using testing::Not;
 namespace fs = std::filesystem;
 
@@ -45,20 +47,12 @@ std::string error_line(const F& f, ErrorKind kind = ErrorKind::failed)
 /// A folder of kernels that a test writes, and a context that takes its programs from there.
 class EditedKernels : public testing::Test {
 protected:
-  EditedKernels() : folder_(make_folder()) {}
-  ~EditedKernels() override { fs::remove_all(folder_); }
-
-  void write(const std::string& file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
-  Context open() const { return Context::open({.kernels = folder_}); }
-  const fs::path& folder() const { return folder_; }
+  void write(const std::string& file, const std::string& text) const { std::ofstream(folder() / file) << text; }
+  Context open() const { return Context::open({.kernels = folder()}); }
+  const fs::path& folder() const { return folder_.path(); }
 
 private:
-  static fs::path make_folder()
-  {
-    std::string name = fs::temp_directory_path() / "nephroid-compute-XXXXXX";
-    return mkdtemp(name.data());
-  }
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST(Devices, AreListedWithWhatTheyCanDo)
@@ -193,39 +187,35 @@ TEST_F(EditedKernels, AChangeIsSeenOnceAndBuilt)
   EXPECT_THAT(error_line([&] { Context::open({.kernels = folder() / "none"}); }, ErrorKind::bad_input), HasSubstr("not a folder"));
 }
 
-/// `env ENVIRONMENT nephroid devices`: exit code and everything it wrote.
-struct Answer {
-  int exit_code = 0;
-  std::string text;
-};
-
-Answer devices_with(const std::string& environment)
+test::Ended devices_with(const test::Environment& environment)
 {
-  const std::string command = fmt::format("env {} '{}' devices 2>&1", environment, NEPHROID_PROGRAM);
-  FILE* pipe = popen(command.c_str(), "r");
-  Answer answer;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) answer.text += static_cast<char>(c);
-  answer.exit_code = WEXITSTATUS(pclose(pipe));
-  return answer;
+  const test::TemporaryFolder logs;
+  return test::nephroid({"devices"}, logs.path(), logs.path(), environment);
 }
+
+long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
 TEST(Environment, WithoutAPlatformThereIsOneClearLine)
 {
-  const Answer answer = devices_with("OCL_ICD_VENDORS=/nonexistent");
-  EXPECT_EQ(answer.exit_code, 3);
-  EXPECT_THAT(answer.text,
+  const test::Ended ended = devices_with({{"OCL_ICD_VENDORS", "/nonexistent"}});
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_THAT(ended.err,
               AllOf(testing::StartsWith("nephroid: "), HasSubstr("no OpenCL platform"), HasSubstr("apt install pocl-opencl-icd")));
-  EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1);
+  EXPECT_EQ(lines(ended.err), 1);
+  EXPECT_EQ(ended.out, "");
 }
 
 TEST(Environment, WithoutHomeOrAWritableCacheThereIsANoteAndAWayOn)
 {
-  for (const char* environment :
-       {"-u HOME -u XDG_CACHE_HOME -u POCL_CACHE_DIR", "POCL_CACHE_DIR=/dev/null/cache", "-u POCL_CACHE_DIR XDG_CACHE_HOME=/dev/null"}) {
-    const Answer answer = devices_with(environment);
-    EXPECT_EQ(answer.exit_code, 0) << environment << ": " << answer.text;
-    EXPECT_THAT(answer.text, AllOf(HasSubstr("kernels are kept in"), HasSubstr("cpu")));
-    EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1 + static_cast<long>(compute::list_devices().size()));
+  const test::Environment environments[] = {{{"HOME", {}}, {"XDG_CACHE_HOME", {}}, {"POCL_CACHE_DIR", {}}},
+                                            {{"POCL_CACHE_DIR", "/dev/null/cache"}},
+                                            {{"POCL_CACHE_DIR", {}}, {"XDG_CACHE_HOME", "/dev/null"}}};
+  for (const test::Environment& environment : environments) {
+    const test::Ended ended = devices_with(environment);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("kernels are kept in"));
+    EXPECT_EQ(lines(ended.err), 1);
+    EXPECT_EQ(lines(ended.out), static_cast<long>(compute::list_devices().size()));
   }
 }
 
