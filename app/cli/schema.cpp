@@ -10,7 +10,7 @@ namespace nephroid::cli {
 void add_schema(CLI::App& program, Session&)
 {
   CLI::App* verb = program.add_subcommand("schema", "The JSON Schema of preset files, for editors");
-  verb->callback([] { fmt::print("{}", preset::schema()); });
+  verb->callback([] { fmt::print("{}\n", preset::schema()); });
 }
 
 } // namespace nephroid::cli

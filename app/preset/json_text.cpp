@@ -177,7 +177,7 @@ std::string pretty(const Json& value)
 {
   std::string out;
   print(value, 0, out);
-  return out + "\n";
+  return out;
 }
 
 std::string shown(const Json& value)

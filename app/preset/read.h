@@ -23,7 +23,8 @@ Preset read_preset(const std::string& name, const Overrides& overrides = {});
 /// From text, for tests and the editor; source names it in messages.
 Preset parse_preset(const std::string& json, const std::string& source, const Overrides& overrides = {});
 
-/// Complete: reading it again gives an equal preset, and every field is there. Indented JSON, keys in the order of describe.
+/// Complete: reading it again gives an equal preset, and every field is there. Indented JSON, keys in the order of describe,
+/// without a newline at the end.
 std::string to_json(const Preset& preset);
 /// The same for a file in another folder than the preset's source: a file name that would mean another file there (or none)
 /// becomes absolute, so that preset.json beside a run's pictures can be run again.

@@ -66,7 +66,7 @@ TEST(PresetMutation, AnyByteReplacedGivesAPresetOrAnError)
 {
   const std::string text = preset::to_json(preset::read_preset("spectral/prism"));
   int refused = 0;
-  for (std::size_t at = 0; at < text.size(); at += 3)
+  for (std::size_t at = 0; at < text.size(); at += 7)
     for (const char byte : {'\0', '"', '{', ']', '-', '9', '\xff'}) {
       std::string changed = text;
       changed[at] = byte;
@@ -76,7 +76,7 @@ TEST(PresetMutation, AnyByteReplacedGivesAPresetOrAnError)
         ++refused;
       }
     }
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(refused, 500);
 }
 
 } // namespace

@@ -20,7 +20,7 @@ std::string output_of(const std::string& arguments)
   return text;
 }
 
-TEST(PresetVerbs, SchemaPrintsTheSchema) { EXPECT_EQ(output_of("schema"), preset::schema()); }
+TEST(PresetVerbs, SchemaPrintsTheSchema) { EXPECT_EQ(output_of("schema"), preset::schema() + "\n"); }
 
 TEST(PresetVerbs, PresetsListsNameAndDescription)
 {
