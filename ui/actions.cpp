@@ -143,7 +143,7 @@ void run_shortcuts(const Workbench& workbench, Commands& commands)
 {
   if (workbench.question() != Question::none || ImGui::GetIO().WantTextInput) return;
   for (const Action& action : table) {
-    // Not ImGui::Shortcut: it wants the modifier to be down two frames before the key, which a quick hand and a slow display miss.
+    // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would be lost.
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
     if (action.shortcut && ImGui::IsKeyChordPressed(action.shortcut, flags) && action.enabled(workbench)) action.run(workbench, commands);
   }

@@ -63,7 +63,8 @@ void ViewPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
     commands.push_back(command::SetLook{look});
   }
   ImGui::SetItemTooltip("Brighter E, darker Shift+E, as it is 0. Ctrl+click to type. The run goes on.");
-  const Placement placement = place(look, canvas_, picture_size(workbench));
+  if (!workbench.preset()) return;
+  const auto size = picture_size(workbench);
   ImGui::SameLine(0, ImGui::GetFontSize());
   if (ImGui::Button("Fit")) {
     look.fit = true;
@@ -71,11 +72,7 @@ void ViewPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
   }
   ImGui::SetItemTooltip("The whole picture: F. Ctrl+wheel zooms about the cursor, Ctrl+drag moves it.");
   ImGui::SameLine();
-  ImGui::TextDisabled("%.0f %%", 100 * placement.scale);
-  if (!workbench.preset()) return;
-  const auto size = picture_size(workbench);
-  ImGui::SameLine(0, ImGui::GetFontSize());
-  ImGui::TextDisabled("%d x %d", size[0], size[1]);
+  ImGui::TextDisabled("%.0f %%   %d x %d", 100 * place(look, canvas_, size).scale, size[0], size[1]);
 }
 
 void ViewPanel::refresh_texture(const Workbench& workbench)
