@@ -40,6 +40,14 @@ detail::Device choose(const std::vector<detail::Device>& devices, const std::str
               "give a number or part of a name");
 }
 
+/// PoCL's compiler would end the process.
+void refuse_without_kernel_cache(const DeviceInfo& device)
+{
+  if (device.platform != "Portable Computing Language") return;
+  const std::string problem = detail::kernel_cache_problem();
+  if (!problem.empty()) throw Error(ErrorKind::no_device, device.name, problem, {}, "set POCL_CACHE_DIR to a folder that can be written");
+}
+
 } // namespace
 
 detail::FileTimes detail::file_times(const fs::path& folder)
@@ -62,6 +70,7 @@ Context Context::open(const DeviceOptions& options)
   if (!options.kernels.empty() && !fs::is_directory(options.kernels))
     throw bad_input("--kernels " + options.kernels.string(), "not a folder", "a folder with every file of kernels/");
   const detail::Device device = choose(devices, options.selector);
+  refuse_without_kernel_cache(device.info);
   Context context;
   context.state = std::make_shared<detail::ContextState>();
   detail::ContextState& s = *context.state;

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -32,7 +31,11 @@ fs::path cache_folder()
   return {};
 }
 
-/// Makes the folder and writes as much as a large kernel takes into it. Returns the system's reason where that fails.
+/// Room for a run's kernels and what the compiler leaves beside them. On a disk that fills up while it writes, LLVM ends the
+/// whole process, so there must be enough from the start.
+constexpr std::uintmax_t needed_bytes = 64'000'000;
+
+/// Makes the folder and a file in it. Returns why PoCL could not work there; empty where it can.
 std::string write_problem(const fs::path& folder)
 {
   std::error_code error;
@@ -41,29 +44,36 @@ std::string write_problem(const fs::path& folder)
   std::string name = folder / "nephroid-XXXXXX";
   const int file = mkstemp(name.data());
   if (file < 0) return std::strerror(errno);
-  constexpr std::size_t kernel_bytes = 1 << 20;
-  const std::vector<char> bytes(kernel_bytes);
-  errno = ENOSPC; // what a short write without a code of its own means
-  const bool written = ::write(file, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
+  const bool written = ::write(file, "x", 1) == 1;
   const std::string reason = written ? "" : std::strerror(errno);
   close(file);
   unlink(name.c_str());
-  return reason;
+  if (!written) return reason;
+  const fs::space_info space = fs::space(folder, error);
+  if (error || space.available >= needed_bytes) return {};
+  return fmt::format("{:.1f} MB are free there, {:.0f} are needed", static_cast<double>(space.available) * 1e-6,
+                     static_cast<double>(needed_bytes) * 1e-6);
 }
 
-/// A folder of this user alone among the temporary files: kernels found there are run, so nobody else may write to it.
-/// Its name stays the same, so that kernels are kept for the next run. Empty where there is none.
-fs::path private_folder()
+/// A folder of this user alone: kernels found there are run, so nobody else may write to it. Its name stays the same, so that
+/// kernels are kept for the next run. Empty where `parent` has no place for one.
+fs::path private_folder(const fs::path& parent)
 {
-  std::error_code error;
-  const fs::path temporary = fs::temp_directory_path(error);
-  if (error) return {};
-  const fs::path folder = temporary / fmt::format("nephroid-kernels-{}", getuid());
+  if (parent.empty()) return {};
+  const fs::path folder = parent / fmt::format("nephroid-kernels-{}", getuid());
   mkdir(folder.c_str(), S_IRWXU);
   struct stat status = {};
   if (lstat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid()) return {};
   if (status.st_mode & (S_IRWXG | S_IRWXO)) return {};
   return write_problem(folder).empty() ? folder : fs::path();
+}
+
+/// The temporary files' folder, or the memory's where that one is full, too.
+fs::path private_folder()
+{
+  std::error_code error;
+  const fs::path folder = private_folder(fs::temp_directory_path(error));
+  return folder.empty() ? private_folder("/dev/shm") : folder;
 }
 
 } // namespace
@@ -73,7 +83,7 @@ std::string detail::kernel_cache_problem()
   const fs::path folder = cache_folder();
   if (folder.empty()) return "PoCL has no folder for its kernels: HOME is not set";
   const std::string reason = write_problem(folder);
-  return reason.empty() ? "" : fmt::format("PoCL's kernel cache {} cannot be written: {}", folder.string(), reason);
+  return reason.empty() ? "" : fmt::format("PoCL's kernel cache {} cannot be used: {}", folder.string(), reason);
 }
 
 std::string prepare_kernel_cache()
