@@ -10,7 +10,7 @@ std::string one_line(const std::string& where, const std::string& what, const st
   for (const std::string* part : {&expected, &remedy})
     if (!part->empty()) line += "; " + *part;
   for (char& c : line)
-    if (c == '\n' || c == '\r' || c == '\t') c = ' ';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' '; // also what would move a terminal's cursor
   return line;
 }
 

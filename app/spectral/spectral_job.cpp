@@ -207,8 +207,9 @@ private:
 
   static void append(std::vector<std::byte>& to, const void* from, std::size_t count)
   {
-    const auto* bytes = static_cast<const std::byte*>(from);
-    to.insert(to.end(), bytes, bytes + count);
+    const std::size_t size = to.size();
+    to.resize(size + count);
+    std::memcpy(to.data() + size, from, count);
   }
 
   static void take(std::span<const std::byte>& from, void* to, std::size_t count)
