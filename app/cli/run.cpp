@@ -70,7 +70,7 @@ std::vector<Target> targets_of(const RunOptions& options)
     if (options.seed) preset.seed = *options.seed;
     const std::string number = fmt::format("{:03}", targets.size() + 1);
     const bool sweep = presets.size() > 1;
-    targets.push_back({std::move(preset), sweep ? folder / number : folder, sweep ? stem + "/" + number : stem});
+    targets.push_back({std::move(preset), sweep ? folder / number : folder, sweep ? fmt::format("{}/{}", stem, number) : stem});
   }
   return targets;
 }
@@ -162,12 +162,13 @@ private:
     }
   }
 
+  /// The picture first: where the disk has room for one of the two only, it is what the run was for.
   void save(const run::Prepared& prepared, const compute::DeviceInfo& device, job::Job& job) const
   {
     const bool finished = job.finished();
     const job::Snapshot snapshot = job.snapshot();
-    run::write_checkpoint(target_.folder, prepared, job);
     run::write_run(target_.folder, prepared, device, snapshot, finished);
+    run::write_checkpoint(target_.folder, prepared, job);
     report_result(options_, target_, snapshot.progress, finished);
     if (!finished)
       throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted after pass {}", snapshot.progress.step),

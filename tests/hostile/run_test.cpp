@@ -102,16 +102,16 @@ TEST_F(Runs, AreTheSameBitsForTheSameSeedOnAnyThreadsAndFromTheirOwnPreset)
 
 TEST_F(Runs, KilledAndResumedEqualUninterruptedOnes)
 {
-  ASSERT_EQ(run("whole", {"--passes", "150"}).exit_code, 0);
+  ASSERT_EQ(run("whole", {"--passes", "80"}).exit_code, 0);
   {
-    Child child(into("killed", {"--passes", "150", "--checkpoint-seconds", "0.05"}), scratch.path(), logs);
+    Child child(into("killed", {"--passes", "80", "--checkpoint-seconds", "0.05"}), scratch.path(), logs);
     ASSERT_TRUE(child.until([&] { return fs::exists(file("killed", "checkpoint.bin")); }));
     child.send(SIGKILL);
     ASSERT_EQ(child.wait().signal, SIGKILL) << "the run was over before it could be killed";
   }
   EXPECT_FALSE(fs::exists(file("killed", "image.exr")));
   write_file_whole(scratch.path() / "killed" / ".image.1-1.tmp.exr", "half a picture"); // as a writer killed at its work leaves it
-  const Ended resumed = run("killed", {"--passes", "150", "--resume"});
+  const Ended resumed = run("killed", {"--passes", "80", "--resume"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("going on after pass"));
   EXPECT_TRUE(picture("whole") == picture("killed"));
@@ -233,7 +233,7 @@ TEST_F(Runs, AFullDiskIsALineAndNoHalfFile)
 {
   const fs::path disk = scratch.path() / "disk";
   fs::create_directory(disk);
-  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=40k") != 0) GTEST_SKIP() << "mounting a small disk needs root";
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=20k") != 0) GTEST_SKIP() << "mounting a small disk needs root";
   const Ended ended = run("disk/a", {"--passes", "20", "--checkpoint-seconds", "0.05"});
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_EQ(ended.out, "");
