@@ -90,7 +90,7 @@ void Dialogs::draw(const Workbench& workbench, Commands& commands)
 void Dialogs::draw_open(Commands& commands)
 {
   const float em = ImGui::GetFontSize();
-  ImGui::SetNextItemWidth(em * 30);
+  ImGui::SetNextItemWidth(em * 41);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered = input_text("##file", "path of a preset file, or its name", name_);
   ImGui::SameLine();
@@ -98,7 +98,7 @@ void Dialogs::draw_open(Commands& commands)
   if (ImGui::Button("Open") || (entered && !name_.empty())) commands.push_back(command::Open{name_});
   ImGui::EndDisabled();
   ImGui::SeparatorText("Shipped presets");
-  if (ImGui::BeginChild("shipped", {em * 36, em * 14})) {
+  if (ImGui::BeginChild("shipped", {em * 46, em * 14})) {
     for (const preset::ShippedPreset& shipped : shipped_) {
       if (ImGui::Selectable(shipped.name.c_str())) commands.push_back(command::Open{shipped.file.string()});
       ImGui::SameLine(em * 11);
