@@ -60,12 +60,12 @@ static inline int bvh_lowest_bit(int mask) { return 31 - clz(mask & -mask); }
 
 // A ray as both tests want it.
 typedef struct {
-  float3 inverse;           // 1 / direction, finite
-  float3 near, far;         // origin / direction, rounded so that boxes only ever grow
+  float3 inverse;             // 1 / direction, finite
+  float3 near, far;           // origin / direction, rounded so that boxes only ever grow
   int near_x, near_y, near_z; // where in a node the bounds lie that the ray meets first
-  int kx, ky, kz;           // axes: kz is where the direction is largest
-  float ox, oy, oz;         // the origin along kx, ky, kz
-  float sx, sy, sz;         // shear that makes the direction (0, 0, 1)
+  int kx, ky, kz;             // axes: kz is where the direction is largest
+  float ox, oy, oz;           // the origin along kx, ky, kz
+  float sx, sy, sz;           // shear that makes the direction (0, 0, 1)
 } BvhRay;
 
 static inline float bvh_axis(float3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }

@@ -148,7 +148,7 @@ const scene::Mesh& million()
 }
 
 #define NEPHROID_BENCH(mesh, kind)                                                                                                         \
-  BENCHMARK_CAPTURE(closest_hit, mesh / kind, mesh(), Rays::kind)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(9)
+  BENCHMARK_CAPTURE(closest_hit, mesh##_##kind, mesh(), Rays::kind)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(9)
 NEPHROID_BENCH(bunny, primary);
 NEPHROID_BENCH(bunny, bounce);
 NEPHROID_BENCH(bunny, random);
