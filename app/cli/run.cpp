@@ -106,7 +106,10 @@ public:
   {
     prepared = run::prepare(target_.preset, prepared ? &*prepared : nullptr);
     for (const std::string& note : prepared->plan.notes) fmt::print(stderr, "note: {}\n", note);
-    if (!context) context = compute::Context::open(options_.device);
+    if (!context) {
+      if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
+      context = compute::Context::open(options_.device);
+    }
     run::claim_folder(target_.folder);
     stop_if_interrupted_early();
     const std::unique_ptr<job::Job> job = run::make_job(*prepared, *context);
