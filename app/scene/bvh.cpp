@@ -134,7 +134,7 @@ private:
       const std::uint32_t triangle = leaf.triangles[missing ? leaf.count - 1 : i];
       for (int corner = 0; corner < 3; ++corner) {
         const glm::vec3& p = mesh_.positions[mesh_.triangles[triangle][missing ? 0 : corner]];
-        for (int axis = 0; axis < 3; ++axis) block[(3 * corner + axis) * triangles_per_block] = p[axis];
+        for (int axis = 0; axis < 3; ++axis) block[static_cast<std::size_t>(3 * corner + axis) * triangles_per_block] = p[axis];
       }
       std::memcpy(block + 9 * triangles_per_block, &triangle, sizeof triangle);
     }
@@ -186,7 +186,13 @@ Bvh build_bvh(const Mesh& mesh)
     bvh.root = ~0; // a leaf of no block
     return bvh;
   }
-  const std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease> device(rtcNewDevice(nullptr));
+#ifdef __SANITIZE_THREAD__
+  // ThreadSanitizer sees neither Embree's nor TBB's synchronisation and would report every callback of the builder.
+  const char* const settings = "threads=1";
+#else
+  const char* const settings = nullptr;
+#endif
+  const std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease> device(rtcNewDevice(settings));
   const std::unique_ptr<std::remove_pointer_t<RTCBVH>, BvhRelease> build(device ? rtcNewBVH(device.get()) : nullptr);
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.maxBranchingFactor = children_per_node;

@@ -89,6 +89,12 @@ std::array<double, 4> reflected(const Spectrum& light, const float* reflectance,
   return sum;
 }
 
+/// One row of WavelengthTables::reflectance.
+const float* reflectance_row(const WavelengthTables& tables, int reflector)
+{
+  return tables.reflectance.data() + static_cast<std::size_t>(reflector) * wavelength_count;
+}
+
 void add_light_rows(const scene::Scene& scene, WavelengthTables& tables)
 {
   std::vector<int> all(wavelength_count);
@@ -102,10 +108,10 @@ void add_light_rows(const scene::Scene& scene, WavelengthTables& tables)
       share.push_back(sum[3]);
       weight.push_back((sum[0] + sum[1] + sum[2]) / 3);
       for (int r = 0; r < tables.reflector_count; ++r)
-        tables.reflected_xyz.push_back(to_float4(reflected(light.spectrum, tables.reflectance.data() + r * wavelength_count, cluster)));
+        tables.reflected_xyz.push_back(to_float4(reflected(light.spectrum, reflectance_row(tables, r), cluster)));
     }
     for (int r = 0; r < tables.reflector_count; ++r)
-      tables.reflected_xyz_all.push_back(to_float4(reflected(light.spectrum, tables.reflectance.data() + r * wavelength_count, all)));
+      tables.reflected_xyz_all.push_back(to_float4(reflected(light.spectrum, reflectance_row(tables, r), all)));
   }
 }
 
