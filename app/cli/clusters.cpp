@@ -3,6 +3,7 @@
 #include "spectral/clusters.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_pointer.h"
 #include "cli/dispersion_input.h"
 #include "cli/verbs.h"
 #include "preset/read.h"
@@ -84,8 +85,7 @@ Task preset_task(const ClusterOptions& options)
   const preset::Preset preset = preset::read_preset(options.preset);
   const std::string name = chosen_material(preset, options.material);
   const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
-  const auto pointer = nlohmann::json::json_pointer() / "scene" / "materials" / name / "dispersion";
-  const std::string where = preset.source + "#" + pointer.to_string();
+  const std::string where = preset.source + "#/scene/materials/" + pointer_key(name) + "/dispersion";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   return {scene::make_curve(dispersion, finder, where), scene::outside_policy(dispersion.outside), preset.spectral.threshold_deg,
           method_of(preset.spectral.method)};

@@ -2,6 +2,7 @@
 #include "preset/json_text.h"
 
 #include "base/error.h"
+#include "base/json_pointer.h"
 
 #include <fmt/format.h>
 
@@ -191,12 +192,7 @@ std::string shown(const Json& value)
 
 std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shortened(printable(text), 60)); }
 
-std::string child(const std::string& pointer, std::string_view key)
-{
-  std::string escaped;
-  for (const char c : shortened(printable(key), 100)) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return pointer + "/" + escaped;
-}
+std::string child(const std::string& pointer, std::string_view key) { return pointer + "/" + pointer_key(shortened(printable(key), 100)); }
 
 std::string child(const std::string& pointer, std::size_t index) { return fmt::format("{}/{}", pointer, index); }
 

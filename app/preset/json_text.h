@@ -27,7 +27,7 @@ std::string shown(const Json& value);
 /// Text of a user in single quotes: short, one line, printable.
 std::string in_quotes(std::string_view text);
 
-/// pointer/key, with the key escaped as RFC 6901 says.
+/// pointer/key, with the key printable, short and escaped (pointer_key).
 std::string child(const std::string& pointer, std::string_view key);
 std::string child(const std::string& pointer, std::size_t index);
 

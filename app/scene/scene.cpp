@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_pointer.h"
 #include "base/nearest.h"
 #include "scene/directions.h"
 #include "scene/materials.h"
@@ -20,14 +21,6 @@
 
 namespace nephroid::scene {
 namespace {
-
-/// A key inside a JSON pointer (RFC 6901).
-std::string escaped(const std::string& key)
-{
-  std::string result;
-  for (char c : key) result += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return result;
-}
 
 int find_material(const Scene& scene, const std::string& name, const std::string& where)
 {
@@ -170,7 +163,7 @@ Scene load_scene(const preset::Preset& preset)
   scene.source = preset.source;
   scene.metres_per_unit = preset::metres(preset.unit);
   for (const auto& [name, material] : preset.scene.materials)
-    scene.materials.push_back(make_material(name, material, finder, where + "/materials/" + escaped(name), scene.warnings));
+    scene.materials.push_back(make_material(name, material, finder, where + "/materials/" + pointer_key(name), scene.warnings));
 
   check_names(preset.scene.objects, where + "/objects");
   Meshes meshes(finder);
