@@ -2,7 +2,6 @@
 // The display side of the window: GLFW, OpenGL and Dear ImGui's two back ends, from opening to closing. Nothing of the workbench.
 #pragma once
 #include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 

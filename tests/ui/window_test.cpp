@@ -17,7 +17,6 @@
 namespace nephroid::ui {
 namespace {
 
-using ::testing::AnyOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -37,8 +36,7 @@ int shell(const std::string& line, const std::filesystem::path& output)
 /// Where a window of this size draws the picture: the window's own code, without a display, says so.
 Placement placement_in_window(int width, int height, const std::array<int, 2>& picture)
 {
-  const test::Headless imgui_owner;
-  test::Headless& imgui = const_cast<test::Headless&>(imgui_owner);
+  test::Headless imgui;
   ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   test::FakeRuns runs;
   Workbench workbench{test::fake_jobs(runs)};
