@@ -3,25 +3,17 @@
 // arrives unbent. Glass and mirrors block those shadow rays: what they let through is the caustic layer's.
 #include "shared_types.h"
 #include "random.h"
-#include "bvh.h"
-#include "fresnel.h"
 #include "film.h"
-#include "media.h"
-#include "surface.h"
-#include "interface.h"
-#include "attenuation.h"
-#include "world.h"
 #include "light.h"
+#include "world.h"
 
 // A path through glass follows one cluster and one branch of each reflection, so it is noisy: a pixel that sees glass or a mirror takes
 // this many paths a sample.
 #define PATHS_THROUGH_GLASS 4u
 
-#define STREAM_CAMERA 1u
-#define STREAM_CAMERA_LIGHT 2u
-#define STREAM_CAMERA_CLUSTER 3u
-
-// Irradiance in W m^-2 that a light of the whole spectrum gives a surface point, without shadows; the way to it and how far.
+// Irradiance in W m^-2 that a light of the whole spectrum gives a surface point, without shadows; the way to it and how far:
+// I cos(theta) / d^2 with the intensity I = P / (4 pi) of a point, P / (its cone's solid angle) of a spot, and P cos(theta') / pi
+// of an area light, of which one place stands for all; E cos(theta) of directional light.
 typedef struct {
   float irradiance;
   float3 direction;
@@ -77,11 +69,11 @@ static inline float3 shade(const World* world, const Path* path, const Surface* 
   return xyz;
 }
 
-// Takes a path that has hit `first` on through glass and mirrors in one cluster. Returns XYZ radiance, divided by nothing.
+// Takes a path that has hit `first` on through glass and mirrors in one cluster. Returns XYZ radiance of that cluster's light alone.
 static inline float3 follow(const World* world, Path path, Hit first, int cluster, __global const float4* reflected_xyz_all, uint2 seed,
                             uint sample, uint pixel)
 {
-  float radiance_scale = 1.0f; // radiance over n^2 is what a path keeps
+  float radiance_scale = 1.0f; // radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance")
   Hit hit = first;
   float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {

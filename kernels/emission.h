@@ -6,7 +6,9 @@
 #ifndef NEPHROID_EMISSION_H
 #define NEPHROID_EMISSION_H
 
-#define MAX_TARGETS 16
+#include "shared_types.h"
+#include "light.h"
+
 typedef struct {
   float3 origin, direction;
   float watts; // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell's law and Fresnel's equations at a smooth interface, for unpolarised light.
+// Snell's law and Fresnel's equations at a smooth interface, for unpolarised light (Born and Wolf, Principles of Optics, 1.5).
 #ifndef NEPHROID_FRESNEL_H
 #define NEPHROID_FRESNEL_H
 
@@ -13,7 +13,9 @@ static inline float refracted_cosine(float cos_i, float eta)
   return cos2 < 0.0f ? -1.0f : sqrt(cos2);
 }
 
-// Mean of the reflectances of both polarisations; cos_t from refracted_cosine, not negative.
+// Mean of the reflectances of both polarisations, squares of the amplitudes
+//   r_s = (n_i cos_i - n_t cos_t) / (n_i cos_i + n_t cos_t),  r_p = (n_t cos_i - n_i cos_t) / (n_t cos_i + n_i cos_t).
+// cos_t from refracted_cosine, not negative.
 static inline float fresnel_reflectance(float cos_i, float cos_t, float n_i, float n_t)
 {
   const float s = (n_i * cos_i - n_t * cos_t) / (n_i * cos_i + n_t * cos_t);

@@ -3,6 +3,10 @@
 #ifndef NEPHROID_INTERFACE_H
 #define NEPHROID_INTERFACE_H
 
+#include "shared_types.h"
+#include "media.h"
+#include "surface.h"
+
 // media: where the path is. n_of: index of refraction by material, for the path's cluster.
 // choice: uniform in [0, 1), picks reflection with Fresnel's probability. Updates `media` where the path goes through.
 // *n_ratio: n on the near side over n on the far side, 1 for a reflected path.

@@ -3,6 +3,8 @@
 #ifndef NEPHROID_LIGHT_H
 #define NEPHROID_LIGHT_H
 
+#include "shared_types.h"
+
 #define PI_F 3.14159265358979f
 
 // Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.

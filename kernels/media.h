@@ -4,6 +4,8 @@
 #ifndef NEPHROID_MEDIA_H
 #define NEPHROID_MEDIA_H
 
+#include "shared_types.h"
+
 // The object whose material fills the place: the highest priority, of equals the one entered last; -1: air.
 static inline int medium_object(const Media* media, __global const DeviceObject* objects)
 {

@@ -3,22 +3,13 @@
 // are splatted into the pixel that sees the diffuse surface they reach. Unbiased: no map, no radius. One path carries a whole cluster.
 #include "shared_types.h"
 #include "random.h"
-#include "bvh.h"
-#include "fresnel.h"
-#include "film.h"
-#include "media.h"
-#include "surface.h"
-#include "interface.h"
-#include "attenuation.h"
-#include "world.h"
-#include "light.h"
 #include "emission.h"
+#include "film.h"
+#include "world.h"
 
 #ifndef NEPHROID_PHOTONS_PER_ITEM
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
-
-#define STREAM_PHOTONS 0u
 
 // The pixel that sees `position`, or -1; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited there adds
 // F reflectance / pi * weight to the pixel's radiance.
@@ -44,6 +35,7 @@ static inline int project_to_pixel(const DeviceCamera* camera, float3 position, 
   return row * camera->width + column;
 }
 
+// The last emitter that begins at this photon or before it, by bisection.
 static inline int emitter_of(__global const DeviceEmitter* emitters, int count, uint photon)
 {
   int low = 0, high = count - 1;
@@ -66,6 +58,7 @@ typedef struct {
   float3 xyz; // of a deposit: reflected light, as if the photon carried the light's whole power
 } PhotonEnd;
 
+// Follows a photon to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on its last way.
 static inline PhotonEnd trace_photon(const World* world, const DeviceEmitter* emitter, Path* path, uint2 seed, uint pass, uint photon)
 {
   PhotonEnd end;

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
-// A number is a function of (seed, pass, index, dimension) alone, so results do not depend on threads, devices or resuming.
+// A number is a function of (seed, stream, pass, index, dimension) alone, so results do not depend on threads, devices or resuming.
 #ifndef NEPHROID_RANDOM_H
 #define NEPHROID_RANDOM_H
+
+// Streams keep apart what is drawn for different ends with the same (pass, index, dimension). No two kernels share one.
+#define STREAM_PHOTONS 0u        // photons.cl: index is the photon of a pass
+#define STREAM_CAMERA 1u         // direct.cl, here and below: index is the pixel
+#define STREAM_CAMERA_LIGHT 2u   // places on area lights
+#define STREAM_CAMERA_CLUSTER 3u // where a pixel starts among the clusters
 
 static inline uint4 philox4x32(uint4 counter, uint2 key)
 {
@@ -15,7 +21,7 @@ static inline uint4 philox4x32(uint4 counter, uint2 key)
   return counter;
 }
 
-// Four uniforms in [0, 1): dimensions 4 block .. 4 block + 3 of item `index` in `pass`.
+// Four uniforms in [0, 1): dimensions 4 block .. 4 block + 3 of item `index` in `pass` of `stream`.
 static inline float4 random4(uint2 seed, uint pass, uint index, uint block, uint stream)
 {
   const uint4 bits = philox4x32((uint4)(index, pass, block, stream), seed);

@@ -13,8 +13,14 @@ struct alignas(16) float4 {
 };
 #endif
 
+// 380..780 nm in steps of 1 nm: optics::wavelength_count.
+#define WAVELENGTH_COUNT 401
+
 // At most this many dielectrics may enclose one point.
 #define MEDIA_DEPTH 8
+
+// At most this many spheres stand for the caustic objects.
+#define MAX_TARGETS 16
 
 #define MATERIAL_DIFFUSE 0
 #define MATERIAL_DIELECTRIC 1
@@ -25,14 +31,14 @@ struct alignas(16) float4 {
 #define LIGHT_DIRECTIONAL 2
 #define LIGHT_AREA 3
 
-// Where a photon ended. The energy counters are in this order.
-#define OUTCOME_EMITTED 0   // sum of all the others
+// Where a photon ended: the energy counters, in quanta of power (DeviceTables::energy_scale), are in this order.
+#define OUTCOME_EMITTED 0   // sum of the next five
 #define OUTCOME_DEPOSITED 1 // on a diffuse surface after glass or a mirror
 #define OUTCOME_MISSED 2    // met no glass and no mirror: direct light
 #define OUTCOME_ABSORBED 3  // in glass or by a mirror
 #define OUTCOME_ESCAPED 4   // left the scene after glass or a mirror
 #define OUTCOME_LOST 5      // met max_surfaces interfaces, or more than MEDIA_DEPTH nested media
-#define OUTCOME_REFUSED 6   // count of film contributions too large for the film's fixed point (not watts)
+#define OUTCOME_REFUSED 6   // a plain count: film contributions too large for the film's fixed point
 #define OUTCOME_COUNT 7
 
 typedef struct {
@@ -56,20 +62,20 @@ typedef struct {
 } Media;
 
 typedef struct {
-  float4 position;     // directional: unused
-  float4 direction;    // unit, the way the light goes; w unused
-  float4 edge_u;       // area
-  float4 edge_v;       // area
+  float4 position;     // area: its centre; directional: unused
+  float4 direction;    // unit, the way the light goes; point: unused
+  float4 edge_u;       // area: the full edges
+  float4 edge_v;
   int type;            // LIGHT_*
   float one_minus_cos; // spot: of its half angle
-  float solid_angle;   // spot: of its cone
+  float solid_angle;   // spot: of its cone, in steradians
   float radiometric;   // point, spot, area: power in W; directional: irradiance in W m^-2
-  Media inside;
+  Media inside;        // directional: none
 } DeviceLight;
 
 // A bounding sphere of a caustic object: photons are sent towards these only.
 typedef struct {
-  float4 centre_radius;
+  float4 centre_radius; // w: radius
 } DeviceTarget;
 
 // Photons of one wavelength cluster from one light. Photon i of a pass belongs to the last emitter with first_photon <= i.
@@ -86,13 +92,13 @@ typedef struct {
   float4 position;
   float4 right, up, forward; // orthonormal
   float tan_x, tan_y;        // of half the angle of view
-  int width, height;
+  int width, height;         // pixels
   Media inside;
 } DeviceCamera;
 
 // What every kernel needs of the scene as a whole.
 typedef struct {
-  int root;               // of the tree
+  int root;               // of the tree: bvh.h
   int material_count;
   int light_count;
   int target_count;

@@ -3,6 +3,14 @@
 #ifndef NEPHROID_SURFACE_H
 #define NEPHROID_SURFACE_H
 
+#include "shared_types.h"
+#include "bvh.h"
+#include "fresnel.h"
+
+#ifndef NEPHROID_SMOOTH
+#define NEPHROID_SMOOTH 1
+#endif
+
 // The scene's triangles as kernels see them; every vertex has three floats a table.
 typedef struct {
   __global const float* nodes;    // bvh.h

@@ -3,6 +3,13 @@
 #ifndef NEPHROID_WORLD_H
 #define NEPHROID_WORLD_H
 
+#include "shared_types.h"
+#include "bvh.h"
+#include "attenuation.h"
+#include "interface.h"
+#include "media.h"
+#include "surface.h"
+
 #ifndef NEPHROID_MAX_SURFACES
 #define NEPHROID_MAX_SURFACES 32
 #endif

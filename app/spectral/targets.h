@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where photons are sent: spheres that together enclose every caustic object, as tightly as a few spheres can.
 #pragma once
+#include "kernels/shared_types.h"
 #include "scene/scene.h"
 
 #include <vector>
 
 namespace nephroid::spectral {
 
-/// As in kernels/emission.h.
-inline constexpr std::size_t max_targets = 16;
+inline constexpr std::size_t max_targets = MAX_TARGETS;
 
 /// At most max_targets spheres that hold every triangle of every dielectric and mirror object. A bunny in one sphere lets two photons
 /// of three pass beside it; an object is cut into pieces, each with its own sphere, as long as that makes the shadow of all spheres

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace nephroid::spectral {
@@ -13,6 +14,8 @@ namespace {
 using optics::Spectrum;
 using optics::wavelength_count;
 using shared::float4;
+
+static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the same wavelengths");
 
 /// A mirror that reflects nothing: exp(-50) is below every count.
 constexpr double blackest = 50;
@@ -48,7 +51,7 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std:
       row.attenuator = tables.attenuator_count++;
       for (int w = 0; w < wavelength_count; ++w)
         tables.coefficient.push_back(
-            static_cast<float>(4 * M_PI * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9)));
+            static_cast<float>(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9)));
     } else if (material.type == scene::Material::Type::mirror) {
       if (std::all_of(material.reflectance.begin(), material.reflectance.end(), [](double r) { return r == 1; })) continue;
       row.attenuator = tables.attenuator_count++;
