@@ -6,17 +6,16 @@
 #include "base/json_pointer.h"
 #include "cli/dispersion_input.h"
 #include "cli/verbs.h"
+#include "preset/choices.h"
 #include "preset/read.h"
 #include "scene/materials.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <set>
-#include <utility>
 #include <vector>
 
 namespace nephroid::cli {
@@ -40,26 +39,11 @@ struct Task {
   ClusterMethod method = ClusterMethod::optimal;
 };
 
-constexpr std::array<std::pair<const char*, ClusterMethod>, 3> methods{
-    {{"optimal", ClusterMethod::optimal}, {"thesis", ClusterMethod::thesis}, {"brute_force", ClusterMethod::brute_force}}};
-
-const char* name_of(ClusterMethod method)
+ClusterMethod method_called(const std::string& name)
 {
-  for (const auto& [name, value] : methods)
-    if (value == method) return name;
-  return "";
-}
-
-ClusterMethod method_of(preset::Spectral::Method method)
-{
-  switch (method) {
-  case preset::Spectral::Method::thesis:
-    return ClusterMethod::thesis;
-  case preset::Spectral::Method::brute_force:
-    return ClusterMethod::brute_force;
-  default:
-    return ClusterMethod::optimal;
-  }
+  for (const auto& choice : preset::Choices<ClusterMethod>::all)
+    if (choice.name == name) return choice.value;
+  throw bad_input("--method", fmt::format("'{}' is no method", name));
 }
 
 /// The dielectric to cluster: the wanted one, or the only one that an object is made of.
@@ -88,7 +72,7 @@ Task preset_task(const ClusterOptions& options)
   const std::string where = preset.source + "#/scene/materials/" + pointer_key(name) + "/dispersion";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   return {scene::make_curve(dispersion, finder, where), scene::outside_policy(dispersion.outside), preset.spectral.threshold_deg,
-          method_of(preset.spectral.method)};
+          preset.spectral.method};
 }
 
 Task make_task(const ClusterOptions& options)
@@ -99,9 +83,7 @@ Task make_task(const ClusterOptions& options)
   Task task = options.ior.empty() ? preset_task(options) : Task{.curve = find_dispersion(options.ior)};
   if (options.outside != "automatic") task.outside = outside_policy(options.outside);
   if (options.threshold_deg) task.threshold_deg = *options.threshold_deg;
-  if (options.method)
-    for (const auto& [name, value] : methods)
-      if (*options.method == name) task.method = value;
+  if (options.method) task.method = method_called(*options.method);
   return task;
 }
 
@@ -118,7 +100,7 @@ void print_json(const Clustering& clustering)
   Json clusters = Json::array();
   for (const spectral::Cluster& c : clustering.clusters)
     clusters.push_back({{"wavelengths_nm", wavelengths_nm(c)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});
-  const Json all{{"method", name_of(clustering.method)},
+  const Json all{{"method", preset::word(clustering.method)},
                  {"threshold_deg", clustering.threshold_deg},
                  {"total_theta_deg2", clustering.total_theta_deg2},
                  {"count", clustering.clusters.size()},
@@ -145,7 +127,7 @@ std::string runs(const spectral::Cluster& cluster)
 void print_text(const std::string& name, const Clustering& clustering)
 {
   fmt::print("{}: {} clusters by the method {} at {} degrees; the angle changes by {:.3f} square degrees in all\n", name,
-             clustering.clusters.size(), name_of(clustering.method), clustering.threshold_deg, clustering.total_theta_deg2);
+             clustering.clusters.size(), preset::word(clustering.method), clustering.threshold_deg, clustering.total_theta_deg2);
   fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "mean n", "deg^2", "wavelengths");
   for (const spectral::Cluster& c : clustering.clusters)
     fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2, runs(c));
@@ -174,11 +156,11 @@ void add_clusters(CLI::App& program, Session&)
       ->type_name("FILE");
   verb->add_option("--material", options->material, "Which dielectric of the preset, where it has several")->type_name("NAME");
   verb->add_option("--threshold", options->threshold_deg,
-                   "The largest change of the refraction angle inside a cluster, in degrees; default 0.05")
+                   "The largest change of the refraction angle inside a cluster, in degrees; default: the preset's, else 0.05")
       ->type_name("DEG");
   std::vector<std::string> names;
-  for (const auto& [name, value] : methods) names.emplace_back(name);
-  verb->add_option("--method", options->method, "optimal (default), thesis (Algorithm 4.1) or brute_force")
+  for (const auto& choice : preset::Choices<ClusterMethod>::all) names.emplace_back(choice.name);
+  verb->add_option("--method", options->method, "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal")
       ->check(CLI::IsMember(names))
       ->type_name("METHOD");
   add_outside_option(*verb, options->outside);
