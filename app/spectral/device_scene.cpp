@@ -1,26 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/device_scene.h"
 
+#include "base/error.h"
 #include "spectral/targets.h"
 #include "spectral/wavelength_tables.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace nephroid::spectral {
 namespace {
 
+using std::numbers::pi;
+
 shared::float4 to_float4(const glm::vec3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
-shared::Media to_media(const std::vector<int>& inside)
+/// where: of the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
+shared::Media to_media(const std::vector<int>& inside, const std::string& where)
 {
+  if (inside.size() > MEDIA_DEPTH)
+    throw bad_input(where, fmt::format("is inside {} dielectric objects", inside.size()),
+                    fmt::format("expected at most {} around one point", MEDIA_DEPTH), "move it, or take some of them away");
   shared::Media media{};
-  media.count = static_cast<int>(std::min<std::size_t>(inside.size(), MEDIA_DEPTH));
+  media.count = static_cast<int>(inside.size());
   std::copy_n(inside.begin(), media.count, media.objects);
   return media;
 }
 
-shared::DeviceLight device_light(const scene::Light& light)
+shared::DeviceLight device_light(const scene::Light& light, const std::string& where)
 {
   shared::DeviceLight out{};
   out.position = to_float4(light.position);
@@ -33,9 +43,24 @@ shared::DeviceLight device_light(const scene::Light& light)
              : light.type == Type::directional ? LIGHT_DIRECTIONAL
                                                : LIGHT_AREA;
   out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
-  out.solid_angle = static_cast<float>(2 * M_PI * (1 - light.cos_half_angle));
+  out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
   out.radiometric = static_cast<float>(light.type == Type::directional ? light.irradiance_w_m2 : light.power_w);
-  out.inside = to_media(light.inside);
+  out.inside = to_media(light.inside, where + "/position");
+  return out;
+}
+
+shared::DeviceCamera device_camera(const scene::Camera& camera, const std::string& where)
+{
+  shared::DeviceCamera out{};
+  out.position = to_float4(camera.position);
+  out.right = to_float4(camera.right);
+  out.up = to_float4(camera.up);
+  out.forward = to_float4(camera.forward);
+  out.tan_x = static_cast<float>(camera.tan_x);
+  out.tan_y = static_cast<float>(camera.tan_y);
+  out.width = camera.width;
+  out.height = camera.height;
+  out.inside = to_media(camera.inside, where + "/position");
   return out;
 }
 
@@ -46,20 +71,20 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
   for (const scene::Sphere& target : targets) {
     const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
     const double radius2 = double(target.radius) * target.radius;
-    steradians += distance2 <= radius2 ? 4 * M_PI : 2 * M_PI * (1 - std::sqrt(1 - radius2 / distance2));
-    square_metres += M_PI * radius2 * metres_per_unit * metres_per_unit;
+    steradians += distance2 <= radius2 ? 4 * pi : 2 * pi * (1 - std::sqrt(1 - radius2 / distance2));
+    square_metres += pi * radius2 * metres_per_unit * metres_per_unit;
   }
   switch (light.type) {
   case preset::Light::Type::directional:
     return light.irradiance_w_m2 * square_metres;
   case preset::Light::Type::spot:
-    return light.power_w * std::min(1.0, steradians / (2 * M_PI * (1 - light.cos_half_angle)));
+    return light.power_w * std::min(1.0, steradians / (2 * pi * (1 - light.cos_half_angle)));
   case preset::Light::Type::area:
-    return light.power_w * std::min(1.0, steradians / M_PI);
+    return light.power_w * std::min(1.0, steradians / pi);
   case preset::Light::Type::point:
     break;
   }
-  return light.power_w * std::min(1.0, steradians / (4 * M_PI));
+  return light.power_w * std::min(1.0, steradians / (4 * pi));
 }
 
 std::vector<shared::DeviceEmitter> make_emitters(const scene::Scene& scene, const std::vector<scene::Sphere>& targets,
@@ -110,11 +135,11 @@ void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, DeviceTa
   const double metres = scene.metres_per_unit;
   const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius) * metres;
   const double pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
-  tables.caustic_scale = power_of_two_below(std::exp2(38) * M_PI * distance * distance * pixel_area / tables.light_towards_targets_w);
+  tables.caustic_scale = power_of_two_below(std::exp2(38) * pi * distance * distance * pixel_area / tables.light_towards_targets_w);
   double irradiance = 0;
   for (const scene::Light& light : scene.lights)
-    irradiance += light.irradiance_w_m2 + light.power_w / (4 * M_PI * std::pow(bounds.radius * metres, 2));
-  tables.direct_scale = power_of_two_below(std::exp2(30) * M_PI / irradiance);
+    irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(bounds.radius * metres, 2));
+  tables.direct_scale = power_of_two_below(std::exp2(30) * pi / irradiance);
   tables.energy_scale = power_of_two_below(std::exp2(40) / tables.light_towards_targets_w);
 }
 
@@ -122,9 +147,6 @@ void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, DeviceTa
 
 std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
 {
-  const ClusterMethod method = settings.method == preset::Spectral::Method::optimal  ? ClusterMethod::optimal
-                               : settings.method == preset::Spectral::Method::thesis ? ClusterMethod::thesis
-                                                                                     : ClusterMethod::brute_force;
   std::vector<optics::Spectrum> curves;
   for (const scene::Object& object : scene.objects) {
     const scene::Material& material = scene.materials[static_cast<std::size_t>(object.material)];
@@ -132,23 +154,8 @@ std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, c
     if (std::find(curves.begin(), curves.end(), material.n) == curves.end()) curves.push_back(material.n);
   }
   std::vector<Clustering> clusterings;
-  for (const optics::Spectrum& curve : curves) clusterings.push_back(cluster_wavelengths(curve, settings.threshold_deg, method));
+  for (const optics::Spectrum& curve : curves) clusterings.push_back(cluster_wavelengths(curve, settings.threshold_deg, settings.method));
   return common_refinement(clusterings);
-}
-
-shared::DeviceCamera device_camera(const scene::Camera& camera)
-{
-  shared::DeviceCamera out{};
-  out.position = to_float4(camera.position);
-  out.right = to_float4(camera.right);
-  out.up = to_float4(camera.up);
-  out.forward = to_float4(camera.forward);
-  out.tan_x = static_cast<float>(camera.tan_x);
-  out.tan_y = static_cast<float>(camera.tan_y);
-  out.width = camera.width;
-  out.height = camera.height;
-  out.inside = to_media(camera.inside);
-  return out;
 }
 
 DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene)
@@ -158,11 +165,12 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
   const std::vector<scene::Sphere> targets = caustic_targets(scene);
   for (const scene::Sphere& target : targets) tables.targets.push_back({to_float4(target.centre, target.radius)});
   for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority, object.smooth ? 1 : 0, 0});
-  for (const scene::Light& light : scene.lights) tables.lights.push_back(device_light(light));
+  for (std::size_t l = 0; l < scene.lights.size(); ++l)
+    tables.lights.push_back(device_light(scene.lights[l], fmt::format("{}#/scene/lights/{}", scene.source, l)));
   tables.emitters = make_emitters(scene, targets, tables.wavelengths, static_cast<unsigned>(preset.spectral.photons_per_pass));
   for (const shared::DeviceEmitter& emitter : tables.emitters) tables.photons_per_pass += emitter.photon_count;
   for (const scene::Light& light : scene.lights) tables.light_towards_targets_w += towards_targets_w(light, targets, scene.metres_per_unit);
-  tables.camera = device_camera(scene.camera);
+  tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");
 
   const scene::Sphere bounds = scene_bounds(scene);
   set_scales(scene, bounds, tables);

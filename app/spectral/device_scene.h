@@ -45,8 +45,8 @@ struct DeviceTables {
 /// The clusters for all dielectrics that an object uses: of one curve its own, of several their common refinement, of none one group.
 std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene);
 
+/// Everything but DeviceScene::root, which is the tree's. Throws bad_input at FILE#/pointer where the camera or a light is inside more
+/// than MEDIA_DEPTH dielectrics, and for a threshold that cluster_wavelengths refuses.
 DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene);
-
-shared::DeviceCamera device_camera(const scene::Camera& camera);
 
 } // namespace nephroid::spectral

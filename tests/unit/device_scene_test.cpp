@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables that engine 1 hands to its kernels: targets that enclose, photons dealt out, sums over wavelength; and the plan's reasons.
+#include "base/error.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "plan/plan.h"
@@ -136,6 +137,34 @@ TEST(WavelengthTables, AMirrorOfOneIsNoAttenuatorAndABlackOneIs)
   const spectral::WavelengthTables w = spectral::make_device_tables(p, scene::load_scene(p)).wavelengths;
   EXPECT_EQ(w.attenuator_count, 1);
   EXPECT_EQ(w.coefficient[0], 50);
+}
+
+// Balls around one another: a path can carry MEDIA_DEPTH of them.
+TEST(DeviceTables, RefuseMoreMediaThanAPathCanCarry)
+{
+  preset::Preset p = scene_with({}, glass(1.5));
+  p.source = "p.json";
+  p.scene.camera.position = {0, 0, 0.1};
+  p.scene.objects.clear();
+  for (int i = 0; i < MEDIA_DEPTH; ++i) {
+    p.scene.objects.push_back(object("", preset::Shape{}, "thing"));
+    p.scene.objects.back().transform.scale = {1.0 + i, 1.0 + i, 1.0 + i};
+  }
+  EXPECT_EQ(spectral::make_device_tables(p, scene::load_scene(p)).camera.inside.count, MEDIA_DEPTH);
+  p.scene.objects.push_back(object("", preset::Shape{}, "thing"));
+  const auto refusal = [](const preset::Preset& preset) {
+    try {
+      spectral::make_device_tables(preset, scene::load_scene(preset));
+      return std::string("accepted");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+      return error.line();
+    }
+  };
+  EXPECT_THAT(refusal(p), testing::StartsWith("p.json#/scene/camera/position: is inside 9 dielectric objects; expected at most 8"));
+  p.scene.camera.position = {0, 0, 20};
+  p.scene.lights[0].position = {0, 0, 0.1};
+  EXPECT_THAT(refusal(p), testing::StartsWith("p.json#/scene/lights/0/position: is inside 9 dielectric objects"));
 }
 
 bool runs(const plan::Plan& plan, const std::string& name, std::string* reason = nullptr)
