@@ -35,13 +35,13 @@ int terminal_columns()
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/// "1.21 M": three figures and the SI prefix.
+/// "950", "1.21 M": three figures and the SI prefix.
 std::string with_prefix(double amount)
 {
-  const char* const prefixes[] = {"", "k", "M", "G", "T"};
+  const char* const prefixes[] = {"", " k", " M", " G", " T"};
   int prefix = 0;
   for (; amount >= 1000 && prefix < 4; ++prefix) amount /= 1000;
-  return fmt::format("{:.{}f} {}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, prefixes[prefix]);
+  return fmt::format("{:.{}f}{}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, prefixes[prefix]);
 }
 
 /// "0:07", "12:30", "3:00:00"
@@ -50,6 +50,13 @@ std::string clock_time(double seconds)
   const auto whole = static_cast<long long>(std::min(std::round(seconds), 1e9));
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+/// "pass 3 of 28": the one in hand, and after the last one that.
+std::string pass_text(const job::Progress& now)
+{
+  if (now.steps < 0) return fmt::format("pass {}", now.step + 1);
+  return fmt::format("pass {} of {}", std::min(now.step + 1, now.steps), now.steps);
 }
 
 std::string bar(double fraction, int width)
@@ -80,8 +87,8 @@ Pace pace_between(const job::Progress& start, const job::Progress& now)
 
 std::string progress_line(const std::string& name, const job::Progress& now, const Pace& pace, int columns)
 {
-  std::string figures = fmt::format("{:3.0f} %  pass {}", std::floor(now.fraction * 100), now.step);
-  if (pace.photons_per_second > 0) figures += fmt::format("  {}photons/s", with_prefix(pace.photons_per_second));
+  std::string figures = fmt::format("{:3.0f} %  {}", std::floor(now.fraction * 100), pass_text(now));
+  if (pace.photons_per_second > 0) figures += fmt::format("  {} photons/s", with_prefix(pace.photons_per_second));
   if (pace.seconds_left >= 0) figures += fmt::format("  {} left", clock_time(pace.seconds_left));
   const int room = columns - static_cast<int>(name.size() + figures.size()) - 6;
   std::string line = room >= 5 ? fmt::format("{}  [{}]  {}", name, bar(now.fraction, std::min(room, 30)), figures) : figures;

@@ -21,7 +21,7 @@ struct Pace {
 };
 Pace pace_between(const job::Progress& start, const job::Progress& now);
 
-/// "first-light  [#####-----]  51 %  pass 26  1.21 M photons/s  0:07 left", at most `columns` wide.
+/// "first-light  [#####-----]  51 %  pass 26 of 50  1.21 M photons/s  0:07 left", at most `columns` wide.
 std::string progress_line(const std::string& name, const job::Progress& now, const Pace& pace, int columns);
 /// {"type":"progress","name",...,"fraction","step","steps","photons","work_seconds","photons_per_second","seconds_left"}
 std::string progress_json(const std::string& name, const job::Progress& now, const Pace& pace);

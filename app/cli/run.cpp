@@ -129,7 +129,7 @@ private:
   {
     if (options_.resume && run::load_checkpoint(target_.folder, prepared, job)) {
       const job::Progress progress = job.progress();
-      fmt::print(stderr, "{}: going on after pass {} ({:.1f} s of work)\n", target_.label, progress.step, progress.work_seconds);
+      fmt::print(stderr, "{}: going on in pass {} ({:.1f} s of work so far)\n", target_.label, progress.step + 1, progress.work_seconds);
       run::write_settings(target_.folder, prepared);
       return;
     }
@@ -174,7 +174,7 @@ private:
     run::write_checkpoint(target_.folder, prepared, job);
     report_result(options_, target_, snapshot.progress, finished);
     if (!finished)
-      throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted after pass {}", snapshot.progress.step),
+      throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted in pass {}", snapshot.progress.step + 1),
                   "the image and a checkpoint are saved", "go on with --resume");
   }
 

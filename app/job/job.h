@@ -24,13 +24,15 @@ struct Picture {
 
 /// Where a job is. All counts are of the whole run, resumed parts included.
 struct Progress {
-  double fraction = 0; ///< 0..1 of the preset's own stop; 1 when finished
-  std::int64_t step = 0, steps = 0;
-  std::uint64_t photons = 0; ///< work done
+  double fraction = 0;       ///< 0..1 of the preset's own stop; 1 when finished
+  std::int64_t step = 0;     ///< passes completed; the one in hand is in `fraction` and `photons` only
+  std::int64_t steps = -1;   ///< passes in all; -1: it stops by time
+  std::uint64_t photons = 0; ///< sent so far
   double work_seconds = 0;   ///< of stepping, without start-up and snapshots
 };
 
-/// Photons in = out: weights in watts. in = deposited + missed + absorbed + escaped + lost within rounding.
+/// Where the power that photons carried went, as the mean of the passes: emitted = deposited + missed + absorbed + escaped + lost
+/// but for rounding. kernels/shared_types.h says what each is (OUTCOME_*).
 struct EnergyBalance {
   double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
   std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run

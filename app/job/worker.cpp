@@ -3,10 +3,13 @@
 // while a job works, so no reader ever waits for the device.
 #include "job/worker.h"
 
+#include "base/error.h"
+
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <thread>
 #include <utility>
 

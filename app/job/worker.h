@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worker thread: owns a job and, through it, the OpenCL queue. Others push commands and read the last snapshot.
 #pragma once
-#include "base/error.h"
 #include "job/job.h"
 
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace nephroid::job {
@@ -18,7 +16,7 @@ enum class State { idle, preparing, running, paused, finished, cancelled, failed
 struct Status {
   State state = State::idle;
   Progress progress;
-  std::string message;          ///< the error line where state is failed; notes otherwise
+  std::string message;          ///< the error line where state is failed, else empty
   std::uint64_t generation = 0; ///< counts start() calls: which job this is about
 };
 

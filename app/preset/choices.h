@@ -154,7 +154,8 @@ struct About<Spectral> {
 };
 template <>
 struct About<Stop> {
-  static constexpr std::string_view name = "Stop", sentence = "When a run is done; without any of these it goes on until it is stopped.";
+  static_assert(default_passes == 64, "the sentence says so");
+  static constexpr std::string_view name = "Stop", sentence = "When a run is done: at the first of these; without any, after 64 passes.";
 };
 template <>
 struct About<Preset> {

@@ -136,6 +136,10 @@ struct Spectral {
   bool operator==(const Spectral&) const = default;
 };
 
+/// How many passes a run has where its preset has no stop at all.
+inline constexpr int default_passes = 64;
+
+/// When a run is done: at the first of those given, else after default_passes.
 struct Stop {
   std::optional<double> seconds; ///< of work
   std::optional<int> passes;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -19,7 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double step_seconds = 0.05;
-constexpr int default_passes = 64; ///< where the preset has neither stop.passes nor stop.seconds
 constexpr std::uint32_t checkpoint_version = 1;
 
 struct Uint2 {
@@ -65,7 +65,9 @@ public:
         white_(preset.white), stop_seconds_(preset.stop.seconds), pixel_samples_(preset.spectral.pixel_samples),
         direct_(runs(plan, "direct")), photons_(runs(plan, "photons"))
   {
-    if (preset.stop.passes || !preset.stop.seconds) passes_ = preset.stop.passes.value_or(default_passes);
+    if (preset.stop.passes || !preset.stop.seconds) passes_ = preset.stop.passes.value_or(preset::default_passes);
+    // Without photons a run is over when every pixel has its samples.
+    if (!photons_ && (passes_ < 0 || passes_ > pixel_samples_)) passes_ = pixel_samples_;
     tables_.scene.root = bvh.root;
     const std::size_t sums = 3 * static_cast<std::size_t>(tables_.camera.width) * static_cast<std::size_t>(tables_.camera.height);
     compute::Defines defines = plan.defines;
@@ -80,8 +82,6 @@ public:
       caustic_film_ = zeroed("film caustic", sums);
       photon_kernel_ = compute::Program(context, "photons.cl", defines).kernel("photons");
     }
-    tables_.scene.root = bvh.root;
-    skip_empty_pass();
   }
 
   bool finished() const override
@@ -107,7 +107,6 @@ public:
       ++at_.pass;
       at_.row = at_.slice = 0;
       at_.slices = 1;
-      skip_empty_pass();
     }
   }
 
@@ -116,10 +115,10 @@ public:
     job::Progress p;
     p.step = at_.pass;
     p.steps = passes_;
-    p.photons = static_cast<std::uint64_t>(passes_done() * (photons_ ? tables_.photons_per_pass : 0));
+    p.photons = static_cast<std::uint64_t>(photon_passes() * (photons_ ? tables_.photons_per_pass : 0));
     p.work_seconds = at_.work_seconds;
     const double by_seconds = stop_seconds_ ? at_.work_seconds / *stop_seconds_ : 0,
-                 by_passes = passes_ > 0 ? pass_fraction() / passes_ : 0;
+                 by_passes = passes_ > 0 ? passes_with_part() / passes_ : 0;
     p.fraction = finished() ? 1 : std::min(std::max(by_seconds, by_passes), 1.0);
     return p;
   }
@@ -138,7 +137,7 @@ public:
       picture->layers.push_back(develop("direct", direct_film_.read(), picture->width, factor, white_));
     }
     if (photons_) {
-      const double done = passes_done();
+      const double done = photon_passes();
       picture->layers.push_back(develop(
           "caustic", caustic_film_.read(), picture->width, [&](int) { return done > 0 ? 1 / (tables_.caustic_scale * done) : 0; }, white_));
     }
@@ -219,17 +218,16 @@ private:
   }
 
   std::int64_t direct_left() const { return direct_ && at_.pass < pixel_samples_ ? tables_.camera.height - at_.row : 0; }
-  /// Passes of photons done, with the part of the one in hand.
-  double passes_done() const { return static_cast<double>(at_.pass) + static_cast<double>(at_.slice) / static_cast<double>(at_.slices); }
-  double pass_fraction() const
+  /// Passes of photons done, with the part of the one in hand: what sums of photons are divided by.
+  double photon_passes() const { return static_cast<double>(at_.pass) + static_cast<double>(at_.slice) / static_cast<double>(at_.slices); }
+  /// Passes done with the part of the one in hand, whose rows come before its photons and count as much.
+  double passes_with_part() const
   {
-    return photons_ ? passes_done() : static_cast<double>(at_.pass) + static_cast<double>(at_.row) / tables_.camera.height;
-  }
-
-  /// Without photons a run is over when every pixel has its samples.
-  void skip_empty_pass()
-  {
-    if (!photons_ && (passes_ < 0 || passes_ > pixel_samples_)) passes_ = pixel_samples_;
+    const bool rows = direct_ && at_.pass < pixel_samples_;
+    const double row_part = static_cast<double>(at_.row) / tables_.camera.height,
+                 photon_part = static_cast<double>(at_.slice) / static_cast<double>(at_.slices);
+    const double part = rows && photons_ ? (row_part + photon_part) / 2 : rows ? row_part : photon_part;
+    return static_cast<double>(at_.pass) + part;
   }
 
   /// Runs a kernel whose arguments begin with WORLD_ARGUMENTS (kernels/world.h), and waits for it.
@@ -270,7 +268,7 @@ private:
   job::EnergyBalance energy_balance()
   {
     const std::vector<std::int64_t> sums = energy_.read();
-    const double passes = passes_done();
+    const double passes = photon_passes();
     const auto watts = [&](int outcome) {
       return passes > 0 ? static_cast<double>(sums[static_cast<std::size_t>(outcome)]) / (tables_.energy_scale * passes) : 0;
     };

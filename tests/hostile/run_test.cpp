@@ -113,7 +113,7 @@ TEST_F(Runs, KilledAndResumedEqualUninterruptedOnes)
   write_file_whole(scratch.path() / "killed" / ".image.1-1.tmp.exr", "half a picture"); // as a writer killed at its work leaves it
   const Ended resumed = run("killed", {"--passes", "80", "--resume"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_THAT(resumed.err, HasSubstr("going on after pass"));
+  EXPECT_THAT(resumed.err, HasSubstr("going on in pass"));
   EXPECT_TRUE(picture("whole") == picture("killed"));
   EXPECT_FALSE(fs::exists(scratch.path() / "killed" / ".image.1-1.tmp.exr"));
 }
@@ -126,7 +126,7 @@ TEST_F(Runs, InterruptedOnesLeaveAPictureAndACheckpoint)
     child.send(signal);
     const Ended ended = child.wait();
     EXPECT_EQ(ended.exit_code, 130);
-    EXPECT_THAT(ended.err, HasSubstr("interrupted after pass"));
+    EXPECT_THAT(ended.err, HasSubstr("interrupted in pass"));
     EXPECT_THAT(ended.err, HasSubstr("--resume"));
     EXPECT_EQ(nephroid::image::read_image(file(name, "image.exr")).width, 48);
     EXPECT_EQ(run_json(name)["finished"], false);

@@ -39,9 +39,18 @@ TEST(Pace, IsUnknownAtTheStart)
 TEST(ProgressLine, HasBarPassRateAndTimeLeft)
 {
   const std::string line = progress_line("prism", at(0.5, 50, 0, 0), {1.214e6, 3661}, 100);
-  EXPECT_EQ(line, "prism  [###############---------------]   50 %  pass 50  1.21 Mphotons/s  1:01:01 left");
-  EXPECT_THAT(progress_line("prism", at(0.999, 99, 0, 0), {950, 7.4}, 100), HasSubstr(" 99 %  pass 99  950 photons/s  0:07 left"));
+  EXPECT_EQ(line, "prism  [###############---------------]   50 %  pass 51 of 100  1.21 M photons/s  1:01:01 left");
+  EXPECT_THAT(progress_line("prism", at(0.999, 99, 0, 0), {950, 7.4}, 100), HasSubstr(" 99 %  pass 100 of 100  950 photons/s  0:07 left"));
   EXPECT_THAT(progress_line("prism", at(0, 0, 0, 0), {}, 100), Not(HasSubstr("left"))) << "no figure before there is one";
+}
+
+TEST(ProgressLine, CountsThePassInHand)
+{
+  EXPECT_THAT(progress_line("prism", at(0.004, 0, 0, 0), {}, 100), HasSubstr("  0 %  pass 1 of 100"));
+  EXPECT_THAT(progress_line("prism", at(1, 100, 0, 0), {}, 100), HasSubstr("100 %  pass 100 of 100"));
+  job::Progress by_time = at(0.5, 7, 0, 0);
+  by_time.steps = -1;
+  EXPECT_THAT(progress_line("prism", by_time, {}, 100), testing::EndsWith(" 50 %  pass 8"));
 }
 
 TEST(ProgressLine, NeverIsWiderThanTheTerminal)
