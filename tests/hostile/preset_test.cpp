@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad presets: each is refused with exactly one line that says where, what is wrong, what is expected and what to do.
-#include "base/error.h"
 #include "preset/read.h"
+#include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace nephroid;
+using test::refusal_of;
 
 struct Case {
   std::string what, text, line;
@@ -43,19 +44,6 @@ std::string zeros(int count)
 }
 
 void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
-
-/// The line of the error; anything but an Error of bad input fails the test.
-template <class Call>
-std::string line_of(Call call)
-{
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    return error.line();
-  }
-  return "was accepted";
-}
 
 class BadPresets : public testing::Test {
 protected:
@@ -252,7 +240,7 @@ TEST_F(BadPresets, AreRefusedInOneLine)
   };
   for (const Case& c : cases) {
     write("bad.json", c.text);
-    EXPECT_EQ(line_of([] { preset::read_presets("bad.json"); }), c.line) << c.what;
+    EXPECT_EQ(refusal_of([] { preset::read_presets("bad.json"); }), c.line) << c.what;
   }
 }
 
@@ -285,7 +273,7 @@ TEST_F(BadPresets, OverridesAreRefusedInOneLine)
        R"(--set scene.camera={"fov":30}: unknown key 'fov'; the keys here are position, target, up, fov_deg, resolution; did you mean 'fov_deg'?)"},
   };
   write("good.json", scene(R"("objects":[],"lights":[])"));
-  for (const Case& c : cases) EXPECT_EQ(line_of([&] { preset::read_presets("good.json", {c.text}); }), c.line) << c.what;
+  for (const Case& c : cases) EXPECT_EQ(refusal_of([&] { preset::read_presets("good.json", {c.text}); }), c.line) << c.what;
 }
 
 TEST_F(BadPresets, FilesThatAreNone)
@@ -304,7 +292,7 @@ TEST_F(BadPresets, FilesThatAreNone)
       {"a mistyped shipped preset", "first-ligth",
        "preset: there is no preset 'first-ligth'; expected a file or the name of a shipped preset; did you mean 'first-light'?"},
   };
-  for (const Case& c : cases) EXPECT_EQ(line_of([&] { preset::read_preset(c.text); }), c.line) << c.what;
+  for (const Case& c : cases) EXPECT_EQ(refusal_of([&] { preset::read_preset(c.text); }), c.line) << c.what;
 }
 
 TEST_F(BadPresets, ErrorsNameTheFileThatTheyStandIn)
@@ -321,32 +309,32 @@ TEST_F(BadPresets, ErrorsNameTheFileThatTheyStandIn)
   };
   for (const Case& c : cases) {
     write("child.json", R"({"parent":"parent.json",)" + c.text + "}");
-    EXPECT_EQ(line_of([] { preset::read_preset("child.json"); }), c.line) << c.what;
+    EXPECT_EQ(refusal_of([] { preset::read_preset("child.json"); }), c.line) << c.what;
   }
   write("parent.json", R"({"parent":"child.json"})");
-  EXPECT_EQ(line_of([] { preset::read_preset("child.json"); }),
+  EXPECT_EQ(refusal_of([] { preset::read_preset("child.json"); }),
             "parent.json#/parent: parents go round in a circle: child.json -> parent.json -> child.json");
 }
 
 TEST_F(BadPresets, HugeAndDeepTextEndsQuickly)
 {
   const std::string deep(1'000'000, '[');
-  EXPECT_EQ(line_of([&] { preset::parse_preset(deep, "bad.json"); }),
+  EXPECT_EQ(refusal_of([&] { preset::parse_preset(deep, "bad.json"); }),
             fmt::format("bad.json#{}: is nested deeper than 64 levels", zeros(64)));
   std::string keys = top(R"("seed":1)");
   keys.pop_back();
   for (int i = 0; i < 1000; ++i) keys += fmt::format(",\"k{}\":0", i);
-  EXPECT_EQ(line_of([&] { preset::parse_preset(keys + "}", "bad.json"); }),
+  EXPECT_EQ(refusal_of([&] { preset::parse_preset(keys + "}", "bad.json"); }),
             "bad.json#/k998: too many keys; expected at most 1000 in one object");
 }
 
 TEST_F(BadPresets, ASweepIsNotOnePreset)
 {
   const std::string sweep = top(R"("sweep":{"seed":[1,2,3]})");
-  EXPECT_EQ(line_of([&] { preset::parse_preset(sweep, "bad.json"); }),
+  EXPECT_EQ(refusal_of([&] { preset::parse_preset(sweep, "bad.json"); }),
             "bad.json#/sweep: gives 3 runs; one preset is wanted here; fix the swept keys by --set, or --set sweep=null");
   EXPECT_EQ(preset::parse_preset(sweep, "bad.json", {"seed=7"}).seed, 7u);
-  EXPECT_EQ(line_of([&] { preset::parse_preset(top(R"("sweep":{"scene.camera":[{}]})"), "bad.json", {"scene.camera.fov_deg=30"}); }),
+  EXPECT_EQ(refusal_of([&] { preset::parse_preset(top(R"("sweep":{"scene.camera":[{}]})"), "bad.json", {"scene.camera.fov_deg=30"}); }),
             "--set scene.camera.fov_deg=30: the preset sweeps 'scene.camera', which would overwrite it; set scene.camera as a whole");
 }
 

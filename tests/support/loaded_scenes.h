@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the tests of scene loading start from and ask of a loaded scene.
 #pragma once
-#include "base/error.h"
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 
@@ -44,13 +44,7 @@ inline preset::Preset ball_over_floor()
 /// The error line that loading the scene gives, which must be of bad input.
 inline std::string refusal(const preset::Preset& preset)
 {
-  try {
-    scene::load_scene(preset);
-    return "accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::bad_input) << error.line();
-    return error.line();
-  }
+  return refusal_of([&] { scene::load_scene(preset); });
 }
 
 /// Lowest and highest corner of an object's triangles in the preset's coordinates.

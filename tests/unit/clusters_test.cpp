@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wavelength clusters: the figures for N-SF66 and N-BK7, exact integrals, and what must hold for any curve.
-#include "base/error.h"
 #include "optics/dispersion.h"
 #include "spectral/clusters.h"
 #include "spectral/clusters_theta.h"
+#include "tests/support/errors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -254,14 +254,8 @@ TEST(Clusters, BelowOneTheAngleEndsAtNinetyDegreesAndNothingIsNan)
 
 TEST(Clusters, BadInputIsRefused)
 {
-  const auto error_of = [](const Spectrum& n, double threshold) -> std::string {
-    try {
-      cluster_wavelengths(n, threshold, ClusterMethod::optimal);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 2);
-      return error.line();
-    }
-    return "no error";
+  const auto error_of = [](const Spectrum& n, double threshold) {
+    return test::refusal_of([&] { cluster_wavelengths(n, threshold, ClusterMethod::optimal); });
   };
   const Spectrum good = made([](double) { return 1.5; });
   for (double threshold : {0.0, -1.0, 90.0, static_cast<double>(NAN), static_cast<double>(INFINITY)})

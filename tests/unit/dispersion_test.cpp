@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dispersion against published figures, hand-computed values of every formula, and the oddities of the refractiveindex.info
 // database. Malformed files are in dispersion_file_test.cpp.
-#include "base/error.h"
 #include "optics/dispersion.h"
 #include "optics/formulas.h"
+#include "tests/support/errors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace {
 
 using namespace nephroid::optics;
-using nephroid::Error;
+using nephroid::test::refusal_of;
 using Rows = std::vector<std::array<double, 2>>;
 
 const std::filesystem::path materials = std::filesystem::path(NEPHROID_SOURCE_DIR) / "presets/materials";
@@ -29,17 +29,6 @@ double n_at(const DispersionCurve& curve, double nm, Outside outside = Outside::
 }
 
 DispersionCurve from_yaml(const std::string& data) { return parse_dispersion("DATA:\n" + data, "test.yml"); }
-
-std::string error_of(const std::function<void()>& call)
-{
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    return error.line();
-  }
-  return "no error";
-}
 
 struct Glass {
   const char* file;
@@ -117,7 +106,7 @@ TEST(Dispersion, AFormulaWithoutAFiniteValueAnswersNothing)
   const IndexSample below = curve.sample(445); // just below the pole at 450 nm: n^2 is far below 0
   EXPECT_FALSE(below.n);
   EXPECT_TRUE(below.extrapolated);
-  EXPECT_THAT(error_of([&] { sample_n(curve, Outside::automatic); }),
+  EXPECT_THAT(refusal_of([&] { sample_n(curve, Outside::automatic); }),
               testing::AllOf(testing::HasSubstr("gives no number at"), testing::HasSubstr("500..1000 nm")));
   EXPECT_NEAR(sample_n(curve, Outside::hold)[0], n_at(curve, 500), 1e-15);
 }
@@ -128,7 +117,7 @@ TEST(Dispersion, RangeEndsCountAsInside)
   for (double nm : {486.1, 589.3, 486.1 * (1 - 5e-7), 589.3 * (1 + 5e-7)}) EXPECT_FALSE(curve.sample(nm).extrapolated) << nm;
   for (double nm : {486.0, 589.31}) EXPECT_TRUE(curve.sample(nm).extrapolated) << nm;
   EXPECT_NO_THROW(curve.sample(589.3, Outside::refuse));
-  EXPECT_THAT(error_of([&] { curve.sample(600, Outside::refuse); }),
+  EXPECT_THAT(refusal_of([&] { curve.sample(600, Outside::refuse); }),
               testing::HasSubstr("test.yml: test has no n at 600 nm; expected a wavelength in its range 486.1..589.3 nm"));
 }
 
@@ -147,8 +136,8 @@ TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
   EXPECT_EQ(outside_note(glass, Outside::automatic), "N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)");
   EXPECT_EQ(outside_note(glass, Outside::hold), "N-SF66: n is held below 390 nm (data: 390..2500 nm)");
   EXPECT_EQ(outside_note(load_dispersion(materials / "N-BK7.yml"), Outside::automatic), "");
-  EXPECT_THAT(error_of([&] { sample_n(glass, Outside::refuse); }), testing::HasSubstr("no n at 380 nm"));
-  EXPECT_THAT(error_of([&] { sample_k(glass, Outside::refuse); }), testing::HasSubstr("no k at 380 nm"));
+  EXPECT_THAT(refusal_of([&] { sample_n(glass, Outside::refuse); }), testing::HasSubstr("no n at 380 nm"));
+  EXPECT_THAT(refusal_of([&] { sample_k(glass, Outside::refuse); }), testing::HasSubstr("no k at 380 nm"));
 
   const DispersionCurve table = tabulated(Rows{{500, 1.6}, {600, 1.5}});
   for (Outside outside : {Outside::automatic, Outside::hold, Outside::extrapolate}) {
@@ -167,7 +156,7 @@ TEST(Dispersion, DatabaseTablesAreReadAsTheyAre)
   EXPECT_NEAR(n_at(odd, 550), 0.2, 1e-12);
   EXPECT_NEAR(*odd.sample(700).k, -0.01, 1e-15);
   EXPECT_EQ(sample_k(odd, Outside::automatic)[700 - first_nm], 0); // but light does not gain from it
-  EXPECT_THAT(error_of([&] { sample_n(odd, Outside::automatic); }), testing::HasSubstr("n above 0"));
+  EXPECT_THAT(refusal_of([&] { sample_n(odd, Outside::automatic); }), testing::HasSubstr("n above 0"));
 
   const DispersionCurve single = from_yaml("  - type: tabulated n\n    data: |\n        0.5893 1.33\n");
   EXPECT_EQ(n_at(single, 589.3), 1.33);
@@ -182,7 +171,7 @@ TEST(Dispersion, FilesWithOneOfNAndKOrWithBothApart)
   EXPECT_FALSE(k_only.sample(500).n);
   EXPECT_NEAR(*k_only.sample(500).k, 0.2, 1e-15);
   EXPECT_EQ(k_only.range_nm(), (std::array{400.0, 600.0}));
-  EXPECT_THAT(error_of([&] { sample_n(k_only, Outside::automatic); }), testing::HasSubstr("no index of refraction n, only k"));
+  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Outside::automatic); }), testing::HasSubstr("no index of refraction n, only k"));
 
   const DispersionCurve both = from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n  - type: constant\n    value: 1.7\n");
   EXPECT_EQ(n_at(both, 500), 1.7);
@@ -257,20 +246,23 @@ TEST(Dispersion, BadCurvesAreRefused)
 {
   using testing::HasSubstr;
   const double two[] = {1, 2}, one[] = {1}, bad[] = {1, NAN};
-  EXPECT_THAT(error_of([&] { sellmeier(two, one); }), HasSubstr("2 values of b and 1 of c"));
-  EXPECT_THAT(error_of([&] { sellmeier({}, {}); }), HasSubstr("no coefficients"));
-  EXPECT_THAT(error_of([&] { sellmeier(two, bad); }), HasSubstr("not finite"));
-  EXPECT_THAT(error_of([&] { sellmeier(one, one, 700, 400); }), HasSubstr("0 < low <= high"));
-  EXPECT_THAT(error_of([&] { cauchy({}); }), HasSubstr("no coefficients"));
-  EXPECT_THAT(error_of([&] { constant_index(0); }), HasSubstr("a number above 0"));
-  EXPECT_THAT(error_of([&] { constant_index(INFINITY); }), HasSubstr("a number above 0"));
-  EXPECT_THAT(error_of([&] { tabulated({}); }), HasSubstr("the table is empty"));
-  EXPECT_THAT(error_of([&] { tabulated(Rows{{500, 1.5}, {500, 1.6}}); }), HasSubstr("500 nm is given twice, with the values 1.5 and 1.6"));
+  EXPECT_THAT(refusal_of([&] { sellmeier(two, one); }), HasSubstr("2 values of b and 1 of c"));
+  EXPECT_THAT(refusal_of([&] { sellmeier({}, {}); }), HasSubstr("no coefficients"));
+  EXPECT_THAT(refusal_of([&] { sellmeier(two, bad); }), HasSubstr("not finite"));
+  EXPECT_THAT(refusal_of([&] { sellmeier(one, one, 700, 400); }), HasSubstr("0 < low <= high"));
+  EXPECT_THAT(refusal_of([&] { cauchy({}); }), HasSubstr("no coefficients"));
+  EXPECT_THAT(refusal_of([&] { constant_index(0); }), HasSubstr("a number above 0"));
+  EXPECT_THAT(refusal_of([&] { constant_index(INFINITY); }), HasSubstr("a number above 0"));
+  EXPECT_THAT(refusal_of([&] { tabulated({}); }), HasSubstr("the table is empty"));
+  EXPECT_THAT(refusal_of([&] {
+                tabulated(Rows{{500, 1.5}, {500, 1.6}});
+              }),
+              HasSubstr("500 nm is given twice, with the values 1.5 and 1.6"));
   EXPECT_NO_THROW(tabulated(Rows{{500, 1.5}, {500, 1.5}}));
-  EXPECT_THAT(error_of([&] { tabulated(Rows{{-500, 1.5}}); }), HasSubstr("a wavelength above 0"));
-  EXPECT_THAT(error_of([&] { control_points(Rows{{500, NAN}}); }), HasSubstr("not finite"));
-  EXPECT_THAT(error_of([&] { constant_index(1.5).sample(-1); }), HasSubstr("the wavelength is -1 nm"));
-  EXPECT_THAT(error_of([&] { constant_index(1.5).sample(NAN); }), HasSubstr("a number above 0"));
+  EXPECT_THAT(refusal_of([&] { tabulated(Rows{{-500, 1.5}}); }), HasSubstr("a wavelength above 0"));
+  EXPECT_THAT(refusal_of([&] { control_points(Rows{{500, NAN}}); }), HasSubstr("not finite"));
+  EXPECT_THAT(refusal_of([&] { constant_index(1.5).sample(-1); }), HasSubstr("the wavelength is -1 nm"));
+  EXPECT_THAT(refusal_of([&] { constant_index(1.5).sample(NAN); }), HasSubstr("a number above 0"));
 }
 
 } // namespace

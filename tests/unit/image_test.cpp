@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/image.h"
+#include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace nephroid;
 using namespace nephroid::image;
+using test::error_of;
 using testing::HasSubstr;
 
 class Pictures : public testing::Test {
@@ -39,18 +41,6 @@ Image example(int width = 33, int height = 17)
   image.data[1] = std::numeric_limits<float>::infinity();
   image.data[2] = -1e-42f; // a denormal
   return image;
-}
-
-template <class Call>
-Error error_of(Call call)
-{
-  try {
-    call();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no error was thrown";
-  return failed("", "");
 }
 
 TEST_F(Pictures, ExrKeepsEveryBitChannelAndAttribute)

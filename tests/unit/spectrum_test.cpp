@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light spectra and reflectances against published figures: white points of CIE 015, Planck's law, the ColorChecker.
-#include "base/error.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "tests/support/errors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,23 +15,11 @@
 namespace {
 
 using namespace nephroid::optics;
-using nephroid::Error;
+using nephroid::test::refusal_of;
 using Rows = std::vector<std::array<double, 2>>;
 
 double sum(const Spectrum& s) { return std::accumulate(s.begin(), s.end(), 0.0); }
 double at(const Spectrum& s, int nm) { return s[static_cast<std::size_t>(nm - first_nm)]; }
-
-std::string error_of(const std::function<void()>& call)
-{
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_EQ(error.line().find('\n'), std::string::npos);
-    return error.line();
-  }
-  return "no error";
-}
 
 struct WhitePoint {
   const char* name;
@@ -67,7 +55,7 @@ TEST(Spectrum, EveryIlluminantIsNamedAndAnUnknownOneIsRefused)
 {
   EXPECT_EQ(illuminant_names().size(), 16u);
   for (const std::string& name : illuminant_names()) EXPECT_NEAR(sum(illuminant(name)), 1, 1e-14) << name;
-  const std::string line = error_of([] { illuminant("D66"); });
+  const std::string line = refusal_of([] { illuminant("D66"); });
   EXPECT_THAT(line, testing::AllOf(testing::HasSubstr("no illuminant is called \"D66\""), testing::HasSubstr("A, D50, D65")));
 }
 
@@ -99,9 +87,9 @@ TEST(Spectrum, BlackBodyFollowsPlanck)
 TEST(Spectrum, BlackBodyStaysFiniteAtExtremes)
 {
   for (double kelvin : {1e-3, 1.0, 1e9, 1e300}) EXPECT_NEAR(sum(blackbody(kelvin)), 1, 1e-12) << kelvin;
-  EXPECT_THAT(error_of([] { blackbody(0); }), testing::HasSubstr("a black body of 0 K"));
-  EXPECT_THAT(error_of([] { blackbody(-1); }), testing::HasSubstr("above 0 K"));
-  EXPECT_THAT(error_of([] { blackbody(std::nan("")); }), testing::HasSubstr("above 0 K"));
+  EXPECT_THAT(refusal_of([] { blackbody(0); }), testing::HasSubstr("a black body of 0 K"));
+  EXPECT_THAT(refusal_of([] { blackbody(-1); }), testing::HasSubstr("above 0 K"));
+  EXPECT_THAT(refusal_of([] { blackbody(std::nan("")); }), testing::HasSubstr("above 0 K"));
 }
 
 TEST(Spectrum, LightTableIsZeroOutsideAndSumsToOne)
@@ -125,15 +113,15 @@ TEST(Spectrum, LinesGoToTheirTwoNearestWavelengths)
 
 TEST(Spectrum, BadLightsAreRefused)
 {
-  EXPECT_THAT(error_of([] { light_table(Rows{}); }), testing::HasSubstr("the table is empty"));
-  EXPECT_THAT(error_of([] { light_table(Rows{{900, 1}, {1000, 1}}); }), testing::HasSubstr("no power in 380..780 nm"));
-  EXPECT_THAT(error_of([] { light_table(Rows{{500, 0}, {600, 0}}); }), testing::HasSubstr("no power"));
-  EXPECT_THAT(error_of([] { light_table(Rows{{500, 1}, {600, -1}}); }), testing::HasSubstr("at 600 nm is -1"));
-  EXPECT_THAT(error_of([] { light_table(Rows{{500, 1}, {500, 2}}); }), testing::HasSubstr("500 nm is given twice"));
-  EXPECT_THAT(error_of([] { light_table(Rows{{500, std::nan("")}}); }), testing::HasSubstr("not finite"));
-  EXPECT_THAT(error_of([] { light_lines(Rows{}); }), testing::HasSubstr("no power"));
-  EXPECT_THAT(error_of([] { light_lines(Rows{{200, 1}}); }), testing::HasSubstr("no power in 380..780 nm"));
-  EXPECT_THAT(error_of([] { light_lines(Rows{{500, INFINITY}}); }), testing::HasSubstr("not finite"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{}); }), testing::HasSubstr("the table is empty"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{900, 1}, {1000, 1}}); }), testing::HasSubstr("no power in 380..780 nm"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 0}, {600, 0}}); }), testing::HasSubstr("no power"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 1}, {600, -1}}); }), testing::HasSubstr("at 600 nm is -1"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 1}, {500, 2}}); }), testing::HasSubstr("500 nm is given twice"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, std::nan("")}}); }), testing::HasSubstr("not finite"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{}); }), testing::HasSubstr("no power"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{{200, 1}}); }), testing::HasSubstr("no power in 380..780 nm"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{{500, INFINITY}}); }), testing::HasSubstr("not finite"));
 }
 
 // Under its design light C the patches have published xyY; under D65 Y of the greys is close to their nominal 9.5 .. 2 values.
@@ -151,7 +139,7 @@ TEST(Spectrum, ColorCheckerGreysFallFromWhiteToBlack)
   EXPECT_NEAR(at(colorchecker_patch("dark skin"), 380), 0.048, 1e-12);
   EXPECT_NEAR(at(colorchecker_patch("dark skin"), 381), 0.048 + (0.051 - 0.048) / 5, 1e-12);
   EXPECT_NEAR(at(colorchecker_patch("blue sky"), 382), 0.113 + 2 * (0.138 - 0.113) / 5, 1e-12);
-  EXPECT_THAT(error_of([] { colorchecker_patch("blue skye"); }), testing::HasSubstr("did you mean \"blue sky\"?"));
+  EXPECT_THAT(refusal_of([] { colorchecker_patch("blue skye"); }), testing::HasSubstr("did you mean \"blue sky\"?"));
 }
 
 TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
@@ -160,8 +148,8 @@ TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
   EXPECT_EQ(at(r, 380), 0.2);
   EXPECT_NEAR(at(r, 550), 0.3, 1e-15);
   EXPECT_EQ(at(r, 780), 0.4);
-  EXPECT_THAT(error_of([] { reflectance_table(Rows{{500, 1.2}}); }), testing::HasSubstr("0 to 1"));
-  EXPECT_THAT(error_of([] { reflectance_table(Rows{{500, std::nan("")}}); }), testing::HasSubstr("0 to 1"));
+  EXPECT_THAT(refusal_of([] { reflectance_table(Rows{{500, 1.2}}); }), testing::HasSubstr("0 to 1"));
+  EXPECT_THAT(refusal_of([] { reflectance_table(Rows{{500, std::nan("")}}); }), testing::HasSubstr("0 to 1"));
   EXPECT_EQ(constant_spectrum(0.5)[200], 0.5);
 }
 
