@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <regex>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -79,6 +80,24 @@ bool write_all(int descriptor, std::string_view bytes)
   return true;
 }
 
+/// ".STEM.PROCESS-COUNT.tmp.EXTENSION" beside path: no other writer has it.
+fs::path temporary_name(const fs::path& path)
+{
+  static std::atomic<unsigned> count{0}; // two threads may write the same file
+  return path.parent_path() / fmt::format(".{}.{}-{}.tmp{}", path.stem().string(), ::getpid(), count++, path.extension().string());
+}
+
+/// Flushes a written temporary file to disk and renames it to path.
+void commit_file(const fs::path& temporary, const fs::path& path)
+{
+  Descriptor file(::open(temporary.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.ok() || ::fsync(file.number()) != 0 || !file.close()) give_up(temporary, path, errno);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) give_up(temporary, path, errno);
+  // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by then.
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (Descriptor entry(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)); entry.ok()) ::fsync(entry.number());
+}
+
 /// The folder of the running program, empty where /proc is not mounted.
 fs::path program_folder()
 {
@@ -143,13 +162,6 @@ std::string read_file(const fs::path& path)
   return bytes;
 }
 
-fs::path temporary_name(const fs::path& path)
-{
-  static std::atomic<unsigned> count{0}; // two threads may write the same file
-  // The extension stays last: picture writers choose their format by it.
-  return path.parent_path() / fmt::format(".{}.{}-{}.tmp{}", path.stem().string(), ::getpid(), count++, path.extension().string());
-}
-
 void write_file_whole(const fs::path& path, std::string_view bytes)
 {
   const fs::path temporary = temporary_name(path);
@@ -160,14 +172,10 @@ void write_file_whole(const fs::path& path, std::string_view bytes)
   commit_file(temporary, path);
 }
 
-void commit_file(const fs::path& temporary, const fs::path& path)
+bool is_temporary_name(const fs::path& path)
 {
-  Descriptor file(::open(temporary.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.ok() || ::fsync(file.number()) != 0 || !file.close()) give_up(temporary, path, errno);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) give_up(temporary, path, errno);
-  // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by then.
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (Descriptor entry(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)); entry.ok()) ::fsync(entry.number());
+  static const std::regex form(R"(\..+\.\d+-\d+\.tmp(\.[^.]*)?)"); // as temporary_name makes it
+  return std::regex_match(path.filename().string(), form);
 }
 
 fs::path presets_folder()

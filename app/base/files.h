@@ -2,7 +2,6 @@
 // Reading files whole, writing them whole or not at all, and finding the files that a preset names.
 #pragma once
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,10 +14,8 @@ std::string read_file(const std::filesystem::path& path);
 /// Writes to a temporary name beside path, flushes to disk, then renames: the file is there whole or not at all.
 /// Throws failed with the system's reason (full disk, no permission); the temporary file is removed.
 void write_file_whole(const std::filesystem::path& path, std::string_view bytes);
-/// The temporary name that write_file_whole and the picture writer use: beside path, unique to this process.
-std::filesystem::path temporary_name(const std::filesystem::path& path);
-/// Flushes an already written temporary file to disk and renames it to path; removes it and throws failed on any error.
-void commit_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
+/// Whether this is the name of a temporary file of write_file_whole, which it leaves where the process is killed at its work.
+bool is_temporary_name(const std::filesystem::path& path);
 
 /// The folder of the shipped presets and materials: NEPHROID_PRESETS from the environment, else ../presets beside the
 /// program's build folder or installed share folder. Throws failed where none is found.

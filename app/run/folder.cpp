@@ -24,20 +24,19 @@ bool is_there(const fs::path& path)
 }
 
 /// Ours are the folders with a plan and a preset, what begin_run writes first, and those with nothing but what a killed
-/// writer left (temporary_name).
+/// writer left.
 bool holds_a_run_or_nothing(const fs::path& folder)
 {
   if (is_there(folder / "plan.json") && is_there(folder / "preset.json")) return true;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename(); name.front() != '.' || name.find(".tmp") == std::string::npos) return false;
+    if (!is_temporary_name(entry.path())) return false;
   return true;
 }
 
 void remove_leftovers(const fs::path& folder)
 {
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename(); name.front() == '.' && name.find(".tmp") != std::string::npos)
-      fs::remove(entry.path());
+    if (is_temporary_name(entry.path())) fs::remove(entry.path());
 }
 
 void claim(const fs::path& folder)
@@ -85,14 +84,18 @@ std::optional<job::Progress> finished_run(const fs::path& folder, const preset::
   for (const char* name : {"image.exr", "run.json", "preset.json"})
     if (!is_there(folder / name)) return std::nullopt;
   if (read_file(folder / "preset.json") != preset::to_json(preset, folder) + "\n") return std::nullopt;
-  const auto run = nlohmann::json::parse(read_file(folder / "run.json"), nullptr, false);
-  if (!run.is_object() || !run.value("finished", false)) return std::nullopt;
-  job::Progress progress;
-  progress.fraction = 1;
-  progress.step = run.value("passes", std::int64_t{0});
-  progress.photons = run.value("photons", std::uint64_t{0});
-  progress.work_seconds = run.value("work_seconds", 0.0);
-  return progress;
+  try {
+    const auto run = nlohmann::json::parse(read_file(folder / "run.json"));
+    if (!run.at("finished").get<bool>()) return std::nullopt;
+    job::Progress progress;
+    progress.fraction = 1;
+    progress.step = progress.steps = run.at("passes").get<std::int64_t>();
+    progress.photons = run.at("photons").get<std::uint64_t>();
+    progress.work_seconds = run.at("work_seconds").get<double>();
+    return progress;
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt; // written by something else: the run is done again
+  }
 }
 
 } // namespace nephroid::run

@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "base/interrupts.h"
 #include "base/nearest.h"
+#include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -19,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace nephroid;
+using test::error_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -34,18 +36,6 @@ protected:
     return found;
   }
 };
-
-template <class Call>
-Error error_of(Call call)
-{
-  try {
-    call();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no error was thrown";
-  return failed("", "");
-}
 
 TEST_F(Files, BytesSurviveWritingAndReading)
 {
@@ -99,12 +89,13 @@ TEST_F(Files, AFolderWithoutPermissionIsSaid)
   ::chmod(folder.c_str(), 0700);
 }
 
-TEST_F(Files, TemporaryNamesLieBesideKeepTheExtensionAndDiffer)
+// By them a run finds what a killed writer left, and must take nothing else for it.
+TEST_F(Files, KnowsItsOwnTemporaryNames)
 {
-  const fs::path first = temporary_name(folder / "image.exr"), second = temporary_name(folder / "image.exr");
-  EXPECT_EQ(first.parent_path(), folder);
-  EXPECT_EQ(first.extension(), ".exr");
-  EXPECT_NE(first, second);
+  for (const char* name : {".image.17-0.tmp.exr", ".checkpoint.4194304-12.tmp.bin", ".a.1-1.tmp", "folder/.run.1-2.tmp.json"})
+    EXPECT_TRUE(is_temporary_name(name)) << name;
+  for (const char* name : {"image.exr", ".image.exr", ".notes.tmp", "image.17-0.tmp.exr", ".tmp", ".image.17-0.tmp.exr/mine", ""})
+    EXPECT_FALSE(is_temporary_name(name)) << name;
 }
 
 class Finder : public Files {
