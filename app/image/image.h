@@ -19,15 +19,16 @@ struct Image {
 
 /// Throws bad_input naming the file and OpenImageIO's reason.
 Image read_image(const std::filesystem::path& file);
-/// 32-bit float EXR with every channel and attribute; written whole (temporary name, rename). The same image gives the same bytes:
+/// 32-bit float EXR with every channel and attribute. The same image gives the same bytes:
 /// no date goes in. NaN and infinities are kept.
 void write_exr(const std::filesystem::path& file, const Image& image);
-/// rgb: linear sRGB, 3 a pixel; 8-bit PNG as shown: exposure in stops, tone curve, sRGB encoding. Written whole.
+/// rgb: linear sRGB, 3 a pixel, row 0 at the top; an 8-bit PNG of what shown() gives at exposure 2^stops.
+/// All writers write whole (write_file_whole) and throw failed: a size that does not fit, OpenImageIO's or the system's reason.
 void write_png(const std::filesystem::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops = 0);
 /// rgba8: 4 bytes a pixel, e.g. a screenshot.
 void write_png_bytes(const std::filesystem::path& file, int width, int height, const std::vector<unsigned char>& rgba8);
 
-/// What a display shows of one linear channel, 0..255: exposure, then clip to 0..1, then sRGB encoding. Infinity is 255, NaN 0.
+/// What a display shows of one linear channel, 0..255: times the exposure, clipped to 0..1, sRGB-encoded. Infinity is 255, NaN 0.
 unsigned char shown(float linear, float exposure_scale);
 
 } // namespace nephroid::image

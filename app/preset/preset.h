@@ -163,6 +163,7 @@ struct Preset {
   bool operator==(const Preset&) const = default;
 };
 
+/// Of one unit of length.
 double metres(Preset::Unit unit);
 
 } // namespace nephroid::preset

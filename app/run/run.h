@@ -32,24 +32,27 @@ struct Prepared {
 /// settings differ (files are not read again then), and its tree where the triangles are the same. Throws bad_input as the loaders do.
 Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr);
 
-/// Builds the engine's job on a device.
+/// Builds the engine's job on a device. Throws failed where the device has not enough memory, BuildError for a kernel that does not
+/// compile, and bad_input for what the engine cannot render.
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
 
 /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. Throws bad_input where it
 /// is a file or holds anything but a run, failed where it cannot be written to.
 void claim_folder(const std::filesystem::path& folder);
-/// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json.
+/// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all writing below
+/// throws failed with the system's reason.
 void begin_run(const std::filesystem::path& folder, const Prepared& prepared);
 /// preset.json and plan.json alone: what begin_run and write_run write, and a resumed run whose stop differs.
 void write_settings(const std::filesystem::path& folder, const Prepared& prepared);
-/// How far the run in the folder came, if it is the finished run of exactly this preset.
+/// How far the run in the folder came, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged.
 std::optional<job::Progress> finished_run(const std::filesystem::path& folder, const preset::Preset& preset);
 
 /// Writes image.exr, image.png, preset.json, plan.json and run.json into folder (made if missing), each whole.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
                const job::Snapshot& snapshot, bool finished);
 
-/// checkpoint.bin in folder: written whole; bound to the resolved preset (without its stop) by a hash.
+/// checkpoint.bin in folder: written whole; bound to the resolved preset (without its stop) by a hash. What is in the files that the
+/// preset names is not looked at.
 void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, job::Job& job);
 /// Loads it into a job that was just made. False where there is none. Throws bad_input where it belongs to another preset or is cut.
 bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, job::Job& job);

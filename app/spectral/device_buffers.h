@@ -20,6 +20,7 @@ struct DeviceBuffers {
   compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all;
 };
 
+/// Throws failed where the device has not enough memory.
 DeviceBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const DeviceTables& tables);
 
 } // namespace nephroid::spectral

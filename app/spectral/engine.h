@@ -12,10 +12,11 @@
 
 namespace nephroid::spectral {
 
-/// What runs, what is left out and why.
+/// What runs, what is left out and why. Throws bad_input as make_device_tables does.
 plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 
-/// The scene and tree are copied to the device; they need not outlive the call.
+/// The scene and tree are copied to the device; they need not outlive the call. plan: of the same preset and scene.
+/// Throws failed where the device has not enough memory, BuildError for a kernel that does not compile.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
                                    const compute::Context& context);
 

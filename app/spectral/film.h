@@ -10,8 +10,8 @@
 
 namespace nephroid::spectral {
 
-/// sums: 3 a pixel, XYZ radiance times quanta. factor(row): what a sum of that row is multiplied with to give XYZ radiance.
-/// white: the Y that becomes 1.
+/// sums: 3 a pixel, XYZ radiance in quanta, added up over samples. factor(row): what a sum of that row is multiplied with to give
+/// XYZ radiance in W m^-2 sr^-1. white: the Y that becomes 1.
 job::Layer develop(std::string name, std::span<const std::int64_t> sums, int width, const std::function<double(int row)>& factor,
                    double white);
 
