@@ -8,6 +8,7 @@
 
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -15,12 +16,14 @@ namespace {
 using namespace OIIO;
 
 /// Where the words of a failed call live until the thread's next one.
+thread_local std::string kept_reason;
+
 const char* reason(std::string text)
 {
-  thread_local std::string kept;
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-  kept = text.empty() ? "OpenImageIO gives no reason" : std::move(text);
-  return kept.c_str();
+  if (text.empty()) return "OpenImageIO gives no reason";
+  kept_reason = std::move(text);
+  return kept_reason.c_str();
 }
 
 /// Exceptions (out of memory, or from a file that lies about its size) must not cross the C seam.
