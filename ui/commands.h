@@ -22,14 +22,15 @@ struct Look {
   bool operator==(const Look&) const = default;
 };
 
-/// What a dialog is open for.
-enum class Question { none, open, save_preset, save_picture, quit };
+/// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
+enum class Question { none, open, save_preset, save_picture, unsaved };
 
 namespace command {
 
-/// A preset file, or the name of a shipped preset.
+/// A preset file, or the name of a shipped preset. Asks first where there are unsaved changes, unless sure.
 struct Open {
   std::string name;
+  bool sure = false;
 };
 /// The preset as it shall be. Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still lasts,
 /// so that a run may first show a picture before the next one replaces it.

@@ -21,7 +21,7 @@ const char* title(Question question)
     return "Save the preset as";
   case Question::save_picture:
     return "Save the picture as";
-  case Question::quit:
+  case Question::unsaved:
     return "Unsaved changes";
   case Question::none:
     break;
@@ -79,8 +79,8 @@ void Dialogs::draw(const Workbench& workbench, Commands& commands)
   if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) open = false;
   if (shown_ == Question::open)
     draw_open(commands);
-  else if (shown_ == Question::quit)
-    draw_quit(workbench, commands);
+  else if (shown_ == Question::unsaved)
+    draw_unsaved(workbench, commands);
   else
     draw_save(commands);
   if (!open) commands.push_back(command::Ask{Question::none});
@@ -127,20 +127,20 @@ void Dialogs::draw_save(Commands& commands)
   if (there) ImGui::TextDisabled("This file is there already.");
 }
 
-void Dialogs::draw_quit(const Workbench& workbench, Commands& commands)
+void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands)
 {
+  const std::string then = std::holds_alternative<command::Quit>(*workbench.waiting()) ? "quit" : "open";
   ImGui::TextUnformatted("The preset was changed and is not saved.");
   const std::filesystem::path target = workbench.save_target();
-  if (ImGui::Button(target.empty() ? "Save as..." : "Save and quit")) {
+  // What waits is carried out once the preset is saved; where saving fails the question stays.
+  if (ImGui::Button(target.empty() ? "Save as..." : ("Save and " + then).c_str())) {
     if (target.empty())
       commands.push_back(command::Ask{Question::save_preset});
-    else {
+    else
       commands.push_back(command::SavePreset{target});
-      commands.push_back(command::Quit{}); // asks again where saving failed
-    }
   }
   ImGui::SameLine();
-  if (ImGui::Button("Quit without saving")) commands.push_back(command::Quit{true});
+  if (ImGui::Button(then == "quit" ? "Quit without saving" : "Open without saving")) commands.push_back(*workbench.waiting());
   ImGui::SameLine();
   if (ImGui::Button("Go on")) commands.push_back(command::Ask{Question::none});
 }

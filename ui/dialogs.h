@@ -19,7 +19,7 @@ private:
   void begin(const Workbench& workbench);
   void draw_open(Commands& commands);
   void draw_save(Commands& commands);
-  void draw_quit(const Workbench& workbench, Commands& commands);
+  void draw_unsaved(const Workbench& workbench, Commands& commands);
 
   Question shown_ = Question::none;
   std::string name_;                           ///< what the text field holds

@@ -11,6 +11,25 @@
 #include <cmath>
 
 namespace nephroid::ui {
+namespace {
+
+/// How many there are; the lines themselves in a tooltip.
+void draw_notes(const Workbench& workbench)
+{
+  const std::vector<std::string> notes = workbench.notes();
+  if (notes.empty()) return;
+  ImGui::SameLine(0, ImGui::GetFontSize());
+  ImGui::PushStyleColor(ImGuiCol_Text, colour::note);
+  ImGui::TextUnformatted(notes.size() == 1 ? "1 note" : fmt::format("{} notes", notes.size()).c_str());
+  ImGui::PopStyleColor();
+  if (!ImGui::BeginItemTooltip()) return;
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40);
+  for (const std::string& note : notes) ImGui::TextUnformatted(note.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+} // namespace
 
 double seconds_left(const job::Progress& progress)
 {
@@ -82,6 +101,7 @@ void draw_status_line(const Workbench& workbench, Commands& commands)
   if (progress.work_seconds > 0) text += fmt::format("    {} of work", duration_text(progress.work_seconds));
   ImGui::SameLine(0, em);
   ImGui::TextUnformatted(text.c_str());
+  draw_notes(workbench);
   const char* help = "Mouse and keys: F1";
   const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(help).x - em;
   if (right < ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + em) return;

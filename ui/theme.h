@@ -12,6 +12,7 @@ inline constexpr ImU32 overlay = IM_COL32(18, 18, 18, 215);
 inline constexpr ImU32 text = IM_COL32(228, 228, 228, 255);
 inline constexpr ImU32 quiet_text = IM_COL32(165, 165, 165, 255);
 inline constexpr ImU32 error = IM_COL32(240, 128, 112, 255);
+inline constexpr ImU32 note = IM_COL32(222, 190, 120, 255);
 inline constexpr ImU32 accent = IM_COL32(92, 142, 196, 255);
 } // namespace colour
 

@@ -26,6 +26,22 @@ std::array<int, 2> picture_size(const Workbench& workbench)
   return {1, 1};
 }
 
+/// Whether the renderer has no texture of the picture's size (0: it has every size).
+bool too_large(const job::Picture& picture)
+{
+  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
+  const auto beyond = [](int size, int limit) { return limit > 0 && size > limit; };
+  return beyond(picture.width, platform.Renderer_TextureMaxWidth) || beyond(picture.height, platform.Renderer_TextureMaxHeight);
+}
+
+std::string too_large_hint(const job::Picture& picture)
+{
+  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
+  return fmt::format("The picture is {} x {}; this display's OpenGL shows at most {} x {}. It is computed all the same: "
+                     "save it with Ctrl+E, or lower scene.camera.resolution.",
+                     picture.width, picture.height, platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight);
+}
+
 Point mouse() { return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}; }
 ImVec2 vec(const Point& p) { return {static_cast<float>(p[0]), static_cast<float>(p[1])}; }
 
@@ -81,6 +97,7 @@ void ViewPanel::refresh_texture(const Workbench& workbench)
   const double stops = workbench.look().exposure_stops;
   if (!snapshot || (snapshot == in_texture_ && stops == stops_in_texture_)) return;
   const job::Picture& picture = *snapshot->picture;
+  if (too_large(picture)) return;
   shown_pixels(picture.rgb, stops, texture_.edit(picture.width, picture.height));
   in_texture_ = snapshot;
   stops_in_texture_ = stops;
@@ -88,7 +105,7 @@ void ViewPanel::refresh_texture(const Workbench& workbench)
 
 void ViewPanel::draw_picture(const Workbench& workbench)
 {
-  if (!workbench.snapshot() || texture_.empty()) return;
+  if (!workbench.snapshot() || texture_.empty() || too_large(*workbench.snapshot()->picture)) return;
   const auto size = picture_size(workbench);
   const Placement placement = place(workbench.look(), canvas_, size);
   const ImVec2 from = vec(placement.to_screen({0, 0}));
@@ -102,12 +119,14 @@ void ViewPanel::draw_picture(const Workbench& workbench)
   draw_list->AddRect({from.x - 1, from.y - 1}, {to.x + 1, to.y + 1}, colour::frame);
 }
 
-/// What to do or to wait for while there is no picture yet.
+/// What to do or to wait for while there is no picture to see.
 void ViewPanel::draw_hint(const Workbench& workbench) const
 {
-  if (workbench.snapshot()) return;
-  const char* hint = nullptr;
-  if (!workbench.preset())
+  std::string hint;
+  if (const auto& snapshot = workbench.snapshot()) {
+    if (!too_large(*snapshot->picture)) return;
+    hint = too_large_hint(*snapshot->picture);
+  } else if (!workbench.preset())
     hint = "Drop a preset here, or open one: Ctrl+O";
   else if (workbench.status().state == job::State::failed)
     hint = "No picture: see the message below";
@@ -115,9 +134,11 @@ void ViewPanel::draw_hint(const Workbench& workbench) const
     hint = "Cancelled before the first picture; start again: F5";
   else
     hint = "Preparing: reading the scene, building the kernels";
-  const ImVec2 extent = ImGui::CalcTextSize(hint);
+  const float wrap = 0.9f * static_cast<float>(canvas_.size[0]);
+  const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
   const ImVec2 middle = vec({canvas_.corner[0] + canvas_.size[0] / 2, canvas_.corner[1] + canvas_.size[1] / 2});
-  ImGui::GetWindowDrawList()->AddText({middle.x - extent.x / 2, middle.y - extent.y / 2}, colour::quiet_text, hint);
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, {middle.x - extent.x / 2, middle.y - extent.y / 2}, colour::quiet_text, hint.c_str(),
+                                      nullptr, wrap);
 }
 
 /// Linear values under the cursor in the picture's lower left corner, with the luminance that the preset's white makes of them.

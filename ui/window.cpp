@@ -128,12 +128,15 @@ private:
 int open_window(const Options& options)
 {
   check_layout(options.layout);
+  const std::string cache_note = compute::prepare_kernel_cache(); // before OpenGL's and our own threads start
+  if (!cache_note.empty()) fmt::print(stderr, "note: {}\n", cache_note);
   GlfwWindow window("Nephroid", options.size);
   compute::DeviceOptions device;
   device.selector = options.device;
   device.kernels = options.kernels;
-  const auto engine = std::make_shared<Engine>(device);
-  Workbench workbench([engine](const preset::Preset& preset) { return engine->make(preset); });
+  Engine engine(device);
+  Workbench workbench(engine);
+  if (!cache_note.empty()) workbench.add_note(cache_note);
   open_first(workbench, options);
   {
     Workspace workspace(options.layout);

@@ -3,11 +3,13 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "ui/file_kind.h"
 #include "ui/save.h"
 
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <mutex>
 
 namespace nephroid::ui {
 namespace {
@@ -28,10 +30,15 @@ bool is_shipped(const std::filesystem::path& file)
 
 } // namespace
 
-Workbench::Workbench(MakeJob make_job) : make_job_(std::move(make_job)) {}
+/// Filled on the worker's thread when a run's plan is made.
+struct Workbench::PlanNotes {
+  std::mutex mutex;
+  std::optional<std::vector<std::string>> lines;
+};
 
 void Workbench::apply(const Commands& commands)
 {
+  last_before_commands_ = last_message_;
   for (const Command& command : commands) {
     try {
       std::visit([this](const auto& c) { carry_out(c); }, command);
@@ -44,20 +51,38 @@ void Workbench::apply(const Commands& commands)
 bool Workbench::open(const std::string& name, const preset::Overrides& overrides)
 {
   try {
+    refuse_other_kinds(name);
     history_.emplace(preset::read_preset(name, overrides));
   } catch (const std::exception& error) {
     say(true, error.what());
     return false;
   }
-  std::erase_if(messages_, [](const Message& m) { return m.error; });
+  std::erase_if(messages_, [&](const Message& m) { return m.error && m.id <= last_before_commands_; });
+  plan_notes_.clear();
   look_ = Look{};
   snapshot_.reset(); // another preset's picture would be mistaken for this one's
   question_ = Question::none;
+  waiting_.reset();
   start();
   return true;
 }
 
-void Workbench::carry_out(const command::Open& c) { open(c.name); }
+void Workbench::ask_first(Command command)
+{
+  waiting_ = std::move(command);
+  question_ = Question::unsaved;
+}
+
+void Workbench::carry_out(const command::Open& c)
+{
+  if (c.sure || !unsaved()) {
+    open(c.name);
+    return;
+  }
+  refuse_other_kinds(c.name);
+  preset::read_preset(c.name); // what cannot be opened is said at once, and nothing is asked
+  ask_first(command::Open{c.name, true});
+}
 
 void Workbench::carry_out(const command::Edit& c)
 {
@@ -99,7 +124,11 @@ void Workbench::carry_out(const command::SetLook& c)
   look_.exposure_stops = std::clamp(look_.exposure_stops, -20.0, 20.0);
 }
 
-void Workbench::carry_out(const command::Ask& c) { question_ = c.question; }
+void Workbench::carry_out(const command::Ask& c)
+{
+  question_ = c.question;
+  if (question_ == Question::none) waiting_.reset(); // answered by "no"
+}
 
 void Workbench::carry_out(const command::SavePreset& c)
 {
@@ -108,6 +137,7 @@ void Workbench::carry_out(const command::SavePreset& c)
   history_->mark_saved(c.file.string());
   question_ = Question::none;
   say(false, "saved " + c.file.string());
+  if (const auto command = std::exchange(waiting_, std::nullopt)) std::visit([this](const auto& next) { carry_out(next); }, *command);
 }
 
 void Workbench::carry_out(const command::SavePicture& c)
@@ -140,10 +170,10 @@ void Workbench::carry_out(const command::Report& c) { say(true, c.line); }
 
 void Workbench::carry_out(const command::Quit& c)
 {
-  if (c.sure || !history_ || !history_->modified())
+  if (c.sure || !unsaved())
     quitting_ = true;
   else
-    question_ = Question::quit;
+    ask_first(command::Quit{true});
 }
 
 void Workbench::say(bool error, std::string line)
@@ -160,7 +190,27 @@ void Workbench::start()
   snapshot_is_current_ = shown_since_start_ = false;
   std::erase_if(messages_, [&](const Message& m) { return m.id == failure_message_; });
   before_start_ = worker_.snapshot();
-  worker_.start([make = make_job_, preset = history_->current()] { return make(preset); });
+  coming_notes_ = std::make_shared<PlanNotes>();
+  worker_.start([&source = source_, preset = history_->current(), notes = coming_notes_] {
+    NewRun run = source.make(preset);
+    const std::lock_guard lock(notes->mutex);
+    notes->lines = std::move(run.notes);
+    return std::move(run.job);
+  });
+}
+
+void Workbench::take_plan_notes()
+{
+  if (!coming_notes_) return;
+  const std::lock_guard lock(coming_notes_->mutex);
+  if (coming_notes_->lines) plan_notes_ = *std::exchange(coming_notes_->lines, std::nullopt);
+}
+
+std::vector<std::string> Workbench::notes() const
+{
+  std::vector<std::string> all = program_notes_;
+  all.insert(all.end(), plan_notes_.begin(), plan_notes_.end());
+  return all;
 }
 
 void Workbench::take_snapshot()
@@ -193,7 +243,12 @@ void Workbench::update(Clock::time_point now)
   // In this order: the worker makes a run's last snapshot before it says that the run is over.
   status_ = worker_.status();
   take_snapshot();
+  take_plan_notes();
   collect_messages(now);
+  if (source_.take_changed() && history_) {
+    restart_wanted_ = true;
+    snapshot_is_current_ = false;
+  }
   // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device every move of
   // the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen until the mouse rests.
   const bool working = status_.state == job::State::preparing || status_.state == job::State::running;

@@ -7,9 +7,9 @@
 #include "preset/read.h"
 #include "ui/commands.h"
 #include "ui/history.h"
+#include "ui/run_source.h"
 
 #include <chrono>
-#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -29,15 +29,16 @@ struct Message {
 class Workbench {
 public:
   using Clock = std::chrono::steady_clock;
-  /// Makes the job of a preset; called on the worker's thread. The program gives ui::Engine, tests a job of their own.
-  using MakeJob = std::function<std::unique_ptr<job::Job>(const preset::Preset&)>;
 
-  explicit Workbench(MakeJob make_job);
+  /// source outlives the workbench.
+  explicit Workbench(RunSource& source) : source_(source) {}
 
   /// Carries out commands in their order. Whatever goes wrong becomes a message; nothing is thrown.
   void apply(const Commands& commands);
   /// Opens a preset with overrides (--set). False, with a message, where it cannot be read.
   bool open(const std::string& name, const preset::Overrides& overrides = {});
+  /// One more line for notes(), from the program itself.
+  void add_note(std::string line) { program_notes_.push_back(std::move(line)); }
   /// Once a frame: takes the newest snapshot, starts the run that edits ask for, collects what finished in the background.
   void update(Clock::time_point now = Clock::now());
 
@@ -51,7 +52,11 @@ public:
   const job::Status& status() const { return status_; }
   const std::vector<Message>& messages() const { return messages_; }
   const Look& look() const { return look_; }
+  /// What is worth knowing and needs no answer: the program's notes, then those of the newest plan.
+  std::vector<std::string> notes() const;
   Question question() const { return question_; }
+  /// With Question::unsaved: what waits for the answer, an Open or a Quit that asks no more. Else null.
+  const Command* waiting() const { return waiting_ ? &*waiting_ : nullptr; }
   bool help_shown() const { return help_shown_; }
   bool quitting() const { return quitting_; }
   /// True once after ResetLayout.
@@ -80,15 +85,21 @@ private:
   void carry_out(const command::Report& c);
   void carry_out(const command::Quit& c);
 
+  bool unsaved() const { return history_ && history_->modified(); }
+  void ask_first(Command command);
   void say(bool error, std::string line);
   void start();
   void take_snapshot();
+  void take_plan_notes();
   void collect_messages(Clock::time_point now);
 
-  MakeJob make_job_;
+  struct PlanNotes;
+
+  RunSource& source_;
   std::optional<History> history_;
   Look look_;
   Question question_ = Question::none;
+  std::optional<Command> waiting_;
   bool help_shown_ = false, quitting_ = false, layout_reset_ = false;
 
   bool restart_wanted_ = false;    ///< the preset changed since the last start
@@ -100,10 +111,14 @@ private:
   job::Status status_;
   std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
 
+  std::vector<std::string> program_notes_, plan_notes_;
+  std::shared_ptr<PlanNotes> coming_notes_; ///< where the run in hand leaves its plan's notes
+
   std::uint64_t last_message_ = 0;
+  std::uint64_t last_before_commands_ = 0; ///< newer messages are about the commands that are being carried out
   std::vector<Message> messages_;
   std::vector<std::future<Message>> background_; ///< files being written
-  job::Worker worker_;                           ///< last: its thread uses make_job_
+  job::Worker worker_;                           ///< last: its thread uses the source
 };
 
 } // namespace nephroid::ui

@@ -29,9 +29,8 @@ inline constexpr const char* preset_text = R"({
   "stop": {"passes": 20}
 })";
 
-/// What the fake jobs did and shall do; outlives them.
-struct FakeRuns {
-  std::atomic<int> made{0};
+/// How the fake jobs shall go.
+struct FakeSettings {
   std::atomic<int> steps{20};
   std::atomic<int> step_ms{2}, make_ms{0};
   std::atomic<bool> fails{false};
@@ -39,7 +38,7 @@ struct FakeRuns {
 
 class FakeJob : public job::Job {
 public:
-  FakeJob(preset::Preset preset, FakeRuns& runs) : preset_(std::move(preset)), runs_(runs) {}
+  FakeJob(preset::Preset preset, const FakeSettings& runs) : preset_(std::move(preset)), runs_(runs) {}
   void step() override
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(runs_.step_ms));
@@ -76,18 +75,25 @@ public:
 
 private:
   preset::Preset preset_;
-  FakeRuns& runs_;
+  const FakeSettings& runs_;
   int done_ = 0;
 };
 
-inline ui::Workbench::MakeJob fake_jobs(FakeRuns& runs)
-{
-  return [&runs](const preset::Preset& preset) -> std::unique_ptr<job::Job> {
-    std::this_thread::sleep_for(std::chrono::milliseconds(runs.make_ms));
-    ++runs.made;
-    return std::make_unique<FakeJob>(preset, runs);
-  };
-}
+/// Gives fake jobs; outlives the workbench.
+class FakeRuns : public ui::RunSource, public FakeSettings {
+public:
+  ui::NewRun make(const preset::Preset& preset) override
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(make_ms));
+    ++made;
+    if (broken) throw failed("photons.cl:12", "expected ';' after expression");
+    return {std::make_unique<FakeJob>(preset, *this), {preset.name + ": n is extrapolated below 390 nm"}};
+  }
+  bool take_changed() override { return changed.exchange(false); }
+
+  std::atomic<int> made{0};
+  std::atomic<bool> changed{false}, broken{false}; ///< the kernels
+};
 
 /// A folder of this test's own, removed with it.
 class TemporaryFolder {

@@ -21,7 +21,7 @@ protected:
   test::FakeRuns runs;
   test::TemporaryFolder folder;
   test::Headless imgui;
-  Workbench workbench{test::fake_jobs(runs)};
+  Workbench workbench{runs};
   Workspace workspace;
 
   void frame() { imgui.frame(workspace, workbench); }
@@ -275,6 +275,30 @@ TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture)
     frames(3);
     EXPECT_EQ(workspace.view().texture().pixels().size(), 4u * static_cast<unsigned>(size * size));
   }
+}
+
+TEST_F(PanelsTest, APictureBeyondTheRenderersTexturesIsSaidNotDrawn)
+{
+  runs.steps = 100000;
+  open();
+  const PictureTexture& texture = workspace.view().texture();
+  const std::vector<unsigned char> before(texture.pixels().begin(), texture.pixels().end());
+  const auto drawn_pictures = [&] { // commands of the frame that use the picture's texture
+    int count = 0;
+    for (const ImDrawList* list : ImGui::GetDrawData()->CmdLists)
+      for (const ImDrawCmd& c : list->CmdBuffer) count += c.TexRef._TexData == texture.ref()._TexData;
+    return count;
+  };
+  EXPECT_EQ(drawn_pictures(), 1);
+  ImGui::GetPlatformIO().Renderer_TextureMaxWidth = ImGui::GetPlatformIO().Renderer_TextureMaxHeight = 50;
+  workbench.apply({command::SetLook{{.exposure_stops = -3}}});
+  frames(2);
+  EXPECT_EQ(drawn_pictures(), 0);
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), texture.pixels().begin())) << "64 x 48 is not uploaded";
+  EXPECT_TRUE(workbench.messages().empty());
+  ImGui::GetPlatformIO().Renderer_TextureMaxWidth = ImGui::GetPlatformIO().Renderer_TextureMaxHeight = 64;
+  frames(2);
+  EXPECT_EQ(drawn_pictures(), 1);
 }
 
 TEST_F(PanelsTest, TheHelpListsEveryShortcutAndCloses)

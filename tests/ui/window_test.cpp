@@ -39,7 +39,7 @@ Placement placement_in_window(int width, int height, const std::array<int, 2>& p
   test::Headless imgui;
   ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   test::FakeRuns runs;
-  Workbench workbench{test::fake_jobs(runs)};
+  Workbench workbench{runs};
   Workspace workspace;
   for (int i = 0; i < 5; ++i) imgui.frame(workspace, workbench);
   return place(Look{}, workspace.view().canvas(), picture);

@@ -12,13 +12,14 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::eventually;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class WorkbenchTest : public ::testing::Test {
 protected:
   test::FakeRuns runs;
   test::TemporaryFolder folder;
-  Workbench workbench{test::fake_jobs(runs)};
+  Workbench workbench{runs};
 
   bool until(const std::function<bool()>& done)
   {
@@ -147,6 +148,39 @@ TEST_F(WorkbenchTest, AFailureIsOneMessageUntilTheNextRun)
   ASSERT_TRUE(until(job::State::finished));
 }
 
+TEST_F(WorkbenchTest, ChangedKernelsStartTheRunAgainAndKeepThePictureWhereTheyDoNotCompile)
+{
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(until(job::State::finished));
+  runs.broken = runs.changed = true;
+  ASSERT_TRUE(until(job::State::failed));
+  workbench.update();
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_EQ(workbench.messages()[0].line, "photons.cl:12: expected ';' after expression");
+  EXPECT_EQ(picture_z(), 4) << "the last picture stays";
+  for (int i = 0; i < 5; ++i) workbench.update();
+  EXPECT_EQ(runs.made, 2) << "a change is one attempt";
+  runs.broken = false;
+  runs.changed = true;
+  ASSERT_TRUE(until(job::State::finished));
+  EXPECT_TRUE(workbench.messages().empty());
+  EXPECT_TRUE(workbench.snapshot_is_current());
+  EXPECT_EQ(runs.made, 3);
+}
+
+TEST_F(WorkbenchTest, NotesAreTheProgramsAndThoseOfThePlan)
+{
+  workbench.add_note("kernels are kept elsewhere");
+  EXPECT_THAT(workbench.notes(), ElementsAre("kernels are kept elsewhere"));
+  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(until(job::State::finished));
+  EXPECT_THAT(workbench.notes(), ElementsAre("kernels are kept elsewhere", "Test: n is extrapolated below 390 nm"));
+  edit_z(2);
+  ASSERT_TRUE(until([&] { return picture_z() == 2; }));
+  EXPECT_EQ(workbench.notes().size(), 2u) << "the same note of the next run is not another one";
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
 TEST_F(WorkbenchTest, AFileThatCannotBeOpenedLeavesWhatIsThereAlone)
 {
   ASSERT_TRUE(workbench.open(folder.file("test.json")));
@@ -196,17 +230,6 @@ TEST_F(WorkbenchTest, ThePictureIsWrittenInTheBackground)
   EXPECT_EQ(errors, 1);
   workbench.update(Workbench::Clock::now() + 1h);
   EXPECT_EQ(workbench.messages().size(), 1u) << "notes go by themselves, errors stay";
-}
-
-TEST_F(WorkbenchTest, AsksBeforeItThrowsChangesAway)
-{
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
-  edit_z(2);
-  workbench.apply({command::Quit{}});
-  EXPECT_FALSE(workbench.quitting());
-  EXPECT_EQ(workbench.question(), Question::quit);
-  workbench.apply({command::Quit{true}});
-  EXPECT_TRUE(workbench.quitting());
 }
 
 } // namespace

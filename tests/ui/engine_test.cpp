@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window's runs on a real device with kernels from a folder: a changed kernel is built and shown, a broken one is a message.
+#include "base/files.h"
+#include "fake_job.h"
+#include "ui/engine.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using ::testing::StartsWith;
+
+class EngineTest : public ::testing::Test {
+protected:
+  test::TemporaryFolder folder;
+  const std::filesystem::path kernels = folder.path / "kernels";
+
+  EngineTest() { std::filesystem::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, std::filesystem::copy_options::recursive); }
+  compute::DeviceOptions options() const { return {.selector = "", .kernels = kernels}; }
+  std::string source() const { return read_file(kernels / "direct.cl"); }
+  /// In one step: a temporary file beside the kernels would be a change of its own.
+  void write(const std::string& text) const
+  {
+    write_file_whole(folder.path / "new.cl", text);
+    std::filesystem::rename(folder.path / "new.cl", kernels / "direct.cl");
+  }
+};
+
+/// Brightness of a snapshot's picture; 0 where there is none.
+double sum(const std::shared_ptr<const job::Snapshot>& snapshot)
+{
+  double all = 0;
+  if (snapshot)
+    for (const float value : snapshot->picture->rgb) all += value;
+  return all;
+}
+
+TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
+{
+  Engine engine(options());
+  Workbench workbench(engine);
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done, 60); };
+  ASSERT_TRUE(workbench.open(folder.file("test.json"), {"stop.passes=2"}));
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
+  const double bright = sum(workbench.snapshot());
+  EXPECT_GT(bright, 0);
+  const std::uint64_t first_run = workbench.status().generation;
+
+  const std::string original = source();
+  write("this is no kernel\n" + original);
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::failed; }));
+  workbench.update();
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_THAT(workbench.messages()[0].line, StartsWith("direct.cl:1: "));
+  EXPECT_EQ(sum(workbench.snapshot()), bright) << "the last picture stays";
+
+  // Compiles again, and gives another picture: nothing is added to the film.
+  std::string dark = original;
+  const std::string adding = "film_add(film, (int)pixel, xyz, film_scale)";
+  ASSERT_NE(dark.find(adding), std::string::npos);
+  dark.replace(dark.find(adding), adding.size(), "film_add(film, (int)pixel, 0.0f * xyz, film_scale)");
+  write(dark);
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished && workbench.snapshot_is_current(); }));
+  EXPECT_EQ(sum(workbench.snapshot()), 0);
+  EXPECT_TRUE(workbench.messages().empty());
+
+  write(original);
+  ASSERT_TRUE(until([&] { return sum(workbench.snapshot()) == bright; })) << sum(workbench.snapshot());
+  EXPECT_EQ(workbench.status().generation, first_run + 3) << "a change is one run";
+}
+
+TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt)
+{
+  Engine engine(options());
+  Workbench workbench(engine);
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done, 60); };
+  ASSERT_TRUE(workbench.open(folder.file("test.json"), {"stop.passes=null", "stop.seconds=3600"}));
+  ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
+  write(source() + "\n");
+  ASSERT_TRUE(until([&] { return workbench.status().generation == 2; }));
+  ASSERT_TRUE(until([&] { return workbench.snapshot_is_current(); }));
+}
+
+TEST_F(EngineTest, WithoutAFolderNothingChanges)
+{
+  Engine engine({});
+  const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
+  NewRun run = engine.make(preset);
+  ASSERT_NE(run.job, nullptr);
+  EXPECT_FALSE(engine.take_changed());
+}
+
+} // namespace
+} // namespace nephroid::ui

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opening files in the window: what it asks before unsaved changes go, and what it says about files that are no preset.
+#include "fake_job.h"
+#include "headless.h"
+#include "preset/read.h"
+#include "ui/file_kind.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class OpeningTest : public ::testing::Test {
+protected:
+  test::FakeRuns runs;
+  test::TemporaryFolder folder;
+  Workbench workbench{runs};
+  const std::string first = folder.file("first.json");
+  const std::string second = folder.file("second.json", R"({"name": "Second", "parent": "first.json"})");
+
+  void open_and_edit()
+  {
+    ASSERT_TRUE(workbench.open(first));
+    preset::Preset edited = *workbench.preset();
+    edited.scene.camera.position = {0, 0, 2};
+    workbench.apply({command::Edit{"camera", edited}});
+    ASSERT_TRUE(workbench.history()->modified());
+  }
+  std::string refusal(const std::string& file)
+  {
+    try {
+      refuse_other_kinds(file);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+      return error.line();
+    }
+    return {};
+  }
+};
+
+TEST_F(OpeningTest, WithoutChangesNothingIsAsked)
+{
+  ASSERT_TRUE(workbench.open(first));
+  workbench.apply({command::Open{second}});
+  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.preset()->name, "Second");
+  workbench.apply({command::Quit{}});
+  EXPECT_TRUE(workbench.quitting());
+}
+
+TEST_F(OpeningTest, QuittingAsksBeforeChangesGo)
+{
+  open_and_edit();
+  workbench.apply({command::Quit{}});
+  EXPECT_FALSE(workbench.quitting());
+  EXPECT_EQ(workbench.question(), Question::unsaved);
+  ASSERT_NE(workbench.waiting(), nullptr);
+  workbench.apply({*workbench.waiting()});
+  EXPECT_TRUE(workbench.quitting());
+}
+
+TEST_F(OpeningTest, AnotherPresetAsksBeforeChangesGo)
+{
+  open_and_edit();
+  workbench.apply({command::Open{second}});
+  EXPECT_EQ(workbench.question(), Question::unsaved);
+  EXPECT_EQ(workbench.preset()->name, "Test") << "still there";
+  workbench.apply({command::Ask{Question::none}});
+  EXPECT_EQ(workbench.waiting(), nullptr);
+  EXPECT_EQ(workbench.preset()->scene.camera.position[2], 2);
+  workbench.apply({command::Open{second}});
+  workbench.apply({*workbench.waiting()});
+  EXPECT_EQ(workbench.preset()->name, "Second");
+  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(preset::read_preset(first).scene.camera.position[2], 4) << "not saved";
+}
+
+TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn)
+{
+  open_and_edit();
+  workbench.apply({command::Open{second}});
+  workbench.apply({command::SavePreset{folder.path / "missing" / "first.json"}});
+  EXPECT_EQ(workbench.question(), Question::unsaved) << "saving failed: the question stays";
+  EXPECT_EQ(workbench.preset()->name, "Test");
+  workbench.apply({command::Ask{Question::save_preset}}); // "Save as..." in the dialog
+  workbench.apply({command::SavePreset{folder.path / "third.json"}});
+  EXPECT_EQ(workbench.preset()->name, "Second");
+  EXPECT_EQ(preset::read_preset((folder.path / "third.json").string()).scene.camera.position[2], 2);
+  EXPECT_EQ(workbench.question(), Question::none);
+}
+
+TEST_F(OpeningTest, WhatCannotBeOpenedAsksNothing)
+{
+  open_and_edit();
+  workbench.apply({command::Open{folder.file("broken.json", "{")}, command::Open{folder.file("ball.obj", "v 0 0 0\n")}});
+  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.messages().size(), 2u);
+  EXPECT_TRUE(workbench.history()->modified());
+}
+
+TEST_F(OpeningTest, TheDialogSavesAndOpens)
+{
+  test::Headless imgui;
+  Workspace workspace;
+  open_and_edit();
+  workbench.apply({command::Open{second}});
+  const auto frame = [&] { imgui.frame(workspace, workbench); };
+  for (int i = 0; i < 3; ++i) frame();
+  const auto press = [&](ImGuiKey key) {
+    imgui.key(key, true);
+    frame();
+    imgui.key(key, false);
+    frame();
+  };
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  press(ImGuiKey_Tab); // to the first button
+  press(ImGuiKey_Space);
+  for (int i = 0; i < 3; ++i) frame();
+  EXPECT_EQ(workbench.preset()->name, "Second");
+  EXPECT_EQ(preset::read_preset(first).scene.camera.position[2], 2) << "saved";
+  EXPECT_EQ(workbench.question(), Question::none);
+}
+
+TEST_F(OpeningTest, FilesDroppedTogetherKeepTheirMessages)
+{
+  workbench.apply({command::Open{folder.file("ball.obj", "v 0 0 0\n")}, command::Open{first}});
+  EXPECT_EQ(workbench.preset()->name, "Test");
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("is a mesh"));
+  workbench.apply({command::Open{first}});
+  EXPECT_TRUE(workbench.messages().empty()) << "an earlier error is over";
+}
+
+TEST_F(OpeningTest, SaysWhatOtherFilesAreAndWhatCanBeDoneWithThem)
+{
+  const std::string glass = std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/N-BK7.yml";
+  EXPECT_THAT(refusal(glass), StartsWith(glass + ": is dispersion data; the window opens presets; "));
+  EXPECT_THAT(refusal(glass), HasSubstr("`nephroid dispersion " + glass + "`"));
+  EXPECT_THAT(refusal(folder.file("BALL.OBJ", "v 0 0 0\n")), HasSubstr("is a mesh; the window opens presets; name it"));
+  EXPECT_THAT(refusal(folder.file("scene.gltf", "{\"asset\": {}}")), HasSubstr("is a mesh"));
+  EXPECT_THAT(refusal(folder.file("sky.exr", "v/1")), HasSubstr("is a picture"));
+  EXPECT_THAT(refusal(folder.file("direct.cl", "__kernel")), HasSubstr("--kernels"));
+  EXPECT_THAT(refusal(folder.file("notes.txt", "hello")), HasSubstr("is no preset"));
+  EXPECT_THAT(refusal(folder.file("noise", std::string("\0\1\2", 3))), HasSubstr("is no preset"));
+}
+
+TEST_F(OpeningTest, LeavesPresetsToTheReader)
+{
+  EXPECT_EQ(refusal(first), "");
+  EXPECT_EQ(refusal("first-light"), "");
+  EXPECT_EQ(refusal(folder.path.string()), "");
+  EXPECT_EQ(refusal((folder.path / "missing.obj").string()), "");
+  EXPECT_EQ(refusal(folder.file("broken.json", "]")), "") << "the reader names line and column";
+  EXPECT_EQ(refusal(folder.file("preset.txt", " \n{}")), "");
+  EXPECT_EQ(refusal(folder.file("empty", "")), "");
+}
+
+} // namespace
+} // namespace nephroid::ui

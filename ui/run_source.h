@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the workbench gets its runs from: the program gives ui/engine.h with a device, tests give jobs of their own.
+#pragma once
+#include "job/job.h"
+#include "preset/preset.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+struct NewRun {
+  std::unique_ptr<job::Job> job;
+  std::vector<std::string> notes; ///< what the plan wants said once: extrapolated data, open meshes
+};
+
+class RunSource {
+public:
+  virtual ~RunSource() = default;
+  /// On the worker's thread only. What it throws is why the run failed.
+  virtual NewRun make(const preset::Preset& preset) = 0;
+  /// From any thread, at once: true once after what every run is made of (the kernels) changed.
+  virtual bool take_changed() = 0;
+};
+
+} // namespace nephroid::ui
