@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the files in a run's folder say about it, before anything is rendered.
+#include "base/files.h"
+#include "preset/read.h"
+#include "run/run.h"
+#include "tests/support/presets.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace nephroid;
+
+class RunFolder : public testing::Test {
+protected:
+  void SetUp() override
+  {
+    write_file_whole(folder / "image.exr", "a picture");
+    write_file_whole(folder / "preset.json", preset::to_json(preset, folder) + "\n");
+  }
+  std::optional<job::Progress> with_run_json(const std::string& text) const
+  {
+    write_file_whole(folder / "run.json", text);
+    return run::finished_run(folder, preset);
+  }
+  const preset::Preset preset = test::empty_preset();
+  const test::TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
+};
+
+constexpr const char* whole = R"({"finished":true,"passes":7,"photons":9000000000,"work_seconds":1.5})";
+
+TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
+{
+  const auto progress = with_run_json(whole);
+  ASSERT_TRUE(progress);
+  EXPECT_EQ(progress->fraction, 1);
+  EXPECT_EQ(progress->step, 7);
+  EXPECT_EQ(progress->photons, 9000000000u);
+  EXPECT_EQ(progress->work_seconds, 1.5);
+}
+
+TEST_F(RunFolder, AnotherPresetIsAnotherRun)
+{
+  ASSERT_TRUE(with_run_json(whole));
+  preset::Preset other = preset;
+  other.seed = 2;
+  EXPECT_FALSE(run::finished_run(folder, other));
+  std::filesystem::remove(folder / "image.exr");
+  EXPECT_FALSE(run::finished_run(folder, preset));
+}
+
+TEST_F(RunFolder, ADamagedRunJsonIsNoFinishedRun)
+{
+  for (const char* text : {"", "{", "[]", "7", "{}", R"({"finished":false})", R"({"finished":true})", R"({"finished":"yes"})",
+                           R"({"finished":true,"passes":"7","photons":1,"work_seconds":1})",
+                           R"({"finished":true,"passes":7,"photons":1,"work_seconds":null})", "\xff\xfe"})
+    EXPECT_FALSE(with_run_json(text)) << text;
+}
+
+} // namespace
