@@ -67,7 +67,7 @@ inline double volume(const scene::Scene& scene, std::size_t index)
   return scene::signed_volume(scene.geometry, scene.objects[index].first_triangle, scene.objects[index].triangle_count);
 }
 
-inline void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance)
+inline void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6)
 {
   EXPECT_LT(glm::distance(a, b), tolerance) << a.x << " " << a.y << " " << a.z;
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
+#include "tests/support/loaded_scenes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +12,8 @@
 
 namespace nephroid::scene {
 namespace {
+
+using test::expect_near;
 
 Scene empty_scene(const glm::dvec3& origin = {0, 0, 0})
 {
@@ -25,11 +28,6 @@ glm::dvec3 direction(const Camera& c, double x, double y)
 {
   return glm::dvec3(c.forward) + (2 * x / c.width - 1) * c.tan_x * glm::dvec3(c.right) +
          (1 - 2 * y / c.height) * c.tan_y * glm::dvec3(c.up);
-}
-
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6)
-{
-  EXPECT_LT(glm::distance(a, b), tolerance) << a.x << " " << a.y << " " << a.z;
 }
 
 // From (0, 0, 5) to the origin, 90 degrees high, 400 x 200 pixels: the plane z = 4, at distance 1, is seen from x = -2 to 2 and
