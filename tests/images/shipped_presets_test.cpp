@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every shipped preset makes a picture: finite, lit, its layers adding up, its energy accounted for, and noise falling as it should.
+#include "compute/compute.h"
+#include "optics/colour.h"
+#include "preset/read.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/render.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+/// The preset small and short, so that all of them take seconds.
+preset::Preset small(const std::string& name)
+{
+  preset::Preset p = preset::read_preset(name);
+  p.scene.camera.resolution = {64, 64};
+  p.spectral.photons_per_pass = 1 << 15;
+  p.stop.seconds.reset();
+  p.stop.passes = 2;
+  return p;
+}
+
+double sum(const std::vector<float>& values)
+{
+  double total = 0;
+  for (const float v : values) total += v;
+  return total;
+}
+
+class ShippedPreset : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedPreset, MakesASoundPicture)
+{
+  const job::Snapshot snapshot = render(small(GetParam()));
+  const job::Picture& picture = *snapshot.picture;
+  ASSERT_EQ(picture.rgb.size(), 3u * 64 * 64);
+  EXPECT_TRUE(std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float v) { return std::isfinite(v); }));
+  EXPECT_GT(sum(layer(snapshot, "caustic").rgb), 0);
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+    float total = 0;
+    for (const job::Layer& one : picture.layers) total += one.rgb[i];
+    ASSERT_EQ(picture.rgb[i], total);
+  }
+  const job::EnergyBalance& e = snapshot.energy;
+  EXPECT_GT(e.emitted_w, 0);
+  EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
+  EXPECT_LT(e.lost_w, 0.01 * e.emitted_w);
+  EXPECT_EQ(e.refused_contributions, 0u);
+}
+
+// Two seeds of one pass and of sixteen: the mean square of their difference falls by sixteen, because an unbiased estimate's
+// variance falls with the number of photons. The pixels' differences are heavy-tailed, so the bounds are wide.
+TEST(Noise, FallsWithThePhotons)
+{
+  const auto mean_square = [](int passes) {
+    preset::Preset p = small("first-light");
+    p.spectral.direct = false;
+    p.stop.passes = passes;
+    const job::Snapshot a = render(p);
+    p.seed = 2;
+    const job::Snapshot b = render(p);
+    double total = 0;
+    for (std::size_t i = 0; i < a.picture->rgb.size(); ++i) total += std::pow(double(a.picture->rgb[i]) - b.picture->rgb[i], 2);
+    return total;
+  };
+  const double ratio = mean_square(1) / mean_square(16);
+  EXPECT_GT(ratio, 8);
+  EXPECT_LT(ratio, 32);
+}
+
+// The prism's spectrum, read across the picture: dominant colours go from violet over blue, green and yellow to red without turning
+// back. The hue angle of linear sRGB, from the channels' projection, says where a column stands.
+TEST(Prism, ColoursComeInTheOrderOfTheirWavelengths)
+{
+  preset::Preset p = small("spectral/prism");
+  p.scene.camera.resolution = {128, 128};
+  p.spectral.photons_per_pass = 1 << 18;
+  const job::Snapshot snapshot = render(p);
+  const job::Layer& caustic = layer(snapshot, "caustic");
+  std::vector<std::array<double, 3>> columns(128, {0, 0, 0});
+  for (std::size_t i = 0; i < caustic.rgb.size(); ++i) columns[i / 3 % 128][i % 3] += caustic.rgb[i];
+  double brightest = 0;
+  for (const auto& c : columns) brightest = std::max(brightest, c[0] + c[1] + c[2]);
+  // The centre of each primary's light along the row of columns.
+  std::array<double, 3> centre{}, weight{};
+  for (std::size_t x = 0; x < 128; ++x)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double light = std::max(columns[x][c] - (columns[x][(c + 1) % 3] + columns[x][(c + 2) % 3]) / 2, 0.0);
+      if (light < 0.02 * brightest) continue;
+      centre[c] += light * static_cast<double>(x);
+      weight[c] += light;
+    }
+  for (std::size_t c = 0; c < 3; ++c) {
+    ASSERT_GT(weight[c], 0) << "channel " << c << " of a brightest column of " << brightest;
+    centre[c] /= weight[c];
+  }
+  const bool rising = centre[0] > centre[1] && centre[1] > centre[2], falling = centre[0] < centre[1] && centre[1] < centre[2];
+  EXPECT_TRUE(rising || falling) << "red " << centre[0] << ", green " << centre[1] << ", blue " << centre[2];
+}
+
+std::vector<std::string> shipped_names()
+{
+  std::vector<std::string> names;
+  for (const preset::ShippedPreset& shipped : preset::shipped_presets()) names.push_back(shipped.name);
+  return names;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& parameter)
+{
+  std::string name = parameter.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names()), test_name);
+
+} // namespace
