@@ -17,7 +17,7 @@
 namespace nephroid::scene {
 namespace {
 
-constexpr int children_per_node = 8, triangles_per_block = 4, triangles_per_leaf = 8, floats_per_node = 64, floats_per_block = 40;
+constexpr std::size_t children_per_node = 8, triangles_per_block = 4, triangles_per_leaf = 8, floats_per_node = 64, floats_per_block = 40;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Box {
@@ -151,9 +151,9 @@ private:
       // While one child is visited, the others may wait; any_hit has one more on its stack.
       const int child = missing ? 0 : add(*node.children[i], depth + 1, stack + static_cast<int>(node.count) - 1);
       float* to = bvh_.nodes.data() + index * floats_per_node + i;
-      for (int axis = 0; axis < 3; ++axis) {
-        to[16 * axis] = box.low[axis];
-        to[16 * axis + 8] = box.high[axis];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        to[16 * axis] = box.low[static_cast<int>(axis)];
+        to[16 * axis + 8] = box.high[static_cast<int>(axis)];
       }
       std::memcpy(to + 48, &child, sizeof child);
     }

@@ -116,7 +116,7 @@ TEST_F(BadPresets, AreRefusedInOneLine)
       {"an unknown method", top(R"("spectral":{"method":"bruteforce"})"),
        R"(bad.json#/spectral/method: is the string 'bruteforce'; expected one of optimal, thesis, brute_force; did you mean 'brute_force'?)"},
       {"no time", top(R"("stop":{"seconds":0})"), R"(bad.json#/stop/seconds: is 0; expected a number from 0.001 to 10000000 s)"},
-      {"half a pass", top(R"("stop":{"passes":0.5})"), R"(bad.json#/stop/passes: is 0.5; expected a whole number from 1 to 1000000000)"},
+      {"half a pass", top(R"("stop":{"passes":0.5})"), R"(bad.json#/stop/passes: is 0.5; expected a whole number from 1 to 1048576)"},
       {"a description of two lines", top(R"("description":"a\nb")"),
        R"(bad.json#/description: is the string 'a\nb'; expected one line without control characters)"},
       {"a field of view of 0", top(R"("scene":{"camera":{"fov_deg":0}})"),

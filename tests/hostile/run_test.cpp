@@ -150,6 +150,25 @@ TEST_F(Runs, FinishedOnesSaySoAndCanBeExtended)
   EXPECT_TRUE(picture("a") == picture("b"));
 }
 
+TEST_F(Runs, RefuseCheckpointsOfAMeshThatHasChangedSince)
+{
+  const auto mesh = [](double top) {
+    return "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 " + std::to_string(top) + " 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+  };
+  write_file_whole(scratch.path() / "m.obj", mesh(1));
+  write_file_whole(scratch.path() / "m.json", R"({"engine": "spectral", "scene": {"camera": {"resolution": [16, 16]},
+    "materials": {"g": {"type": "dielectric", "dispersion": 1.5}}, "objects": [{"mesh": "m.obj", "material": "g"}]}})");
+  const auto once_more = [&](const char* passes) {
+    return nephroid::test::nephroid({"run", "m.json", "-o", "m", "--passes", passes, "--resume"}, scratch.path(), logs);
+  };
+  ASSERT_EQ(once_more("1").exit_code, 0);
+  ASSERT_EQ(once_more("2").exit_code, 0);
+  write_file_whole(scratch.path() / "m.obj", mesh(1.5));
+  const Ended refused = once_more("3");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("a file that the preset names has changed"));
+}
+
 TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
 {
   ASSERT_EQ(run("a", {"--passes", "2"}).exit_code, 0);
@@ -162,7 +181,8 @@ TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
     EXPECT_EQ(lines(ended.err), 1u) << ended.err;
     return ended.err;
   };
-  EXPECT_THAT(answer({"--seed", "2"}), HasSubstr("belongs to another preset or seed; run without --resume"));
+  EXPECT_THAT(answer({"--seed", "2"}),
+              HasSubstr("belongs to another preset or seed, or a file that the preset names has changed; run without --resume"));
   EXPECT_THAT(answer({"--set", "scene.camera.fov_deg=41"}), HasSubstr("belongs to another preset"));
   std::string changed = good;
   changed[changed.size() / 2] ^= 1;
