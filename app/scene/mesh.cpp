@@ -2,7 +2,9 @@
 // Checks and repairs of triangle meshes. All sums are in double: positions are floats, so products of two of their differences
 // are exact or nearly so.
 #include "scene/mesh.h"
+
 #include "scene/mesh_parts.h"
+#include <limits>
 
 #include <algorithm>
 #include <array>
@@ -213,6 +215,23 @@ double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32
   for (std::uint32_t i = first_triangle; i < first_triangle + count; ++i)
     sum += six_volumes(mesh, mesh.triangles[i], mesh.positions[mesh.triangles[first_triangle].x]);
   return sum / 6;
+}
+
+Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles)
+{
+  glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+  for (const glm::uvec3& triangle : triangles)
+    for (int i = 0; i < 3; ++i) {
+      low = glm::min(low, mesh.positions[triangle[i]]);
+      high = glm::max(high, mesh.positions[triangle[i]]);
+    }
+  Sphere sphere{0.5f * low + 0.5f * high, 0};
+  double radius = 0;
+  for (const glm::uvec3& triangle : triangles)
+    for (int i = 0; i < 3; ++i)
+      radius = std::max(radius, glm::distance(glm::dvec3(mesh.positions[triangle[i]]), glm::dvec3(sphere.centre)));
+  sphere.radius = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::max());
+  return sphere;
 }
 
 } // namespace nephroid::scene

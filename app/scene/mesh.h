@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace nephroid::scene {
@@ -52,5 +53,13 @@ double winding_number(const Mesh& mesh, std::uint32_t first_triangle, std::uint3
 
 /// Volume that `count` triangles enclose, negative where they face inwards; meaningful for closed surfaces only.
 double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count);
+
+struct Sphere {
+  glm::vec3 centre{0};
+  float radius = 0;
+};
+
+/// About the middle of the bounds: encloses every vertex that these triangles of the mesh use, rounding included.
+Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles);
 
 } // namespace nephroid::scene

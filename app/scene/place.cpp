@@ -47,24 +47,6 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   return result;
 }
 
-/// About the middle of the bounds: encloses every vertex that a triangle uses, rounding included.
-Sphere enclosing_sphere(const Mesh& mesh)
-{
-  glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
-  for (const glm::uvec3& triangle : mesh.triangles)
-    for (int i = 0; i < 3; ++i) {
-      low = glm::min(low, mesh.positions[triangle[i]]);
-      high = glm::max(high, mesh.positions[triangle[i]]);
-    }
-  Sphere sphere{0.5f * low + 0.5f * high, 0};
-  double radius = 0;
-  for (const glm::uvec3& triangle : mesh.triangles)
-    for (int i = 0; i < 3; ++i)
-      radius = std::max(radius, glm::distance(glm::dvec3(mesh.positions[triangle[i]]), glm::dvec3(sphere.centre)));
-  sphere.radius = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::max());
-  return sphere;
-}
-
 void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const std::string& where, Placed& placed)
 {
   const Bounds bounds = placed_bounds(mesh, placement, where);
@@ -158,7 +140,7 @@ Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& ori
   if (placed.mesh.triangles.empty())
     throw bad_input(where, "no triangle has an area after scaling", "a mesh with a surface", "use a scale closer to 1");
   if (placed.mesh.normals.empty()) compute_smooth_normals(placed.mesh);
-  placed.bounds = enclosing_sphere(placed.mesh);
+  placed.bounds = enclosing_sphere(placed.mesh, placed.mesh.triangles);
   return placed;
 }
 

@@ -25,11 +25,6 @@ struct Material {
   optics::Spectrum reflectance{}; ///< diffuse, mirror
 };
 
-struct Sphere {
-  glm::vec3 centre{0};
-  float radius = 0;
-};
-
 struct Object {
   std::string name;
   int material = 0; ///< index into Scene::materials

@@ -5,51 +5,36 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <random>
+#include <tuple>
 
 namespace nephroid::spectral {
 namespace {
 
-using Triangles = std::vector<std::uint32_t>;
+using Triangles = std::vector<glm::uvec3>;
 
 struct Piece {
   Triangles triangles;
   scene::Sphere sphere;
 };
 
-glm::vec3 centroid(const scene::Mesh& mesh, std::uint32_t triangle)
+glm::vec3 centroid(const scene::Mesh& mesh, const glm::uvec3& corner)
 {
-  const glm::uvec3& corner = mesh.triangles[triangle];
   return (mesh.positions[corner.x] + mesh.positions[corner.y] + mesh.positions[corner.z]) / 3.0f;
-}
-
-/// About the middle of the bounding box, grown by more than the rounding of its radius.
-scene::Sphere enclosing_sphere(const scene::Mesh& mesh, const Triangles& triangles)
-{
-  glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
-  const auto for_each_vertex = [&](const auto& visit) {
-    for (const std::uint32_t t : triangles)
-      for (int corner = 0; corner < 3; ++corner) visit(mesh.positions[mesh.triangles[t][corner]]);
-  };
-  for_each_vertex([&](const glm::vec3& p) { low = glm::min(low, p), high = glm::max(high, p); });
-  scene::Sphere sphere{0.5f * (low + high), 0};
-  for_each_vertex([&](const glm::vec3& p) { sphere.radius = std::max(sphere.radius, glm::length(p - sphere.centre)); });
-  sphere.radius *= 1.000001f;
-  return sphere;
 }
 
 /// Two halves of equal count along the axis on which the centroids spread most.
 std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles)
 {
   glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
-  for (const std::uint32_t t : triangles) low = glm::min(low, centroid(mesh, t)), high = glm::max(high, centroid(mesh, t));
+  for (const glm::uvec3& t : triangles) low = glm::min(low, centroid(mesh, t)), high = glm::max(high, centroid(mesh, t));
   const glm::vec3 extent = high - low;
   const int axis = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
   const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2);
-  std::nth_element(triangles.begin(), middle, triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
+  std::nth_element(triangles.begin(), middle, triangles.end(), [&](const glm::uvec3& a, const glm::uvec3& b) {
     const float at_a = centroid(mesh, a)[axis], at_b = centroid(mesh, b)[axis];
-    return at_a < at_b || (at_a == at_b && a < b);
+    // Ties are broken by the corners, so that the halves do not depend on the library's way of sorting.
+    return std::tuple(at_a, a.x, a.y, a.z) < std::tuple(at_b, b.x, b.y, b.z);
   });
   Piece first{{triangles.begin(), middle}, {}}, second{{middle, triangles.end()}, {}};
   first.sphere = enclosing_sphere(mesh, first.triangles);
@@ -63,10 +48,8 @@ std::vector<Piece> one_piece_an_object(const scene::Scene& scene)
   for (const scene::Object& object : scene.objects) {
     const scene::Material::Type type = scene.materials[static_cast<std::size_t>(object.material)].type;
     if (object.triangle_count == 0 || type == scene::Material::Type::diffuse) continue;
-    Triangles triangles(object.triangle_count);
-    std::iota(triangles.begin(), triangles.end(), object.first_triangle);
-    const scene::Sphere sphere = enclosing_sphere(scene.geometry, triangles);
-    pieces.push_back({std::move(triangles), sphere});
+    const auto first = scene.geometry.triangles.begin() + object.first_triangle;
+    pieces.push_back({{first, first + object.triangle_count}, object.bounds});
   }
   return pieces;
 }
