@@ -29,8 +29,9 @@ prepare_build() {
 run_tests() {
   # The suppressions and their reasons: tests/sanitizers/.
   # intercept_tls_get_addr: LeakSanitizer of g++ 12 misreads the thread-local blocks of libraries that are loaded late, as PoCL and
-  # the picture module are, and now and then crashes itself at the end of a sound run.
-  export ASAN_OPTIONS="strict_string_checks=1:detect_stack_use_after_return=1:intercept_tls_get_addr=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
+  # the picture module are, and now and then crashes itself at the end of a sound run. use_sigaltstack: so does AddressSanitizer where
+  # a thread of the OpenGL driver has a signal stack of its own.
+  export ASAN_OPTIONS="strict_string_checks=1:detect_stack_use_after_return=1:intercept_tls_get_addr=0:use_sigaltstack=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
   export LSAN_OPTIONS="suppressions=$root/tests/sanitizers/leak.supp:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}"
   export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/thread.supp${TSAN_OPTIONS:+:$TSAN_OPTIONS}"
   export UBSAN_OPTIONS="print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}"
