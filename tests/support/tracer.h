@@ -94,7 +94,7 @@ private:
 /// Embree's own tracer over the same mesh.
 class EmbreeTracer {
 public:
-  EmbreeTracer(const scene::Mesh& mesh, RTCSceneFlags flags) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_))
+  EmbreeTracer(const scene::Mesh& mesh, RTCSceneFlags flags) : device_(rtcNewDevice(settings)), scene_(rtcNewScene(device_))
   {
     rtcSetSceneFlags(scene_, flags);
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
@@ -131,6 +131,11 @@ public:
   }
 
 private:
+#ifdef __SANITIZE_THREAD__
+  static constexpr const char* settings = "threads=1"; // as in scene/bvh.cpp
+#else
+  static constexpr const char* settings = nullptr;
+#endif
   RTCDevice device_;
   RTCScene scene_;
 };
