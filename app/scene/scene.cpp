@@ -2,6 +2,8 @@
 // Puts the scene together: materials, then objects in place, then the lights and the camera, which need to know the objects.
 #include "scene/scene.h"
 
+#include "scene/contact.h"
+
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_pointer.h"
@@ -180,6 +182,7 @@ Scene load_scene(const preset::Preset& preset)
     add_object(scene, preset.scene.objects[i], pending[i]);
     pending[i].mesh = {}; // a large scene is not held twice
   }
+  part_touching(scene);
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     scene.lights.push_back(make_light(preset.scene.lights[i], scene, fmt::format("{}/lights/{}", where, i)));
     warn_if_straddling(scene, scene.lights.back(), i);

@@ -265,6 +265,43 @@ TEST(Nested, AirInsideGlassMakesTwoPlates)
   EXPECT_NEAR(e.deposited_w / e.emitted_w, truth, 4 * std::sqrt(truth * (1 - truth) / (1 << 18)));
 }
 
+// ---- Contact ---------------------------------------------------------------------------------------------------------------
+// Glass that stands exactly on a floor, on a mirror or on other glass: a gap of air is left, so nothing is lost, and the closed forms
+// are those of plates in air. Both orders of the objects, because ties are broken by it.
+double standing_on(const preset::Object& below, const char* catcher, bool glass_first)
+{
+  preset::Preset p = empty_preset(16);
+  p.scene.materials["glass"] = glass(1.5);
+  p.scene.materials["white"] = white();
+  p.scene.materials["mirror"].type = preset::Material::Type::mirror;
+  p.scene.materials["mirror"].reflectance.value = 1;
+  const preset::Object box_on_top = object("standing", box(1, 1, 1), "glass", at({0, -1.5, 0}));
+  p.scene.objects = glass_first ? std::vector{box_on_top, below} : std::vector{below, box_on_top};
+  p.scene.objects.push_back(object("catcher", quad(400, 400), "white", std::string(catcher) == "above" ? at({0, 5, 0}) : at({0, -5, 0})));
+  p.scene.lights = {pencil({0.1, 1, 0.07}, {0, -1, 0}, 0.05)};
+  p.scene.camera.position = {0, 3, 0};
+  p.scene.camera.up = {0, 0, -1};
+  p.spectral.photons_per_pass = 1 << 17;
+  p.spectral.max_surfaces = 200;
+  const job::EnergyBalance e = render(p).energy;
+  EXPECT_EQ(e.lost_w, 0);
+  return e.deposited_w / e.emitted_w;
+}
+
+TEST(Contact, NoLightIsLostBetweenTouchingSurfaces)
+{
+  const double r = 0.04, sigma = 1.0 / std::sqrt(1 << 17);
+  for (const bool glass_first : {true, false}) {
+    const preset::Object floor = object("floor", quad(40, 40), "white", at({0, -2, 0}));
+    EXPECT_NEAR(standing_on(floor, "below", glass_first), (1 - r) / (1 + r), 4 * 0.3 * sigma);
+    // All light comes back from a mirror, and goes up to the catcher whatever the glass reflects on its way.
+    const preset::Object mirror = object("mirror", quad(40, 40), "mirror", at({0, -2, 0}));
+    EXPECT_NEAR(standing_on(mirror, "above", glass_first), 1, 1e-4);
+    const preset::Object more_glass = object("more glass", box(1, 1, 1), "glass", at({0, -2.5, 0}));
+    EXPECT_NEAR(standing_on(more_glass, "below", glass_first), (1 - r) / (1 + 3 * r), 4 * 0.35 * sigma);
+  }
+}
+
 // A point light in the middle of a glass cube: of each face's light the part inside the critical cone gets out, the rest bounces
 // for ever between the faces. With n = 2 the cones about the six faces do not overlap, and light that enters no cone never does.
 TEST(TotalReflection, ACubeKeepsWhatIsOutsideItsCones)

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/contact.h"
+
+#include "scene/place.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nephroid::scene {
+namespace {
+
+/// Of the largest coordinate of the two objects. Rays start 2^-21 of a triangle's coordinates off it (kernels/surface.h), so this is
+/// several times what either side's rays step over.
+constexpr double gap_share = 0x1p-18, touching_share = 0x1p-21;
+
+Bounds bounds_of(const Scene& scene, const Object& object)
+{
+  Bounds bounds{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(-std::numeric_limits<double>::max())};
+  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      const glm::dvec3 p = scene.geometry.positions[scene.geometry.triangles[t][corner]];
+      bounds.low = glm::min(bounds.low, p);
+      bounds.high = glm::max(bounds.high, p);
+    }
+  return bounds;
+}
+
+double largest_coordinate(const Bounds& a, const Bounds& b)
+{
+  double largest = 0;
+  for (int k = 0; k < 3; ++k)
+    largest = std::max({largest, std::abs(a.low[k]), std::abs(a.high[k]), std::abs(b.low[k]), std::abs(b.high[k])});
+  return largest;
+}
+
+/// The axis along which a face of `glass` lies in a face of the other's bounds, while they overlap along the other two; -1: none.
+int touching_axis(const Bounds& glass, const Bounds& other, double tolerance)
+{
+  for (int k = 0; k < 3; ++k) {
+    bool meets = true;
+    for (int j = 0; j < 3; ++j)
+      if (j != k) meets = meets && glass.low[j] < other.high[j] + tolerance && other.low[j] < glass.high[j] + tolerance;
+    if (!meets) continue;
+    for (const double face : {glass.low[k], glass.high[k]})
+      for (const double other_face : {other.low[k], other.high[k]})
+        if (std::abs(face - other_face) <= tolerance) return k;
+  }
+  return -1;
+}
+
+/// Moves every face of the object that lies across the axis inwards by `gap`; Bounds that are no thicker than that stay.
+bool draw_in(Scene& scene, const Object& object, const Bounds& bounds, int axis, double gap)
+{
+  const double middle = 0.5 * (bounds.low[axis] + bounds.high[axis]), half = 0.5 * (bounds.high[axis] - bounds.low[axis]);
+  if (half < 8 * gap) return false;
+  std::uint32_t first = ~0u, last = 0;
+  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      first = std::min(first, scene.geometry.triangles[t][corner]);
+      last = std::max(last, scene.geometry.triangles[t][corner]);
+    }
+  for (std::uint32_t v = first; v <= last; ++v) {
+    float& coordinate = scene.geometry.positions[v][axis];
+    coordinate = static_cast<float>(middle + (coordinate - middle) * (1 - gap / half));
+  }
+  return true;
+}
+
+std::string label(const Scene& scene, std::size_t object)
+{
+  return scene.objects[object].name.empty() ? fmt::format("object {}", object) : fmt::format("object '{}'", scene.objects[object].name);
+}
+
+} // namespace
+
+void part_touching(Scene& scene)
+{
+  std::vector<Bounds> bounds;
+  for (const Object& object : scene.objects) bounds.push_back(bounds_of(scene, object));
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.materials[static_cast<std::size_t>(scene.objects[i].material)].type != Material::Type::dielectric) continue;
+    for (std::size_t j = 0; j < scene.objects.size(); ++j) {
+      if (i == j) continue;
+      const double largest = largest_coordinate(bounds[i], bounds[j]);
+      const int axis = touching_axis(bounds[i], bounds[j], touching_share * largest);
+      if (axis < 0 || !draw_in(scene, scene.objects[i], bounds[i], axis, gap_share * largest)) continue;
+      bounds[i] = bounds_of(scene, scene.objects[i]);
+      scene.warnings.push_back(
+          fmt::format("{} touches {}: a gap of {:.2g} length units is left between them; let them overlap to have none", label(scene, i),
+                      label(scene, j), gap_share * largest));
+    }
+  }
+}
+
+} // namespace nephroid::scene
