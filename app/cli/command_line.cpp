@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 namespace nephroid::cli {
 namespace {
@@ -121,10 +123,18 @@ int parse_and_run(int argc, const char* const* argv, const Window& window)
 }
 
 /// Results that cannot be written (a full disk, a closed pipe) are a failure, not silence.
+Error cannot_write_results(const std::error_code& reason)
+{
+  return failed("standard output", "cannot be written" + (reason ? ": " + reason.message() : std::string()));
+}
+
 void flush_results()
 {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw failed("standard output", "cannot be written");
+  errno = 0;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw cannot_write_results(std::error_code(errno, std::generic_category()));
 }
+
+Error defect(const std::exception& error) { return failed("", error.what(), {}, "this is a defect of the program: please report it"); }
 
 } // namespace
 
@@ -143,8 +153,11 @@ int run_command_line(int argc, const char* const* argv, const Window& window)
     return report(error);
   } catch (const std::bad_alloc&) {
     return report(failed("", "out of memory", {}, "see `nephroid plan` for what a run needs"));
+  } catch (const std::system_error& error) { // fmt's, where a write fails before the last flush
+    if (std::ferror(stdout)) return report(cannot_write_results(error.code()));
+    return report(defect(error));
   } catch (const std::exception& error) {
-    return report(failed("", error.what(), {}, "this is a defect of the program: please report it"));
+    return report(defect(error));
   }
 }
 

@@ -110,9 +110,9 @@ public:
       if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
       context = compute::Context::open(options_.device);
     }
-    run::claim_folder(target_.folder);
+    const std::unique_ptr<job::Job> job = run::make_job(*prepared, *context); // a run that cannot be leaves no folder
     stop_if_interrupted_early();
-    const std::unique_ptr<job::Job> job = run::make_job(*prepared, *context);
+    run::claim_folder(target_.folder);
     begin_or_resume(*prepared, *job);
     stop_if_interrupted_early();
     work(*prepared, *job);
@@ -221,7 +221,7 @@ void add_run(CLI::App& program, Session&)
       ->check(number_from_to(0.001, 1e9));
   verb->add_option("--passes", options->passes, "Stop after this many passes, instead of where the preset says")
       ->type_name("N")
-      ->check(number_from_to(1, 1 << 30));
+      ->check(number_from_to(1, preset::max_passes));
   verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")
       ->type_name("N")
       ->check(number_from_to<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max()));

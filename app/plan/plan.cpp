@@ -7,9 +7,7 @@
 #include <algorithm>
 
 namespace nephroid::plan {
-namespace {
 
-/// "1.5 MiB": three figures are enough for a person.
 std::string readable_bytes(std::uint64_t bytes)
 {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
@@ -18,6 +16,8 @@ std::string readable_bytes(std::uint64_t bytes)
   for (; amount >= 1024 && unit < 4; ++unit) amount /= 1024;
   return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.{}f} {}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, units[unit]);
 }
+
+namespace {
 
 template <class Items, class Name>
 std::size_t widest(const Items& items, Name name)

@@ -32,5 +32,7 @@ struct Plan {
 std::string to_json(const Plan& plan);
 /// For a terminal.
 std::string to_text(const Plan& plan);
+/// "1.50 MiB": three figures are enough for a person.
+std::string readable_bytes(std::uint64_t bytes);
 
 } // namespace nephroid::plan

@@ -281,7 +281,7 @@ template <class V, Is<Stop> S>
 void describe(V& v, S& s)
 {
   v.field({.name = "seconds", .sentence = "Time of work.", .unit = "s", .bounds = within(0.001, 1e7)}, s.seconds);
-  v.field({.name = "passes", .sentence = "Number of passes.", .bounds = within(1, 1 << 20)}, s.passes);
+  v.field({.name = "passes", .sentence = "Number of passes.", .bounds = within(1, max_passes)}, s.passes);
 }
 
 template <class V, Is<Preset> S>

@@ -139,6 +139,9 @@ struct Spectral {
 /// How many passes a run has where its preset has no stop at all.
 inline constexpr int default_passes = 64;
 
+/// The most passes a run may be given: the sums of its films stay exact that long.
+inline constexpr int max_passes = 1 << 20;
+
 /// When a run is done: at the first of those given, else after default_passes.
 struct Stop {
   std::optional<double> seconds; ///< of work

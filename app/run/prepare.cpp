@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/run.h"
 
+#include "run/memory.h"
 #include "spectral/engine.h"
 
 #include <cstring>
@@ -53,6 +54,8 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous)
 
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context)
 {
+  const scene::Camera& camera = prepared.loaded->scene.camera;
+  require_memory(prepared.plan, camera.width, camera.height, context.device(), available_memory_bytes());
   return spectral::make_job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, prepared.plan, context);
 }
 

@@ -32,7 +32,8 @@ struct Prepared {
 /// settings differ (files are not read again then), and its tree where the triangles are the same. Throws bad_input as the loaders do.
 Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr);
 
-/// Builds the engine's job on a device. Throws failed where the device has not enough memory, BuildError for a kernel that does not
+/// Builds the engine's job on a device. Throws failed, before anything is allocated, where the device or this machine has not enough
+/// memory (run/memory.h), BuildError for a kernel that does not
 /// compile, and bad_input for what the engine cannot render.
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
 

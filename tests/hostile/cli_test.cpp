@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad command lines: each is answered by one line on standard error that says what is wrong, the exit code of the contract, nothing
 // on standard output and no file.
+#include "base/files.h"
 #include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -67,6 +69,7 @@ const std::vector<Case> cases{
     {{"run", "spectral/plate", "--passes", "0"}, "--passes"},
     {{"run", "spectral/plate", "--passes", "1.5"}, "--passes"},
     {{"run", "spectral/plate", "--passes", "99999999999"}, "--passes"},
+    {{"run", "spectral/plate", "--passes", "1048577"}, "not a whole number from 1 to 1048576"},
     {{"run", "spectral/plate", "--seed", "-1"}, "--seed"},
     {{"run", "spectral/plate", "--seed", "x"}, "--seed"},
     {{"run", "spectral/plate", "--seed", "99999999999999999999"}, "--seed"},
@@ -140,9 +143,12 @@ TEST_F(CommandLine, WithoutAWindowSomethingSaysWhatToDo)
 TEST_F(CommandLine, AClosedStandardOutputIsAFailureNotSilence)
 {
   if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "there is no /dev/full";
-  const std::string command = std::string(NEPHROID_PROGRAM) + " version >/dev/full 2>" + (logs / "stderr").string();
-  const int status = std::system(command.c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 1);
+  for (const char* arguments : {"version", "schema", "presets --json", "plan spectral/plate", "--help"}) { // short and long ones
+    const std::string command = fmt::format("'{}' {} >/dev/full 2>'{}'", NEPHROID_PROGRAM, arguments, (logs / "stderr").string());
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
+    EXPECT_EQ(nephroid::read_file(logs / "stderr"), "nephroid: standard output: cannot be written: No space left on device\n") << arguments;
+  }
 }
 
 } // namespace
