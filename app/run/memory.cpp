@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a run fits, asked before anything is allocated: Linux grants memory that it does not have and kills the process later.
+#include "run/memory.h"
+
+#include "base/error.h"
+#include "base/files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+namespace nephroid::run {
+namespace {
+
+constexpr const char* remedy = "choose a smaller scene.camera.resolution";
+
+/// What saving a picture takes at its peak, in bytes a pixel, for `layers` layers of 3 channels:
+/// the snapshot's floats, 12 for each layer and 12 for their sum, are held throughout; beside them come
+///  - the EXR writer's interleaved copy, its encoded file and the copy of that which is written, each at most about as large, or
+///  - the checkpoint, of 24 for each layer's 64-bit sums: once as the job's bytes and once as the file's.
+/// Reading a film back for a snapshot (24, one film at a time) is less than either.
+std::uint64_t host_bytes_per_pixel(std::uint64_t layers)
+{
+  const std::uint64_t floats = 12 * (layers + 1), checkpoint = 24 * layers;
+  return floats + std::max(3 * floats, 2 * checkpoint);
+}
+
+std::uint64_t total_bytes(const plan::Plan& plan)
+{
+  return std::accumulate(plan.buffers.begin(), plan.buffers.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const plan::PlannedBuffer& buffer) { return sum + buffer.bytes; });
+}
+
+Error does_not_fit(const std::string& what, const std::string& there_is) { return failed("memory", what, there_is, remedy); }
+
+} // namespace
+
+std::uint64_t host_bytes(const plan::Plan& plan, int width, int height)
+{
+  const auto is_film = [](const plan::PlannedBuffer& buffer) { return buffer.name.starts_with("film "); };
+  const auto layers = static_cast<std::uint64_t>(std::count_if(plan.buffers.begin(), plan.buffers.end(), is_film));
+  return host_bytes_per_pixel(layers) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+}
+
+std::optional<std::uint64_t> available_memory_bytes()
+{
+  std::string text;
+  try {
+    text = read_file("/proc/meminfo");
+  } catch (const Error&) {
+    return std::nullopt; // /proc is not mounted
+  }
+  const std::string_view key = "MemAvailable:";
+  const std::size_t at = text.find(key);
+  if (at == std::string::npos) return std::nullopt;
+  const std::size_t digits = std::min(text.find_first_not_of(' ', at + key.size()), text.size());
+  std::uint64_t kib = 0;
+  const auto [end, error] = std::from_chars(text.data() + digits, text.data() + text.size(), kib);
+  return error == std::errc() ? std::optional(kib * 1024) : std::nullopt;
+}
+
+void require_memory(const plan::Plan& plan, int width, int height, const compute::DeviceInfo& device,
+                    std::optional<std::uint64_t> available)
+{
+  using plan::readable_bytes;
+  const std::uint64_t on_device = total_bytes(plan);
+  if (on_device > device.memory_bytes)
+    throw does_not_fit(fmt::format("the run needs {} on the device", readable_bytes(on_device)),
+                       fmt::format("{} has {}", device.name, readable_bytes(device.memory_bytes)));
+  for (const plan::PlannedBuffer& buffer : plan.buffers)
+    if (buffer.bytes > device.max_buffer_bytes)
+      throw does_not_fit(fmt::format("the buffer '{}' needs {}", buffer.name, readable_bytes(buffer.bytes)),
+                         fmt::format("{} has at most {} for one buffer", device.name, readable_bytes(device.max_buffer_bytes)));
+  const std::uint64_t here = host_bytes(plan, width, height) + (device.type == "cpu" ? on_device : 0);
+  if (available && here > *available)
+    throw does_not_fit(fmt::format("a picture of {} x {} pixels needs about {}", width, height, readable_bytes(here)),
+                       fmt::format("{} of this machine's memory are free", readable_bytes(*available)));
+}
+
+} // namespace nephroid::run

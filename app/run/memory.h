@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The memory a run takes on the device and on this machine, against what there is.
+#pragma once
+#include "compute/compute.h"
+#include "plan/plan.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace nephroid::run {
+
+/// About what the host needs beside the device's buffers while a picture of width x height pixels is saved, in bytes.
+std::uint64_t host_bytes(const plan::Plan& plan, int width, int height);
+
+/// What the system says can be allocated without swapping, in bytes; empty where it does not say.
+std::optional<std::uint64_t> available_memory_bytes();
+
+/// Throws failed, saying what is needed and what there is, where the plan's buffers exceed the device's memory, one of them the
+/// device's largest buffer, or what this machine has to hold (for a cpu device its buffers too) exceeds `available` bytes.
+void require_memory(const plan::Plan& plan, int width, int height, const compute::DeviceInfo& device,
+                    std::optional<std::uint64_t> available);
+
+} // namespace nephroid::run
