@@ -144,13 +144,15 @@ std::vector<fs::path> model_folders()
 std::string read_file(const fs::path& path)
 {
   const auto refuse = [&](const std::string& why) { return bad_input(path.string(), "cannot be read: " + why); };
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // Without O_NONBLOCK a named pipe would be waited for here; on a regular file it does nothing.
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   if (!file.ok() || ::fstat(file.number(), &status) != 0) throw refuse(reason(errno));
   if (S_ISDIR(status.st_mode)) throw refuse("it is a folder");
+  if (!S_ISREG(status.st_mode)) throw refuse("it is not a regular file"); // reading a device or a pipe might never end
   std::string bytes;
   std::size_t filled = 0;
-  while (true) { // the size is a hint: pipes and files in /proc have none
+  while (true) { // the size is a hint: files in /proc have none
     bytes.resize(std::max<std::size_t>(filled + 65536, static_cast<std::size_t>(status.st_size) + 1));
     const ssize_t count = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
     if (count < 0 && errno == EINTR) continue;
@@ -207,20 +209,26 @@ FileFinder::FileFinder(fs::path beside)
 
 fs::path FileFinder::find(const std::string& name, const std::string& where) const
 {
-  const auto exists = [](const fs::path& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
-  };
   if (name.empty()) throw bad_input(where, "the file name is empty");
-  if (fs::path(name).is_absolute()) {
-    if (exists(name)) return name;
-    throw bad_input(where, fmt::format("there is no file '{}'", name));
-  }
+  std::string other_kind; // what has the name but cannot be read: a file of that name in a later folder still counts
+  const auto is_file = [&](const fs::path& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status) && other_kind.empty())
+      other_kind = fmt::format("'{}' is {}", path.string(), fs::is_directory(status) ? "a folder" : "not a regular file");
+    return fs::is_regular_file(status);
+  };
   std::vector<std::string> names;
-  for (const fs::path& folder : folders_) {
-    if (exists(folder / name)) return folder / name;
-    names.push_back(folder.string());
+  if (fs::path(name).is_absolute()) {
+    if (is_file(name)) return name;
+    if (other_kind.empty()) throw bad_input(where, fmt::format("there is no file '{}'", name));
+  } else {
+    for (const fs::path& folder : folders_) {
+      if (is_file(folder / name)) return folder / name;
+      names.push_back(folder.string());
+    }
   }
+  if (!other_kind.empty()) throw bad_input(where, other_kind, "expected a file");
   throw bad_input(where, fmt::format("'{}' not found", name), fmt::format("looked in {}", fmt::join(names, ", ")));
 }
 

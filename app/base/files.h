@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-/// The file's bytes. Throws bad_input where it cannot be read (missing, a folder, no permission).
+/// The file's bytes. Throws bad_input where it cannot be read (missing, a folder, a device or a pipe, no permission).
 std::string read_file(const std::filesystem::path& path);
 
 /// Writes to a temporary name beside path, flushes to disk, then renames: the file is there whole or not at all.
@@ -26,7 +26,7 @@ class FileFinder {
 public:
   explicit FileFinder(std::filesystem::path beside = {});
   /// The first existing match of name (absolute names stand for themselves).
-  /// Throws bad_input at `where` naming every folder looked into.
+  /// Throws bad_input at `where` naming every folder looked into, or what has the name and is no regular file.
   std::filesystem::path find(const std::string& name, const std::string& where) const;
   const std::vector<std::filesystem::path>& folders() const { return folders_; }
 

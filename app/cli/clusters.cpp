@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid clusters`: the wavelength clusters of a preset's glass or of a dispersion file.
+#include "base/json_output.h"
 #include "spectral/clusters.h"
 #include "base/error.h"
 #include "base/files.h"
@@ -105,7 +106,7 @@ void print_json(const Clustering& clustering)
                  {"total_theta_deg2", clustering.total_theta_deg2},
                  {"count", clustering.clusters.size()},
                  {"clusters", std::move(clusters)}};
-  fmt::print("{}\n", all.dump());
+  fmt::print("{}\n", json_text(all));
 }
 
 /// "380-384,390 nm": runs of neighbouring wavelengths, by rising wavelength.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid devices`: what --device chooses from.
+#include "base/json_output.h"
 #include "cli/verbs.h"
 #include "compute/compute.h"
 
@@ -42,7 +43,7 @@ void print_devices(bool json)
   if (json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const compute::DeviceInfo& device : devices) list.push_back(to_json(device));
-    fmt::print("{}\n", nlohmann::ordered_json{{"devices", list}}.dump());
+    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"devices", list}}));
     return;
   }
   for (const compute::DeviceInfo& device : devices) fmt::print("{}\n", to_line(device));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid dispersion`: n and k of dispersion files at wavelengths. A file that fails is reported and the others go on.
 #include "base/error.h"
+#include "base/json_output.h"
 #include "cli/dispersion_input.h"
 #include "cli/verbs.h"
 
@@ -29,8 +30,6 @@ constexpr double line_F = 486.1327, line_e = 546.0740, line_d = 587.5618, line_C
 const std::vector<double> usual_nm{optics::first_nm, line_F, line_e, line_d, line_C, optics::last_nm};
 
 Json or_null(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
-
-std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Json to_json(const std::string& file, const optics::DispersionCurve& curve, const std::vector<optics::IndexSample>& samples)
 {
@@ -81,7 +80,7 @@ void print_file(const std::string& file, const DispersionOptions& options)
   for (double nm : options.nm.empty() ? usual_nm : options.nm) samples.push_back(curve.sample(nm, outside_policy(options.outside)));
   note_missing(file, curve, samples);
   if (options.json)
-    fmt::print("{}\n", line_of(to_json(file, curve, samples)));
+    fmt::print("{}\n", json_text(to_json(file, curve, samples)));
   else
     print_text(curve, samples);
 }
@@ -96,7 +95,7 @@ void print_dispersion(const DispersionOptions& options, Session& session)
     } catch (const Error& error) {
       session.exit_code = static_cast<int>(ErrorKind::bad_input);
       if (options.json)
-        fmt::print("{}\n", line_of({{"file", file}, {"error", error.line()}}));
+        fmt::print("{}\n", json_text({{"file", file}, {"error", error.line()}}));
       else
         fmt::print(stderr, "nephroid: {}\n", error.line());
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid presets`: what is shipped, with a line each.
+#include "base/json_output.h"
 #include "cli/verbs.h"
 #include "preset/read.h"
 
@@ -19,7 +20,7 @@ void print_presets(bool json)
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const preset::ShippedPreset& p : presets)
       list.push_back({{"name", p.name}, {"description", p.description}, {"file", p.file.string()}});
-    fmt::print("{}\n", list.dump());
+    fmt::print("{}\n", json_text(list));
     return;
   }
   std::size_t width = 0;

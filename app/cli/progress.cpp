@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/progress.h"
 
+#include "base/json_output.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -108,7 +110,7 @@ std::string progress_json(const std::string& name, const job::Progress& now, con
       {"work_seconds", now.work_seconds},
       {"photons_per_second", pace.photons_per_second},
       {"seconds_left", pace.seconds_left >= 0 ? nlohmann::ordered_json(pace.seconds_left) : nlohmann::ordered_json()}};
-  return all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return json_text(all);
 }
 
 ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string name, const job::Progress& start)

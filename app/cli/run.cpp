@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
+#include "base/json_output.h"
 #include "run/run.h"
 #include "base/interrupts.h"
 #include "cli/progress.h"
@@ -85,7 +86,7 @@ void report_result(const RunOptions& options, const Target& target, const job::P
     const nlohmann::ordered_json all{
         {"type", "result"},     {"name", target.label},    {"folder", target.folder.string()}, {"files", files},
         {"finished", finished}, {"passes", progress.step}, {"photons", progress.photons},      {"work_seconds", progress.work_seconds}};
-    fmt::print("{}\n", all.dump());
+    fmt::print("{}\n", json_text(all));
   } else {
     fmt::print("{}: {} passes, {:.1f} million photons in {:.1f} s of work\n", (target.folder / "image.exr").string(), progress.step,
                static_cast<double>(progress.photons) * 1e-6, progress.work_seconds);

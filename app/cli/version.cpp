@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid version`: what was built, with what. Loads and initialises nothing.
 #include "base/build_info.h"
+#include "base/json_output.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -28,7 +29,7 @@ void print_version(bool json)
   const std::map<std::string, std::string> used = libraries();
   if (json) {
     const nlohmann::ordered_json all{{"version", version()}, {"commit", commit()}, {"compiler", compiler()}, {"libraries", used}};
-    fmt::print("{}\n", all.dump());
+    fmt::print("{}\n", json_text(all));
     return;
   }
   fmt::print("{}\n{}\n", program_name(), compiler());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/plan.h"
 
+#include "base/json_output.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -37,7 +39,7 @@ std::string to_json(const Plan& plan)
   for (const PlannedBuffer& buffer : plan.buffers) buffers.push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
   for (const auto& [name, value] : plan.defines) defines[name] = value;
   const Json all{{"engine", plan.engine}, {"passes", passes}, {"buffers", buffers}, {"defines", defines}, {"notes", plan.notes}};
-  return all.dump(2);
+  return json_text(all, 2);
 }
 
 std::string to_text(const Plan& plan)

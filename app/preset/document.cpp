@@ -135,6 +135,7 @@ std::vector<std::string> split_path(std::string_view path)
 
 void apply_override(Document& document, const std::string& text)
 {
+  if (!is_utf8(text)) throw bad_input("--set", in_quotes(text) + " is not UTF-8", "expected KEY=VALUE in UTF-8");
   Origin origin{"--set " + text, false, document.main().folder};
   if (text.size() > 200) origin.name = "--set " + text.substr(0, 200) + "...";
   const std::size_t equals = text.find('=');

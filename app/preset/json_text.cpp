@@ -2,6 +2,7 @@
 #include "preset/json_text.h"
 
 #include "base/error.h"
+#include "base/json_output.h"
 #include "base/json_pointer.h"
 
 #include <fmt/format.h>
@@ -129,11 +130,11 @@ bool on_one_line(const Json& value) { return value.is_array() && std::all_of(val
 void print(const Json& value, int indent, std::string& out)
 {
   if (is_plain(value) || value.empty()) {
-    out += value.dump();
+    out += json_text(value);
     return;
   }
   if (on_one_line(value)) {
-    for (std::size_t i = 0; i < value.size(); ++i) out += (i == 0 ? "[" : ", ") + value[i].dump();
+    for (std::size_t i = 0; i < value.size(); ++i) out += (i == 0 ? "[" : ", ") + json_text(value[i]);
     out += "]";
     return;
   }
@@ -144,7 +145,7 @@ void print(const Json& value, int indent, std::string& out)
   for (const auto& [key, item] : value.items()) {
     out += first ? "\n" : ",\n";
     out += margin;
-    if (object) out += Json(key).dump() + ": ";
+    if (object) out += json_text(Json(key)) + ": ";
     print(item, indent + 2, out);
     first = false;
   }
@@ -161,7 +162,7 @@ std::string shortened(std::string text, std::size_t most)
 /// Escaped as in JSON, without its quotation marks: nothing unprintable is left, not even where the bytes are no UTF-8.
 std::string printable(std::string_view text)
 {
-  const std::string escaped = Json(std::string(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string escaped = json_text(Json(std::string(text)));
   return escaped.substr(1, escaped.size() - 2);
 }
 
@@ -172,6 +173,16 @@ Json parse_json(std::string_view text, const std::string& source)
   Builder builder(text, source);
   Json::sax_parse(text, &builder);
   return builder.take();
+}
+
+bool is_utf8(std::string_view text)
+{
+  try {
+    static_cast<void>(Json(std::string(text)).dump()); // strict
+    return true;
+  } catch (const Json::type_error&) {
+    return false;
+  }
 }
 
 std::string pretty(const Json& value)
@@ -187,7 +198,7 @@ std::string shown(const Json& value)
   if (value.is_array())
     return value.empty() ? "an empty list" : value.size() == 1 ? "a list of 1 item" : fmt::format("a list of {} items", value.size());
   if (value.is_string()) return "the string " + in_quotes(value.get_ref<const std::string&>());
-  return value.dump();
+  return json_text(value);
 }
 
 std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shortened(printable(text), 60)); }

@@ -3,6 +3,7 @@
 // thread count, so that equal runs are equal files; what differs from run to run is in run.json.
 #include "base/build_info.h"
 #include "base/files.h"
+#include "base/json_output.h"
 #include "image/image.h"
 #include "plan/plan.h"
 #include "preset/read.h"
@@ -64,7 +65,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
                  {"phase_seconds", phases},
                  {"energy", energy_json(snapshot.energy)},
                  {"notes", prepared.plan.notes}};
-  return all.dump(2) + "\n";
+  return json_text(all, 2) + "\n";
 }
 
 } // namespace

@@ -269,6 +269,8 @@ TEST_F(BadPresets, OverridesAreRefusedInOneLine)
       {"not a number", R"(white=nan)", R"(--set white=nan: is the string 'nan'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr))"},
       {"beyond a double", R"(white=1e999)",
        R"(--set white=1e999: is the string '1e999'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr))"},
+      {"a value that is not UTF-8", "name=\xff\x41", "--set: 'name=\xef\xbf\xbd\x41' is not UTF-8; expected KEY=VALUE in UTF-8"},
+      {"a key that is not UTF-8", "\xc3=1", "--set: '\xef\xbf\xbd=1' is not UTF-8; expected KEY=VALUE in UTF-8"},
       {"a field inside a value", R"(scene.camera={"fov":30})",
        R"(--set scene.camera={"fov":30}: unknown key 'fov'; the keys here are position, target, up, fov_deg, resolution; did you mean 'fov_deg'?)"},
   };

@@ -263,6 +263,20 @@ TEST_F(Runs, AFullDiskIsALineAndNoHalfFile)
   ::umount(disk.c_str());
 }
 
+// Linux's file names are bytes. In JSON, which is UTF-8, such a name cannot stand as it is; that must not cost the run.
+TEST_F(Runs, FileAndFolderNamesMayBeAnyBytes)
+{
+  fs::create_directory(scratch.path() / "f\xff");
+  write_file_whole(scratch.path() / "f\xff/p\xfe.json",
+                   R"({"parent": "spectral/plate.json", "scene": {"camera": {"resolution": [16, 16]}}})");
+  for (const char* option : {"--json", "--resume"}) {
+    const Ended ended = nephroid::test::nephroid({"run", "f\xff/p\xfe.json", "--passes", "2", option}, scratch.path(), logs);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  }
+  EXPECT_EQ(run_json("out/p\xfe")["name"], "p\xef\xbf\xbd");
+  EXPECT_EQ(nephroid::test::nephroid({"plan", "f\xff/p\xfe.json", "--json"}, scratch.path(), logs).exit_code, 0);
+}
+
 TEST_F(Runs, NeedNoHome)
 {
   const Ended ended =

@@ -137,6 +137,7 @@ TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
       {{"dispersion"}, "FILE is required"},
       {{"dispersion", ""}, "the file name is empty"},
       {{"dispersion", "/"}, "it is a folder"},
+      {{"dispersion", "/dev/zero"}, "/dev/zero: cannot be read: it is not a regular file"},
       {{"dispersion", "empty.yml"}, "empty.yml: this is no refractiveindex.info file"},
       {{"dispersion", "binary.yml"}, "binary.yml"},
       {{"dispersion", std::string(5000, 'x')}, "not found"},

@@ -58,6 +58,17 @@ TEST_F(Files, WhatCannotBeReadIsBadInputWithItsName)
   EXPECT_THAT(error_of([&] { read_file(folder); }).line(), HasSubstr("it is a folder"));
 }
 
+TEST_F(Files, DevicesAndPipesAreRefusedAndNotWaitedFor)
+{
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const fs::path& path : {fs::path("/dev/zero"), folder / "pipe"}) {
+    EXPECT_THAT(error_of([&] { read_file(path); }).line(), HasSubstr("it is not a regular file")) << path;
+    EXPECT_EQ(error_of([&] { FileFinder(folder).find(path.string(), "x"); }).line(),
+              "x: '" + path.string() + "' is not a regular file; expected a file");
+  }
+  EXPECT_THAT(error_of([&] { FileFinder(folder).find("pipe", "x"); }).line(), HasSubstr("is not a regular file"));
+}
+
 TEST_F(Files, AMissingFolderAndAFolderInTheWayAreSaid)
 {
   const Error missing = error_of([&] { write_file_whole(folder / "no/such/a.txt", "x"); });
@@ -124,13 +135,22 @@ TEST_F(Finder, LooksBesideThenInPresetsThenInTheSystemsModels)
 
 TEST_F(Finder, SaysWhereItLookedAndForWhom)
 {
-  fs::create_directory(folder / "beside/a-folder.obj");
-  const Error error = error_of([&] { FileFinder(folder / "beside").find("a-folder.obj", "p.json#/scene/objects/0/mesh"); });
+  const Error error = error_of([&] { FileFinder(folder / "beside").find("none.obj", "p.json#/scene/objects/0/mesh"); });
   EXPECT_EQ(error.exit_code(), 2);
-  EXPECT_THAT(error.line(), testing::StartsWith("p.json#/scene/objects/0/mesh: 'a-folder.obj' not found; looked in "));
+  EXPECT_THAT(error.line(), testing::StartsWith("p.json#/scene/objects/0/mesh: 'none.obj' not found; looked in "));
   for (const char* place : {"beside", "presets", "data/glmark2/models"}) EXPECT_THAT(error.line(), HasSubstr((folder / place).string()));
   EXPECT_THAT(error_of([&] { FileFinder().find("/no/such/file", "x"); }).line(), HasSubstr("there is no file '/no/such/file'"));
   EXPECT_THAT(error_of([&] { FileFinder().find("", "x"); }).line(), HasSubstr("empty"));
+}
+
+TEST_F(Finder, FoldersAreSaidToBeFoldersUnlessAFileIsFoundLater)
+{
+  const FileFinder finder(folder / "beside");
+  fs::create_directory(folder / "beside/bunny.obj");
+  EXPECT_EQ(error_of([&] { finder.find("bunny.obj", "x"); }).line(),
+            "x: '" + (folder / "beside/bunny.obj").string() + "' is a folder; expected a file");
+  write_file_whole(folder / "presets/bunny.obj", "v 0 0 0");
+  EXPECT_EQ(finder.find("bunny.obj", "x"), folder / "presets/bunny.obj");
 }
 
 TEST_F(Finder, PresetsFolderOfTheEnvironmentMustBeThere)
