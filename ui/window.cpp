@@ -3,7 +3,9 @@
 
 #include "base/error.h"
 #include "image/image.h"
+#include "preset/read.h"
 #include "ui/engine.h"
+#include "ui/file_kind.h"
 #include "ui/frame_clock.h"
 #include "ui/glfw_window.h"
 #include "ui/layout.h"
@@ -15,6 +17,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <memory>
 
 namespace nephroid::ui {
 namespace {
@@ -123,6 +126,32 @@ private:
   bool done_ = false;
 };
 
+/// What the workbench had to say and, where nobody was there to read it in the window, the exit code of the first error.
+int report_errors(const Workbench& workbench, bool unattended)
+{
+  int exit_code = 0;
+  for (const Message& message : workbench.messages()) {
+    if (!message.error) continue;
+    fmt::print(stderr, "nephroid: {}\n", message.line);
+    if (unattended && exit_code == 0) exit_code = static_cast<int>(message.kind);
+  }
+  return exit_code;
+}
+
+/// Where there is no display, a preset that cannot be read is said first: with one there, it would be the next thing in the way.
+std::unique_ptr<GlfwWindow> open_display(const Options& options)
+{
+  try {
+    return std::make_unique<GlfwWindow>("Nephroid", options.size);
+  } catch (const Error&) {
+    if (!options.files.empty()) {
+      refuse_other_kinds(options.files.front());
+      preset::read_preset(options.files.front(), options.overrides);
+    }
+    throw;
+  }
+}
+
 } // namespace
 
 int open_window(const Options& options)
@@ -130,7 +159,7 @@ int open_window(const Options& options)
   check_layout(options.layout);
   const std::string cache_note = compute::prepare_kernel_cache(); // before OpenGL's and our own threads start
   if (!cache_note.empty()) fmt::print(stderr, "note: {}\n", cache_note);
-  GlfwWindow window("Nephroid", options.size);
+  const std::unique_ptr<GlfwWindow> window = open_display(options);
   compute::DeviceOptions device;
   device.selector = options.device;
   device.kernels = options.kernels;
@@ -140,12 +169,10 @@ int open_window(const Options& options)
   open_first(workbench, options);
   {
     Workspace workspace(options.layout);
-    Loop(options, window, workbench, workspace).run();
-    window.shut_down_back_ends(); // before the panels: their textures belong to the renderer
+    Loop(options, *window, workbench, workspace).run();
+    window->shut_down_back_ends(); // before the panels: their textures belong to the renderer
   }
-  for (const Message& message : workbench.messages())
-    if (message.error) fmt::print(stderr, "nephroid: {}\n", message.line);
-  return 0;
+  return report_errors(workbench, !options.screenshot.empty());
 }
 
 } // namespace nephroid::ui

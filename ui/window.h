@@ -22,9 +22,10 @@ struct Options {
   std::array<int, 2> size{1280, 860}; ///< --size WxH: the window's content, in screen coordinates
 };
 
-/// Opens the window, runs until it is closed and returns the exit code (0). Call from the main thread.
-/// A preset that cannot be read is shown as a message in the window, not thrown. Throws failed at "window" where there is no
-/// display or no OpenGL 3, and where the screenshot cannot be written; bad_input for a layout that there is not.
+/// Opens the window, runs until it is closed and returns the exit code: 0 but with a screenshot, where nobody reads
+/// the window: there that of the first error among its messages. Call from the main thread.
+/// A preset that cannot be read is shown as a message in the window; thrown only where there is no window. Throws failed at "window" where
+/// there is no display or no OpenGL 3, and where the screenshot cannot be written; bad_input for a layout that there is not.
 int open_window(const Options& options);
 
 } // namespace nephroid::ui

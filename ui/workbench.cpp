@@ -43,7 +43,7 @@ void Workbench::apply(const Commands& commands)
     try {
       std::visit([this](const auto& c) { carry_out(c); }, command);
     } catch (const std::exception& error) {
-      say(true, error.what());
+      say(error);
     }
   }
 }
@@ -54,7 +54,7 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
     refuse_other_kinds(name);
     history_.emplace(preset::read_preset(name, overrides));
   } catch (const std::exception& error) {
-    say(true, error.what());
+    say(error);
     return false;
   }
   std::erase_if(messages_, [&](const Message& m) { return m.error && m.id <= last_before_commands_; });
@@ -176,12 +176,18 @@ void Workbench::carry_out(const command::Quit& c)
     ask_first(command::Quit{true});
 }
 
-void Workbench::say(bool error, std::string line)
+void Workbench::say(const std::exception& error)
+{
+  const auto* known = dynamic_cast<const Error*>(&error);
+  say(true, error.what(), known ? known->kind() : ErrorKind::failed);
+}
+
+void Workbench::say(bool error, std::string line, ErrorKind kind)
 {
   // The same thing again (a panel that fails every frame) is one message.
   for (const Message& m : messages_)
     if (m.line == line && m.error == error) return;
-  messages_.push_back({++last_message_, error, std::move(line), Clock::now()});
+  messages_.push_back({++last_message_, error, std::move(line), Clock::now(), kind});
 }
 
 void Workbench::start()
@@ -226,7 +232,7 @@ void Workbench::collect_messages(Clock::time_point now)
 {
   if (status_.state == job::State::failed && status_.generation != reported_failure_) {
     reported_failure_ = status_.generation;
-    say(true, status_.message);
+    say(true, status_.message, status_.error_kind);
     failure_message_ = last_message_;
   }
   for (std::future<Message>& saved : background_)

@@ -2,6 +2,7 @@
 // The state behind the window: the preset with its history, the run it started, the newest snapshot, the messages. Knows nothing of
 // Dear ImGui. Panels read it; commands change it; update() runs once a frame and never waits for a device or a disk.
 #pragma once
+#include "base/error.h"
 #include "job/worker.h"
 #include "preset/preset.h"
 #include "preset/read.h"
@@ -10,6 +11,7 @@
 #include "ui/run_source.h"
 
 #include <chrono>
+#include <exception>
 #include <future>
 #include <memory>
 #include <optional>
@@ -24,6 +26,7 @@ struct Message {
   bool error = true;
   std::string line;
   std::chrono::steady_clock::time_point since;
+  ErrorKind kind = ErrorKind::failed; ///< of an error
 };
 
 class Workbench {
@@ -87,7 +90,8 @@ private:
 
   bool unsaved() const { return history_ && history_->modified(); }
   void ask_first(Command command);
-  void say(bool error, std::string line);
+  void say(bool error, std::string line, ErrorKind kind = ErrorKind::failed);
+  void say(const std::exception& error);
   void start();
   void take_snapshot();
   void take_plan_notes();

@@ -24,18 +24,18 @@ bool is_over(State state)
   return state == State::idle || state == State::finished || state == State::cancelled || state == State::failed;
 }
 
-std::string line_of(const std::exception_ptr& error)
+Error error_of(const std::exception_ptr& error)
 {
   try {
     std::rethrow_exception(error);
   } catch (const Error& known) {
-    return known.line();
+    return known;
   } catch (const std::bad_alloc&) {
-    return "out of memory";
+    return failed("", "out of memory");
   } catch (const std::exception& other) {
-    return other.what();
+    return failed("", other.what());
   } catch (...) {
-    return "an unknown error";
+    return failed("", "an unknown error");
   }
 }
 
@@ -66,11 +66,17 @@ struct Worker::Impl {
     changed.notify_all();
   }
 
-  void set_state(std::uint64_t generation, State state, std::string message = {})
+  void set_state(std::uint64_t generation, State state)
+  {
+    update(generation, [&] { status.state = state; });
+  }
+
+  void set_failed(std::uint64_t generation, const Error& error)
   {
     update(generation, [&] {
-      status.state = state;
-      status.message = std::move(message);
+      status.state = State::failed;
+      status.message = error.line();
+      status.error_kind = error.kind();
     });
   }
 
@@ -131,7 +137,7 @@ struct Worker::Impl {
       if (job && !stopped()) advance(generation, *job);
       set_state(generation, job && job->finished() ? State::finished : State::cancelled);
     } catch (...) {
-      set_state(generation, State::failed, line_of(std::current_exception()));
+      set_failed(generation, error_of(std::current_exception()));
     }
   }
 
@@ -170,7 +176,10 @@ void Worker::start(std::function<std::unique_ptr<Job>()> make)
   const std::lock_guard lock(impl_->mutex);
   impl_->next = std::move(make);
   impl_->cancelled = impl_->paused = false;
-  impl_->status = {State::preparing, {}, {}, impl_->status.generation + 1};
+  Status preparing;
+  preparing.state = State::preparing;
+  preparing.generation = impl_->status.generation + 1;
+  impl_->status = preparing;
   impl_->changed.notify_all();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worker thread: owns a job and, through it, the OpenCL queue. Others push commands and read the last snapshot.
 #pragma once
+#include "base/error.h"
 #include "job/job.h"
 
 #include <chrono>
@@ -16,8 +17,9 @@ enum class State { idle, preparing, running, paused, finished, cancelled, failed
 struct Status {
   State state = State::idle;
   Progress progress;
-  std::string message;          ///< the error line where state is failed, else empty
-  std::uint64_t generation = 0; ///< counts start() calls: which job this is about
+  std::string message;                      ///< the error line where state is failed, else empty
+  std::uint64_t generation = 0;             ///< counts start() calls: which job this is about
+  ErrorKind error_kind = ErrorKind::failed; ///< of the message
 };
 
 class Worker {

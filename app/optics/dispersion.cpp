@@ -30,6 +30,18 @@ Error refusal(const DispersionCurve& curve, const char* quantity, double nm, dou
                    "outside \"hold\" or \"extrapolate\" goes beyond it");
 }
 
+/// A formula that gives no n at a wavelength: past its range it may be held instead, inside it its coefficients are wrong.
+Error no_index(const DispersionCurve& curve, double nm, Outside outside)
+{
+  const double low = curve.n->low_nm, high = curve.n->high_nm;
+  const std::string what = fmt::format("the formula of {} gives no number at {} nm", curve.name, nm);
+  if (is_outside(nm, low, high) && outside != Outside::hold)
+    return bad_input(curve.source, what, fmt::format("its range is {:.6g}..{:.6g} nm", low, high),
+                     "use outside \"hold\", or choose another file");
+  return bad_input(curve.source, what + ": n^2 is negative or infinite there", "expected n^2 above 0",
+                   "check the coefficients: does a resonance lie inside the range?");
+}
+
 double value_at(const Curve& curve, double nm, Outside outside)
 {
   const bool hold = outside == Outside::hold || !curve.formula;
@@ -82,10 +94,7 @@ Spectrum sample_n(const DispersionCurve& curve, Outside outside)
   for (int i = 0; i < wavelength_count; ++i) {
     const double nm = wavelength_nm(i);
     const std::optional<double> n = curve.sample(nm, outside).n;
-    if (!n)
-      throw bad_input(curve.source, fmt::format("the formula of {} gives no number at {} nm", curve.name, nm),
-                      fmt::format("its range is {:.6g}..{:.6g} nm", curve.n->low_nm, curve.n->high_nm),
-                      "use outside \"hold\", or choose another file");
+    if (!n) throw no_index(curve, nm, outside);
     if (!(*n > 0)) throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm), "expected n above 0");
     result[static_cast<std::size_t>(i)] = *n;
   }

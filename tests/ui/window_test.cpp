@@ -69,6 +69,12 @@ TEST_F(WindowTest, WithoutADisplayItSaysWhatToDo)
   EXPECT_THAT(said, EndsWith("; run it in a desktop session or under xvfb-run; or use nephroid run PRESET\n"));
 }
 
+TEST_F(WindowTest, WithoutADisplayAPresetThatIsNotThereIsSaidFirst)
+{
+  EXPECT_EQ(shell("env -u DISPLAY -u WAYLAND_DISPLAY " + program + " " + quoted("nope.json"), log), 2);
+  EXPECT_THAT(read_file(log), HasSubstr("there is no preset"));
+}
+
 TEST_F(WindowTest, ALayoutThatThereIsNotIsBadUsage)
 {
   EXPECT_EQ(shell("env -u DISPLAY " + program + " --layout sideways --frames 1", log), 2);
@@ -103,12 +109,16 @@ TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
   EXPECT_THAT(read_file(folder.path / "times.csv"), StartsWith("frame,draw_ms,period_ms,state,fraction\n0,"));
 }
 
-TEST_F(WindowTest, APresetThatCannotBeReadOpensTheWindowWithTheMessage)
+TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
 {
   if (!there_is("xvfb-run")) GTEST_SKIP() << "no xvfb-run";
   const std::string options = " --frames 3 --until 1 --screenshot " + quoted("screen.png");
-  EXPECT_EQ(shell(on_display + program + " " + quoted("missing.json") + options, log), 0);
+  EXPECT_EQ(shell(on_display + program + " " + quoted("missing.json") + options, log), 2);
   EXPECT_THAT(read_file(log), HasSubstr("there is no preset"));
+  EXPECT_EQ(image::read_image(folder.path / "screen.png").width, 1280);
+  std::filesystem::remove(folder.path / "screen.png");
+  EXPECT_EQ(shell(on_display + program + " '" + folder.file("test.json") + "' --device abacus" + options, log), 3);
+  EXPECT_THAT(read_file(log), HasSubstr("abacus"));
   EXPECT_EQ(image::read_image(folder.path / "screen.png").width, 1280);
 }
 

@@ -245,6 +245,11 @@ TEST(Dispersion, ControlPointsAreJoinedSmoothly)
 TEST(Dispersion, BadCurvesAreRefused)
 {
   using testing::HasSubstr;
+  // n^2 = 1 + l^2 / (l^2 - 0.36): negative from 424 nm to the resonance at 600 nm, inside the range.
+  const std::array<double, 1> strength{1}, resonance{0.36};
+  for (const Outside outside : {Outside::automatic, Outside::hold})
+    EXPECT_THAT(refusal_of([&] { sample_n(sellmeier(strength, resonance), outside); }),
+                testing::AllOf(HasSubstr("gives no number at 425 nm: n^2 is negative or infinite there"), testing::Not(HasSubstr("hold"))));
   const double two[] = {1, 2}, one[] = {1}, bad[] = {1, NAN};
   EXPECT_THAT(refusal_of([&] { sellmeier(two, one); }), HasSubstr("2 values of b and 1 of c"));
   EXPECT_THAT(refusal_of([&] { sellmeier({}, {}); }), HasSubstr("no coefficients"));
