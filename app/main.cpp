@@ -27,7 +27,7 @@ void add_window_options(CLI::App& program, nephroid::ui::Options& options)
       ->group(group);
   program.add_option("--screenshot", options.screenshot, "Write the window as PNG, then close")->type_name("FILE")->group(group);
   program.add_option("--frames", options.frames, "Close after this many frames (with --screenshot: 60)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 1 << 30))
       ->type_name("N")
       ->group(group);
   program.add_option("--until", options.until, "Before closing by --frames wait for this part of the run; 1: until it is over")

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid clusters`: the wavelength clusters of a preset's glass or of a dispersion file.
-#include "base/json_output.h"
 #include "spectral/clusters.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_output.h"
 #include "base/json_pointer.h"
 #include "cli/dispersion_input.h"
 #include "cli/verbs.h"

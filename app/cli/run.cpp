@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
-#include "base/json_output.h"
 #include "run/run.h"
 #include "base/interrupts.h"
+#include "base/json_output.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
 #include "preset/read.h"

@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 
 namespace nephroid::scene {
 namespace {
@@ -21,6 +24,33 @@ auto at(const std::string& where, const Make& make)
   } catch (const Error& error) {
     if (error.where() == where) throw;
     throw Error(error.kind(), where, error.line());
+  }
+}
+
+/// presets/materials/NAME or NAME.yml, where there is one.
+std::optional<std::filesystem::path> shipped_material(const std::string& name)
+{
+  if (name.empty() || std::filesystem::path(name).is_absolute()) return std::nullopt;
+  try {
+    const std::filesystem::path materials = presets_folder() / "materials";
+    std::error_code ignored;
+    for (const std::string& file : {name, name + ".yml"})
+      if (std::filesystem::is_regular_file(materials / file, ignored)) return materials / file;
+  } catch (const Error&) {
+    // No presets at all: then it is not the name of a material either.
+  }
+  return std::nullopt;
+}
+
+/// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name ("N-SF66"), which means
+/// the same from every folder.
+std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const std::string& where)
+{
+  try {
+    return finder.find(name, where);
+  } catch (const Error&) {
+    if (const auto shipped = shipped_material(name)) return *shipped;
+    throw;
   }
 }
 
@@ -47,7 +77,7 @@ optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const F
   return at(where, [&] {
     switch (dispersion.type) {
     case Type::file:
-      return optics::load_dispersion(finder.find(dispersion.file, where));
+      return optics::load_dispersion(find_dispersion(dispersion.file, finder, where));
     case Type::sellmeier:
       return optics::sellmeier(dispersion.b, dispersion.c_um2);
     case Type::cauchy:

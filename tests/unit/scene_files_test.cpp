@@ -2,7 +2,9 @@
 // Loading a scene whose meshes and glasses are in files.
 #include "base/files.h"
 #include "preset/preset.h"
+#include "scene/materials.h"
 #include "scene/scene.h"
+#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -63,6 +65,20 @@ TEST_F(SceneFiles, DropsAndSaysSo)
   EXPECT_TRUE(scene.objects[0].closed);
   EXPECT_THAT(scene.warnings,
               ElementsAre("object 'ball': 1 triangle without area dropped", "object 'ball': 1 duplicated triangle dropped"));
+}
+
+TEST_F(SceneFiles, ShippedMaterialsHaveShortNamesWhichFilesBesideThePresetGoBefore)
+{
+  preset::Dispersion dispersion;
+  dispersion.type = preset::Dispersion::Type::file;
+  dispersion.file = "N-BK7";
+  const FileFinder finder(folder);
+  const auto n_at_d = [&] { return make_curve(dispersion, finder, "p.json#/n").sample(587.5618).n.value(); };
+  EXPECT_NEAR(n_at_d(), 1.5168, 1e-5); // Schott's data sheet
+  write_file_whole(folder / "N-BK7", "DATA:\n  - type: tabulated n\n    data: |\n        0.40 1.25\n        0.70 1.25\n");
+  EXPECT_EQ(n_at_d(), 1.25);
+  dispersion.file = "N-BK77";
+  EXPECT_THAT(test::refusal_of([&] { n_at_d(); }), HasSubstr("p.json#/n: 'N-BK77' not found; looked in "));
 }
 
 TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
