@@ -31,10 +31,10 @@ class Pace {
 public:
   explicit Pace(double start) : amount_(start) {}
   double amount() const { return amount_; }
-  /// At most fourfold a time: the first step of a kernel also compiles it.
+  /// By little at a time: the first step of a kernel also compiles it, and the rows of a picture differ.
   void learn(double done, double seconds)
   {
-    amount_ = std::clamp(done * step_seconds / std::max(seconds, 1e-6), 0.5 * amount_, 4 * amount_);
+    amount_ = std::clamp(done * step_seconds / std::max(seconds, 1e-6), 0.25 * amount_, 1.5 * amount_);
   }
 
 private:
