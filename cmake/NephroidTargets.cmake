@@ -55,3 +55,12 @@ function(nephroid_tests)
       PROPERTIES TIMEOUT 600 LABELS ${group})
   endforeach()
 endfunction()
+
+# nephroid_embed(OUTPUT HEADER SPACE TYPE FUNCTION NAME_PART file...): a .cpp that holds the files as strings (EmbedFiles.cmake).
+function(nephroid_embed output header space type function name_part)
+  set(script ${PROJECT_SOURCE_DIR}/cmake/EmbedFiles.cmake)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DHEADER=${header} -DSPACE=${space} -DTYPE=${type} -DFUNCTION=${function}
+            -DNAME_PART=${name_part} "-DSOURCES=${ARGN}" -P ${script}
+    DEPENDS ${ARGN} ${script} VERBATIM)
+endfunction()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel sources that the build embedded (cmake/EmbedKernels.cmake writes the definition).
+// The kernel sources that the build embedded (cmake/EmbedFiles.cmake writes the definition).
 #pragma once
 #include <string>
 #include <vector>

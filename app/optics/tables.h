@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour tables that are built into the program (app/optics/data, embedded by EmbedTables.cmake), as columns of numbers.
+// The colour tables that are built into the program (app/optics/data, embedded by EmbedFiles.cmake), as columns of numbers.
 #pragma once
 #include "optics/interpolation.h"
 

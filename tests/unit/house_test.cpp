@@ -187,7 +187,9 @@ TEST(House, checks_see_what_they_are_for)
   EXPECT_TRUE(opens_with_licence("#!/usr/bin/env bash\n# SPDX-License-Identifier: Apache-2.0\n"));
   EXPECT_FALSE(opens_with_licence("int i;\n// SPDX-License-Identifier: Apache-2.0\n"));
   EXPECT_FALSE(opens_with_licence(""));
-  EXPECT_EQ(machine_trace("see /usr/share/glmark2/models and app/work/x.h"), "");
+  EXPECT_EQ(machine_trace("see /usr/share/glmark2/models and app/"
+                          "work/x.h"),
+            "");
   EXPECT_EQ(machine_trace("https://www.w3.org/TR/css-color-4/"), "");
   EXPECT_EQ(machine_trace("path = \"/home/ada/nephroid\""), "\"/home/ada/nephroid\"");
   EXPECT_NE(machine_trace("fetch http://deb."
