@@ -51,8 +51,14 @@ function(nephroid_tests)
     target_link_libraries(${group}_${stem} PRIVATE nephroid_settings ${libs} ${ARGN} GTest::gmock GTest::gtest_main)
     target_compile_definitions(${group}_${stem} PRIVATE
       NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:nephroid>")
+    # Two xvfb-run -a at once may choose the same display number, and one of them fails.
+    file(STRINGS ${source} uses_display REGEX "xvfb-run")
+    set(lock "")
+    if(uses_display)
+      set(lock RESOURCE_LOCK display)
+    endif()
     gtest_discover_tests(${group}_${stem} TEST_PREFIX ${group}. DISCOVERY_MODE PRE_TEST
-      PROPERTIES TIMEOUT 600 LABELS ${group})
+      PROPERTIES TIMEOUT 600 LABELS ${group} ${lock})
   endforeach()
 endfunction()
 
