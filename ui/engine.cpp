@@ -28,7 +28,7 @@ NewRun Engine::make(const preset::Preset& preset)
   compute::kernels_changed(*context_);
   changed_ = false;
   previous_ = std::move(prepared);
-  return {run::make_job(*previous_, *context_), previous_->plan.notes};
+  return {run::make_job(*previous_, *context_), previous_->plan, nullptr};
 }
 
 void Engine::watch(const std::stop_token& stop)

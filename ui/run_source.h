@@ -2,6 +2,8 @@
 // Where the workbench gets its runs from: the program gives ui/engine.h with a device, tests give jobs of their own.
 #pragma once
 #include "job/job.h"
+#include "measure/reference.h"
+#include "plan/plan.h"
 #include "preset/preset.h"
 
 #include <memory>
@@ -12,7 +14,8 @@ namespace nephroid::ui {
 
 struct NewRun {
   std::unique_ptr<job::Job> job;
-  std::vector<std::string> notes; ///< what the plan wants said once: extrapolated data, open meshes
+  plan::Plan plan;
+  std::shared_ptr<const measure::Reference> reference; ///< what it is measured against; null where there is none
 };
 
 class RunSource {

@@ -200,7 +200,7 @@ void Workbench::start()
   worker_.start([&source = source_, preset = history_->current(), notes = coming_notes_] {
     NewRun run = source.make(preset);
     const std::lock_guard lock(notes->mutex);
-    notes->lines = std::move(run.notes);
+    notes->lines = std::move(run.plan.notes);
     return std::move(run.job);
   });
 }

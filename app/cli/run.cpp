@@ -47,6 +47,7 @@ struct RunOptions {
   std::vector<std::string> overrides;
   std::optional<double> seconds;
   std::optional<int> passes;
+  std::optional<double> until_error;
   std::optional<std::uint64_t> seed;
   compute::DeviceOptions device;
   double checkpoint_seconds = 10;
@@ -67,7 +68,11 @@ std::vector<Target> targets_of(const RunOptions& options)
   const fs::path folder = options.folder.empty() ? fs::path("out") / stem : options.folder;
   std::vector<Target> targets;
   for (preset::Preset& preset : presets) {
-    if (options.seconds || options.passes) preset.stop = {options.seconds, options.passes};
+    if (options.seconds || options.passes || options.until_error) {
+      preset.stop.seconds = options.seconds;
+      preset.stop.passes = options.passes;
+      preset.stop.error = options.until_error;
+    }
     if (options.seed) preset.seed = *options.seed;
     const std::string number = fmt::format("{:03}", targets.size() + 1);
     const bool sweep = presets.size() > 1;
@@ -223,6 +228,10 @@ void add_run(CLI::App& program, Session&)
   verb->add_option("--passes", options->passes, "Stop after this many passes, instead of where the preset says")
       ->type_name("N")
       ->check(number_from_to(1, preset::max_passes));
+  verb->add_option("--until-error", options->until_error,
+                   "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says")
+      ->type_name("E")
+      ->check(number_from_to(1e-9, 1e9));
   verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")
       ->type_name("N")
       ->check(number_from_to<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max()));

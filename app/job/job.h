@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one interface of all engines: a job advances in short steps and shows itself as immutable snapshots.
 #pragma once
+#include "job/history.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -20,6 +22,10 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<float> rgb; ///< the sum of the layers
   std::vector<Layer> layers;
+  /// An independent draw of the picture's own error, like rgb: the difference of two independent halves of the samples, a and b of them
+  /// in number, times sqrt(a b) / (a + b), which has the expectation 0 and the covariance of rgb. Empty where no halves are kept
+  /// or one of them has no sample yet.
+  std::vector<float> error_draw;
 };
 
 /// Where a job is. All counts are of the whole run, resumed parts included.
@@ -43,6 +49,7 @@ struct Snapshot {
   Progress progress;
   EnergyBalance energy;
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
+  std::shared_ptr<const History> history;             ///< of its error so far; null where nothing is measured
 };
 
 class Job {

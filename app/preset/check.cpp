@@ -116,6 +116,17 @@ void check_camera(const Camera& c, const Where& where)
   check_up(c.up, forward, "/scene/camera/up", where);
 }
 
+/// A reference that shares a seed with the run would share its noise, and call it right.
+void check_reference(const Preset& preset, const Where& where)
+{
+  if (!preset.reference || preset.reference->type != Reference::Type::recipe) return;
+  const std::uint64_t seed = preset.reference->seed;
+  if (preset.seed == seed || preset.seed == seed + 1)
+    throw bad_input(where("/reference/seed"),
+                    fmt::format("{} and {} are the reference's seeds, and {} is the run's", seed, seed + 1, preset.seed),
+                    "expected other seeds than the run's");
+}
+
 } // namespace
 
 void check(const Preset& preset, const Where& where)
@@ -125,6 +136,7 @@ void check(const Preset& preset, const Where& where)
   for (const auto& [name, material] : scene.materials) check_material(material, child("/scene/materials", name), where);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) check_object(scene.objects[i], scene, child("/scene/objects", i), where);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
+  check_reference(preset, where);
 }
 
 } // namespace nephroid::preset

@@ -89,6 +89,25 @@ struct Choices<Spectral::Method> {
 };
 
 template <>
+struct Choices<Stop::Metric> {
+  using Metric = Stop::Metric;
+  static constexpr Choice<Metric> all[] = {
+      {Metric::lab_mean, "lab_mean", "Mean distance in CIELAB; about 1 is just visible."},
+      {Metric::lab_rms, "lab_rms", "Root mean square of the distance in CIELAB."},
+      {Metric::mse, "mse", "Mean square of the difference."},
+      {Metric::rel_mse, "rel_mse", "Mean of the squared difference over the squared reference plus .01."},
+      {Metric::rel_l2, "rel_l2", "Norm of the difference over the norm of the reference."}};
+};
+
+template <>
+struct Choices<Reference::Type> {
+  using Type = Reference::Type;
+  static constexpr Choice<Type> all[] = {
+      {Type::file, "file", "A picture file."},
+      {Type::recipe, "recipe", "Rendered once from this scene with two other seeds, then kept in the cache."}};
+};
+
+template <>
 struct Choices<Preset::Engine> {
   static constexpr Choice<Preset::Engine> all[] = {{Preset::Engine::spectral, "spectral", "Dispersion caustics by wavelength clusters."}};
 };
@@ -156,6 +175,16 @@ template <>
 struct About<Stop> {
   static_assert(default_passes == 64, "the sentence says so");
   static constexpr std::string_view name = "Stop", sentence = "When a run is done: at the first of these; without any, after 64 passes.";
+};
+template <>
+struct About<Reference> {
+  using Type = Reference::Type;
+  static constexpr std::string_view name = "Reference", sentence = "What a picture is measured against.";
+  static constexpr Shorthand<Type> shorthands[] = {{Bare::text, Type::file, "file"}};
+};
+template <>
+struct About<Measure> {
+  static constexpr std::string_view name = "Measure", sentence = "What a run notes about its error.";
 };
 template <>
 struct About<Preset> {

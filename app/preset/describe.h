@@ -282,6 +282,48 @@ void describe(V& v, S& s)
 {
   v.field({.name = "seconds", .sentence = "Time of work.", .unit = "s", .bounds = within(0.001, 1e7)}, s.seconds);
   v.field({.name = "passes", .sentence = "Number of passes.", .bounds = within(1, max_passes)}, s.passes);
+  v.field(
+      {.name = "error",
+       .sentence = "The error at which the picture is good enough: against the reference where there is one, else as the run estimates it.",
+       .bounds = within(1e-9, 1e9)},
+      s.error);
+  v.field({.name = "metric", .sentence = "What `error` is measured in."}, s.metric);
+}
+
+template <class V, Is<Reference> S>
+void describe(V& v, S& r)
+{
+  using Type = Reference::Type;
+  v.type({.name = "type", .sentence = "Where the reference comes from."}, r.type);
+  switch (r.type) {
+  case Type::file:
+    v.field({.name = "file", .sentence = "A picture of the run's size.", .text = Text::file, .required = true}, r.file);
+    break;
+  case Type::recipe:
+    v.field({.name = "spectral", .sentence = "Settings of the engine; without them the preset's own with method \"brute_force\"."},
+            r.spectral);
+    v.field({.name = "passes", .sentence = "Passes of each of the two seeds.", .bounds = within(1, max_passes)}, r.passes);
+    v.field({.name = "seed",
+             .sentence = "The first of its two seeds, the other is the next; neither may be the run's.",
+             .bounds = within(0, 18446744073709551614.0)},
+            r.seed);
+    v.field(
+        {.name = "seconds", .sentence = "Refuse to begin where making it would take longer.", .unit = "s", .bounds = within(0.001, 1e7)},
+        r.seconds);
+    break;
+  }
+}
+
+template <class V, Is<Measure> S>
+void describe(V& v, S& m)
+{
+  v.field({.name = "estimate", .sentence = "Estimate the error of the run without a reference, from two independent halves of it."},
+          m.estimate);
+  v.field({.name = "perceptual", .sentence = "Also log iw_ssim, flip and hdr_flip against the reference, which cost more."}, m.perceptual);
+  v.field({.name = "mask",
+           .sentence = "A picture of the run's size: its pixels that are not 0 are measured on their own too.",
+           .text = Text::file},
+          m.mask);
 }
 
 template <class V, Is<Preset> S>
@@ -303,6 +345,8 @@ void describe(V& v, S& p)
   v.field({.name = "scene", .sentence = "What there is to see."}, p.scene);
   if (p.engine == Preset::Engine::spectral) v.field({.name = "spectral", .sentence = "Settings of the engine \"spectral\"."}, p.spectral);
   v.field({.name = "stop", .sentence = "When the run is done."}, p.stop);
+  v.field({.name = "reference", .sentence = "What the picture is measured against while it is rendered."}, p.reference);
+  v.field({.name = "measure", .sentence = "What a run notes about its error."}, p.measure);
 }
 
 /// A struct's choosing enumeration, whatever its name.

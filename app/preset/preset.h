@@ -144,9 +144,33 @@ inline constexpr int max_passes = 1 << 20;
 
 /// When a run is done: at the first of those given, else after default_passes.
 struct Stop {
+  /// The errors a run can stop at (measure/metrics.h defines each).
+  enum class Metric { lab_mean, lab_rms, mse, rel_mse, rel_l2 };
   std::optional<double> seconds; ///< of work
   std::optional<int> passes;
+  std::optional<double> error;      ///< on the reference's error where there is a reference, else on the run's own estimate
+  Metric metric = Metric::lab_mean; ///< of `error`
   bool operator==(const Stop&) const = default;
+};
+
+/// What the picture is measured against. JSON: a string (a picture file) or an object with "type".
+struct Reference {
+  enum class Type { file, recipe };
+  Type type = Type::file;
+  std::string file;                 ///< file: a picture of the run's size, linear sRGB with 1 = white (8-bit files are decoded)
+  std::optional<Spectral> spectral; ///< recipe: the engine's settings; without: the preset's own, with method brute_force
+  int passes = 256;                 ///< recipe: of each of its two seeds
+  std::uint64_t seed = 1000000007;  ///< recipe: the first of its two seeds, the other is the next; neither may be the run's
+  std::optional<double> seconds;    ///< recipe: refuse to begin where it would take longer
+  bool operator==(const Reference&) const = default;
+};
+
+/// What a run notes about its error while it works.
+struct Measure {
+  bool estimate = true;            ///< keep two independent halves of every film, whose difference is an estimate of the error
+  bool perceptual = false;         ///< also log iw_ssim, flip and hdr_flip, which cost more, against the reference
+  std::optional<std::string> mask; ///< a picture of the run's size: pixels that are not 0 are measured a second time on their own
+  bool operator==(const Measure&) const = default;
 };
 
 struct Preset {
@@ -161,6 +185,8 @@ struct Preset {
   Scene scene;
   Spectral spectral;
   Stop stop;
+  std::optional<Reference> reference;
+  Measure measure;
 
   std::string source; ///< the file it came from, for messages and look-ups; not a field of the JSON
   bool operator==(const Preset&) const = default;

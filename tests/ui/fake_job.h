@@ -87,7 +87,9 @@ public:
     std::this_thread::sleep_for(std::chrono::milliseconds(make_ms));
     ++made;
     if (broken) throw failed("photons.cl:12", "expected ';' after expression");
-    return {std::make_unique<FakeJob>(preset, *this), {preset.name + ": n is extrapolated below 390 nm"}};
+    plan::Plan plan;
+    plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
+    return {std::make_unique<FakeJob>(preset, *this), std::move(plan), nullptr};
   }
   bool take_changed() override { return changed.exchange(false); }
 

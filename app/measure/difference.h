@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of a difference: a value a pixel, and the colours that show it with their scale beside them.
+#pragma once
+#include "measure/metrics.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace nephroid::measure {
+
+enum class DifferenceMetric {
+  lab,       ///< distance in CIELAB
+  absolute,  ///< |a - b|, mean of the channels
+  relative,  ///< |a - b| / (|b| + .01), mean of the channels
+  square,    ///< (a - b)^2, mean of the channels
+  luminance, ///< signed: Y of a minus Y of b
+  flip       ///< LDR FLIP's map, 0..1
+};
+
+/// A value a pixel. Throws as compare does.
+std::vector<float> difference_map(const Pixels& picture, const Pixels& reference, DifferenceMetric metric);
+/// Where the colours end: a round number (1, 2, 5 times a power of ten) that 99 % of the values do not exceed; at least 1e-6.
+double colour_scale(std::span<const float> values);
+/// A colour of the map, 8 bits a channel: position 0..1 (signed maps: 0.5 is no difference).
+std::array<unsigned char, 3> map_colour(double position, bool is_signed = false);
+bool is_signed(DifferenceMetric metric);
+
+struct ColouredDifference {
+  int width = 0, height = 0;       ///< the map with the colour scale and its numbers drawn at its right
+  std::vector<unsigned char> rgba; ///< 4 a pixel
+  double scale = 1;                ///< the value at the end of the colours
+};
+/// scale 0: colour_scale of the values.
+ColouredDifference coloured_difference(const Pixels& picture, const Pixels& reference, DifferenceMetric metric, double scale = 0);
+
+} // namespace nephroid::measure

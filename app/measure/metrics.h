@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far a picture is from a reference: the metrics that every report, history and comparison of this program speaks.
+// a is the picture, b the reference, both linear sRGB with 1 = white, rows from the top.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nephroid::measure {
+
+/// A picture, not owned.
+struct Pixels {
+  int width = 0, height = 0;
+  std::span<const float> rgb; ///< 3 a pixel
+  std::string name;           ///< what messages call it: a file, "the run"
+};
+
+/// Which pixels count: those that are not 0. Empty: all.
+using Mask = std::span<const unsigned char>;
+
+struct Metrics {
+  double lab_mean = 0, lab_rms = 0,
+         lab_max = 0;             ///< distance of a pixel in CIELAB (D65), not clipped above: mean, root mean square, largest
+  double mse = 0;                 ///< mean of (a - b)^2 over pixels and channels
+  double rel_mse = 0;             ///< mean of (a - b)^2 / (b^2 + 0.01)
+  double rel_l2 = 0;              ///< |a - b| / |b|; of a black reference 0 where a is black too, else infinity
+  std::optional<double> psnr_db;  ///< of sRGB-encoded clipped pictures, peak 1; none where they are identical
+  std::optional<double> iw_ssim;  ///< Wang and Li 2011; none below 161 pixels a side, or where only quick ones were asked for
+  std::optional<double> flip;     ///< Andersson et al. 2020, 67.02 pixels a degree; none where only quick ones were asked for
+  std::optional<double> hdr_flip; ///< Andersson et al. 2021; none where only quick ones were asked for
+  std::size_t pixels = 0;         ///< that were counted
+};
+
+enum class Effort { quick, full };
+
+/// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel that counts.
+Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, Effort effort = Effort::full);
+
+/// Every metric's name and value in the order of contract.md, `pixels` left out; NaN where it is none.
+std::vector<std::pair<std::string, double>> named(const Metrics& metrics);
+
+/// The quick metrics again and again against one reference, whose share of the work is done once. 512 x 512: about 20 ms a call.
+class QuickComparison {
+public:
+  /// Throws as compare does. Copies what it needs of both.
+  explicit QuickComparison(const Pixels& reference, Mask mask = {});
+  /// Throws bad_input where the size is another one or a value is not finite.
+  Metrics against(const Pixels& picture) const;
+
+private:
+  int width_ = 0, height_ = 0;
+  std::string name_;
+  std::vector<float> rgb_;
+  std::vector<double> lab_;
+  std::vector<unsigned char> mask_;
+};
+
+} // namespace nephroid::measure
