@@ -5,7 +5,8 @@
 #   nephroid_imgui          the library itself, no display needed: what panels and their tests link
 #   nephroid_imgui_backend  GLFW and OpenGL: what the window links
 #   nephroid_ui_font        the font of the window, as bytes (third_party/embedded_font.h)
-# ImPlot, ImGuizmo and the command palette lie beside it under external/: a panel that needs one adds a library here.
+#   nephroid_implot         ImPlot: plots in panels
+# ImGuizmo and the command palette lie beside it under external/: a panel that needs one adds a library here.
 set(imgui_version 1.93.0)
 set(imgui_sha256 10ad1dab8258a6787b4f07bb926b08d0efc648a7906242568c8dd778c5e719bf)
 set(imgui_archive_name imgui_bundle-${imgui_version}.tar.gz)
@@ -79,6 +80,13 @@ add_library(nephroid_imgui STATIC
 target_include_directories(nephroid_imgui SYSTEM PUBLIC ${imgui})
 # The demo is half of the library's build time, and the debug windows need it.
 target_compile_definitions(nephroid_imgui PUBLIC IMGUI_DISABLE_DEMO_WINDOWS IMGUI_DISABLE_DEBUG_TOOLS IMGUI_DISABLE_OBSOLETE_FUNCTIONS)
+
+# Our plots are of doubles; the plotters of nine other number types would be most of the build time.
+set(implot ${imgui_bundle}/external/implot/implot)
+add_library(nephroid_implot STATIC ${implot}/implot.cpp ${implot}/implot_items.cpp)
+target_include_directories(nephroid_implot SYSTEM PUBLIC ${implot})
+target_compile_definitions(nephroid_implot PRIVATE "IMPLOT_CUSTOM_NUMERIC_TYPES=(double)")
+target_link_libraries(nephroid_implot PUBLIC nephroid_imgui)
 
 add_library(nephroid_imgui_backend STATIC
   ${imgui}/backends/imgui_impl_glfw.cpp ${imgui}/backends/imgui_impl_opengl3.cpp)
