@@ -27,7 +27,7 @@ struct Metrics {
   double mse = 0;                 ///< mean of (a - b)^2 over pixels and channels
   double rel_mse = 0;             ///< mean of (a - b)^2 / (b^2 + 0.01)
   double rel_l2 = 0;              ///< |a - b| / |b|; of a black reference 0 where a is black too, else infinity
-  std::optional<double> psnr_db;  ///< of sRGB-encoded clipped pictures, peak 1; none where they are identical
+  std::optional<double> psnr_db;  ///< of sRGB-encoded clipped pictures, peak 1; none where those are identical
   std::optional<double> iw_ssim;  ///< Wang and Li 2011; none below 161 pixels a side, or where only quick ones were asked for
   std::optional<double> flip;     ///< Andersson et al. 2020, 67.02 pixels a degree; none where only quick ones were asked for
   std::optional<double> hdr_flip; ///< Andersson et al. 2021; none where only quick ones were asked for
@@ -54,7 +54,8 @@ private:
   int width_ = 0, height_ = 0;
   std::string name_;
   std::vector<float> rgb_;
-  std::vector<double> lab_;
+  std::vector<double> lab_;     ///< CIELAB, 3 a pixel
+  std::vector<double> encoded_; ///< sRGB-encoded and clipped, 3 a pixel
   std::vector<unsigned char> mask_;
 };
 

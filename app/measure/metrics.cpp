@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/metrics.h"
+
+#include "measure/lab.h"
+#include "measure/parallel.h"
+#include "measure/pixels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace nephroid::measure {
+namespace {
+
+/// Pixels a block: its sums fit the cache, and a small picture is one block and starts no thread.
+constexpr std::size_t block_pixels = 8192;
+
+/// Sums over the pixels that count.
+struct Sums {
+  double lab = 0, lab_squared = 0, lab_max = 0;
+  double squared = 0, relative = 0, reference_squared = 0, encoded_squared = 0; ///< over channels as well
+  std::size_t pixels = 0;
+
+  Sums& operator+=(const Sums& other)
+  {
+    lab += other.lab;
+    lab_squared += other.lab_squared;
+    lab_max = std::max(lab_max, other.lab_max);
+    squared += other.squared;
+    relative += other.relative;
+    reference_squared += other.reference_squared;
+    encoded_squared += other.encoded_squared;
+    pixels += other.pixels;
+    return *this;
+  }
+};
+
+/// Adds one pixel: linear a and b, and what is known of b.
+void add_pixel(Sums& sums, const float* a, const float* b, const double* b_lab, const double* b_encoded)
+{
+  constexpr double dark = 0.01; // rel_mse: where the reference is darker, the error counts as if it were this (squared)
+  const std::array<double, 3> a_lab = lab_of(a);
+  double lab_squared = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double difference = double{a[c]} - b[c], reference_squared = double{b[c]} * b[c];
+    sums.squared += difference * difference;
+    sums.relative += difference * difference / (reference_squared + dark);
+    sums.reference_squared += reference_squared;
+    const double encoded = encode_clipped(a[c]) - b_encoded[c];
+    sums.encoded_squared += encoded * encoded;
+    lab_squared += (a_lab[c] - b_lab[c]) * (a_lab[c] - b_lab[c]);
+  }
+  const double distance = std::sqrt(lab_squared);
+  sums.lab += distance;
+  sums.lab_squared += lab_squared;
+  sums.lab_max = std::max(sums.lab_max, distance);
+  ++sums.pixels;
+}
+
+Metrics metrics_of(const Sums& sums)
+{
+  const auto pixels = static_cast<double>(sums.pixels), values = 3 * pixels;
+  Metrics metrics;
+  metrics.lab_mean = sums.lab / pixels;
+  metrics.lab_rms = std::sqrt(sums.lab_squared / pixels);
+  metrics.lab_max = sums.lab_max;
+  metrics.mse = sums.squared / values;
+  metrics.rel_mse = sums.relative / values;
+  metrics.rel_l2 = sums.squared == 0             ? 0
+                   : sums.reference_squared == 0 ? std::numeric_limits<double>::infinity()
+                                                 : std::sqrt(sums.squared / sums.reference_squared);
+  if (sums.encoded_squared > 0) metrics.psnr_db = -10 * std::log10(sums.encoded_squared / values);
+  metrics.pixels = sums.pixels;
+  return metrics;
+}
+
+} // namespace
+
+QuickComparison::QuickComparison(const Pixels& reference, Mask mask)
+    : width_(reference.width), height_(reference.height), name_(reference.name), mask_(mask.begin(), mask.end())
+{
+  check_pixels(reference);
+  check_mask(mask, width_, height_);
+  rgb_.assign(reference.rgb.begin(), reference.rgb.end());
+  lab_.resize(rgb_.size());
+  encoded_.resize(rgb_.size());
+  for_ranges(rgb_.size() / 3, block_pixels, [this](std::size_t, Range range) {
+    for (std::size_t i = 3 * range.begin; i < 3 * range.end; i += 3) {
+      const std::array<double, 3> lab = lab_of(&rgb_[i]);
+      std::copy(lab.begin(), lab.end(), &lab_[i]);
+      for (std::size_t c = i; c < i + 3; ++c) encoded_[c] = encode_clipped(rgb_[c]);
+    }
+  });
+}
+
+Metrics QuickComparison::against(const Pixels& picture) const
+{
+  check_same_size(picture, width_, height_, name_);
+  check_pixels(picture);
+  const std::size_t pixels = rgb_.size() / 3;
+  std::vector<Sums> blocks((pixels + block_pixels - 1) / block_pixels);
+  for_ranges(pixels, block_pixels, [&](std::size_t block, Range range) {
+    Sums sums;
+    for (std::size_t p = range.begin; p < range.end; ++p)
+      if (counts(mask_, p)) add_pixel(sums, &picture.rgb[3 * p], &rgb_[3 * p], &lab_[3 * p], &encoded_[3 * p]);
+    blocks[block] = sums;
+  });
+  return metrics_of(std::accumulate(blocks.begin(), blocks.end(), Sums{}, [](Sums a, const Sums& b) { return a += b; }));
+}
+
+Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Effort)
+{
+  return QuickComparison(reference, mask).against(picture);
+}
+
+std::vector<std::pair<std::string, double>> named(const Metrics& metrics)
+{
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return {{"lab_mean", metrics.lab_mean},
+          {"lab_rms", metrics.lab_rms},
+          {"lab_max", metrics.lab_max},
+          {"mse", metrics.mse},
+          {"rel_mse", metrics.rel_mse},
+          {"rel_l2", metrics.rel_l2},
+          {"psnr_db", metrics.psnr_db.value_or(none)},
+          {"iw_ssim", metrics.iw_ssim.value_or(none)},
+          {"flip", metrics.flip.value_or(none)},
+          {"hdr_flip", metrics.hdr_flip.value_or(none)}};
+}
+
+} // namespace nephroid::measure
