@@ -6,13 +6,13 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 namespace nephroid::measure {
 
 std::string to_csv(const job::History& history);
-/// Throws bad_input at FILE:LINE: empty, another first line, a row with too few or too many cells (a cut file), a cell that is no
-/// number, seconds that fall.
+/// The columns and the rows, nothing else of History. Throws bad_input at FILE:LINE: empty, another first line, a column that is there
+/// twice, a row with too few or too many cells or a last line without a line feed (a cut file), a cell that is no number, seconds that
+/// fall.
 job::History read_history(const std::filesystem::path& file);
 
 } // namespace nephroid::measure
