@@ -93,12 +93,13 @@ static inline float3 follow(const World* world, Path path, Hit first, int cluste
   return (float3)(0.0f);
 }
 
-// Which cluster path number `sample` of a pixel takes: steps of the golden ratio from a start of the pixel's own, so that the
-// samples of a pixel spread over the clusters evenly.
-static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint sample, uint pixel)
+// Which cluster a path of a pixel takes: steps of the golden ratio, so that the samples of a pixel spread over the clusters evenly. Even
+// and odd frames each have a start of their own and count by themselves: they are independent, as the film's two halves have to be.
+static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint frame, uint path, uint pixel)
 {
-  const uint start = philox4x32((uint4)(pixel, 0u, 0u, STREAM_CAMERA_CLUSTER), seed).x;
-  const float place = (float)((start + sample * 2654435769u) >> 8) * 0x1p-24f;
+  const uint half_of_frames = frame & 1u, step = (frame >> 1) * PATHS_THROUGH_GLASS + path;
+  const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, STREAM_CAMERA_CLUSTER), seed).x;
+  const float place = (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
   int cluster = 0;
   while (cluster + 1 < count && place >= cdf[cluster + 1]) ++cluster;
   return cluster;
@@ -127,9 +128,9 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
   else
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
       const uint sample = frame * PATHS_THROUGH_GLASS + i;
-      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, sample, pixel);
+      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, pixel);
       const float probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
       xyz += follow(&world, path, hit, cluster, reflected_xyz_all, seed, sample, pixel) / probability;
     }
-  if (!film_add(film, (int)pixel, xyz, film_scale)) add_exactly(energy + OUTCOME_REFUSED, 1);
+  if (!film_add(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale)) add_exactly(energy + OUTCOME_REFUSED, 1);
 }

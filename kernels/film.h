@@ -3,6 +3,11 @@
 #ifndef NEPHROID_FILM_H
 #define NEPHROID_FILM_H
 
+// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. Passes take turns.
+#ifndef NEPHROID_FILM_HALVES
+#define NEPHROID_FILM_HALVES 2
+#endif
+
 // One contribution may be at most 2^42 quanta: 2^20 of the largest still fit below 2^63.
 #define FILM_LIMIT 0x1p42f
 
@@ -20,6 +25,12 @@ static inline void add_exactly(volatile __global long* sum, long value)
   if (high != 0u) atomic_add(half_sum + 1, high);
 }
 #endif
+
+// The image that a pass adds to.
+static inline volatile __global long* film_of_pass(volatile __global long* film, uint pass, int pixels)
+{
+  return film + 3 * (size_t)pixels * (pass % NEPHROID_FILM_HALVES);
+}
 
 // Adds xyz * scale to a pixel. Returns false, and adds nothing, where that is not finite or above FILM_LIMIT.
 static inline bool film_add(volatile __global long* film, int pixel, float3 xyz, float scale)

@@ -116,6 +116,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 {
   const World world = WORLD;
   long outcomes[OUTCOME_COUNT] = {0};
+  film = film_of_pass(film, pass, camera.width * camera.height);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;

@@ -16,15 +16,15 @@ namespace {
 
 constexpr const char* remedy = "choose a smaller scene.camera.resolution";
 
-/// What saving a picture takes at its peak, in bytes a pixel, for `layers` layers of 3 channels:
-/// the snapshot's floats, 12 for each layer and 12 for their sum, are held throughout; beside them come
+/// What saving a picture takes at its peak, in bytes, for `layers` layers of 3 channels whose films have film_bytes together:
+/// the snapshot's floats, 12 a pixel for each layer, for their sum and for the draw of its error, are held throughout; beside them come
 ///  - the EXR writer's interleaved copy, its encoded file and the copy of that which is written, each at most about as large, or
-///  - the checkpoint, of 24 for each layer's 64-bit sums: once as the job's bytes and once as the file's.
-/// Reading a film back for a snapshot (24, one film at a time) is less than either.
-std::uint64_t host_bytes_per_pixel(std::uint64_t layers)
+///  - the checkpoint, which holds the films: once as the job's bytes and once as the file's.
+/// Reading a film back for a snapshot, one at a time, is less than either, and so is measuring: 24 a pixel for CIELAB.
+std::uint64_t peak_bytes(std::uint64_t layers, std::uint64_t pixels, std::uint64_t film_bytes)
 {
-  const std::uint64_t floats = 12 * (layers + 1), checkpoint = 24 * layers;
-  return floats + std::max(3 * floats, 2 * checkpoint);
+  const std::uint64_t floats = 12 * (layers + 2) * pixels;
+  return floats + std::max(3 * floats, 2 * film_bytes);
 }
 
 std::uint64_t total_bytes(const plan::Plan& plan)
@@ -39,9 +39,13 @@ Error does_not_fit(const std::string& what, const std::string& there_is) { retur
 
 std::uint64_t host_bytes(const plan::Plan& plan, int width, int height)
 {
-  const auto is_film = [](const plan::PlannedBuffer& buffer) { return buffer.name.starts_with("film "); };
-  const auto layers = static_cast<std::uint64_t>(std::count_if(plan.buffers.begin(), plan.buffers.end(), is_film));
-  return host_bytes_per_pixel(layers) * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  std::uint64_t layers = 0, film_bytes = 0;
+  for (const plan::PlannedBuffer& buffer : plan.buffers)
+    if (buffer.name.starts_with("film ")) {
+      ++layers;
+      film_bytes += buffer.bytes;
+    }
+  return peak_bytes(layers, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height), film_bytes);
 }
 
 std::optional<std::uint64_t> available_memory_bytes()

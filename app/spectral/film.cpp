@@ -3,19 +3,42 @@
 
 #include "optics/colour.h"
 
-namespace nephroid::spectral {
+#include <cmath>
 
-job::Layer develop(std::string name, std::span<const std::int64_t> sums, int width, const std::function<double(int row)>& factor,
-                   double white)
+namespace nephroid::spectral {
+namespace {
+
+/// Linear sRGB of weight_a * a + weight_b * b, where a and b are XYZ sums.
+optics::Colour blend(const std::int64_t* a, double weight_a, const std::int64_t* b, double weight_b)
 {
-  job::Layer layer{std::move(name), std::vector<float>(sums.size())};
-  const std::size_t row_length = 3 * static_cast<std::size_t>(width);
-  double scale = 0;
-  for (std::size_t i = 0; i < sums.size(); i += 3) {
-    if (i % row_length == 0) scale = factor(static_cast<int>(i / row_length)) / white;
-    const optics::Colour rgb = optics::xyz_to_linear_srgb(
-        {static_cast<double>(sums[i]) * scale, static_cast<double>(sums[i + 1]) * scale, static_cast<double>(sums[i + 2]) * scale});
-    for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] = static_cast<float>(rgb[c]);
+  optics::Colour xyz{};
+  for (std::size_t c = 0; c < 3; ++c) xyz[c] = static_cast<double>(a[c]) * weight_a + static_cast<double>(b[c]) * weight_b;
+  return optics::xyz_to_linear_srgb(xyz);
+}
+
+} // namespace
+
+job::Layer develop(std::string name, const Film& film, std::vector<float>& error_draw)
+{
+  const std::size_t row_length = 3 * static_cast<std::size_t>(film.width), size = row_length * static_cast<std::size_t>(film.height);
+  const bool halves = film.sums.size() == 2 * size;
+  const std::int64_t* first = film.sums.data();
+  const std::int64_t* second = halves ? first + size : first; // where there is one image, its weight below is 0
+  if (!halves) error_draw.clear();
+  job::Layer layer{std::move(name), std::vector<float>(size)};
+  for (std::size_t row = 0; row < static_cast<std::size_t>(film.height); ++row) {
+    const auto [a, b] = film.samples(static_cast<int>(row));
+    const double mean = a + b > 0 ? 1 / ((a + b) * film.quanta_per_unit) : 0;
+    if (a <= 0 || b <= 0) error_draw.clear();
+    // (A / a - B / b) sqrt(a b) / (a + b), with the sums A and B
+    const double of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
+    for (std::size_t i = row * row_length; i < (row + 1) * row_length; i += 3) {
+      const optics::Colour value = blend(first + i, mean, second + i, halves ? mean : 0);
+      for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] = static_cast<float>(value[c]);
+      if (error_draw.empty()) continue;
+      const optics::Colour error = blend(first + i, of_a, second + i, -of_b);
+      for (std::size_t c = 0; c < 3; ++c) error_draw[i + c] += static_cast<float>(error[c]);
+    }
   }
   return layer;
 }

@@ -3,16 +3,27 @@
 #pragma once
 #include "job/job.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace nephroid::spectral {
 
-/// sums: 3 a pixel, XYZ radiance in quanta, added up over samples. factor(row): what a sum of that row is multiplied with to give
-/// XYZ radiance in W m^-2 sr^-1. white: the Y that becomes 1.
-job::Layer develop(std::string name, std::span<const std::int64_t> sums, int width, const std::function<double(int row)>& factor,
-                   double white);
+/// What a device added up.
+struct Film {
+  std::span<const std::int64_t> sums; ///< [half][pixel][3]: XYZ radiance in quanta, added up over samples
+  int width = 0, height = 0;
+  double quanta_per_unit = 1; ///< quanta of what becomes 1 in the picture
+  /// How many samples, or passes of photons, the sums of a row hold: of the even and of the odd passes. A film of one image has all
+  /// of them in it.
+  std::function<std::array<double, 2>(int row)> samples;
+};
+
+/// The mean of the samples, 0 where there is none. Where the film has two halves a and b, also adds their
+/// (a - b) sqrt(n_a n_b) / (n_a + n_b) to error_draw (job::Picture), 3 a pixel, or clears it where a row lacks one of them.
+job::Layer develop(std::string name, const Film& film, std::vector<float>& error_draw);
 
 } // namespace nephroid::spectral

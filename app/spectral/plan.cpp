@@ -62,9 +62,10 @@ plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& sce
 std::uint64_t bytes_of(const auto& items) { return items.size() * sizeof(items[0]); }
 
 std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene::Bvh& bvh, const DeviceTables& tables, bool direct,
-                                         bool photons)
+                                         bool photons, int halves)
 {
-  const std::uint64_t film_bytes = 3 * sizeof(std::int64_t) * static_cast<std::uint64_t>(scene.camera.width) * scene.camera.height;
+  const std::uint64_t film_bytes =
+      static_cast<std::uint64_t>(halves) * 3 * sizeof(std::int64_t) * static_cast<std::uint64_t>(scene.camera.width) * scene.camera.height;
   const WavelengthTables& w = tables.wavelengths;
   std::vector<plan::PlannedBuffer> list{
       {"tree", bytes_of(bvh.nodes) + bytes_of(bvh.blocks)},
@@ -100,12 +101,14 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
        "caustics are splatted where the camera sees the surface directly; those seen through glass or in a mirror are not rendered yet"});
   plan.passes.push_back({"indirect", false, "diffuse interreflection is not rendered yet"});
   plan.passes.push_back({"background", false, "there is no environment: what meets nothing is black"});
-  plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs);
-  plan.defines = {{"NEPHROID_MAX_SURFACES", std::to_string(preset.spectral.max_surfaces)},
-                  {"NEPHROID_ATTENUATORS", std::to_string(attenuators)},
-                  {"NEPHROID_MIRRORS", needs.mirrors > 0 ? "1" : "0"},
-                  {"NEPHROID_SMOOTH", needs.smooth > 0 ? "1" : "0"},
-                  {"NEPHROID_BVH_STACK", std::to_string(std::max(bvh.stack, 1))}};
+  const int halves = preset.measure.estimate ? 2 : 1;
+  plan.passes.push_back({"error estimate", preset.measure.estimate,
+                         preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false"});
+  plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs, halves);
+  plan.defines = {
+      {"NEPHROID_FILM_HALVES", std::to_string(halves)},      {"NEPHROID_MAX_SURFACES", std::to_string(preset.spectral.max_surfaces)},
+      {"NEPHROID_ATTENUATORS", std::to_string(attenuators)}, {"NEPHROID_MIRRORS", needs.mirrors > 0 ? "1" : "0"},
+      {"NEPHROID_SMOOTH", needs.smooth > 0 ? "1" : "0"},     {"NEPHROID_BVH_STACK", std::to_string(std::max(bvh.stack, 1))}};
   plan.notes = scene.warnings;
   if (photons.runs && tables.photons_per_pass > static_cast<unsigned>(preset.spectral.photons_per_pass))
     plan.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light",

@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double step_seconds = 0.05;
-constexpr std::uint32_t checkpoint_version = 1;
+constexpr std::uint32_t checkpoint_version = 2;
 
 struct Uint2 {
   std::uint32_t x, y;
@@ -63,13 +63,13 @@ public:
         buffers_(upload(context, scene, bvh, tables_)), seed_{static_cast<std::uint32_t>(preset.seed),
                                                               static_cast<std::uint32_t>(preset.seed >> 32)},
         white_(preset.white), stop_seconds_(preset.stop.seconds), pixel_samples_(preset.spectral.pixel_samples),
-        direct_(runs(plan, "direct")), photons_(runs(plan, "photons"))
+        direct_(runs(plan, "direct")), photons_(runs(plan, "photons")), halves_(preset.measure.estimate ? 2 : 1)
   {
     if (preset.stop.passes || !preset.stop.seconds) passes_ = preset.stop.passes.value_or(preset::default_passes);
     // Without photons a run is over when every pixel has its samples.
     if (!photons_ && (passes_ < 0 || passes_ > pixel_samples_)) passes_ = pixel_samples_;
     tables_.scene.root = bvh.root;
-    const std::size_t sums = 3 * static_cast<std::size_t>(tables_.camera.width) * static_cast<std::size_t>(tables_.camera.height);
+    const std::size_t sums = halves_ * 3 * static_cast<std::size_t>(tables_.camera.width) * static_cast<std::size_t>(tables_.camera.height);
     compute::Defines defines = plan.defines;
     photons_per_item_ = context.device().type == "cpu" ? 16 : 1;
     defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
@@ -128,20 +128,11 @@ public:
     auto picture = std::make_shared<job::Picture>();
     picture->width = tables_.camera.width;
     picture->height = tables_.camera.height;
-    if (direct_) {
-      const std::int64_t frames = std::min<std::int64_t>(at_.pass, pixel_samples_);
-      const auto factor = [&](int row) {
-        const double samples = static_cast<double>(frames + (row < at_.row ? 1 : 0));
-        return samples > 0 ? 1 / (tables_.direct_scale * samples) : 0;
-      };
-      picture->layers.push_back(develop("direct", direct_film_.read(), picture->width, factor, white_));
-    }
-    if (photons_) {
-      const double done = photon_passes();
-      picture->layers.push_back(develop(
-          "caustic", caustic_film_.read(), picture->width, [&](int) { return done > 0 ? 1 / (tables_.caustic_scale * done) : 0; }, white_));
-    }
     picture->rgb.assign(3 * static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height), 0.0f);
+    picture->error_draw = picture->rgb;
+    if (direct_) picture->layers.push_back(develop_film("direct", direct_film_, tables_.direct_scale, picture->error_draw));
+    if (photons_) picture->layers.push_back(develop_film("caustic", caustic_film_, tables_.caustic_scale, picture->error_draw));
+    if (picture->layers.empty() || halves_ == 1) picture->error_draw.clear();
     for (const job::Layer& layer : picture->layers)
       for (std::size_t i = 0; i < layer.rgb.size(); ++i) picture->rgb[i] += layer.rgb[i];
 
@@ -215,6 +206,20 @@ private:
   {
     std::memcpy(to, from.data(), count);
     from = from.subspan(count);
+  }
+
+  job::Layer develop_film(const char* name, const compute::Buffer<std::int64_t>& film, double scale, std::vector<float>& error_draw)
+  {
+    const bool direct = &film == &direct_film_;
+    const auto samples = [&](int row) -> std::array<double, 2> {
+      const std::int64_t passes = direct ? std::min(at_.pass, pixel_samples_) : at_.pass;
+      std::array<double, 2> both{static_cast<double>((passes + 1) / 2), static_cast<double>(passes / 2)};
+      const double part = !direct ? static_cast<double>(at_.slice) / static_cast<double>(at_.slices) : row < at_.row ? 1 : 0;
+      both[static_cast<std::size_t>(at_.pass % 2)] += part;
+      return both;
+    };
+    const std::vector<std::int64_t> sums = film.read();
+    return develop(name, {sums, tables_.camera.width, tables_.camera.height, scale * white_, samples}, error_draw);
   }
 
   std::int64_t direct_left() const { return direct_ && at_.pass < pixel_samples_ ? tables_.camera.height - at_.row : 0; }
@@ -292,6 +297,7 @@ private:
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_
   std::int64_t pixel_samples_;
   bool direct_, photons_;
+  std::size_t halves_; ///< of a film
   unsigned photons_per_item_ = 1;
   compute::Buffer<std::int64_t> energy_, direct_film_, caustic_film_;
   compute::Kernel direct_kernel_, photon_kernel_;
