@@ -74,9 +74,6 @@ std::vector<const char*> pointers(const std::vector<std::string>& names)
   return result;
 }
 
-/// IEC 61966-2-1: what a display makes of an encoded value 0..1.
-double decoded_srgb(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-
 /// Entry i is the linear value halfway between the codes i and i + 1: the code of a value is the number of entries not above it.
 /// The same as rounding the encoding, without a power a pixel.
 std::array<float, 255> code_thresholds()
@@ -107,6 +104,7 @@ Image read_image(const fs::path& file)
     result.channels.assign(picture->channels, picture->channels + picture->channel_count);
     const auto pixels = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height);
     result.data.assign(picture->floats, picture->floats + pixels * result.channels.size());
+    result.integers = picture->integers;
     for (std::size_t i = 0; i < picture->attribute_count; ++i)
       result.attributes[picture->attributes[i].name] = picture->attributes[i].value;
   };
@@ -137,6 +135,8 @@ void write_png_bytes(const fs::path& file, int width, int height, const std::vec
 {
   write_png_picture(file, width, height, 4, rgba8);
 }
+
+double decoded_srgb(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }
 
 unsigned char shown(float linear, float exposure_scale)
 {

@@ -15,9 +15,10 @@ struct Image {
   std::vector<std::string> channels; ///< "R", "G", "B", "caustic.R", ...
   std::vector<float> data;           ///< width * height * channels.size()
   std::map<std::string, std::string> attributes;
+  bool integers = false; ///< read: the file holds integers (PNG, JPEG), here as 0..1; by custom they are sRGB-encoded, floats linear
 };
 
-/// Throws bad_input naming the file and OpenImageIO's reason.
+/// Colours are as the file has them, not multiplied by its alpha. Throws bad_input naming the file and OpenImageIO's reason.
 Image read_image(const std::filesystem::path& file);
 /// 32-bit float EXR with every channel and attribute. The same image gives the same bytes:
 /// no date goes in. NaN and infinities are kept.
@@ -28,6 +29,8 @@ void write_png(const std::filesystem::path& file, int width, int height, const s
 /// rgba8: 4 bytes a pixel, e.g. a screenshot.
 void write_png_bytes(const std::filesystem::path& file, int width, int height, const std::vector<unsigned char>& rgba8);
 
+/// The linear value of an sRGB-encoded one, 0..1 (IEC 61966-2-1).
+double decoded_srgb(double encoded);
 /// What a display shows of one linear channel, 0..255: times the exposure, clipped to 0..1, sRGB-encoded. Infinity is 255, NaN 0.
 unsigned char shown(float linear, float exposure_scale);
 

@@ -19,6 +19,7 @@ struct NephroidPicture {
   const unsigned char* bytes;
   const NephroidAttribute* attributes;
   std::size_t attribute_count;
+  bool integers = false; ///< read: the file's samples are integers
 };
 
 /// Calls take(context, picture) once and returns null, or returns the reason in words (valid until the thread's next call).

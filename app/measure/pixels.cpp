@@ -53,13 +53,13 @@ void check_same_size(const Pixels& picture, int width, int height, const std::st
                   fmt::format("expected {} x {}, the size of {}", width, height, reference_name));
 }
 
-void check_mask(Mask mask, int width, int height)
+void check_mask(Mask mask, int width, int height, const std::string& name)
 {
   if (mask.empty()) return;
   if (mask.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
-    throw bad_input("mask", fmt::format("has {} pixels", mask.size()), fmt::format("expected {} x {}, as the pictures", width, height));
+    throw bad_input(name, fmt::format("has {} pixels", mask.size()), fmt::format("expected {} x {}, as the pictures", width, height));
   if (std::all_of(mask.begin(), mask.end(), [](unsigned char m) { return m == 0; }))
-    throw bad_input("mask", "is all black: no pixel counts", "expected a pixel above 0");
+    throw bad_input(name, "is all black: no pixel counts", "expected a mask with pixels that are not 0");
 }
 
 } // namespace nephroid::measure

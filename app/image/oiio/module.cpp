@@ -50,7 +50,9 @@ std::vector<std::pair<std::string, std::string>> texts_of(const ImageSpec& spec)
 
 const char* read(const char* file, void (*take)(void*, const NephroidPicture*), void* context)
 {
-  const auto input = ImageInput::open(file);
+  ImageSpec wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1); // else OpenImageIO multiplies the colours of a PNG by its alpha
+  const auto input = ImageInput::open(file, &wishes);
   if (!input) return reason(geterror());
   const ImageSpec& spec = input->spec();
   if (spec.depth > 1) return "it is a volume, not a picture";
@@ -61,8 +63,9 @@ const char* read(const char* file, void (*take)(void*, const NephroidPicture*), 
   const auto texts = texts_of(spec);
   std::vector<NephroidAttribute> attributes;
   for (const auto& [name, value] : texts) attributes.push_back({name.c_str(), value.c_str()});
-  const NephroidPicture picture{spec.width,    spec.height, spec.nchannels,    channels.data(),
-                                floats.data(), nullptr,     attributes.data(), attributes.size()};
+  const NephroidPicture picture{spec.width,        spec.height,       spec.nchannels,
+                                channels.data(),   floats.data(),     nullptr,
+                                attributes.data(), attributes.size(), !spec.format.is_floating_point()};
   take(context, &picture);
   return nullptr;
 }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Picture files as comparisons take them: linear sRGB, and masks.
+#pragma once
+#include "measure/metrics.h"
+
+#include <filesystem>
+#include <map>
+
+namespace nephroid::measure {
+
+struct LinearPicture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;                        ///< linear sRGB, 3 a pixel, rows from the top
+  std::string name;                              ///< the file
+  bool grey = false;                             ///< the file has one channel, here thrice
+  std::map<std::string, std::string> attributes; ///< those of the file
+
+  Pixels pixels() const { return {width, height, rgb, name}; }
+};
+
+/// Files of floats (EXR, HDR, PFM, float TIFF) are linear; files of integers (PNG, JPEG, TIFF) are sRGB-encoded and are decoded. The
+/// channels R, G, B or, alone or with alpha, Y; alpha and further layers are left out. Values may be NaN or infinite: comparisons
+/// refuse them. Throws bad_input naming the file: no picture, or its channels where they are others.
+LinearPicture read_linear_rgb(const std::filesystem::path& file);
+
+/// One value a pixel: 1 where any of R, G, B (or Y) is not 0, else 0. Throws bad_input naming the file: as above, another size than
+/// width x height, NaN, or no pixel that counts.
+std::vector<unsigned char> read_mask(const std::filesystem::path& file, int width, int height);
+
+} // namespace nephroid::measure
