@@ -29,13 +29,29 @@ std::size_t widest(const Items& items, Name name)
   return width;
 }
 
+/// "; to compute it: --set spectral.leave_out.mirrors=false", for what a field can turn back on.
+std::string way_back(const Pass& pass)
+{
+  if (pass.runs || pass.field.empty()) return "";
+  std::string key = pass.field.substr(1); // names of fields hold no '/' and no '~'
+  std::replace(key.begin(), key.end(), '/', '.');
+  return fmt::format("; to compute it: --set {}={}", key, pass.run_value);
+}
+
 } // namespace
 
 std::string to_json(const Plan& plan)
 {
   using Json = nlohmann::ordered_json;
   Json passes = Json::array(), buffers = Json::array(), defines = Json::object();
-  for (const Pass& pass : plan.passes) passes.push_back({{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}});
+  for (const Pass& pass : plan.passes) {
+    Json entry{{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}};
+    if (!pass.field.empty()) {
+      entry["field"] = pass.field;
+      entry["run_value"] = pass.run_value;
+    }
+    passes.push_back(std::move(entry));
+  }
   for (const PlannedBuffer& buffer : plan.buffers) buffers.push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
   for (const auto& [name, value] : plan.defines) defines[name] = value;
   const Json all{{"engine", plan.engine}, {"passes", passes}, {"buffers", buffers}, {"defines", defines}, {"notes", plan.notes}};
@@ -47,7 +63,7 @@ std::string to_text(const Plan& plan)
   std::string text = fmt::format("Engine: {}\n\nPasses\n", plan.engine);
   const std::size_t pass_width = widest(plan.passes, [](const Pass& pass) { return pass.name; });
   for (const Pass& pass : plan.passes)
-    text += fmt::format("  {:<{}}  {}  {}\n", pass.name, pass_width, pass.runs ? "runs    " : "left out", pass.reason);
+    text += fmt::format("  {:<{}}  {}  {}{}\n", pass.name, pass_width, pass.runs ? "runs    " : "left out", pass.reason, way_back(pass));
   text += "\nMemory\n";
   const std::size_t buffer_width = std::max<std::size_t>(5, widest(plan.buffers, [](const PlannedBuffer& buffer) { return buffer.name; }));
   std::uint64_t total = 0;

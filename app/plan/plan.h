@@ -12,7 +12,9 @@ namespace nephroid::plan {
 struct Pass {
   std::string name;
   bool runs = true;
-  std::string reason; ///< a sentence a person can read
+  std::string reason;     ///< a sentence a person can read
+  std::string field;      ///< JSON pointer of the preset's boolean that decides; empty where none does
+  bool run_value = false; ///< what that boolean must be for the pass to run; a pass that is needed may run whatever it is
 };
 
 struct PlannedBuffer {
@@ -28,7 +30,8 @@ struct Plan {
   std::vector<std::string> notes; ///< what the run should say once: extrapolated data, open meshes
 };
 
-/// contract.md: {"engine","passes":[{"name","runs","reason"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes".
+/// contract.md: {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes";
+/// "field" and "run_value" only where a field decides.
 std::string to_json(const Plan& plan);
 /// For a terminal.
 std::string to_text(const Plan& plan);

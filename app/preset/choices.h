@@ -168,6 +168,12 @@ struct About<Scene> {
   static constexpr std::string_view name = "Scene", sentence = "What there is to see.";
 };
 template <>
+struct About<LeaveOut> {
+  static constexpr std::string_view name = "LeaveOut",
+                                    sentence = "What is left out where the scene does not need it: false computes it all the same, for "
+                                               "the same picture.";
+};
+template <>
 struct About<Spectral> {
   static constexpr std::string_view name = "Spectral", sentence = "Settings of the engine \"spectral\".";
 };

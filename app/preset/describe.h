@@ -255,6 +255,30 @@ void describe(V& v, S& s)
   v.field({.name = "lights", .sentence = "The lights.", .count = {0, 1000}}, s.lights);
 }
 
+template <class V, Is<LeaveOut> S>
+void describe(V& v, S& s)
+{
+  v.field({.name = "direct", .sentence = "Leave out the layer \"direct\" where no surface is diffuse."}, s.direct);
+  v.field({.name = "photons", .sentence = "Leave out photons where no object bends light or no surface is diffuse."}, s.photons);
+  v.field({.name = "stray_photons", .sentence = "Leave out photons that start towards anything but glass and mirrors."}, s.stray_photons);
+  v.field({.name = "unreached_targets",
+           .sentence = "Leave out, for each light, glass and mirrors that are outside a spot's cone or behind an area light."},
+          s.unreached_targets);
+  v.field({.name = "dark_lights", .sentence = "Leave out lights without power."}, s.dark_lights);
+  v.field({.name = "wavelengths", .sentence = "Leave out wavelengths that no light has."}, s.wavelengths);
+  v.field({.name = "materials", .sentence = "Leave out tables of materials that no object has."}, s.materials);
+  v.field({.name = "light_types", .sentence = "Leave out the code of types of light that the scene does not have."}, s.light_types);
+  v.field({.name = "mirrors", .sentence = "Leave out the code of mirrors where there is none."}, s.mirrors);
+  v.field({.name = "dielectrics", .sentence = "Leave out the code of glass where there is none."}, s.dielectrics);
+  v.field({.name = "bending", .sentence = "Leave out the code of Snell and Fresnel where all glass has n = 1."}, s.bending);
+  v.field({.name = "nested_media", .sentence = "Leave out the code of media inside media where no two can enclose a point."},
+          s.nested_media);
+  v.field({.name = "attenuation", .sentence = "Leave out the code of absorption where no glass absorbs and no mirror is coloured."},
+          s.attenuation);
+  v.field({.name = "smooth_normals", .sentence = "Leave out the code of interpolated normals where every object is faceted."},
+          s.smooth_normals);
+}
+
 template <class V, Is<Spectral> S>
 void describe(V& v, S& s)
 {
@@ -275,6 +299,7 @@ void describe(V& v, S& s)
   v.field({.name = "direct", .sentence = "Compute the layer \"direct\": light that reaches a diffuse surface unbent."}, s.direct);
   v.field({.name = "caustic", .sentence = "Compute the layer \"caustic\": light that met glass or a mirror, then one diffuse surface."},
           s.caustic);
+  v.field({.name = "leave_out", .sentence = "What to leave out where the scene does not need it."}, s.leave_out);
 }
 
 template <class V, Is<Stop> S>

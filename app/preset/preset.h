@@ -123,6 +123,26 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
+/// What engine 1 leaves out where the scene does not need it. false: computed all the same; the picture stays the same, it only takes
+/// longer. `nephroid plan` lists each under this name with its reason.
+struct LeaveOut {
+  bool direct = true;            ///< the layer "direct" where no surface is diffuse
+  bool photons = true;           ///< the layer "caustic" where no object bends light or no surface is diffuse
+  bool stray_photons = true;     ///< photons that start towards anything but glass and mirrors
+  bool unreached_targets = true; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
+  bool dark_lights = true;       ///< lights without power
+  bool wavelengths = true;       ///< wavelengths that no light has
+  bool materials = true;         ///< rows of the spectral tables for materials that no object has
+  bool light_types = true;       ///< kernels without the code of types of light that the scene does not have
+  bool mirrors = true;           ///< kernels without mirrors
+  bool dielectrics = true;       ///< kernels without glass
+  bool bending = true;           ///< kernels without Snell and Fresnel where all glass has n = 1
+  bool nested_media = true;      ///< kernels that know of one medium at a time where no two can enclose a point
+  bool attenuation = true;       ///< kernels without absorption where no glass absorbs and no mirror is coloured
+  bool smooth_normals = true;    ///< kernels without interpolated normals
+  bool operator==(const LeaveOut&) const = default;
+};
+
 /// Engine 1.
 struct Spectral {
   enum class Method { optimal, thesis, brute_force };
@@ -133,6 +153,7 @@ struct Spectral {
   int max_surfaces = 32;          ///< interfaces a path may meet before it is counted as lost
   bool direct = true;             ///< layer: light that reaches a diffuse surface unbent
   bool caustic = true;            ///< layer: light that met glass or a mirror, then one diffuse surface
+  LeaveOut leave_out;
   bool operator==(const Spectral&) const = default;
 };
 

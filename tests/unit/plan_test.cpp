@@ -31,6 +31,20 @@ TEST(Plan, JsonIsTheContract)
   EXPECT_EQ(json.size(), 5u);
 }
 
+// What a panel draws its check box from, and what a person types.
+TEST(Plan, APassNamesTheFieldThatTurnsItBackOn)
+{
+  Plan plan = example();
+  plan.passes[1].field = "/spectral/leave_out/attenuation";
+  const auto json = nlohmann::json::parse(to_json(plan));
+  EXPECT_EQ(json["passes"][1]["field"], "/spectral/leave_out/attenuation");
+  EXPECT_EQ(json["passes"][1]["run_value"], false);
+  EXPECT_FALSE(json["passes"][0].contains("field"));
+  EXPECT_THAT(to_text(plan), HasSubstr("k is 0 everywhere; to compute it: --set spectral.leave_out.attenuation=false\n"));
+  plan.passes[1].runs = true;
+  EXPECT_THAT(to_text(plan), HasSubstr("k is 0 everywhere\n"));
+}
+
 TEST(Plan, EmptyListsAreListsAndObjects)
 {
   const auto json = nlohmann::json::parse(to_json(Plan{"spectral", {}, {}, {}, {}}));
