@@ -14,6 +14,7 @@ find_package(CLI11 REQUIRED)
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 if(NEPHROID_TESTS)
   find_package(GTest REQUIRED)
+  find_package(Boost REQUIRED) # headers only: Boost.Math
   include(GoogleTest)
 endif()
 if(NEPHROID_TESTS AND NEPHROID_BENCH)

@@ -13,7 +13,7 @@ program_packages=(
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
 # The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets.
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema)
+test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema)
 # What .ci/run checks the sources with.
 check_packages=(clang-format clang-tidy shellcheck)
 

@@ -6,6 +6,7 @@
 #include "scene/bvh.h"
 #include "tests/support/exact_hits.h"
 #include "tests/support/meshes.h"
+#include "tests/support/test_kernels.h"
 #include "tests/support/tracer.h"
 
 #include <gtest/gtest.h>
@@ -100,7 +101,7 @@ protected:
 
 TEST_P(AgainstEmbree, EveryDifferenceIsOneOfRounding)
 {
-  const compute::Context context = compute::Context::open();
+  const compute::Context context = compute::Context::open(test::device_options());
   const scene::Mesh original = GetParam().mesh();
   for (const Place& place : places) compare(context, test::placed(original, place.scale, place.centre), place);
 }
@@ -124,7 +125,7 @@ protected:
   {
     return test::KernelTracer(context_, scene::build_bvh(mesh), defines).closest(rays);
   }
-  compute::Context context_ = compute::Context::open();
+  compute::Context context_ = compute::Context::open(test::device_options());
 };
 
 /// Points inside a closed mesh.

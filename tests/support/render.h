@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/presets.h"
+#include "tests/support/test_kernels.h"
 
 #include <stdexcept>
 
@@ -17,7 +18,7 @@ namespace nephroid::test {
 /// One context for all tests of a program: opening a device takes a second.
 inline const compute::Context& shared_context()
 {
-  static const compute::Context context = compute::Context::open();
+  static const compute::Context context = compute::Context::open(device_options());
   return context;
 }
 

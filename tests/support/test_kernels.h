@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs OpenCL source that a test brings with it, with the project's own kernel headers beside it.
+// Which kernels tests run, and how a test runs OpenCL source that it brings with it, with the project's own headers beside it.
 #pragma once
 #include "compute/compute.h"
 
@@ -10,6 +10,21 @@
 
 namespace nephroid::test {
 
+/// The folder of the kernels under test: NEPHROID_TEST_KERNELS, which tests/faults puts broken copies into, else the project's own.
+inline std::filesystem::path kernel_folder()
+{
+  const char* const folder = std::getenv("NEPHROID_TEST_KERNELS");
+  return folder != nullptr ? folder : NEPHROID_SOURCE_DIR "/kernels";
+}
+
+/// What a test opens a device with: the kernels that are built in, or those of NEPHROID_TEST_KERNELS.
+inline compute::DeviceOptions device_options()
+{
+  compute::DeviceOptions options;
+  if (std::getenv("NEPHROID_TEST_KERNELS") != nullptr) options.kernels = kernel_folder();
+  return options;
+}
+
 /// A context whose kernel folder holds the project's kernels and `source` as test.cl. The folder goes with the object.
 class TestKernels {
 public:
@@ -17,8 +32,8 @@ public:
   {
     std::string name = (std::filesystem::temp_directory_path() / "nephroid-kernels-XXXXXX").string();
     folder_ = mkdtemp(name.data());
-    for (const auto& entry : std::filesystem::directory_iterator(NEPHROID_SOURCE_DIR "/kernels"))
-      std::filesystem::create_symlink(entry.path(), folder_ / entry.path().filename());
+    for (const auto& entry : std::filesystem::directory_iterator(kernel_folder()))
+      std::filesystem::create_symlink(std::filesystem::absolute(entry.path()), folder_ / entry.path().filename());
     std::ofstream(folder_ / "test.cl") << source;
     compute::DeviceOptions options;
     options.kernels = folder_;
