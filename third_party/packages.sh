@@ -3,13 +3,13 @@
 # The Debian packages that Nephroid needs, by what needs them, and how the missing ones are installed. Sourced by run.sh,
 # test.sh and .ci/run; versions and licences are in README.md beside this file.
 
-# Configuring and compiling. python3-pip downloads Dear ImGui's source archive (imgui.cmake).
+# Configuring and compiling. python3-pip downloads two source archives (pip_fetch.cmake).
 build_packages=(g++ cmake ninja-build pkg-config python3-pip)
 # Libraries of the program itself, and the bunny that the first-light preset shows. zlib1g-dev: Assimp's CMake package names zlib.
 program_packages=(
   opencl-clhpp-headers ocl-icd-opencl-dev pocl-opencl-icd
   libfmt-dev nlohmann-json3-dev libyaml-cpp-dev libcli11-dev
-  libglm-dev libassimp-dev zlib1g-dev libembree-dev libopenimageio-dev glmark2-data)
+  libglm-dev libassimp-dev zlib1g-dev libembree-dev libopenimageio-dev libeigen3-dev glmark2-data)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
 # The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets.

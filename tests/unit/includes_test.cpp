@@ -64,8 +64,9 @@ struct LibraryRule {
 };
 
 const std::vector<LibraryRule> library_rules{
-    {"CL/", "compute"},      {"OpenImageIO/", "image"}, {"assimp/", "scene"}, {"embree3/", "scene"}, {"CLI/", "cli"},
-    {"yaml-cpp/", "optics"}, {"GLFW/", "ui"},           {"GL/", "ui"},        {"imgui", "ui"},       {"implot", "ui"},
+    {"CL/", "compute"}, {"OpenImageIO/", "image"}, {"assimp/", "scene"},  {"embree3/", "scene"},
+    {"CLI/", "cli"},    {"yaml-cpp/", "optics"},   {"GLFW/", "ui"},       {"GL/", "ui"},
+    {"imgui", "ui"},    {"implot", "ui"},          {"FLIP.h", "measure"}, {"Eigen/", "measure"},
 };
 
 /// What is wrong with one include of a file of `folder`; empty where nothing is.
