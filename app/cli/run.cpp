@@ -5,12 +5,15 @@
 #include "base/json_output.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
+#include "measure/measured_job.h"
 #include "preset/read.h"
+#include "run/reference.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -22,7 +25,8 @@ namespace nephroid::cli {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* result_files[] = {"image.exr", "image.png", "preset.json", "plan.json", "run.json", "checkpoint.bin"};
+constexpr const char* result_files[] = {"image.exr", "image.png",   "preset.json", "plan.json",
+                                        "run.json",  "history.csv", "report.html", "checkpoint.bin"};
 
 /// CLI11 reads "nan" as a number in any range, -1 as 2^64 - 1 and 1e30 as the largest whole number: what is left of the text and
 /// what is out of range are looked at here.
@@ -116,13 +120,20 @@ public:
       if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
       context = compute::Context::open(options_.device);
     }
-    const std::unique_ptr<job::Job> job = run::make_job(*prepared, *context); // a run that cannot be leaves no folder
-    stop_if_interrupted_early();
+    run::require_memory(*prepared, *context); // a run that cannot be leaves no folder
     run::claim_folder(target_.folder);
-    begin_or_resume(*prepared, *job);
-    stop_if_interrupted_early();
-    work(*prepared, *job);
-    save(*prepared, context->device(), *job);
+    try {
+      reference_ = reference(*prepared, *context);
+      const std::unique_ptr<job::Job> job = measure::measured(run::make_job(*prepared, *context), prepared->preset, reference_, began_);
+      stop_if_interrupted_early();
+      begin_or_resume(*prepared, *job);
+      stop_if_interrupted_early();
+      work(*prepared, *job);
+      save(*prepared, context->device(), *job);
+    } catch (...) {
+      run::release_folder(target_.folder);
+      throw;
+    }
   }
 
 private:
@@ -144,6 +155,26 @@ private:
     run::begin_run(target_.folder, prepared);
   }
 
+  /// The preset's reference, rendered now where it is a recipe that was not rendered before.
+  std::shared_ptr<const measure::Reference> reference(const run::Prepared& prepared, const compute::Context& context) const
+  {
+    const auto& wanted = prepared.preset.reference;
+    std::shared_ptr<const measure::Reference> found = run::find_reference(prepared, context);
+    if (found || !wanted) return found;
+    fmt::print(stderr, "{}: rendering the reference, 2 x {} passes; it is kept for later runs\n", target_.label, wanted->passes);
+    job::Progress progress;
+    progress.steps = 2 * static_cast<std::int64_t>(wanted->passes);
+    ProgressDisplay display(progress_style(options_.json), target_.label + " reference", progress);
+    found = run::make_reference(prepared, context, interrupted_, [&](double fraction, double seconds) {
+      progress.fraction = fraction;
+      progress.step = static_cast<std::int64_t>(fraction * static_cast<double>(progress.steps));
+      progress.work_seconds = seconds;
+      display.update(progress);
+    });
+    display.finish(progress);
+    return found;
+  }
+
   void work(const run::Prepared& prepared, job::Job& job)
   {
     ProgressDisplay display(progress_style(options_.json), target_.label, job.progress());
@@ -152,18 +183,28 @@ private:
       job.step();
       const job::Progress progress = job.progress();
       display.update(progress);
+      note_history(job, display);
       if (progress.work_seconds - saved_at < options_.checkpoint_seconds) continue;
       saved_at = progress.work_seconds;
-      checkpoint(prepared, job, display);
+      on_disk(display, [&] { run::write_checkpoint(target_.folder, prepared, job); });
     }
     display.finish(job.progress());
   }
 
+  void note_history(const job::Job& job, ProgressDisplay& display)
+  {
+    const auto history = job.history();
+    if (!history || history->rows.size() == rows_written_) return;
+    rows_written_ = history->rows.size();
+    on_disk(display, [&] { run::write_history(target_.folder, *history); });
+  }
+
   /// A disk that is full now may not be when the run ends: the work in hand is worth more than its checkpoint.
-  void checkpoint(const run::Prepared& prepared, job::Job& job, ProgressDisplay& display)
+  template <class Write>
+  void on_disk(ProgressDisplay& display, Write write)
   {
     try {
-      run::write_checkpoint(target_.folder, prepared, job);
+      write();
     } catch (const Error& error) {
       if (std::exchange(warned_, true)) return;
       display.clear();
@@ -176,7 +217,7 @@ private:
   {
     const bool finished = job.finished();
     const job::Snapshot snapshot = job.snapshot();
-    run::write_run(target_.folder, prepared, device, snapshot, finished);
+    run::write_run(target_.folder, prepared, device, snapshot, reference_.get(), finished);
     run::write_checkpoint(target_.folder, prepared, job);
     report_result(options_, target_, snapshot.progress, finished);
     if (!finished)
@@ -187,6 +228,9 @@ private:
   const RunOptions& options_;
   const Target& target_;
   std::stop_token interrupted_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::shared_ptr<const measure::Reference> reference_;
+  std::size_t rows_written_ = 0; ///< of the history
   bool warned_ = false;
 };
 

@@ -22,6 +22,7 @@ struct DeviceInfo {
   std::string name, platform, driver, version, type; ///< type: "cpu", "gpu" or "accelerator"
   int compute_units = 0;
   std::uint64_t memory_bytes = 0, max_buffer_bytes = 0;
+  std::uint64_t max_group_items = 0; ///< work items that may be in one group
   bool fp64 = false, int64_atomics = false;
 };
 
@@ -158,6 +159,8 @@ public:
   std::shared_ptr<detail::ProgramState> state;
 };
 
+/// The text of a kernel source ("photons.cl") with everything that it includes, as this context would build it.
+std::string kernel_source(const Context& context, const std::string& file);
 /// With DeviceOptions::kernels: true once after any file in that folder changed, so that the owner rebuilds.
 bool kernels_changed(const Context& context);
 

@@ -64,4 +64,6 @@ std::string detail::full_source(const fs::path& folder, const std::string& file)
   return joiner.text;
 }
 
+std::string kernel_source(const Context& context, const std::string& file) { return detail::full_source(context.state->kernels, file); }
+
 } // namespace nephroid::compute

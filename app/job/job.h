@@ -61,6 +61,8 @@ public:
   virtual Progress progress() const = 0;
   /// Reads the device's state; costs a few milliseconds.
   virtual Snapshot snapshot() = 0;
+  /// Of its error so far, without a snapshot; null where nothing is measured.
+  virtual std::shared_ptr<const History> history() const { return nullptr; }
   /// Everything needed to go on later with the same bits. Opaque; versioned by the engine.
   virtual std::vector<std::byte> save() = 0;
   /// Throws bad_input where the checkpoint is of another version or preset, or is cut.

@@ -6,15 +6,19 @@
 #include "measure/reference.h"
 #include "preset/preset.h"
 
+#include <chrono>
 #include <memory>
 
 namespace nephroid::measure {
 
-/// Wraps a job. reference: null where there is none. Measuring takes at most measuring_share of the work's time, the first and the
-/// last measurement excepted, and its time is not in Progress::work_seconds. Throws bad_input where the reference has another size
-/// than the picture, and where stop.error is asked for with neither a reference nor an estimate.
-std::unique_ptr<job::Job> measured(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference);
-
+/// At most so much of the work's time is spent on measuring, the first and the last measurement excepted.
 inline constexpr double measuring_share = 0.04;
+
+/// Wraps a job. reference: null where there is none. began: when the run's wall clock started. Measurements come at times that grow by
+/// a fifth, and where stop.error is about to be reached; a step measures or works, never both, and measuring is not in
+/// Progress::work_seconds. Throws bad_input where the reference has another size than the picture, and where stop.error is asked for with
+/// neither a reference nor an estimate.
+std::unique_ptr<job::Job> measured(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
+                                   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now());
 
 } // namespace nephroid::measure

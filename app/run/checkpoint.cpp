@@ -3,7 +3,7 @@
 // another preset, mesh or spectrum is refused; because it is written whole, kill -9 leaves the checkpoint before or the new one, never half
 // of one.
 #include "base/files.h"
-#include "preset/read.h"
+#include "run/content_hash.h"
 #include "run/run.h"
 
 #include <cstring>
@@ -20,41 +20,13 @@ struct Header {
 };
 static_assert(sizeof(Header) == 32, "the header has no padding: it is written as it is");
 
-/// FNV-1a: enough to tell presets apart and to notice damage; not against forgery. `hash` continues an earlier one.
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u)
-{
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  return hash;
-}
-
 template <class T>
 std::string_view bytes_of(const T& value)
 {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-template <class T>
-std::uint64_t hash_of(const std::vector<T>& items, std::uint64_t hash)
-{
-  return hash_of({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)}, hash);
-}
-
-/// What the sums in a checkpoint depend on: the preset, and what the files that it names held. How long a run goes on is not part of
-/// what it computes: a run may be resumed with a later stop.
-std::uint64_t content_hash(const Prepared& prepared, const fs::path& folder)
-{
-  preset::Preset preset = prepared.preset;
-  preset.stop = {};
-  std::uint64_t hash = hash_of(preset::to_json(preset, folder));
-  const scene::Scene& scene = prepared.loaded->scene;
-  hash = hash_of(scene.geometry.positions, hash);
-  hash = hash_of(scene.geometry.normals, hash);
-  hash = hash_of(scene.geometry.triangles, hash);
-  for (const scene::Material& material : scene.materials)
-    for (const optics::Spectrum* spectrum : {&material.n, &material.k, &material.reflectance}) hash = hash_of(bytes_of(*spectrum), hash);
-  for (const scene::Light& light : scene.lights) hash = hash_of(bytes_of(light.spectrum), hash);
-  return hash;
-}
+std::uint64_t content_of(const Prepared& prepared) { return content_hash(prepared.preset, prepared.loaded->scene); }
 
 fs::path file_in(const fs::path& folder) { return folder / "checkpoint.bin"; }
 
@@ -64,7 +36,7 @@ void write_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job
 {
   const std::vector<std::byte> payload = job.save();
   Header header;
-  header.content_hash = content_hash(prepared, folder);
+  header.content_hash = content_of(prepared);
   header.payload_bytes = payload.size();
   std::string bytes(bytes_of(header));
   bytes.append(reinterpret_cast<const char*>(payload.data()), payload.size());
@@ -89,7 +61,7 @@ bool load_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job&
   if (header.version != ours.version) throw refuse("was written by another version of the program");
   const std::string_view hashed(bytes.data(), bytes.size() - sizeof hash);
   if (hashed.size() - sizeof header != header.payload_bytes || hash_of(hashed) != hash) throw refuse("is cut or damaged");
-  if (header.content_hash != content_hash(prepared, folder))
+  if (header.content_hash != content_of(prepared))
     throw refuse("belongs to another preset or seed, or a file that the preset names has changed");
   job.load(std::as_bytes(std::span(bytes).subspan(sizeof header, header.payload_bytes)));
   return true;

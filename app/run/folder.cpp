@@ -15,7 +15,7 @@ namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array results{"image.exr", "image.png", "run.json", "checkpoint.bin"};
+constexpr std::array results{"image.exr", "image.png", "run.json", "history.csv", "report.html", "checkpoint.bin"};
 
 bool is_there(const fs::path& path)
 {
@@ -62,6 +62,12 @@ void claim_folder(const fs::path& folder)
     throw failed(folder.string(), "cannot be used: " + error.code().message(), "a folder that can be written to",
                  "choose another one with -o");
   }
+}
+
+void release_folder(const fs::path& folder)
+{
+  std::error_code ignored;
+  fs::remove(folder, ignored); // refused where anything is in it
 }
 
 void begin_run(const fs::path& folder, const Prepared& prepared)

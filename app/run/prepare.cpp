@@ -52,10 +52,15 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous)
   return {preset, std::move(loaded), std::move(plan)};
 }
 
-std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context)
+void require_memory(const Prepared& prepared, const compute::Context& context)
 {
   const scene::Camera& camera = prepared.loaded->scene.camera;
   require_memory(prepared.plan, camera.width, camera.height, context.device(), available_memory_bytes());
+}
+
+std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context)
+{
+  require_memory(prepared, context);
   return spectral::make_job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, prepared.plan, context);
 }
 

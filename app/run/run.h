@@ -4,6 +4,7 @@
 #pragma once
 #include "compute/compute.h"
 #include "job/job.h"
+#include "measure/reference.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
@@ -32,14 +33,18 @@ struct Prepared {
 /// settings differ (files are not read again then), and its tree where the triangles are the same. Throws bad_input as the loaders do.
 Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr);
 
-/// Builds the engine's job on a device. Throws failed, before anything is allocated, where the device or this machine has not enough
-/// memory (run/memory.h), BuildError for a kernel that does not
+/// Throws failed where the device or this machine has not enough memory for the run (run/memory.h). make_job asks this first.
+void require_memory(const Prepared& prepared, const compute::Context& context);
+
+/// Builds the engine's job on a device. Throws as require_memory, before anything is allocated, BuildError for a kernel that does not
 /// compile, and bad_input for what the engine cannot render.
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
 
 /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. Throws bad_input where it
 /// is a file or holds anything but a run, failed where it cannot be written to.
 void claim_folder(const std::filesystem::path& folder);
+/// Removes a claimed folder again where nothing was written into it.
+void release_folder(const std::filesystem::path& folder);
 /// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all writing below
 /// throws failed with the system's reason.
 void begin_run(const std::filesystem::path& folder, const Prepared& prepared);
@@ -48,12 +53,14 @@ void write_settings(const std::filesystem::path& folder, const Prepared& prepare
 /// How far the run in the folder came, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged.
 std::optional<job::Progress> finished_run(const std::filesystem::path& folder, const preset::Preset& preset);
 
-/// Writes image.exr, image.png, preset.json, plan.json and run.json into folder (made if missing), each whole.
+/// Writes image.exr, image.png, history.csv (where the snapshot has a history), preset.json, plan.json and run.json into folder (made if
+/// missing), each whole. reference: what the run was measured against, or null.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
-               const job::Snapshot& snapshot, bool finished);
+               const job::Snapshot& snapshot, const measure::Reference* reference, bool finished);
+/// history.csv alone, while the run goes on.
+void write_history(const std::filesystem::path& folder, const job::History& history);
 
-/// checkpoint.bin in folder: written whole; bound to the resolved preset (without its stop) by a hash. What is in the files that the
-/// preset names is not looked at.
+/// checkpoint.bin in folder: written whole; bound by a hash to the settings and file contents that its sums depend on.
 void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, job::Job& job);
 /// Loads it into a job that was just made. False where there is none. Throws bad_input where it belongs to another preset or is cut.
 bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, job::Job& job);

@@ -5,12 +5,16 @@
 #include "base/files.h"
 #include "base/json_output.h"
 #include "image/image.h"
+#include "measure/history_file.h"
 #include "plan/plan.h"
 #include "preset/read.h"
 #include "run/picture.h"
 #include "run/run.h"
 
 #include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <iterator>
 
 namespace nephroid::run {
 namespace {
@@ -45,33 +49,63 @@ Json device_json(const compute::DeviceInfo& device)
           {"driver", device.driver}, {"version", device.version}, {"compute_units", device.compute_units}};
 }
 
-std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device, const job::Snapshot& snapshot, bool finished)
+/// The values of a row by column; what is undefined is null.
+Json by_column(const std::vector<std::string>& columns, const std::vector<double>& values)
+{
+  Json all = Json::object();
+  for (std::size_t i = 0; i < columns.size() && i < values.size(); ++i) all[columns[i]] = std::isnan(values[i]) ? Json() : Json(values[i]);
+  return all;
+}
+
+/// The run's error: contract.md's "errors", with what they were measured against and what the measuring cost.
+void add_errors(Json& run, const job::History& history, const measure::Reference* reference)
+{
+  run["measuring_seconds"] = history.measuring_seconds;
+  run["error_column"] = history.error_column;
+  if (!history.rows.empty()) {
+    run["wall_seconds"] = history.rows.back().wall_seconds;
+    run["errors"] = by_column(history.columns, history.rows.back().errors);
+  }
+  if (!reference) return;
+  Json floors = by_column(history.columns, history.noise_floor);
+  for (auto floor = floors.begin(); floor != floors.end();) floor = floor->is_null() ? floors.erase(floor) : std::next(floor);
+  run["reference"] = {{"origin", reference->origin}, {"noise_floor", floors}};
+}
+
+std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device, const job::Snapshot& snapshot,
+                     const measure::Reference* reference, bool finished)
 {
   const job::Progress& progress = snapshot.progress;
   Json phases = Json::object();
   for (const auto& [name, seconds] : snapshot.phases) phases[name] = seconds;
-  const Json all{{"name", prepared.preset.name},
-                 {"engine", prepared.plan.engine},
-                 {"seed", prepared.preset.seed},
-                 {"version", version()},
-                 {"commit", commit()},
-                 {"compiler", compiler()},
-                 {"device", device_json(device)},
-                 {"finished", finished},
-                 {"passes", progress.step},
-                 {"fraction", progress.fraction},
-                 {"photons", progress.photons},
-                 {"work_seconds", progress.work_seconds},
-                 {"phase_seconds", phases},
-                 {"energy", energy_json(snapshot.energy)},
-                 {"notes", prepared.plan.notes}};
+  Json all{{"name", prepared.preset.name},
+           {"engine", prepared.plan.engine},
+           {"seed", prepared.preset.seed},
+           {"version", version()},
+           {"commit", commit()},
+           {"compiler", compiler()},
+           {"device", device_json(device)},
+           {"finished", finished},
+           {"passes", progress.step},
+           {"fraction", progress.fraction},
+           {"photons", progress.photons},
+           {"work_seconds", progress.work_seconds},
+           {"phase_seconds", phases},
+           {"energy", energy_json(snapshot.energy)},
+           {"notes", prepared.plan.notes}};
+  if (snapshot.history) add_errors(all, *snapshot.history, reference);
   return json_text(all, 2) + "\n";
 }
 
 } // namespace
 
+void write_history(const std::filesystem::path& folder, const job::History& history)
+{
+  write_file_whole(folder / "history.csv", measure::to_csv(history));
+}
+
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
-               const job::Snapshot& snapshot, bool finished)
+               const job::Snapshot& snapshot, const measure::Reference* reference, bool finished)
 {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -81,8 +115,9 @@ void write_run(const std::filesystem::path& folder, const Prepared& prepared, co
   exr.attributes = attributes(prepared.preset, folder, device);
   image::write_exr(folder / "image.exr", exr);
   image::write_png(folder / "image.png", picture.width, picture.height, picture.rgb);
+  if (snapshot.history) write_history(folder, *snapshot.history);
   write_settings(folder, prepared);
-  write_file_whole(folder / "run.json", run_json(prepared, device, snapshot, finished)); // last: its "finished" speaks for all
+  write_file_whole(folder / "run.json", run_json(prepared, device, snapshot, reference, finished)); // last: its "finished" speaks for all
 }
 
 } // namespace nephroid::run

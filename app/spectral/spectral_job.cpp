@@ -65,7 +65,8 @@ public:
         white_(preset.white), stop_seconds_(preset.stop.seconds), pixel_samples_(preset.spectral.pixel_samples),
         direct_(runs(plan, "direct")), photons_(runs(plan, "photons")), halves_(preset.measure.estimate ? 2 : 1)
   {
-    if (preset.stop.passes || !preset.stop.seconds) passes_ = preset.stop.passes.value_or(preset::default_passes);
+    if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error))
+      passes_ = preset.stop.passes.value_or(preset::default_passes);
     // Without photons a run is over when every pixel has its samples.
     if (!photons_ && (passes_ < 0 || passes_ > pixel_samples_)) passes_ = pixel_samples_;
     tables_.scene.root = bvh.root;
@@ -88,7 +89,7 @@ public:
   {
     if (!direct_ && !photons_) return true;
     if (stop_seconds_ && at_.work_seconds >= *stop_seconds_) return true;
-    return passes_ >= 0 && at_.pass >= passes_;
+    return at_.pass >= (passes_ >= 0 ? passes_ : preset::max_passes); // sums are exact so long
   }
 
   void step() override
@@ -294,7 +295,7 @@ private:
   Uint2 seed_;
   double white_;
   std::optional<double> stop_seconds_;
-  std::int64_t passes_ = -1; ///< -1: until stop_seconds_
+  std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
   std::int64_t pixel_samples_;
   bool direct_, photons_;
   std::size_t halves_; ///< of a film

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// When to measure, what goes into a row, when the error is small enough.
+#include "measure/measured_job.h"
+
+#include "base/error.h"
+#include "measure/history_record.h"
+#include "preset/choices.h"
+#include "preset/field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace nephroid::measure {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Measurements are this factor of time apart: twelve and a half a decade, enough to see a slope.
+constexpr double spacing = 1.2;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// The metrics that an estimate is made of: those that do not hang on a single pixel.
+std::vector<std::pair<std::string, double>> estimated(const Metrics& m)
+{
+  return {{"estimated_lab_mean", m.lab_mean},
+          {"estimated_lab_rms", m.lab_rms},
+          {"estimated_mse", m.mse},
+          {"estimated_rel_mse", m.rel_mse},
+          {"estimated_rel_l2", m.rel_l2}};
+}
+
+using Errors = std::vector<std::pair<std::string, double>>;
+
+void add(Errors& errors, const std::string& prefix, const Metrics& metrics, bool perceptual)
+{
+  for (const auto& [name, value] : named(metrics))
+    if (perceptual || (name != "iw_ssim" && name != "flip" && name != "hdr_flip")) errors.emplace_back(prefix + name, value);
+}
+
+class MeasuredJob final : public job::Job {
+public:
+  MeasuredJob(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
+              Clock::time_point began)
+      : job_(std::move(job)), settings_(preset.measure), size_(preset.scene.camera.resolution), reference_(std::move(reference)),
+        began_(began)
+  {
+    require_sizes(preset);
+    if (reference_) {
+      against_.emplace(reference_->pixels());
+      if (!reference_->mask.empty()) masked_.emplace(reference_->pixels(), reference_->mask);
+    }
+    const std::string metric(preset::word(preset.stop.metric));
+    history_.error_column = reference_ ? metric : settings_.estimate ? "estimated_" + metric : "";
+    history_.target = preset.stop.error;
+    if (history_.target && history_.error_column.empty())
+      throw bad_input(preset.source + "#/stop/error", "nothing measures the error of this run",
+                      "a 'reference', or 'measure.estimate' true");
+    name_columns();
+  }
+
+  bool finished() const override { return target_reached() || (job_->finished() && !is_due()); }
+
+  void step() override
+  {
+    if (is_due())
+      measure();
+    else
+      job_->step();
+  }
+
+  job::Progress progress() const override
+  {
+    job::Progress progress = job_->progress();
+    if (finished())
+      progress.fraction = 1;
+    else if (const std::optional<double> at = target_seconds())
+      progress.fraction = std::clamp(progress.work_seconds / *at, progress.fraction, 0.999);
+    return progress;
+  }
+
+  job::Snapshot snapshot() override
+  {
+    job::Snapshot snapshot = job_->snapshot();
+    snapshot.progress = progress();
+    snapshot.history = history();
+    return snapshot;
+  }
+
+  std::shared_ptr<const job::History> history() const override
+  {
+    return history_.columns.empty() ? nullptr : std::make_shared<const job::History>(history_);
+  }
+
+  std::vector<std::byte> save() override { return with_history(job_->save(), history_, wall_seconds()); }
+
+  void load(std::span<const std::byte> checkpoint) override
+  {
+    const SavedHistory saved = split_history(checkpoint);
+    job_->load(saved.job);
+    wall_before_ = saved.wall_seconds;
+    began_ = Clock::now();
+    history_.measuring_seconds = saved.history.measuring_seconds;
+    history_.rows = rows_in_columns(saved.history, history_.columns);
+    for (const job::HistoryRow& row : history_.rows) last_seconds_ = row.seconds;
+    plan_next();
+  }
+
+private:
+  void require_sizes(const preset::Preset& preset) const
+  {
+    if (!reference_ || (reference_->width == size_[0] && reference_->height == size_[1])) return;
+    throw bad_input(reference_->origin, fmt::format("the reference has {} x {} pixels", reference_->width, reference_->height),
+                    fmt::format("{} x {}, as scene.camera.resolution of {} says", size_[0], size_[1], preset.source));
+  }
+
+  void name_columns()
+  {
+    const auto take = [&](const std::string& prefix, const std::optional<Metrics>& floor) {
+      Errors columns;
+      add(columns, prefix, floor.value_or(Metrics{}), settings_.perceptual);
+      for (const auto& [name, value] : columns) {
+        history_.columns.push_back(name);
+        history_.noise_floor.push_back(floor ? value : none);
+      }
+    };
+    if (against_) take("", reference_->noise_floor);
+    if (masked_) take("masked_", reference_->masked_noise_floor);
+    if (!settings_.estimate) return;
+    for (const auto& [name, value] : estimated({})) {
+      history_.columns.push_back(name);
+      history_.noise_floor.push_back(none);
+    }
+  }
+
+  double work_seconds() const { return job_->progress().work_seconds; }
+  double wall_seconds() const { return wall_before_ + seconds_since(began_); }
+
+  /// The first complete pass is the first that is worth a row; the end is always one.
+  bool is_due() const
+  {
+    if (history_.columns.empty()) return false;
+    const job::Progress progress = job_->progress();
+    if (job_->finished()) return progress.work_seconds > last_seconds_;
+    const std::int64_t passes = reference_ ? 1 : 2; // an estimate needs both halves
+    return progress.step >= passes && progress.work_seconds >= next_;
+  }
+
+  void measure()
+  {
+    const auto begin = Clock::now();
+    const job::Snapshot snapshot = job_->snapshot();
+    const job::Progress& progress = snapshot.progress;
+    job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.photons, {}};
+    for (const auto& [name, value] : errors_of(*snapshot.picture)) row.errors.push_back(value);
+    row.wall_seconds = wall_seconds();
+    history_.rows.push_back(std::move(row));
+    last_seconds_ = progress.work_seconds;
+    history_.measuring_seconds += seconds_since(begin);
+    plan_next();
+  }
+
+  Errors errors_of(const job::Picture& picture) const
+  {
+    const Pixels pixels{picture.width, picture.height, picture.rgb, "the run"};
+    Errors errors;
+    if (against_) add(errors, "", of_effort(pixels, {}, *against_), settings_.perceptual);
+    if (masked_) add(errors, "masked_", of_effort(pixels, reference_->mask, *masked_), settings_.perceptual);
+    if (!settings_.estimate) return errors;
+    Metrics metrics;
+    const bool has_draw = !picture.error_draw.empty();
+    if (has_draw) metrics = estimate(picture);
+    for (const auto& [name, value] : estimated(metrics)) errors.emplace_back(name, has_draw ? value : none);
+    return errors;
+  }
+
+  Metrics of_effort(const Pixels& pixels, Mask mask, const QuickComparison& quick) const
+  {
+    return settings_.perceptual ? compare(pixels, reference_->pixels(), mask) : quick.against(pixels);
+  }
+
+  /// The picture with another draw of its own error, against the picture: their distance has the distribution of the picture's distance
+  /// from the truth, as far as a metric does not care where between the two it is taken.
+  static Metrics estimate(const job::Picture& picture)
+  {
+    std::vector<float> other(picture.rgb.size());
+    for (std::size_t i = 0; i < other.size(); ++i) other[i] = picture.rgb[i] + picture.error_draw[i];
+    return compare({picture.width, picture.height, other, "the run"}, {picture.width, picture.height, picture.rgb, "the run"}, {},
+                   Effort::quick);
+  }
+
+  /// The newest value of the error column; NaN before the first row.
+  double error() const
+  {
+    if (history_.rows.empty()) return none;
+    const auto column = std::find(history_.columns.begin(), history_.columns.end(), history_.error_column);
+    if (column == history_.columns.end()) return none;
+    return history_.rows.back().errors[static_cast<std::size_t>(column - history_.columns.begin())];
+  }
+
+  bool target_reached() const { return history_.target && error() <= *history_.target; }
+
+  /// The work after which the target should be reached: errors fall as 1 / sqrt(work), those of squares as 1 / work.
+  std::optional<double> target_seconds() const
+  {
+    const double now = error();
+    if (!history_.target || !(now > 0)) return std::nullopt;
+    const double ratio = now / *history_.target;
+    return last_seconds_ * (history_.error_column.ends_with("mse") ? ratio : ratio * ratio);
+  }
+
+  void plan_next()
+  {
+    const double one = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(history_.rows.size(), 1));
+    const double affordable = (history_.measuring_seconds + one) / measuring_share;
+    double wanted = last_seconds_ * spacing;
+    if (const std::optional<double> at = target_seconds()) wanted = std::min(wanted, *at);
+    next_ = std::max(wanted, affordable);
+  }
+
+  std::unique_ptr<job::Job> job_;
+  preset::Measure settings_;
+  std::array<int, 2> size_;
+  std::shared_ptr<const Reference> reference_;
+  std::optional<QuickComparison> against_, masked_;
+  job::History history_;
+  Clock::time_point began_;
+  double wall_before_ = 0;  ///< of a resumed run's earlier parts
+  double last_seconds_ = 0; ///< of work at the newest row
+  double next_ = 0;         ///< of work, when the next row is due
+};
+
+} // namespace
+
+std::unique_ptr<job::Job> measured(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
+                                   std::chrono::steady_clock::time_point began)
+{
+  return std::make_unique<MeasuredJob>(std::move(job), preset, std::move(reference), began);
+}
+
+} // namespace nephroid::measure

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// A cached reference is an EXR file named by the hash of all that it depends on. Beside the mean of its two seeds it holds the first of
+// the two as further channels: their distance is the noise floor, also of a mask that is given later.
+#include "run/reference.h"
+
+#include "base/build_info.h"
+#include "base/files.h"
+#include "image/image.h"
+#include "measure/read_picture.h"
+#include "preset/read.h"
+#include "run/content_hash.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace nephroid::run {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* first_channels[] = {"first_seed.R", "first_seed.G", "first_seed.B"};
+
+std::string pointer(const Prepared& prepared, const char* field) { return prepared.preset.source + "#/reference" + field; }
+
+/// The preset of one seed of the recipe.
+preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
+{
+  const preset::Reference& recipe = *preset.reference;
+  preset::Preset made = preset;
+  made.seed = seed;
+  made.reference.reset();
+  made.measure = {.estimate = false};
+  made.stop = {};
+  made.stop.passes = recipe.passes;
+  if (recipe.spectral)
+    made.spectral = *recipe.spectral;
+  else
+    made.spectral.method = preset::Spectral::Method::brute_force;
+  made.spectral.pixel_samples = std::max(made.spectral.pixel_samples, recipe.passes); // the direct layer as well converged as the caustic
+  return made;
+}
+
+fs::path cache_folder()
+{
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return fs::path(value ? value : "");
+  };
+  if (const fs::path cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache / "nephroid/references";
+  if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache/nephroid/references";
+  throw failed("reference", "there is no folder to keep it in: HOME is not set", "",
+               "set XDG_CACHE_HOME to a folder that can be written to");
+}
+
+fs::path cache_file(const Prepared& prepared, const compute::Context& context)
+{
+  const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
+  std::uint64_t hash = content_hash(recipe, prepared.loaded->scene);
+  hash = hash_of(fmt::format("{} passes {}", version(), recipe.stop.passes.value()), hash);
+  for (const char* kernels : {"direct.cl", "photons.cl"}) hash = hash_of(compute::kernel_source(context, kernels), hash);
+  return cache_folder() / fmt::format("{:016x}.exr", hash);
+}
+
+/// The picture of the first seed, where the file has it.
+std::vector<float> first_seed_of(const image::Image& file)
+{
+  std::size_t channel[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto found = std::find(file.channels.begin(), file.channels.end(), first_channels[c]);
+    if (found == file.channels.end()) return {};
+    channel[c] = static_cast<std::size_t>(found - file.channels.begin());
+  }
+  std::vector<float> rgb;
+  rgb.reserve(file.data.size() / file.channels.size() * 3);
+  for (std::size_t pixel = 0; pixel < file.data.size(); pixel += file.channels.size())
+    for (const std::size_t c : channel) rgb.push_back(file.data[pixel + c]);
+  return rgb;
+}
+
+std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, const Prepared& prepared)
+{
+  const measure::LinearPicture picture = measure::read_linear_rgb(file);
+  measure::Reference reference{picture.width, picture.height, picture.rgb, file.string(), {}, {}, {}};
+  const auto [width, height] = prepared.preset.scene.camera.resolution;
+  if (reference.width != width || reference.height != height)
+    throw bad_input(file.string(), fmt::format("the reference has {} x {} pixels", reference.width, reference.height),
+                    fmt::format("{} x {}, as scene.camera.resolution of {} says", width, height, prepared.preset.source));
+  if (const auto& mask = prepared.preset.measure.mask) {
+    const FileFinder finder(fs::path(prepared.preset.source).parent_path());
+    reference.mask = measure::read_mask(finder.find(*mask, prepared.preset.source + "#/measure/mask"), width, height);
+  }
+  const measure::Effort effort = prepared.preset.measure.perceptual ? measure::Effort::full : measure::Effort::quick;
+  const std::vector<float> first = first_seed_of(image::read_image(file));
+  const measure::Pixels first_pixels{width, height, first, file.string() + " (its first seed)"};
+  if (!first.empty()) reference.noise_floor = compare(first_pixels, reference.pixels(), {}, effort);
+  if (!first.empty() && !reference.mask.empty())
+    reference.masked_noise_floor = compare(first_pixels, reference.pixels(), reference.mask, effort);
+  return std::make_shared<const measure::Reference>(std::move(reference));
+}
+
+/// Renders one of the recipe's seeds.
+class SeedRun {
+public:
+  SeedRun(const Prepared& prepared, const compute::Context& context, std::uint64_t seed)
+      : recipe_(prepare(recipe_preset(prepared.preset, seed), &prepared)), job_(make_job(recipe_, context))
+  {
+  }
+
+  /// done: seconds of the seeds before this one, of two.
+  std::vector<float> operator()(const Prepared& prepared, double done, const std::stop_token& stop, const ReferenceProgress& report)
+  {
+    while (!job_->finished()) {
+      if (stop.stop_requested())
+        throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered");
+      job_->step();
+      const job::Progress now = job_->progress();
+      if (done == 0) require_time(prepared, now);
+      report((done > 0 ? 0.5 : 0) + 0.5 * now.fraction, done + now.work_seconds);
+    }
+    return job_->snapshot().picture->rgb;
+  }
+
+  double seconds() const { return job_->progress().work_seconds; }
+
+private:
+  /// After half a second the rate is known well enough to refuse.
+  static void require_time(const Prepared& prepared, const job::Progress& now)
+  {
+    const auto& limit = prepared.preset.reference->seconds;
+    const double expected = now.fraction > 0 ? 2 * now.work_seconds / now.fraction : 0;
+    if (!limit || now.work_seconds < 0.5 || expected <= *limit) return;
+    throw failed(pointer(prepared, "/seconds"), fmt::format("making the reference would take about {:.0f} s", expected),
+                 fmt::format("{} s are allowed", *limit), "allow more, lower reference.passes, or name a file");
+  }
+
+  Prepared recipe_;
+  std::unique_ptr<job::Job> job_;
+};
+
+void write_reference(const fs::path& file, const Prepared& prepared, const std::vector<float>& first, const std::vector<float>& second)
+{
+  const auto [width, height] = prepared.preset.scene.camera.resolution;
+  image::Image image;
+  image.width = width;
+  image.height = height;
+  image.channels = {"R", "G", "B"};
+  image.channels.insert(image.channels.end(), std::begin(first_channels), std::end(first_channels));
+  for (std::size_t i = 0; i < first.size(); i += 3) {
+    for (std::size_t c = i; c < i + 3; ++c) image.data.push_back(0.5f * first[c] + 0.5f * second[c]);
+    for (std::size_t c = i; c < i + 3; ++c) image.data.push_back(first[c]);
+  }
+  const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
+  image.attributes = {{"nephroid:preset", preset::to_json(recipe, file.parent_path())}, {"nephroid:version", version()}};
+  image::write_exr(file, image);
+}
+
+void make_folder(const fs::path& folder)
+{
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw failed(folder.string(), "the reference cannot be kept here: " + error.message(), "", "set XDG_CACHE_HOME to another folder");
+}
+
+} // namespace
+
+std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context)
+{
+  if (!prepared.preset.reference) {
+    if (prepared.preset.measure.mask)
+      throw bad_input(prepared.preset.source + "#/measure/mask", "there is no reference to compare the mask's pixels with",
+                      "a 'reference'");
+    return nullptr;
+  }
+  const preset::Reference& reference = *prepared.preset.reference;
+  if (reference.type == preset::Reference::Type::file) {
+    const FileFinder finder(fs::path(prepared.preset.source).parent_path());
+    return read_reference(finder.find(reference.file, pointer(prepared, "/file")), prepared);
+  }
+  const fs::path file = cache_file(prepared, context);
+  std::error_code ignored;
+  return fs::exists(file, ignored) ? read_reference(file, prepared) : nullptr;
+}
+
+std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,
+                                                         const std::stop_token& stop, const ReferenceProgress& progress)
+{
+  const fs::path file = cache_file(prepared, context);
+  make_folder(file.parent_path()); // before hours of work
+  std::vector<float> pictures[2];
+  double seconds = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    SeedRun run(prepared, context, prepared.preset.reference->seed + i);
+    pictures[i] = run(prepared, seconds, stop, progress);
+    seconds += run.seconds();
+  }
+  write_reference(file, prepared, pictures[0], pictures[1]);
+  return read_reference(file, prepared);
+}
+
+} // namespace nephroid::run

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference that a preset names: read from its file, or rendered by its recipe once and kept in the cache by its content.
+#pragma once
+#include "measure/reference.h"
+#include "run/run.h"
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+namespace nephroid::run {
+
+/// Null where the preset has none, and where it is a recipe that is not in the cache. Reads the mask of preset.measure too. Throws
+/// bad_input where a file cannot be read or has another size than the run's picture.
+std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context);
+
+/// How making one goes on: 0..1, and the seconds of work so far.
+using ReferenceProgress = std::function<void(double fraction, double seconds)>;
+
+/// Renders the recipe with both of its seeds and puts their mean into the cache. Throws failed where it cannot be made: memory, a time
+/// above reference.seconds (known after the first passes), a cache that cannot be written to; interrupted where `stop` asks for it.
+/// Only for presets whose reference is a recipe.
+std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,
+                                                         const std::stop_token& stop, const ReferenceProgress& progress);
+
+} // namespace nephroid::run

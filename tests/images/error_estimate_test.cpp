@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run's own estimate of its error (measure/measured_job.h) against its true error, for every shipped preset: eight independent runs
+// of each, every one judged by the mean of the other seven.
+#include "measure/measured_job.h"
+
+#include "compute/compute.h"
+#include "preset/read.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/render.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace nephroid;
+
+constexpr int runs = 8, size = 40;
+
+preset::Preset small(const std::string& name, std::uint64_t seed)
+{
+  preset::Preset p = preset::read_preset(name);
+  p.scene.camera.resolution = {size, size};
+  p.spectral.photons_per_pass = 1 << 14;
+  p.spectral.pixel_samples = 16;
+  p.seed = seed;
+  p.stop = {};
+  p.stop.passes = 16;
+  p.reference.reset();
+  return p;
+}
+
+/// The last row of a run's history, and its picture.
+struct Ended {
+  std::vector<float> rgb;
+  job::History history;
+};
+
+Ended run_measured(const preset::Preset& preset)
+{
+  const scene::Scene scene = scene::load_scene(preset);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  const plan::Plan plan = spectral::make_plan(preset, scene, bvh);
+  const auto job = measure::measured(spectral::make_job(preset, scene, bvh, plan, test::shared_context()), preset, nullptr);
+  while (!job->finished()) job->step();
+  const job::Snapshot snapshot = job->snapshot();
+  return {snapshot.picture->rgb, *snapshot.history};
+}
+
+double last(const job::History& history, const std::string& column)
+{
+  const auto found = std::find(history.columns.begin(), history.columns.end(), column);
+  return history.rows.back().errors.at(static_cast<std::size_t>(found - history.columns.begin()));
+}
+
+std::vector<float> mean_but(const std::vector<Ended>& all, std::size_t left_out)
+{
+  std::vector<float> mean(all[0].rgb.size(), 0.0f);
+  for (std::size_t run = 0; run < all.size(); ++run)
+    if (run != left_out)
+      for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += all[run].rgb[i] / (static_cast<float>(all.size()) - 1);
+  return mean;
+}
+
+class ErrorEstimate : public testing::TestWithParam<std::string> {};
+
+TEST_P(ErrorEstimate, IsTheTrueErrorWithinAQuarter)
+{
+  std::vector<Ended> ended;
+  for (int run = 0; run < runs; ++run) ended.push_back(run_measured(small(GetParam(), 1000 + static_cast<std::uint64_t>(run))));
+  for (const std::string metric : {"lab_mean", "rel_l2"}) {
+    double sum = 0, lowest = 1e9, highest = 0;
+    for (std::size_t run = 0; run < ended.size(); ++run) {
+      const std::vector<float> truth = mean_but(ended, run);
+      const measure::Metrics against =
+          measure::compare({size, size, ended[run].rgb, "run"}, {size, size, truth, "the others"}, {}, measure::Effort::quick);
+      // The others' mean has an error of its own, 1 / sqrt(7) of a run's: sqrt(1 + 1/7) of the true error is seen.
+      const double error = (metric == "lab_mean" ? against.lab_mean : against.rel_l2) / std::sqrt(1 + 1.0 / (runs - 1));
+      const double ratio = last(ended[run].history, "estimated_" + metric) / error;
+      sum += ratio / runs;
+      lowest = std::min(lowest, ratio);
+      highest = std::max(highest, ratio);
+    }
+    RecordProperty(metric + "_mean", std::to_string(sum));
+    RecordProperty(metric + "_lowest", std::to_string(lowest));
+    RecordProperty(metric + "_highest", std::to_string(highest));
+    EXPECT_GT(lowest, 0.75) << metric;
+    EXPECT_LT(highest, 1.25) << metric;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, ErrorEstimate,
+                         testing::Values("first-light", "spectral/prism", "spectral/ball-lens", "spectral/brilliant", "spectral/plate"),
+                         [](const auto& info) {
+                           std::string name = info.param.substr(info.param.find('/') + 1);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+} // namespace
