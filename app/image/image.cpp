@@ -49,22 +49,22 @@ const Module& module()
   return loaded;
 }
 
-void check_size(const fs::path& file, int width, int height, std::size_t channels, std::size_t values)
+void check_size(const std::string& name, int width, int height, std::size_t channels, std::size_t values)
 {
   const auto wanted = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * channels;
   if (width > 0 && height > 0 && channels > 0 && values == wanted) return;
-  throw failed(file.string(), fmt::format("a picture of {} x {} with {} channels has {} values", width, height, channels, values));
+  throw failed(name, fmt::format("a picture of {} x {} with {} channels has {} values", width, height, channels, values));
 }
 
-void write_whole(const fs::path& file, const NephroidPicture& picture)
+/// name: what a message calls the picture.
+std::string encoded(const std::string& name, const NephroidPicture& picture)
 {
   std::string bytes;
   const auto take = [](void* to, const void* data, std::size_t size) {
     static_cast<std::string*>(to)->assign(static_cast<const char*>(data), size);
   };
-  if (const char* reason = module().encode(&picture, take, &bytes))
-    throw failed(file.string(), fmt::format("cannot be encoded: {}", reason));
-  write_file_whole(file, bytes);
+  if (const char* reason = module().encode(&picture, take, &bytes)) throw failed(name, fmt::format("cannot be encoded: {}", reason));
+  return bytes;
 }
 
 std::vector<const char*> pointers(const std::vector<std::string>& names)
@@ -84,11 +84,19 @@ std::array<float, 255> code_thresholds()
   return thresholds;
 }
 
-void write_png_picture(const fs::path& file, int width, int height, int channels, const std::vector<unsigned char>& bytes)
+std::string png_picture(const std::string& name, int width, int height, int channels, const std::vector<unsigned char>& bytes)
 {
-  check_size(file, width, height, static_cast<std::size_t>(channels), bytes.size());
+  check_size(name, width, height, static_cast<std::size_t>(channels), bytes.size());
   const char* const names[] = {"R", "G", "B", "A"};
-  write_whole(file, {width, height, channels, names, nullptr, bytes.data(), nullptr, 0});
+  return encoded(name, {width, height, channels, names, nullptr, bytes.data(), nullptr, 0});
+}
+
+std::vector<unsigned char> shown_bytes(const std::vector<float>& rgb, double exposure_stops)
+{
+  const auto scale = static_cast<float>(std::exp2(exposure_stops));
+  std::vector<unsigned char> bytes(rgb.size());
+  for (std::size_t i = 0; i < rgb.size(); ++i) bytes[i] = shown(rgb[i], scale);
+  return bytes;
 }
 
 } // namespace
@@ -115,25 +123,32 @@ Image read_image(const fs::path& file)
 
 void write_exr(const fs::path& file, const Image& image)
 {
-  check_size(file, image.width, image.height, image.channels.size(), image.data.size());
+  check_size(file.string(), image.width, image.height, image.channels.size(), image.data.size());
   const std::vector<const char*> channels = pointers(image.channels);
   std::vector<NephroidAttribute> attributes;
   for (const auto& [name, value] : image.attributes) attributes.push_back({name.c_str(), value.c_str()});
-  write_whole(file, {image.width, image.height, static_cast<int>(channels.size()), channels.data(), image.data.data(), nullptr,
-                     attributes.data(), attributes.size()});
+  write_file_whole(file, encoded(file.string(), {image.width, image.height, static_cast<int>(channels.size()), channels.data(),
+                                                 image.data.data(), nullptr, attributes.data(), attributes.size()}));
 }
 
 void write_png(const fs::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops)
 {
-  const auto scale = static_cast<float>(std::exp2(exposure_stops));
-  std::vector<unsigned char> bytes(rgb.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) bytes[i] = shown(rgb[i], scale);
-  write_png_picture(file, width, height, 3, bytes);
+  write_file_whole(file, png_picture(file.string(), width, height, 3, shown_bytes(rgb, exposure_stops)));
 }
 
 void write_png_bytes(const fs::path& file, int width, int height, const std::vector<unsigned char>& rgba8)
 {
-  write_png_picture(file, width, height, 4, rgba8);
+  write_file_whole(file, png_picture(file.string(), width, height, 4, rgba8));
+}
+
+std::string png(int width, int height, const std::vector<float>& rgb, double exposure_stops)
+{
+  return png_picture("PNG", width, height, 3, shown_bytes(rgb, exposure_stops));
+}
+
+std::string png_of_bytes(int width, int height, const std::vector<unsigned char>& rgb8)
+{
+  return png_picture("PNG", width, height, 3, rgb8);
 }
 
 double decoded_srgb(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4); }

@@ -31,6 +31,11 @@ void write_png_bytes(const std::filesystem::path& file, int width, int height, c
 
 /// The linear value of an sRGB-encoded one, 0..1 (IEC 61966-2-1).
 double decoded_srgb(double encoded);
+/// The bytes of the file that write_png makes.
+std::string png(int width, int height, const std::vector<float>& rgb, double exposure_stops = 0);
+/// The same of 8-bit values, 3 a pixel.
+std::string png_of_bytes(int width, int height, const std::vector<unsigned char>& rgb8);
+
 /// What a display shows of one linear channel, 0..255: times the exposure, clipped to 0..1, sRGB-encoded. Infinity is 255, NaN 0.
 unsigned char shown(float linear, float exposure_scale);
 

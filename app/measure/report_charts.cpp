@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// One gnuplot draws all charts: its start costs more than a chart. What it draws becomes part of a page: ids are made unique, and
+// black becomes the page's own colour, which is light on a dark page.
+#include "measure/report_charts.h"
+
+#include "base/error.h"
+#include "measure/program.h"
+#include "measure/report_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nephroid::measure {
+namespace {
+
+constexpr std::array colours{"#3578d4", "#e07b30", "#229a6c", "#c4509c", "#8b6fd6", "#a98c12", "#2c9fb3", "#d24d4d"};
+constexpr std::chrono::seconds time_limit{30};
+constexpr std::size_t longest_label = 44;
+/// With more lines the legend goes below the chart.
+constexpr std::size_t lines_beside_legend = 8;
+
+struct Interval {
+  double low = 0, high = 0;
+  void take(double value)
+  {
+    low = low == 0 ? value : std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+/// A string of gnuplot's in single quotes, inside which nothing but the quote itself means anything.
+std::string quoted(const std::string& text)
+{
+  std::string result = "'";
+  for (const char c : text)
+    if (c == '\'')
+      result += "''";
+    else
+      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  return result + "'";
+}
+
+/// Cut between characters of UTF-8, whose later bytes are 10xxxxxx.
+std::string shortened(const std::string& label)
+{
+  if (label.size() <= longest_label) return label;
+  std::size_t end = longest_label;
+  while (end > 0 && (static_cast<unsigned char>(label[end]) & 0xc0) == 0x80) --end;
+  return label.substr(0, end) + "…";
+}
+
+/// Room around the values: a logarithmic axis that begins and ends at a point hides it.
+Interval widened(Interval values, double factor) { return {values.low / factor, values.high * factor}; }
+
+/// The labelled places of a logarithmic axis: powers of ten, with 2 and 5 between where there are few.
+std::string ticks(const Interval& axis)
+{
+  const bool few = axis.high / axis.low < 1000;
+  std::string text;
+  for (const double level : round_levels(axis.low, axis.high)) {
+    const double power = std::log10(level);
+    if (!few && std::abs(power - std::round(power)) > 1e-6) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", quoted(fmt::format("{:g}", level)), level);
+  }
+  return text;
+}
+
+void add_axes(std::string& script, const Chart& chart, const Interval& x, const Interval& y)
+{
+  append(script, "reset\nset border 3 lw 0.8\nset tics nomirror scale 0.5\nset grid xtics ytics lt 1 lc rgb 'gray' lw 0.5\n");
+  append(script, "set logscale x\nset xrange [{}:{}]\nset xtics ({})\nset xlabel 'work (s)'\n", x.low, x.high, ticks(x));
+  append(script, "set ylabel {} offset -0.5\n", quoted(chart.y_axis));
+  if (chart.logarithmic) append(script, "set logscale y\nset yrange [{}:{}]\nset ytics ({})\n", y.low, y.high, ticks(y));
+  if (chart.lines.size() > lines_beside_legend)
+    append(script, "set key outside below left Left reverse maxrows {}\n", (chart.lines.size() + 3) / 2);
+  else
+    append(script, "set key {} right Left reverse samplen 2.5 spacing 1.15\n", chart.logarithmic ? "top" : "bottom");
+}
+
+void add_data(std::string& script, const Chart& chart)
+{
+  for (std::size_t i = 0; i < chart.lines.size(); ++i) {
+    const Curve& curve = chart.lines[i].curve;
+    append(script, "$line{} << end_of_data\n", i);
+    for (std::size_t row = 0; row < curve.seconds.size(); ++row) append(script, "{} {}\n", curve.seconds[row], curve.errors[row]);
+    script += "end_of_data\n";
+  }
+}
+
+/// A slope to compare with, through the geometric middle of the first line.
+std::string guide(const Chart& chart)
+{
+  const Curve& curve = chart.lines.front().curve;
+  double x = 0, y = 0;
+  for (std::size_t i = 0; i < curve.seconds.size(); ++i) {
+    x += std::log(curve.seconds[i]);
+    y += std::log(curve.errors[i]);
+  }
+  const auto count = static_cast<double>(curve.seconds.size());
+  const double factor = std::exp(y / count - *chart.guide_exponent * x / count);
+  return fmt::format("{} * x**({}) with lines lw 1.2 dt 3 lc rgb 'black' title 'slope {:g}'", factor, *chart.guide_exponent,
+                     *chart.guide_exponent);
+}
+
+std::string plot_command(const Chart& chart)
+{
+  std::string plots;
+  const auto add = [&](const std::string& plot) { plots += (plots.empty() ? "" : ", \\\n  ") + plot; };
+  for (std::size_t i = 0; i < chart.lines.size(); ++i) {
+    const ChartLine& line = chart.lines[i];
+    const std::string title = line.label.empty() ? "notitle" : "title " + quoted(shortened(line.label));
+    add(fmt::format("$line{} using 1:2 with linespoints lw {} {} pt 7 ps {} lc rgb '{}' {}", i, line.is_estimate ? 1.4 : 2,
+                    line.is_estimate ? "dt 2" : "dt 1", line.is_estimate ? 0.25 : 0.4, run_colour(line.run), title));
+  }
+  for (std::size_t i = 0; i < chart.noise_floors.size(); ++i)
+    add(fmt::format("{} with lines lw 1.2 dt '-' lc rgb 'black' {}", chart.noise_floors[i],
+                    i == 0 ? "title 'noise floor of the reference'" : "notitle"));
+  if (chart.guide_exponent) add(guide(chart));
+  return "plot " + plots + "\n";
+}
+
+std::string script_of(const Chart& chart)
+{
+  Interval x, y;
+  for (const ChartLine& line : chart.lines) {
+    for (const double seconds : line.curve.seconds) x.take(seconds);
+    for (const double error : line.curve.errors) y.take(error);
+  }
+  for (const double floor : chart.noise_floors) y.take(floor);
+  std::string script;
+  add_axes(script, chart, widened(x, 1.15), widened(y, 1.4));
+  add_data(script, chart);
+  return script + plot_command(chart);
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to)
+{
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+}
+
+/// A tag as the page needs it: ids of its own, the page's colour and font, no name of a namespace (HTML knows SVG's).
+std::string adapted_tag(std::string tag, const std::string& prefix)
+{
+  for (const char* quote : {"'", "\""}) {
+    replace_all(tag, fmt::format(" id={}", quote), fmt::format(" id={}{}", quote, prefix));
+    replace_all(tag, fmt::format("href={}#", quote), fmt::format("href={}#{}", quote, prefix));
+    for (const char* black : {"black", "gray"})
+      replace_all(tag, fmt::format("{0}{1}{0}", quote, black), fmt::format("{0}currentColor{0}", quote));
+  }
+  replace_all(tag, " font-family=\"sans-serif\"", "");
+  replace_all(tag, "xmlns=\"http://www.w3.org/2000/svg\"", "role=\"img\"");
+  replace_all(tag, "xmlns:xlink=\"http://www.w3.org/1999/xlink\"", "");
+  return tag;
+}
+
+/// gnuplot's own <title> and <desc> are about gnuplot; those of its plots show as tooltips.
+std::string without_titles(std::string svg)
+{
+  for (const std::string name : {"title", "desc"})
+    for (std::size_t begin = svg.find("<" + name + ">"); begin != std::string::npos; begin = svg.find("<" + name + ">", begin)) {
+      const std::string end_tag = "</" + name + ">";
+      const std::size_t end = svg.find(end_tag, begin);
+      if (end == std::string::npos) break;
+      svg.erase(begin, end + end_tag.size() - begin);
+    }
+  return svg;
+}
+
+std::string adapted(const std::string& drawn, const std::string& prefix)
+{
+  const std::string svg = without_titles(drawn);
+  std::string result;
+  for (std::size_t at = 0; at < svg.size();) {
+    const std::size_t begin = std::min(svg.find('<', at), svg.size());
+    const std::size_t end = std::min(svg.find('>', begin), svg.size());
+    result += svg.substr(at, begin - at);
+    result += adapted_tag(svg.substr(begin, end - begin), prefix);
+    at = end;
+    if (at < svg.size()) result += svg[at++];
+  }
+  return result;
+}
+
+} // namespace
+
+std::string run_colour(std::size_t run) { return colours[run % colours.size()]; }
+
+std::vector<std::string> draw_charts(std::span<const Chart> charts)
+{
+  if (charts.empty()) return {};
+  std::string script = "set encoding utf8\n";
+  for (const Chart& chart : charts) {
+    const int height = chart.lines.size() > lines_beside_legend ? 460 + 11 * static_cast<int>(chart.lines.size()) : 460;
+    script += fmt::format("set terminal svg size 960,{} dynamic noenhanced font 'sans-serif,14'\n", height) + script_of(chart);
+  }
+  const std::string drawn = run_program({"gnuplot", "--default-settings"}, script, time_limit);
+  std::vector<std::string> svgs;
+  for (std::size_t begin = drawn.find("<svg"); begin != std::string::npos; begin = drawn.find("<svg", begin + 1)) {
+    const std::size_t end = drawn.find("</svg>", begin);
+    if (end == std::string::npos) break;
+    svgs.push_back(adapted(drawn.substr(begin, end + 6 - begin), fmt::format("chart{}-", svgs.size())));
+  }
+  if (svgs.size() != charts.size())
+    throw failed("gnuplot", fmt::format("drew {} of {} charts", svgs.size(), charts.size()), {},
+                 "see whether `gnuplot --version` is 5.4 or newer");
+  return svgs;
+}
+
+} // namespace nephroid::measure

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Slopes, times to an error and speed-ups on curves whose answers are known in closed form.
+#include "measure/report_analysis.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace nephroid::measure;
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+namespace {
+
+/// error = factor t^exponent at times first * ratio^i.
+Curve power_curve(double factor, double exponent, double first, double ratio, int points)
+{
+  Curve curve;
+  for (int i = 0; i < points; ++i) {
+    curve.seconds.push_back(first * std::pow(ratio, i));
+    curve.errors.push_back(factor * std::pow(curve.seconds.back(), exponent));
+  }
+  return curve;
+}
+
+TEST(CurveOf, leaves_out_what_has_no_logarithm)
+{
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  const Curve curve = curve_of({0, 1, 2, 3, 4, 5}, {1, nan, infinity, 0, -1, 2});
+  EXPECT_THAT(curve.seconds, ElementsAre(5));
+  EXPECT_THAT(curve.errors, ElementsAre(2));
+}
+
+TEST(Slope, of_a_power_law_is_its_exponent)
+{
+  for (const double exponent : {-0.5, -1.0, -0.25, 0.0, 0.5}) {
+    const auto law = fit_power_law(power_curve(3, exponent, 0.2, 1.3, 20));
+    ASSERT_TRUE(law);
+    EXPECT_NEAR(law->exponent, exponent, 1e-12);
+    EXPECT_NEAR(law->factor, 3, 1e-11);
+    EXPECT_EQ(law->points, 20u);
+  }
+}
+
+/// A hundred rows within the last hundredth of the time must not outweigh the four decades before them. By hand: with x = log10 t the rows
+/// at 0, 1, 2, 3 lie on y = -x / 2 and the crowd at 4 lies 1 above it. The crowd's weight is that of one end row, 1/2 of 4 in all:
+/// mean x = (0/2 + 1 + 2 + 3 + 4/2) / 4 = 2, sum w (x - 2)^2 = 2 + 1 + 0 + 1 + 2 = 6, sum w (x - 2) dy = 1/2 * 2 * 1 = 1,
+/// so that the slope is -1/2 + 1/6.
+TEST(Slope, counts_equal_parts_of_the_log_axis_equally)
+{
+  Curve curve = power_curve(1, -0.5, 1, 10, 4);
+  for (int i = 0; i < 100; ++i) {
+    curve.seconds.push_back(10000 * (1 + 1e-9 * i));
+    curve.errors.push_back(10 / std::sqrt(10000.0));
+  }
+  EXPECT_THAT(fit_power_law(curve)->exponent, DoubleNear(-0.5 + 1.0 / 6, 1e-6));
+}
+
+TEST(Slope, ends_where_it_is_told_to)
+{
+  // error^2 = 1/t + floor^2: bends to the floor, and above 3 floors the slope between two points is at worst -1/2 (1 - 1/9)
+  constexpr double floor = 0.01;
+  Curve curve;
+  for (double t = 1; t < 1e7; t *= 1.2) {
+    curve.seconds.push_back(t);
+    curve.errors.push_back(std::sqrt(1 / t + floor * floor));
+  }
+  EXPECT_GT(fit_power_law(curve)->exponent, -0.4);
+  const double above = fit_power_law(curve, 3 * floor)->exponent;
+  EXPECT_LT(above, -0.5 * (1 - 1.0 / 9));
+  EXPECT_GT(above, -0.5);
+}
+
+TEST(Slope, needs_four_points_and_a_factor_of_two)
+{
+  EXPECT_FALSE(fit_power_law({}));
+  EXPECT_FALSE(fit_power_law(power_curve(1, -0.5, 1, 2, 3)));
+  EXPECT_TRUE(fit_power_law(power_curve(1, -0.5, 1, 2, 4)));
+  EXPECT_FALSE(fit_power_law(power_curve(1, -0.5, 1, 1.2, 4))); // to 1.73
+  EXPECT_FALSE(fit_power_law(power_curve(1, -0.5, 1, 1, 9)));   // all at one time
+  EXPECT_FALSE(fit_power_law(power_curve(1, -0.5, 1, 2, 4), 0.6));
+}
+
+TEST(TimeToReach, is_exact_on_a_power_law)
+{
+  const Curve curve = power_curve(2, -0.5, 0.1, 1.37, 30); // t = (2 / e)^2
+  for (const double error : {6.0, 1.0, 0.5, 0.123})
+    EXPECT_NEAR(*seconds_to_reach(curve, error), 4 / (error * error), 1e-9 / (error * error));
+}
+
+TEST(TimeToReach, is_the_first_time_and_only_within_the_curve)
+{
+  const Curve curve{{1, 2, 4, 8, 16}, {1, 0.5, 0.8, 0.25, 0.25}};
+  EXPECT_DOUBLE_EQ(*seconds_to_reach(curve, 1), 1);
+  EXPECT_DOUBLE_EQ(*seconds_to_reach(curve, 0.5), 2); // not at about 5, when it falls there for the second time
+  EXPECT_DOUBLE_EQ(*seconds_to_reach(curve, 0.25), 8);
+  EXPECT_FALSE(seconds_to_reach(curve, 0.2)); // never
+  EXPECT_FALSE(seconds_to_reach(curve, 1.1)); // before the first point
+  EXPECT_FALSE(seconds_to_reach({}, 1));
+  EXPECT_DOUBLE_EQ(*seconds_to_reach({{3}, {1}}, 1), 3); // a single row
+}
+
+TEST(SpeedUp, of_two_power_laws_is_the_square_of_their_ratio)
+{
+  // 3 / sqrt(t) and 2 / sqrt(t) are at one error at times of which one is (3/2)^2 times the other
+  const Curve slow = power_curve(3, -0.5, 0.5, 1.21, 50), fast = power_curve(2, -0.5, 0.4, 1.33, 40);
+  for (const double error : {2.5, 1.0, 0.1}) {
+    const auto equal = at_equal_error(slow, fast, error);
+    ASSERT_TRUE(equal);
+    EXPECT_NEAR(equal->speed_up(), 2.25, 1e-9);
+    EXPECT_NEAR(equal->seconds_b, 4 / (error * error), 1e-9 / (error * error));
+    EXPECT_NEAR(at_equal_error(fast, slow, error)->speed_up(), 1 / 2.25, 1e-9);
+  }
+  EXPECT_FALSE(at_equal_error(slow, fast, 4)); // the first point of slow is 4.24, of fast 3.16
+}
+
+TEST(ErrorRange, is_what_both_curves_came_down_to)
+{
+  const Curve a{{1, 2, 4}, {8, 4, 2}}, b{{1, 2, 4}, {5, 3, 1}}, above{{1, 2}, {100, 50}};
+  EXPECT_DOUBLE_EQ(errors_both_reached(a, b)->lowest, 2);
+  EXPECT_DOUBLE_EQ(errors_both_reached(a, b)->highest, 5);
+  EXPECT_DOUBLE_EQ(errors_both_reached(a, b, 3)->lowest, 3);
+  EXPECT_FALSE(errors_both_reached(a, b, 6));
+  EXPECT_FALSE(errors_both_reached(a, above));
+  EXPECT_FALSE(errors_both_reached(a, {}));
+}
+
+TEST(RoundLevels, are_one_two_five)
+{
+  EXPECT_THAT(round_levels(0.09, 2), ElementsAre(2, 1, 0.5, 0.2, 0.1));
+  EXPECT_THAT(round_levels(0.1, 0.1), ElementsAre(0.1)); // bounds included
+  EXPECT_THAT(round_levels(1e-7, 3e-7), ElementsAre(2e-7, 1e-7));
+  EXPECT_THAT(round_levels(3, 4), ElementsAre());
+  EXPECT_THAT(round_levels(2000, 7000), ElementsAre(5000, 2000));
+  EXPECT_THAT(round_levels(0, 1), ElementsAre());
+  EXPECT_THAT(round_levels(std::nan(""), 1), ElementsAre());
+}
+
+} // namespace
