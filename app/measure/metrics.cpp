@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/metrics.h"
 
+#include "measure/flip.h"
+#include "measure/iw_ssim.h"
 #include "measure/lab.h"
 #include "measure/parallel.h"
 #include "measure/pixels.h"
@@ -75,6 +77,18 @@ Metrics metrics_of(const Sums& sums)
   return metrics;
 }
 
+double mean(std::span<const float> map, Mask mask)
+{
+  double sum = 0;
+  std::size_t pixels = 0;
+  for (std::size_t p = 0; p < map.size(); ++p)
+    if (counts(mask, p)) {
+      sum += map[p];
+      ++pixels;
+    }
+  return sum / static_cast<double>(pixels);
+}
+
 } // namespace
 
 QuickComparison::QuickComparison(const Pixels& reference, Mask mask)
@@ -109,9 +123,14 @@ Metrics QuickComparison::against(const Pixels& picture) const
   return metrics_of(std::accumulate(blocks.begin(), blocks.end(), Sums{}, [](Sums a, const Sums& b) { return a += b; }));
 }
 
-Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Effort)
+Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Effort effort)
 {
-  return QuickComparison(reference, mask).against(picture);
+  Metrics metrics = QuickComparison(reference, mask).against(picture);
+  if (effort == Effort::quick) return metrics;
+  metrics.iw_ssim = iw_ssim(picture, reference, mask);
+  metrics.flip = mean(flip_map(picture, reference), mask);
+  metrics.hdr_flip = mean(hdr_flip_map(picture, reference), mask);
+  return metrics;
 }
 
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics)

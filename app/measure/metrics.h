@@ -36,6 +36,7 @@ struct Metrics {
 
 enum class Effort { quick, full };
 
+/// FLIP's maps and IW-SSIM's are made of the whole pictures and averaged over the mask.
 /// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel that counts.
 Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, Effort effort = Effort::full);
 
