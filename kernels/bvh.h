@@ -70,6 +70,19 @@ typedef struct {
 
 static inline float bvh_axis(float3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
 
+// Where a ray from afar passes the scene's middle, at which small objects are: writes its nearest point to the middle and returns how far
+// that is, in lengths of the direction; 0: the ray does not come from afar. Rounding errors, and with them the slack of bvh_ray, grow with
+// the origin's distance: boxes of an object smaller than 2^-20 of it would all overlap, and the ray would test every triangle. One
+// fused multiply-add is exact to rounding of its small result, so the point lies on the line as exactly as single precision can say.
+static inline float bvh_approach(float3 o, float3 d, float3* nearest)
+{
+  const float way = -dot(o, d) / dot(d, d);
+  *nearest = fma((float3)(way), d, o);
+  const float3 before = fabs(o), after = 16.0f * fabs(*nearest);
+  const bool from_afar = BVH_MAX(BVH_MAX(after.x, after.y), after.z) < BVH_MAX(BVH_MAX(before.x, before.y), before.z);
+  return from_afar && way > 0.0f ? way : 0.0f;
+}
+
 static inline float bvh_inverse(float d) { return 1.0f / copysign(BVH_MAX(fabs(d), 1e-20f), d); }
 
 static inline BvhRay bvh_ray(float3 o, float3 d)
@@ -98,8 +111,8 @@ static inline BvhRay bvh_ray(float3 o, float3 d)
   return r;
 }
 
-// Children of a node whose boxes the ray meets within [0, t], as a mask; *entry is where it enters each.
-static inline int bvh_boxes(global const float* node, const BvhRay* r, float t, float8* entry)
+// Children of a node whose boxes the ray meets within [t_min, t], as a mask; *entry is where it enters each.
+static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_min, float t, float8* entry)
 {
   const float8 ix = r->inverse.x, iy = r->inverse.y, iz = r->inverse.z;
   const float8 x0 = fma(vload8(0, node + r->near_x), ix, (float8)(-r->near.x));
@@ -108,14 +121,14 @@ static inline int bvh_boxes(global const float* node, const BvhRay* r, float t, 
   const float8 x1 = fma(vload8(0, node + 8 - r->near_x), ix, (float8)(-r->far.x));
   const float8 y1 = fma(vload8(0, node + 24 - r->near_y), iy, (float8)(-r->far.y));
   const float8 z1 = fma(vload8(0, node + 40 - r->near_z), iz, (float8)(-r->far.z));
-  const float8 first = max(max(x0, y0), max(z0, (float8)(0.0f)));
+  const float8 first = max(max(x0, y0), max(z0, (float8)(t_min)));
   const float8 last = min(min(x1, y1), min(z1, (float8)(t)));
   *entry = first;
   return bvh_mask8(first <= last);
 }
 
-// One block of 4 triangles. Returns the mask of those hit within (0, t_max], with distance and barycentrics.
-static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_max, float4* t, float4* u, float4* v)
+// One block of 4 triangles. Returns the mask of those hit within (t_min, t_max], with distance and barycentrics.
+static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_min, float t_max, float4* t, float4* u, float4* v)
 {
 // A fused multiply-add would round one of the two products of an edge function and not the other, and its sign could be wrong.
 #pragma OPENCL FP_CONTRACT OFF
@@ -135,14 +148,12 @@ static inline int bvh_triangles(global const float* block, const BvhRay* r, floa
   *t = (ea * az + eb * bz + ec * cz) * r->sz * scale;
   *u = eb * scale;
   *v = ec * scale;
-  return inside & bvh_mask4((*t > 0.0f) & (*t <= t_max));
+  return inside & bvh_mask4((*t > t_min) & (*t <= t_max));
 }
 
-// The closest hit with 0 < t <= t_max, other than with triangle `skip` (the one that the ray leaves; NEPHROID_NO_PRIMITIVE: none).
-// The direction need not be of unit length, but neither zero nor smaller than 1e-15.
-static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max, uint skip)
+// The closest hit with t_min < t <= t_max, other than with triangle `skip`. No hit: t is t_max.
+static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
 {
-  const BvhRay ray = bvh_ray(origin, direction);
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
   int waiting[NEPHROID_BVH_STACK];
   float waiting_entry[NEPHROID_BVH_STACK];
@@ -153,7 +164,7 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
       global const float* node = nodes + 64 * (size_t)at;
       global const int* children = (global const int*)(node + 48);
       float8 entry;
-      int mask = bvh_boxes(node, &ray, hit.t, &entry);
+      int mask = bvh_boxes(node, &ray, t_min, hit.t, &entry);
       if (mask == 0) goto next;
       int child = bvh_lowest_bit(mask);
       mask &= mask - 1;
@@ -191,7 +202,7 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
       for (int i = 0; i < count; ++i) {
         global const float* block = blocks + 40 * (size_t)(first + i);
         float4 t4, u4, v4;
-        int mask = bvh_triangles(block, &ray, hit.t, &t4, &u4, &v4);
+        int mask = bvh_triangles(block, &ray, t_min, hit.t, &t4, &u4, &v4);
         if (mask == 0) continue;
         float t[4], u[4], v[4];
         vstore4(t4, 0, t);
@@ -218,10 +229,9 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
   }
 }
 
-// Whether anything other than triangle `skip` is hit with 0 < t <= t_max.
-static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max, uint skip)
+// Whether anything other than triangle `skip` is hit with t_min < t <= t_max.
+static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
 {
-  const BvhRay ray = bvh_ray(origin, direction);
   int waiting[NEPHROID_BVH_STACK];
   int top = 0;
   waiting[top++] = root;
@@ -231,18 +241,60 @@ static inline bool any_hit(global const float* nodes, global const float* blocks
       global const float* node = nodes + 64 * (size_t)at;
       global const int* children = (global const int*)(node + 48);
       float8 entry;
-      for (int mask = bvh_boxes(node, &ray, t_max, &entry); mask; mask &= mask - 1) waiting[top++] = children[bvh_lowest_bit(mask)];
+      for (int mask = bvh_boxes(node, &ray, t_min, t_max, &entry); mask; mask &= mask - 1) waiting[top++] = children[bvh_lowest_bit(mask)];
       continue;
     }
     const int first = ~at >> 4, count = ~at & 15;
     for (int i = 0; i < count; ++i) {
       global const float* block = blocks + 40 * (size_t)(first + i);
       float4 t, u, v;
-      for (int mask = bvh_triangles(block, &ray, t_max, &t, &u, &v); mask; mask &= mask - 1)
+      for (int mask = bvh_triangles(block, &ray, t_min, t_max, &t, &u, &v); mask; mask &= mask - 1)
         if (((global const uint*)block)[36 + bvh_lowest_bit(mask)] != skip) return true;
     }
   }
   return false;
+}
+
+// Both queries below trace a ray from afar in two parts that overlap: the first from its origin, the second from its point nearest to the
+// scene's middle, so that neither part sees rounding errors of the other's distance.
+#define BVH_FIRST_PART 0.75f
+#define BVH_SECOND_PART 0.5f
+
+// The closest hit with t_min < t <= t_max, other than with triangle `skip` (the one that the ray leaves; NEPHROID_NO_PRIMITIVE: none).
+// The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from afar is known
+// more exactly by a point of it near what it is sent to.
+static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_min,
+                              float t_max, uint skip)
+{
+  float3 nearest;
+  const float way = bvh_approach(origin, direction, &nearest);
+  float moved = 0.0f, to = way > 0.0f ? BVH_MIN(BVH_FIRST_PART * way, t_max) : t_max;
+  Hit hit;
+  while (true) {
+    hit = bvh_closest(nodes, blocks, root, bvh_ray(origin, direction), t_min - moved, to - moved, skip);
+    hit.t += moved;
+    if (hit.primitive != NEPHROID_NO_PRIMITIVE || !(to < t_max)) return hit;
+    origin = nearest;
+    moved = way;
+    t_min = BVH_SECOND_PART * way;
+    to = t_max;
+  }
+}
+
+// Whether anything other than triangle `skip` is hit with 0 < t <= t_max.
+static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max, uint skip)
+{
+  float3 nearest;
+  const float way = bvh_approach(origin, direction, &nearest);
+  float t_min = 0.0f, moved = 0.0f, to = way > 0.0f ? BVH_MIN(BVH_FIRST_PART * way, t_max) : t_max;
+  while (true) {
+    if (bvh_any(nodes, blocks, root, bvh_ray(origin, direction), t_min - moved, to - moved, skip)) return true;
+    if (!(to < t_max)) return false;
+    origin = nearest;
+    moved = way;
+    t_min = BVH_SECOND_PART * way;
+    to = t_max;
+  }
 }
 
 #endif

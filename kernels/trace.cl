@@ -15,7 +15,8 @@ kernel void closest_hits(global const float* nodes, global const float* blocks, 
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
-  hits[i] = closest_hit(nodes, blocks, root, trace_vector(rays[i].origin), trace_vector(rays[i].direction), rays[i].t_max, rays[i].skip);
+  hits[i] = closest_hit(nodes, blocks, root, trace_vector(rays[i].origin), trace_vector(rays[i].direction), 0.0f, rays[i].t_max,
+                        rays[i].skip);
 }
 
 kernel void any_hits(global const float* nodes, global const float* blocks, int root, global const Ray* rays, global uint* hit, uint count)

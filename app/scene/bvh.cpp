@@ -88,13 +88,11 @@ void check_triangle(const Mesh& mesh, std::size_t index)
   }
 }
 
-/// Boxes of the triangles with an area, grown by more than the rounding errors of the traversal that come from coordinates of
-/// this size (those that come from the ray's origin are the ray's share: bvh_ray in kernels/bvh.h).
+/// Boxes of the triangles with an area, each grown by more than the rounding errors of the traversal that come from its own
+/// coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/bvh.h). A small object beside large ones
+/// keeps tight boxes.
 std::vector<RTCBuildPrimitive> triangle_boxes(const Mesh& mesh)
 {
-  float largest = 0;
-  for (const glm::vec3& p : mesh.positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const float slack = 0x1p-20f * largest;
   std::vector<RTCBuildPrimitive> boxes;
   boxes.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -102,8 +100,11 @@ std::vector<RTCBuildPrimitive> triangle_boxes(const Mesh& mesh)
     const glm::uvec3& t = mesh.triangles[i];
     const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
     if (!has_area(a, b, c)) continue;
-    const glm::vec3 low = glm::min(glm::min(a, b), c) - slack, high = glm::max(glm::max(a, b), c) + slack;
-    boxes.push_back({low.x, low.y, low.z, 0, high.x, high.y, high.z, static_cast<unsigned int>(i)});
+    const glm::vec3 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c),
+                    largest = glm::max(glm::abs(low), glm::abs(high));
+    const float slack = 0x1p-20f * std::max({largest.x, largest.y, largest.z});
+    boxes.push_back(
+        {low.x - slack, low.y - slack, low.z - slack, 0, high.x + slack, high.y + slack, high.z + slack, static_cast<unsigned int>(i)});
   }
   return boxes;
 }

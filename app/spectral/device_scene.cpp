@@ -71,7 +71,8 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
   for (const scene::Sphere& target : targets) {
     const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
     const double radius2 = double(target.radius) * target.radius;
-    steradians += distance2 <= radius2 ? 4 * pi : 2 * pi * (1 - std::sqrt(1 - radius2 / distance2));
+    const double sine2 = radius2 / distance2; // 1 - cos = sin^2 / (1 + cos), which does not vanish for a far target
+    steradians += sine2 >= 1 ? 4 * pi : 2 * pi * sine2 / (1 + std::sqrt(1 - sine2));
     square_metres += pi * radius2 * metres_per_unit * metres_per_unit;
   }
   switch (light.type) {

@@ -27,9 +27,9 @@ kernel void sample(global const DeviceTarget* targets, int target_count, float4 
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
-  float3 direction;
-  const float steradians = sample_targets(targets, target_count, from.xyz, random4(seed, 0u, i, 0u, 0u), &direction);
-  out[i] = (float4)(direction, steradians);
+  Emission photon;
+  const float steradians = sample_targets(targets, target_count, from.xyz, random4(seed, 0u, i, 0u, 0u), &photon);
+  out[i] = (float4)(photon.direction, steradians);
 }
 )";
 
