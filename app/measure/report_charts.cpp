@@ -43,15 +43,6 @@ std::string quoted(const std::string& text)
   return result + "'";
 }
 
-/// Cut between characters of UTF-8, whose later bytes are 10xxxxxx.
-std::string shortened(const std::string& label)
-{
-  if (label.size() <= longest_label) return label;
-  std::size_t end = longest_label;
-  while (end > 0 && (static_cast<unsigned char>(label[end]) & 0xc0) == 0x80) --end;
-  return label.substr(0, end) + "…";
-}
-
 /// Room around the values: a logarithmic axis that begins and ends at a point hides it.
 Interval widened(Interval values, double factor) { return {values.low / factor, values.high * factor}; }
 
@@ -111,7 +102,7 @@ std::string plot_command(const Chart& chart)
   const auto add = [&](const std::string& plot) { plots += (plots.empty() ? "" : ", \\\n  ") + plot; };
   for (std::size_t i = 0; i < chart.lines.size(); ++i) {
     const ChartLine& line = chart.lines[i];
-    const std::string title = line.label.empty() ? "notitle" : "title " + quoted(shortened(line.label));
+    const std::string title = line.label.empty() ? "notitle" : "title " + quoted(shortened(line.label, longest_label));
     add(fmt::format("$line{} using 1:2 with linespoints lw {} {} pt 7 ps {} lc rgb '{}' {}", i, line.is_estimate ? 1.4 : 2,
                     line.is_estimate ? "dt 2" : "dt 1", line.is_estimate ? 0.25 : 0.4, run_colour(line.run), title));
   }

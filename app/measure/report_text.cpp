@@ -8,17 +8,22 @@
 #include <cmath>
 
 namespace nephroid::measure {
-namespace {
 
 /// Through JSON, whose writer replaces what is no UTF-8.
-std::string as_utf8(std::string_view text) { return nlohmann::ordered_json::parse(json_text(std::string(text))).get<std::string>(); }
+std::string utf8(std::string_view text) { return nlohmann::ordered_json::parse(json_text(std::string(text))).get<std::string>(); }
 
-} // namespace
+std::string shortened(const std::string& text, std::size_t bytes)
+{
+  if (text.size() <= bytes) return text;
+  std::size_t end = bytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end; // the later bytes of a character are 10xxxxxx
+  return text.substr(0, end) + "…";
+}
 
 std::string escaped(std::string_view text)
 {
   std::string result;
-  for (const char c : as_utf8(text)) switch (c) {
+  for (const char c : utf8(text)) switch (c) {
     case '&':
       result += "&amp;";
       break;

@@ -16,6 +16,10 @@ void append(std::string& text, fmt::format_string<Arguments...> form, Arguments&
   fmt::format_to(std::back_inserter(text), form, std::forward<Arguments>(arguments)...);
 }
 
+/// What is no UTF-8 becomes U+FFFD.
+std::string utf8(std::string_view text);
+/// At most so many bytes of UTF-8, cut between characters, with "…" where something is missing.
+std::string shortened(const std::string& text, std::size_t bytes);
 /// For HTML's text and quoted attributes. Any bytes: what is no UTF-8 becomes U+FFFD, control characters become spaces.
 std::string escaped(std::string_view text);
 std::string base64(std::string_view bytes);

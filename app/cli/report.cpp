@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid report`: one page over finished runs, error against time first.
+#include "measure/report.h"
+#include "base/files.h"
+#include "cli/verbs.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <vector>
+
+namespace nephroid::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct ReportOptions {
+  std::vector<fs::path> folders;
+  fs::path output;
+};
+
+void write_report(const ReportOptions& options)
+{
+  const fs::path file = !options.output.empty()      ? options.output
+                        : options.folders.size() > 1 ? fs::path("report.html")
+                                                     : options.folders.front() / "report.html";
+  const std::string html = measure::report_html(options.folders);
+  write_file_whole(file, html);
+  fmt::print("{}: {:.1f} MB, opens in a browser without a network\n", file.string(), static_cast<double>(html.size()) * 1e-6);
+}
+
+} // namespace
+
+void add_report(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App* verb = program.add_subcommand("report", "One page over finished runs: error against time, speed-up at equal error, pictures");
+  verb->footer("Compares runs that have a run.json; the folder of a sweep stands for all runs in it. Without -o the page of one\n"
+               "folder is report.html in that folder, that of several is report.html in the current folder.");
+  verb->add_option("DIR", options->folders, "Folders of finished runs or of sweeps")->required();
+  verb->add_option("-o,--output", options->output, "The page's file")->type_name("FILE");
+  verb->callback([options] { write_report(*options); });
+}
+
+} // namespace nephroid::cli
