@@ -23,19 +23,19 @@ typedef struct {
 static inline Arrival arrive_from(const DeviceLight* light, float3 position, float3 normal, float metres_per_unit, float2 place)
 {
   Arrival arrival = {0.0f, -light->direction.xyz, INFINITY};
-  if (light->type == LIGHT_DIRECTIONAL) {
+  if (is_light(light, LIGHT_DIRECTIONAL)) {
     arrival.irradiance = light->radiometric * max(dot(arrival.direction, normal), 0.0f);
     return arrival;
   }
-  const float3 source = light->type == LIGHT_AREA ? area_point(light, place) : light->position.xyz;
+  const float3 source = is_light(light, LIGHT_AREA) ? area_point(light, place) : light->position.xyz;
   const float3 way = source - position;
   arrival.distance = length(way);
   arrival.direction = way / arrival.distance;
   const float cosine = max(dot(arrival.direction, normal), 0.0f);
   const float cos_light = -dot(arrival.direction, light->direction.xyz);
   float watts_per_steradian = light->radiometric / (4.0f * PI_F);
-  if (light->type == LIGHT_SPOT) watts_per_steradian = in_spot(light, -arrival.direction) ? light->radiometric / light->solid_angle : 0.0f;
-  if (light->type == LIGHT_AREA) watts_per_steradian = light->radiometric * max(cos_light, 0.0f) / PI_F;
+  if (is_light(light, LIGHT_SPOT)) watts_per_steradian = in_spot(light, -arrival.direction) ? light->radiometric / light->solid_angle : 0.0f;
+  if (is_light(light, LIGHT_AREA)) watts_per_steradian = light->radiometric * max(cos_light, 0.0f) / PI_F;
   const float metres = arrival.distance * metres_per_unit;
   arrival.irradiance = watts_per_steradian * cosine / (metres * metres);
   return arrival;
@@ -57,7 +57,7 @@ static inline float3 shade(const World* world, const Path* path, const Surface* 
   float3 xyz = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
     const DeviceLight light = world->lights[l];
-    const float4 place = light.type == LIGHT_AREA ? random4(seed, sample, pixel, (uint)l, STREAM_CAMERA_LIGHT) : (float4)(0.0f);
+    const float4 place = is_light(&light, LIGHT_AREA) ? random4(seed, sample, pixel, (uint)light.number, STREAM_CAMERA_LIGHT) : (float4)(0.0f);
     const Arrival arrival = arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
     if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) continue;
     if (is_blocked(world, from, arrival.direction, arrival.distance, triangle)) continue;
@@ -117,7 +117,8 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
   const int column = index % camera.width, row = first_row + index / camera.width;
   const uint pixel = (uint)(row * camera.width + column);
   const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_CAMERA);
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, media_from(&camera.inside),
+                     no_losses()};
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 

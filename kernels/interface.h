@@ -7,15 +7,20 @@
 #include "media.h"
 #include "surface.h"
 
+// 0: every dielectric has n = 1, so nothing is bent or reflected.
+#ifndef NEPHROID_BENDING
+#define NEPHROID_BENDING 1
+#endif
+
 // media: where the path is. n_of: index of refraction by material, for the path's cluster.
 // choice: uniform in [0, 1), picks reflection with Fresnel's probability. Updates `media` where the path goes through.
 // *n_ratio: n on the near side over n on the far side, 1 for a reflected path.
 // Returns false where more than MEDIA_DEPTH media would enclose the path.
-static inline bool cross_interface(Media* media, const Surface* surface, __global const DeviceObject* objects, __global const float* n_of,
+static inline bool cross_interface(PathMedia* media, const Surface* surface, __global const DeviceObject* objects, __global const float* n_of,
                                    float3 direction, float choice, Bend* bend, float* n_ratio)
 {
   const bool enters = dot(direction, surface->geometric) < 0.0f;
-  Media beyond = *media;
+  PathMedia beyond = *media;
   int near_object = medium_object(media, objects);
   if (enters) {
     if (!enter_medium(&beyond, surface->object)) return false;
@@ -27,7 +32,12 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
   const float n_i = near_object < 0 ? 1.0f : n_of[objects[near_object].material];
   const float n_t = far_object < 0 ? 1.0f : n_of[objects[far_object].material];
   *n_ratio = 1.0f;
-  if (n_i == n_t) { // nothing changes here: one medium hides the other, or both are the same
+#if NEPHROID_BENDING
+  const bool bends = n_i != n_t;
+#else
+  const bool bends = false;
+#endif
+  if (!bends) { // nothing changes here: one medium hides the other, or both are the same
     bend->direction = direction;
     bend->transmitted = true;
   } else

@@ -7,6 +7,17 @@
 
 #define PI_F 3.14159265358979f
 
+// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and no question is asked where there is
+// one type only.
+#ifndef NEPHROID_LIGHT_TYPES
+#define NEPHROID_LIGHT_TYPES 15
+#endif
+
+static inline bool is_light(const DeviceLight* light, int type)
+{
+  return (NEPHROID_LIGHT_TYPES >> type & 1) != 0 && (NEPHROID_LIGHT_TYPES == 1 << type || light->type == type);
+}
+
 // Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.
 static inline bool in_spot(const DeviceLight* light, float3 direction)
 {

@@ -123,11 +123,11 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const uint photon = offset + stride * number;
     const DeviceEmitter emitter = emitters[emitter_of(emitters, scene.emitter_count, photon)];
     const DeviceLight light = lights[emitter.light];
-    const float4 place = light.type == LIGHT_AREA ? random4(seed, pass, photon, 1u, STREAM_PHOTONS) : (float4)(0.0f);
+    const float4 place = is_light(&light, LIGHT_AREA) ? random4(seed, pass, photon, 1u, STREAM_PHOTONS) : (float4)(0.0f);
     const Emission emission = emit(&light, targets, &scene, random4(seed, pass, photon, 0u, STREAM_PHOTONS), place);
     if (emission.watts == 0.0f) continue;
     const float watts = emission.watts / (float)emitter.photon_count; // as if the cluster had all of the light's power
-    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, media_from(&light.inside), no_losses()};
     const PhotonEnd end = trace_photon(&world, &emitter, &path, seed, pass, photon);
     if (end.outcome == OUTCOME_DEPOSITED && !splat(&world, &camera, &end, path.direction, watts, film, film_scale))
       ++outcomes[OUTCOME_REFUSED];

@@ -71,9 +71,14 @@ typedef struct {
   float solid_angle;   // spot: of its cone, in steradians
   float radiometric;   // point, spot, area: power in W; directional: irradiance in W m^-2
   Media inside;        // directional: none
+  int first_target;    // in the table of targets: those that this light can reach
+  int target_count;
+  int number;          // among the preset's lights: its random numbers do not depend on which others are left out
+  int padding;
 } DeviceLight;
 
-// A bounding sphere of a caustic object: photons are sent towards these only.
+// A bounding sphere of a caustic object: photons are sent towards these only. The table has one list after the other, one for each set
+// of spheres that some light reaches.
 typedef struct {
   float4 centre_radius; // w: radius
 } DeviceTarget;
@@ -101,16 +106,16 @@ typedef struct {
   int root;               // of the tree: bvh.h
   int material_count;
   int light_count;
-  int target_count;
   int cluster_count;
   int emitter_count;
   float metres_per_unit;
   float outside_distance; // directional photons start this far before their target: outside of everything
+  int padding;
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 16 && sizeof(Media) == 48);
-static_assert(sizeof(DeviceLight) == 128 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 32);
+static_assert(sizeof(DeviceLight) == 144 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 32);
 static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 32);
 } // namespace nephroid::shared
 #endif

@@ -16,6 +16,9 @@
 #ifndef NEPHROID_MIRRORS
 #define NEPHROID_MIRRORS 1
 #endif
+#ifndef NEPHROID_DIELECTRICS
+#define NEPHROID_DIELECTRICS 1
+#endif
 
 typedef struct {
   Geometry geometry;
@@ -46,15 +49,13 @@ typedef struct {
 typedef struct {
   float3 origin, direction;
   uint skip;    // the triangle that the path leaves
-  Media media;  // that enclose it
+  PathMedia media; // that enclose it
   Losses losses;
-  float behind; // the path begins this far behind `origin`: 0 but on its first way (Emission)
 } Path;
 
 static inline Hit next_hit(const World* world, const Path* path)
 {
-  return closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction, -path->behind,
-                     INFINITY, path->skip);
+  return closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction, INFINITY, path->skip);
 }
 
 static inline bool is_blocked(const World* world, float3 from, float3 direction, float distance, uint skip)
@@ -64,12 +65,12 @@ static inline bool is_blocked(const World* world, float3 from, float3 direction,
 
 static inline DeviceMaterial material_of(const World* world, int object) { return world->materials[world->objects[object].material]; }
 
-// The absorption of the medium that the path has crossed up to its next hit, `distance` from its origin.
+// The absorption of the medium that the path has crossed up to its next hit.
 static inline void lose_in_medium(const World* world, Path* path, float distance)
 {
-#if NEPHROID_ATTENUATORS > 0
+#if NEPHROID_ATTENUATORS > 0 && NEPHROID_DIELECTRICS
   const int medium = medium_object(&path->media, world->objects);
-  if (medium >= 0) lose(&path->losses, material_of(world, medium).attenuator, (path->behind + distance) * world->scene.metres_per_unit);
+  if (medium >= 0) lose(&path->losses, material_of(world, medium).attenuator, distance * world->scene.metres_per_unit);
 #endif
 }
 
@@ -81,20 +82,17 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   Bend bend;
   *n_ratio = 1.0f;
-#if NEPHROID_MIRRORS
-  if (material->type == MATERIAL_MIRROR) {
+  if (NEPHROID_MIRRORS && (!NEPHROID_DIELECTRICS || material->type == MATERIAL_MIRROR)) {
     bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, -1.0f);
     lose(&path->losses, material->attenuator, 1.0f);
-  } else
-#endif
-  {
+  } else if (NEPHROID_DIELECTRICS) {
     __global const float* n_of = world->index_of_refraction + cluster * world->scene.material_count;
     if (!cross_interface(&path->media, surface, world->objects, n_of, path->direction, choice, &bend, n_ratio)) return false;
-  }
+  } else
+    return false; // no path comes here: nothing in the scene bends it
   path->direction = bend.direction;
   path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
   path->skip = triangle;
-  path->behind = 0.0f;
   return true;
 }
 

@@ -13,7 +13,7 @@ struct Pass {
   std::string name;
   bool runs = true;
   std::string reason;     ///< a sentence a person can read
-  std::string field;      ///< JSON pointer of the preset's boolean that decides; empty where none does
+  std::string field = {}; ///< JSON pointer of the preset's boolean that decides; empty where none does
   bool run_value = false; ///< what that boolean must be for the pass to run; a pass that is needed may run whatever it is
 };
 

@@ -265,8 +265,8 @@ void describe(V& v, S& s)
            .sentence = "Leave out, for each light, glass and mirrors that are outside a spot's cone or behind an area light."},
           s.unreached_targets);
   v.field({.name = "dark_lights", .sentence = "Leave out lights without power."}, s.dark_lights);
-  v.field({.name = "wavelengths", .sentence = "Leave out wavelengths that no light has."}, s.wavelengths);
-  v.field({.name = "materials", .sentence = "Leave out tables of materials that no object has."}, s.materials);
+  v.field({.name = "unlit_wavelengths", .sentence = "Leave out wavelengths that no light has."}, s.unlit_wavelengths);
+  v.field({.name = "unused_materials", .sentence = "Leave out tables of materials that no object has."}, s.unused_materials);
   v.field({.name = "light_types", .sentence = "Leave out the code of types of light that the scene does not have."}, s.light_types);
   v.field({.name = "mirrors", .sentence = "Leave out the code of mirrors where there is none."}, s.mirrors);
   v.field({.name = "dielectrics", .sentence = "Leave out the code of glass where there is none."}, s.dielectrics);

@@ -131,8 +131,8 @@ struct LeaveOut {
   bool stray_photons = true;     ///< photons that start towards anything but glass and mirrors
   bool unreached_targets = true; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
   bool dark_lights = true;       ///< lights without power
-  bool wavelengths = true;       ///< wavelengths that no light has
-  bool materials = true;         ///< rows of the spectral tables for materials that no object has
+  bool unlit_wavelengths = true; ///< wavelengths that no light has
+  bool unused_materials = true;  ///< rows of the spectral tables for materials that no object has
   bool light_types = true;       ///< kernels without the code of types of light that the scene does not have
   bool mirrors = true;           ///< kernels without mirrors
   bool dielectrics = true;       ///< kernels without glass

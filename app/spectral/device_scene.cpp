@@ -2,6 +2,7 @@
 #include "spectral/device_scene.h"
 
 #include "base/error.h"
+#include "spectral/omissions.h"
 #include "spectral/targets.h"
 #include "spectral/wavelength_tables.h"
 
@@ -9,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+#include <numeric>
 
 namespace nephroid::spectral {
 namespace {
@@ -38,10 +41,7 @@ shared::DeviceLight device_light(const scene::Light& light, const std::string& w
   out.edge_u = to_float4(light.edge_u);
   out.edge_v = to_float4(light.edge_v);
   using Type = preset::Light::Type;
-  out.type = light.type == Type::point         ? LIGHT_POINT
-             : light.type == Type::spot        ? LIGHT_SPOT
-             : light.type == Type::directional ? LIGHT_DIRECTIONAL
-                                               : LIGHT_AREA;
+  out.type = device_light_type(light.type);
   out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
   out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
   out.radiometric = static_cast<float>(light.type == Type::directional ? light.irradiance_w_m2 : light.power_w);
@@ -88,14 +88,48 @@ double towards_targets_w(const scene::Light& light, const std::vector<scene::Sph
   return light.power_w * std::min(1.0, steradians / (4 * pi));
 }
 
-std::vector<shared::DeviceEmitter> make_emitters(const scene::Scene& scene, const std::vector<scene::Sphere>& targets,
-                                                 const WavelengthTables& tables, unsigned photons)
+/// Appends the spheres to the table of targets, unless an earlier light has the very same ones.
+void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& spheres, DeviceTables& tables)
+{
+  std::vector<shared::DeviceTarget> list;
+  for (const scene::Sphere& sphere : spheres) list.push_back({to_float4(sphere.centre, sphere.radius)});
+  const auto same = [](const shared::DeviceTarget& a, const shared::DeviceTarget& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+  auto found = std::search(tables.targets.begin(), tables.targets.end(), list.begin(), list.end(), same);
+  if (found == tables.targets.end()) found = tables.targets.insert(found, list.begin(), list.end());
+  light.first_target = static_cast<int>(found - tables.targets.begin());
+  light.target_count = static_cast<int>(list.size());
+}
+
+/// All targets of the scene: where photons go whatever the light.
+std::vector<scene::Sphere> scene_targets(const preset::LeaveOut& leave_out, const scene::Scene& scene)
+{
+  std::vector<scene::Sphere> targets;
+  if (leave_out.stray_photons) targets = caustic_targets(scene);
+  // Photons that are asked for where nothing needs them have nothing to aim at.
+  if (!leave_out.stray_photons || (targets.empty() && !leave_out.photons)) return {everything(scene)};
+  return targets;
+}
+
+/// Adds the light, its targets, and to `watts` what it sends towards them.
+void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, const scene::Scene& scene, const preset::LeaveOut& leave_out,
+               DeviceTables& tables, std::vector<double>& watts)
+{
+  const auto number = static_cast<int>(&light - scene.lights.data());
+  shared::DeviceLight out = device_light(light, fmt::format("{}#/scene/lights/{}", scene.source, number));
+  out.number = number;
+  if (leave_out.unreached_targets) std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });
+  set_targets(out, targets, tables);
+  tables.lights.push_back(out);
+  watts.push_back(towards_targets_w(light, targets, scene.metres_per_unit));
+}
+
+/// watts: of each light towards its targets.
+std::vector<shared::DeviceEmitter> make_emitters(const std::vector<double>& watts, const WavelengthTables& tables, unsigned photons)
 {
   std::vector<double> weights;
-  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    const double watts = towards_targets_w(scene.lights[l], targets, scene.metres_per_unit);
-    for (std::size_t c = 0; c < tables.clusters.size(); ++c) weights.push_back(watts * (tables.weight[l][c] + 0.05 * tables.share[l][c]));
-  }
+  for (std::size_t l = 0; l < watts.size(); ++l)
+    for (std::size_t c = 0; c < tables.clusters.size(); ++c)
+      weights.push_back(watts[l] * (tables.weight[l][c] + 0.05 * tables.share[l][c]));
   const std::vector<unsigned> counts = deal_out(weights, photons);
   std::vector<shared::DeviceEmitter> emitters;
   unsigned first = 0;
@@ -146,6 +180,12 @@ void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, DeviceTa
 
 } // namespace
 
+int device_light_type(preset::Light::Type type)
+{
+  using Type = preset::Light::Type;
+  return type == Type::point ? LIGHT_POINT : type == Type::spot ? LIGHT_SPOT : type == Type::directional ? LIGHT_DIRECTIONAL : LIGHT_AREA;
+}
+
 std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
 {
   std::vector<optics::Spectrum> curves;
@@ -162,26 +202,29 @@ std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, c
 DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene)
 {
   DeviceTables tables;
-  tables.wavelengths = make_wavelength_tables(scene, scene_clusters(preset.spectral, scene), tables.materials);
-  const std::vector<scene::Sphere> targets = caustic_targets(scene);
-  for (const scene::Sphere& target : targets) tables.targets.push_back({to_float4(target.centre, target.radius)});
+  const preset::LeaveOut& leave_out = preset.spectral.leave_out;
+  std::vector<const scene::Light*> lights;
+  for (const scene::Light& light : scene.lights)
+    if (has_power(light) || !leave_out.dark_lights) lights.push_back(&light);
+  tables.wavelengths = make_wavelength_tables(scene, lights, scene_clusters(preset.spectral, scene), leave_out, tables.materials);
   for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority, object.smooth ? 1 : 0, 0});
-  for (std::size_t l = 0; l < scene.lights.size(); ++l)
-    tables.lights.push_back(device_light(scene.lights[l], fmt::format("{}#/scene/lights/{}", scene.source, l)));
-  tables.emitters = make_emitters(scene, targets, tables.wavelengths, static_cast<unsigned>(preset.spectral.photons_per_pass));
+  tables.spheres = scene_targets(leave_out, scene);
+  std::vector<double> watts;
+  for (const scene::Light* light : lights) add_light(*light, tables.spheres, scene, leave_out, tables, watts);
+  tables.emitters = make_emitters(watts, tables.wavelengths, static_cast<unsigned>(preset.spectral.photons_per_pass));
   for (const shared::DeviceEmitter& emitter : tables.emitters) tables.photons_per_pass += emitter.photon_count;
-  for (const scene::Light& light : scene.lights) tables.light_towards_targets_w += towards_targets_w(light, targets, scene.metres_per_unit);
+  tables.light_towards_targets_w = std::accumulate(watts.begin(), watts.end(), 0.0);
   tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");
 
   const scene::Sphere bounds = scene_bounds(scene);
   set_scales(scene, bounds, tables);
   tables.scene.material_count = static_cast<int>(scene.materials.size());
-  tables.scene.light_count = static_cast<int>(scene.lights.size());
-  tables.scene.target_count = static_cast<int>(targets.size());
+  tables.scene.light_count = static_cast<int>(tables.lights.size());
   tables.scene.cluster_count = static_cast<int>(tables.wavelengths.clusters.size());
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
   tables.scene.metres_per_unit = static_cast<float>(scene.metres_per_unit);
-  tables.scene.outside_distance = 2.5f * bounds.radius;
+  // Enough from any place on the disc of any target, also of the one about everything.
+  tables.scene.outside_distance = 2.5f * std::max(bounds.radius, leave_out.stray_photons ? 0.0f : everything(scene).radius);
   return tables;
 }
 

@@ -12,7 +12,7 @@ namespace nephroid::spectral {
 
 /// Everything that depends on wavelength, for `clusters` of the 401 wavelengths.
 struct WavelengthTables {
-  std::vector<std::vector<int>> clusters;        ///< wavelength indices of each
+  std::vector<std::vector<int>> clusters;        ///< wavelength indices of each, without those that are left out
   std::vector<int> cluster_first;                ///< cluster_count + 1
   std::vector<int> cluster_wavelengths;          ///< cluster after cluster
   std::vector<float> index_of_refraction;        ///< [cluster][material]: mean over the cluster; 1 for what is no dielectric
@@ -32,8 +32,9 @@ struct DeviceTables {
   shared::DeviceCamera camera{};
   std::vector<shared::DeviceMaterial> materials;
   std::vector<shared::DeviceObject> objects;
-  std::vector<shared::DeviceLight> lights;
-  std::vector<shared::DeviceTarget> targets;
+  std::vector<shared::DeviceLight> lights;     ///< without those that are left out
+  std::vector<scene::Sphere> spheres;          ///< where photons are sent, by all lights together
+  std::vector<shared::DeviceTarget> targets;   ///< lists, see DeviceLight::first_target
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one pass, dealt out to lights and clusters
   unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each emitter
   WavelengthTables wavelengths;
@@ -41,6 +42,9 @@ struct DeviceTables {
   double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
   double energy_scale = 1;                    ///< energy quanta per watt, a power of two
 };
+
+/// LIGHT_* of kernels/shared_types.h.
+int device_light_type(preset::Light::Type type);
 
 /// The clusters for all dielectrics that an object uses: of one curve its own, of several their common refinement, of none one group.
 std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene);

@@ -2,6 +2,7 @@
 // What engine 1 runs for a preset and what it leaves out.
 #include "spectral/device_scene.h"
 #include "spectral/engine.h"
+#include "spectral/omissions.h"
 
 #include <fmt/format.h>
 
@@ -10,53 +11,56 @@
 namespace nephroid::spectral {
 namespace {
 
-struct Needs {
-  int dielectrics = 0, mirrors = 0, diffuse = 0, smooth = 0; ///< objects
-};
-
-Needs count_objects(const scene::Scene& scene)
+std::string counted(std::size_t count, const std::string& one, const std::string& many)
 {
-  Needs needs;
-  for (const scene::Object& object : scene.objects) {
-    const scene::Material::Type type = scene.materials[static_cast<std::size_t>(object.material)].type;
-    needs.dielectrics += type == scene::Material::Type::dielectric;
-    needs.mirrors += type == scene::Material::Type::mirror;
-    needs.diffuse += type == scene::Material::Type::diffuse;
-    needs.smooth += object.smooth;
-  }
-  return needs;
+  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-std::string no_light_reason(const scene::Scene& scene) { return scene.lights.empty() ? "the scene has no light" : ""; }
-
-plan::Pass direct_pass(const preset::Spectral& settings, const scene::Scene& scene, const Needs& needs)
+/// A layer that the preset does not ask for.
+plan::Pass not_asked_for(const std::string& name, const std::string& field)
 {
-  const std::string reason = !settings.direct                             ? "spectral.direct is false"
-                             : !scene.lights.empty() && needs.diffuse > 0 ? ""
-                             : needs.diffuse == 0                         ? "the scene has no diffuse surface"
-                                                                          : no_light_reason(scene);
-  if (!reason.empty()) return {"direct", false, reason};
-  return {"direct", true,
-          fmt::format("{} diffuse {} lit by {} {}", needs.diffuse, needs.diffuse == 1 ? "object" : "objects", scene.lights.size(),
-                      scene.lights.size() == 1 ? "light" : "lights")};
+  return {name, false, fmt::format("spectral.{} is false", field), "/spectral/" + field, true};
 }
 
-plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& scene, const Needs& needs, const DeviceTables& tables)
+std::string no_light_reason(const scene::Scene& scene)
 {
-  std::string reason;
-  if (!settings.caustic)
-    reason = "spectral.caustic is false";
-  else if (needs.dielectrics + needs.mirrors == 0)
-    reason = "no object is of glass or a mirror";
-  else if (needs.diffuse == 0)
-    reason = "no diffuse surface can receive a caustic";
-  else if (tables.emitters.empty())
-    reason = scene.lights.empty() ? no_light_reason(scene) : "no light has power at 380 to 780 nm";
-  if (!reason.empty()) return {"photons", false, reason};
-  return {"photons", true,
-          fmt::format("{} photons a pass in {} wavelength {}, sent towards {} caustic {} only", tables.photons_per_pass,
-                      tables.wavelengths.clusters.size(), tables.wavelengths.clusters.size() == 1 ? "cluster" : "clusters",
-                      tables.targets.size(), tables.targets.size() == 1 ? "target" : "targets")};
+  if (scene.lights.empty()) return "the scene has no light";
+  return std::any_of(scene.lights.begin(), scene.lights.end(), has_power) ? "" : "no light has power";
+}
+
+plan::Pass direct_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects)
+{
+  if (!settings.direct) return not_asked_for("direct", "direct");
+  const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(scene);
+  if (!none.empty()) return omission("direct", settings.leave_out.direct, false, none);
+  const auto diffuse = static_cast<std::size_t>(objects.diffuse);
+  return omission("direct", settings.leave_out.direct, true,
+                  fmt::format("{} lit by {}, {} a pixel", counted(diffuse, "diffuse object", "diffuse objects"),
+                              counted(scene.lights.size(), "light", "lights"),
+                              counted(static_cast<std::size_t>(settings.pixel_samples), "sample", "samples")));
+}
+
+plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects, const DeviceTables& tables)
+{
+  if (!settings.caustic) return not_asked_for("photons", "caustic");
+  // No field brings these back: there is nothing to send.
+  if (const std::string none = no_light_reason(scene); !none.empty()) return {"photons", false, none, "", false};
+  const std::string none = objects.dielectrics + objects.mirrors == 0 ? "no object is of glass or a mirror"
+                           : objects.diffuse == 0                     ? "no diffuse surface can receive a caustic"
+                                                                      : "";
+  if (!none.empty()) return omission("photons", settings.leave_out.photons, false, none);
+  if (tables.emitters.empty()) return {"photons", false, "no light shines on glass or a mirror", "", false};
+  return omission("photons", settings.leave_out.photons, true,
+                  fmt::format("{} photons a pass in {}", tables.photons_per_pass,
+                              counted(tables.wavelengths.clusters.size(), "wavelength cluster", "wavelength clusters")));
+}
+
+plan::Pass stray_photons_pass(const preset::LeaveOut& leave_out, const DeviceTables& tables)
+{
+  return omission("stray_photons", leave_out.stray_photons, false,
+                  leave_out.stray_photons ? fmt::format("photons start towards {} about glass and mirrors only",
+                                                        counted(tables.spheres.size(), "sphere", "spheres"))
+                                          : "photons need not start where there is no glass and no mirror");
 }
 
 std::uint64_t bytes_of(const auto& items) { return items.size() * sizeof(items[0]); }
@@ -83,19 +87,17 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
 plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   const DeviceTables tables = make_device_tables(preset, scene);
-  const Needs needs = count_objects(scene);
+  const ObjectCounts objects = count_objects(scene);
   const int attenuators = tables.wavelengths.attenuator_count;
+  const preset::LeaveOut& leave_out = preset.spectral.leave_out;
   plan::Plan plan;
   plan.engine = "spectral";
-  const plan::Pass direct = direct_pass(preset.spectral, scene, needs), photons = photon_pass(preset.spectral, scene, needs, tables);
+  const plan::Pass direct = direct_pass(preset.spectral, scene, objects), photons = photon_pass(preset.spectral, scene, objects, tables);
   plan.passes = {direct, photons};
-  plan.passes.push_back(
-      {"mirrors", needs.mirrors > 0, needs.mirrors > 0 ? fmt::format("{} mirror objects", needs.mirrors) : "no object is a mirror"});
-  plan.passes.push_back({"attenuation", attenuators > 0,
-                         attenuators > 0 ? fmt::format("{} materials take light away by wavelength", attenuators)
-                                         : "no glass absorbs and no mirror is coloured"});
-  plan.passes.push_back(
-      {"smooth normals", needs.smooth > 0, needs.smooth > 0 ? fmt::format("{} smooth objects", needs.smooth) : "every object is faceted"});
+  if (photons.runs) plan.passes.push_back(stray_photons_pass(leave_out, tables));
+  const std::vector<plan::Pass> code = code_omissions(leave_out, scene, attenuators);
+  for (const std::vector<plan::Pass>& passes : {data_omissions(leave_out, scene, tables.spheres), code})
+    plan.passes.insert(plan.passes.end(), passes.begin(), passes.end());
   plan.passes.push_back(
       {"photon maps", false,
        "caustics are splatted where the camera sees the surface directly; those seen through glass or in a mirror are not rendered yet"});
@@ -103,12 +105,13 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   plan.passes.push_back({"background", false, "there is no environment: what meets nothing is black"});
   const int halves = preset.measure.estimate ? 2 : 1;
   plan.passes.push_back({"error estimate", preset.measure.estimate,
-                         preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false"});
+                         preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false",
+                         "/measure/estimate", true});
   plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs, halves);
-  plan.defines = {
-      {"NEPHROID_FILM_HALVES", std::to_string(halves)},      {"NEPHROID_MAX_SURFACES", std::to_string(preset.spectral.max_surfaces)},
-      {"NEPHROID_ATTENUATORS", std::to_string(attenuators)}, {"NEPHROID_MIRRORS", needs.mirrors > 0 ? "1" : "0"},
-      {"NEPHROID_SMOOTH", needs.smooth > 0 ? "1" : "0"},     {"NEPHROID_BVH_STACK", std::to_string(std::max(bvh.stack, 1))}};
+  plan.defines = omission_defines(code, scene, attenuators);
+  plan.defines["NEPHROID_FILM_HALVES"] = std::to_string(halves);
+  plan.defines["NEPHROID_MAX_SURFACES"] = std::to_string(preset.spectral.max_surfaces);
+  plan.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(bvh.stack, 1));
   plan.notes = scene.warnings;
   if (photons.runs && tables.photons_per_pass > static_cast<unsigned>(preset.spectral.photons_per_pass))
     plan.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light",

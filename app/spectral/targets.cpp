@@ -63,6 +63,34 @@ std::vector<scene::Sphere> spheres_of(const std::vector<Piece>& pieces)
 
 } // namespace
 
+scene::Sphere everything(const scene::Scene& scene)
+{
+  std::vector<glm::vec3> points = scene.geometry.positions;
+  for (const scene::Light& light : scene.lights)
+    if (light.type != preset::Light::Type::directional)
+      for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
+        points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
+  glm::vec3 low{0}, high{0};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    low = i == 0 ? points[i] : glm::min(low, points[i]);
+    high = i == 0 ? points[i] : glm::max(high, points[i]);
+  }
+  // Larger than need be, so that rounding leaves no light on its surface or outside; not a point where there is only one.
+  return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};
+}
+
+bool reaches(const scene::Light& light, const scene::Sphere& sphere)
+{
+  const glm::dvec3 way = glm::dvec3(sphere.centre) - glm::dvec3(light.position);
+  const double distance = glm::length(way), along = glm::dot(way, glm::dvec3(light.direction));
+  // Kernels tell directions in single precision: what is outside by less than these is kept.
+  constexpr double angle_margin = 1e-3, length_margin = 1e-4;
+  if (light.type == preset::Light::Type::area) return along + sphere.radius + length_margin * distance > 0;
+  if (light.type != preset::Light::Type::spot || distance <= sphere.radius) return true;
+  const double off_axis = std::acos(std::clamp(along / distance, -1.0, 1.0));
+  return off_axis - std::asin(sphere.radius / distance) <= std::acos(std::clamp(light.cos_half_angle, -1.0, 1.0)) + angle_margin;
+}
+
 // Weighted by 1 / (number of spheres over a point), points drawn from all discs measure the union; Fibonacci directions, fixed seed.
 double mean_shadow(const std::vector<scene::Sphere>& spheres)
 {

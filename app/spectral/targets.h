@@ -15,6 +15,13 @@ inline constexpr std::size_t max_targets = MAX_TARGETS;
 /// smaller. Empty where there is no such object.
 std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);
 
+/// One sphere about the whole scene and every light, so that a light sends its photons wherever it shines.
+scene::Sphere everything(const scene::Scene& scene);
+
+/// Whether any light from the light can start towards a point of the sphere: not where it is outside of a spot's cone or behind an area
+/// light. True in doubt.
+bool reaches(const scene::Light& light, const scene::Sphere& sphere);
+
 /// The area of the shadow that the spheres cast together, as a mean over directions, in square units; estimated to about 2 %.
 double mean_shadow(const std::vector<scene::Sphere>& spheres);
 

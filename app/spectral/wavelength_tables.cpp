@@ -2,9 +2,11 @@
 #include "spectral/wavelength_tables.h"
 
 #include "optics/colour.h"
+#include "spectral/omissions.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 
@@ -25,17 +27,10 @@ float4 to_float4(const std::array<double, 4>& v)
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(v[3])};
 }
 
-std::vector<bool> used_materials(const scene::Scene& scene)
-{
-  std::vector<bool> used(scene.materials.size(), false);
-  for (const scene::Object& object : scene.objects) used[static_cast<std::size_t>(object.material)] = true;
-  return used;
-}
-
 /// Rows of the reflectance and attenuation tables, one for each material that needs one.
-void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std::vector<shared::DeviceMaterial>& materials)
+void add_material_rows(const scene::Scene& scene, const std::vector<bool>& used, WavelengthTables& tables,
+                       std::vector<shared::DeviceMaterial>& materials)
 {
-  const std::vector<bool> used = used_materials(scene);
   materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, 0});
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
@@ -61,12 +56,18 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std:
   }
 }
 
-void add_cluster_rows(const scene::Scene& scene, WavelengthTables& tables)
+/// The clusters with the wavelengths that are lit, and their indices of refraction.
+void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
+                      WavelengthTables& tables)
 {
   tables.cluster_first.push_back(0);
-  for (const std::vector<int>& cluster : tables.clusters) {
-    tables.cluster_wavelengths.insert(tables.cluster_wavelengths.end(), cluster.begin(), cluster.end());
+  for (const std::vector<int>& cluster : clusters) {
+    std::vector<int> left;
+    std::copy_if(cluster.begin(), cluster.end(), std::back_inserter(left), [&](int w) { return lit[static_cast<std::size_t>(w)]; });
+    if (left.empty()) continue;
+    tables.cluster_wavelengths.insert(tables.cluster_wavelengths.end(), left.begin(), left.end());
     tables.cluster_first.push_back(static_cast<int>(tables.cluster_wavelengths.size()));
+    tables.clusters.push_back(std::move(left));
     for (const scene::Material& material : scene.materials) {
       double sum = 0;
       for (const int w : cluster) sum += material.n[static_cast<std::size_t>(w)];
@@ -98,32 +99,32 @@ const float* reflectance_row(const WavelengthTables& tables, int reflector)
   return tables.reflectance.data() + static_cast<std::size_t>(reflector) * wavelength_count;
 }
 
-void add_light_rows(const scene::Scene& scene, WavelengthTables& tables)
+void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
   std::vector<int> all(wavelength_count);
   std::iota(all.begin(), all.end(), 0);
-  for (const scene::Light& light : scene.lights) {
-    for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(light.spectrum, nullptr, {w})));
+  for (const scene::Light* light : lights) {
+    for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(light->spectrum, nullptr, {w})));
     std::vector<double>& share = tables.share.emplace_back();
     std::vector<double>& weight = tables.weight.emplace_back();
     for (const std::vector<int>& cluster : tables.clusters) {
-      const std::array<double, 4> sum = reflected(light.spectrum, nullptr, cluster);
+      const std::array<double, 4> sum = reflected(light->spectrum, nullptr, cluster);
       share.push_back(sum[3]);
       weight.push_back((sum[0] + sum[1] + sum[2]) / 3);
       for (int r = 0; r < tables.reflector_count; ++r)
-        tables.reflected_xyz.push_back(to_float4(reflected(light.spectrum, reflectance_row(tables, r), cluster)));
+        tables.reflected_xyz.push_back(to_float4(reflected(light->spectrum, reflectance_row(tables, r), cluster)));
     }
     for (int r = 0; r < tables.reflector_count; ++r)
-      tables.reflected_xyz_all.push_back(to_float4(reflected(light.spectrum, reflectance_row(tables, r), all)));
+      tables.reflected_xyz_all.push_back(to_float4(reflected(light->spectrum, reflectance_row(tables, r), all)));
   }
 }
 
 /// A twentieth of the choice goes by plain share, so that a cluster the eye hardly sees is still seen. Clusters without light get none.
-void add_cluster_cdf(const scene::Scene& scene, WavelengthTables& tables)
+void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
   std::vector<double> weights(tables.clusters.size(), 0);
-  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-    const double radiometric = scene.lights[l].power_w + scene.lights[l].irradiance_w_m2;
+  for (std::size_t l = 0; l < lights.size(); ++l) {
+    const double radiometric = lights[l]->power_w + lights[l]->irradiance_w_m2;
     for (std::size_t c = 0; c < weights.size(); ++c) weights[c] += radiometric * (tables.weight[l][c] + 0.05 * tables.share[l][c]);
   }
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -137,15 +138,17 @@ void add_cluster_cdf(const scene::Scene& scene, WavelengthTables& tables)
 
 } // namespace
 
-WavelengthTables make_wavelength_tables(const scene::Scene& scene, std::vector<std::vector<int>> clusters,
+WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
+                                        const std::vector<std::vector<int>>& clusters, const preset::LeaveOut& leave_out,
                                         std::vector<shared::DeviceMaterial>& materials)
 {
   WavelengthTables tables;
-  tables.clusters = std::move(clusters);
-  add_material_rows(scene, tables, materials);
-  add_cluster_rows(scene, tables);
-  add_light_rows(scene, tables);
-  add_cluster_cdf(scene, tables);
+  const std::vector<bool> used = leave_out.unused_materials ? used_materials(scene) : std::vector<bool>(scene.materials.size(), true);
+  const std::vector<bool> lit = leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(wavelength_count, true);
+  add_material_rows(scene, used, tables, materials);
+  add_cluster_rows(scene, clusters, lit, tables);
+  add_light_rows(lights, tables);
+  add_cluster_cdf(lights, tables);
   return tables;
 }
 

@@ -5,8 +5,11 @@
 
 namespace nephroid::spectral {
 
-/// Fills materials[i].type, reflector and attenuator and every table. Only materials that an object uses get rows.
-WavelengthTables make_wavelength_tables(const scene::Scene& scene, std::vector<std::vector<int>> clusters,
+/// For `lights` of the scene; fills materials[i].type, reflector and attenuator and every table. As leave_out says, only materials that
+/// an object has get rows, and only wavelengths that one of the lights has stay in the clusters (a cluster's index of refraction is the
+/// mean over all that it had).
+WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
+                                        const std::vector<std::vector<int>>& clusters, const preset::LeaveOut& leave_out,
                                         std::vector<shared::DeviceMaterial>& materials);
 
 /// Photons of one pass for each emitter (light and cluster), in proportion to weight, none without at least one; sums to

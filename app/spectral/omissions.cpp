@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/omissions.h"
+
+#include "preset/choices.h"
+#include "scene/contact.h"
+#include "spectral/device_scene.h"
+#include "spectral/targets.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace nephroid::spectral {
+namespace {
+
+using optics::wavelength_count;
+
+constexpr unsigned all_light_types = 15;
+
+const scene::Material& material_of(const scene::Scene& scene, const scene::Object& object)
+{
+  return scene.materials[static_cast<std::size_t>(object.material)];
+}
+
+bool is_dielectric(const scene::Scene& scene, const scene::Object& object)
+{
+  return material_of(scene, object).type == scene::Material::Type::dielectric;
+}
+
+/// Whether any glass that an object is of has an index other than 1.
+bool anything_bends(const scene::Scene& scene)
+{
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+    const optics::Spectrum& n = material_of(scene, object).n;
+    return is_dielectric(scene, object) && std::any_of(n.begin(), n.end(), [](double value) { return value != 1; });
+  });
+}
+
+/// NEPHROID_LIGHT_TYPES of kernels/light.h.
+unsigned light_type_bits(const scene::Scene& scene)
+{
+  unsigned bits = 0;
+  for (const scene::Light& light : scene.lights) bits |= 1u << device_light_type(light.type);
+  return bits;
+}
+
+std::string light_types_reason(unsigned bits)
+{
+  std::vector<std::string_view> names;
+  for (const auto& choice : preset::Choices<preset::Light::Type>::all)
+    if (bits >> device_light_type(choice.value) & 1) names.push_back(choice.name);
+  return names.empty() ? "there is no light" : fmt::format("{} only", fmt::join(names, ", "));
+}
+
+} // namespace
+
+bool has_power(const scene::Light& light) { return light.power_w + light.irradiance_w_m2 > 0; }
+
+std::vector<bool> lit_wavelengths(const scene::Scene& scene)
+{
+  std::vector<bool> lit(wavelength_count, false);
+  for (const scene::Light& light : scene.lights)
+    for (std::size_t w = 0; w < lit.size(); ++w)
+      if (has_power(light) && light.spectrum[w] > 0) lit[w] = true;
+  if (std::none_of(lit.begin(), lit.end(), [](bool b) { return b; })) lit.assign(lit.size(), true);
+  return lit;
+}
+
+std::vector<bool> used_materials(const scene::Scene& scene)
+{
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const scene::Object& object : scene.objects) used[static_cast<std::size_t>(object.material)] = true;
+  return used;
+}
+
+bool media_may_nest(const scene::Scene& scene)
+{
+  std::vector<scene::Bounds> boxes;
+  bool closed = true;
+  for (const scene::Object& object : scene.objects) {
+    if (!is_dielectric(scene, object) || object.triangle_count == 0) continue;
+    boxes.push_back(scene::object_bounds(scene, object));
+    closed = closed && object.closed;
+  }
+  if (boxes.size() < 2) return false;
+  if (!closed) return true;
+  const auto apart = [](const scene::Bounds& a, const scene::Bounds& b) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return true;
+    return false;
+  };
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!apart(boxes[i], boxes[j])) return true;
+  return false;
+}
+
+ObjectCounts count_objects(const scene::Scene& scene)
+{
+  ObjectCounts counts;
+  for (const scene::Object& object : scene.objects) {
+    const scene::Material::Type type = material_of(scene, object).type;
+    counts.dielectrics += type == scene::Material::Type::dielectric;
+    counts.mirrors += type == scene::Material::Type::mirror;
+    counts.diffuse += type == scene::Material::Type::diffuse;
+    counts.smooth += object.smooth;
+  }
+  return counts;
+}
+
+plan::Pass omission(const std::string& key, bool leave_out, bool needed, std::string reason)
+{
+  plan::Pass pass{key, needed || !leave_out, std::move(reason), "/spectral/leave_out/" + key, false};
+  std::replace(pass.name.begin(), pass.name.end(), '_', ' ');
+  if (!needed && !leave_out) pass.reason += fmt::format(", but spectral.leave_out.{} is false", key);
+  return pass;
+}
+
+std::vector<plan::Pass> data_omissions(const preset::LeaveOut& leave_out, const scene::Scene& scene,
+                                       const std::vector<scene::Sphere>& targets)
+{
+  std::vector<plan::Pass> passes;
+  const auto add = [&](const char* key, bool may, std::size_t without, const std::string& reason) {
+    if (without > 0) passes.push_back(omission(key, may, false, reason));
+  };
+  std::size_t dark = 0, ways = 0, unreached = 0;
+  for (const scene::Light& light : scene.lights) {
+    dark += !has_power(light);
+    for (const scene::Sphere& target : targets) ++ways, unreached += !reaches(light, target);
+  }
+  add("dark_lights", leave_out.dark_lights, dark, fmt::format("{} of {} lights without power", dark, scene.lights.size()));
+  add("unreached_targets", leave_out.unreached_targets, unreached,
+      fmt::format("{} of {} ways from a light to a target are outside of a spot's cone or behind an area light", unreached, ways));
+
+  const std::vector<bool> lit = lit_wavelengths(scene), used = used_materials(scene);
+  const auto unlit = static_cast<std::size_t>(std::count(lit.begin(), lit.end(), false));
+  const auto unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+  add("unlit_wavelengths", leave_out.unlit_wavelengths, unlit, fmt::format("no light has {} of the {} wavelengths", unlit, lit.size()));
+  add("unused_materials", leave_out.unused_materials, unused, fmt::format("no object has {} of {} materials", unused, used.size()));
+  return passes;
+}
+
+std::vector<plan::Pass> code_omissions(const preset::LeaveOut& leave_out, const scene::Scene& scene, int attenuators)
+{
+  const ObjectCounts counts = count_objects(scene);
+  const unsigned types = light_type_bits(scene);
+  const bool bends = anything_bends(scene), nests = media_may_nest(scene);
+  const auto either = [](bool needed, const std::string& yes, const std::string& no) { return needed ? yes : no; };
+  return {
+      omission("light_types", leave_out.light_types, types == all_light_types, light_types_reason(types)),
+      omission("mirrors", leave_out.mirrors, counts.mirrors > 0,
+               either(counts.mirrors > 0, fmt::format("{} mirror objects", counts.mirrors), "no object is a mirror")),
+      omission("dielectrics", leave_out.dielectrics, counts.dielectrics > 0,
+               either(counts.dielectrics > 0, fmt::format("{} objects of glass", counts.dielectrics), "no object is of glass")),
+      omission("bending", leave_out.bending, bends,
+               either(bends, "glass has another n than its surroundings", "no glass has another n than 1")),
+      omission("nested_media", leave_out.nested_media, nests,
+               either(nests, "objects of glass may overlap, or are open", "no two objects of glass can enclose one point")),
+      omission("attenuation", leave_out.attenuation, attenuators > 0,
+               either(attenuators > 0, fmt::format("{} materials take light away by wavelength", attenuators),
+                      "no glass absorbs and no mirror is coloured")),
+      omission("smooth_normals", leave_out.smooth_normals, counts.smooth > 0,
+               either(counts.smooth > 0, fmt::format("{} smooth objects", counts.smooth), "every object is faceted")),
+  };
+}
+
+std::map<std::string, std::string> omission_defines(const std::vector<plan::Pass>& passes, const scene::Scene& scene, int attenuators)
+{
+  const auto runs = [&](const std::string& name) {
+    return std::any_of(passes.begin(), passes.end(), [&](const plan::Pass& pass) { return pass.name == name && pass.runs; });
+  };
+  const auto flag = [&](const std::string& name) { return std::string(runs(name) ? "1" : "0"); };
+  const unsigned types = runs("light types") ? all_light_types : light_type_bits(scene);
+  return {{"NEPHROID_LIGHT_TYPES", std::to_string(types)},
+          {"NEPHROID_MIRRORS", flag("mirrors")},
+          {"NEPHROID_DIELECTRICS", flag("dielectrics")},
+          {"NEPHROID_BENDING", flag("bending")},
+          {"NEPHROID_NESTED_MEDIA", flag("nested media")},
+          // Without materials that attenuate, one place for none of them: the code is there and does nothing.
+          {"NEPHROID_ATTENUATORS", std::to_string(runs("attenuation") ? std::max(attenuators, 1) : 0)},
+          {"NEPHROID_SMOOTH", flag("smooth normals")}};
+}
+
+} // namespace nephroid::spectral
