@@ -55,7 +55,8 @@ typedef struct {
 
 static inline Hit next_hit(const World* world, const Path* path)
 {
-  return closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction, INFINITY, path->skip);
+  return closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction, -path->behind,
+                     INFINITY, path->skip);
 }
 
 static inline bool is_blocked(const World* world, float3 from, float3 direction, float distance, uint skip)
@@ -65,12 +66,12 @@ static inline bool is_blocked(const World* world, float3 from, float3 direction,
 
 static inline DeviceMaterial material_of(const World* world, int object) { return world->materials[world->objects[object].material]; }
 
-// The absorption of the medium that the path has crossed up to its next hit.
+// The absorption of the medium that the path has crossed up to its next hit, `distance` from its origin.
 static inline void lose_in_medium(const World* world, Path* path, float distance)
 {
 #if NEPHROID_ATTENUATORS > 0 && NEPHROID_DIELECTRICS
   const int medium = medium_object(&path->media, world->objects);
-  if (medium >= 0) lose(&path->losses, material_of(world, medium).attenuator, distance * world->scene.metres_per_unit);
+  if (medium >= 0) lose(&path->losses, material_of(world, medium).attenuator, (path->behind + distance) * world->scene.metres_per_unit);
 #endif
 }
 
@@ -93,6 +94,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   path->direction = bend.direction;
   path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
   path->skip = triangle;
+  path->behind = 0.0f;
   return true;
 }
 
