@@ -1,14 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/engine.h"
 
+#include "measure/measured_job.h"
+#include "run/reference.h"
 #include "run/run.h"
 
 #include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace nephroid::ui {
 namespace {
 
 constexpr std::chrono::milliseconds look_every{200}; ///< at the kernels folder
+
+/// What the run is measured against. The window shows a picture with or without one: what stands against it becomes a note. A recipe is
+/// not rendered here, because every edit of the scene asks for another one.
+std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prepared, const compute::Context& context,
+                                                       std::vector<std::string>& notes)
+{
+  try {
+    auto found = run::find_reference(prepared, context);
+    if (!found && prepared.preset.reference)
+      notes.emplace_back("the reference of the preset as it is now has not been rendered yet; save it, and nephroid run renders it");
+    return found;
+  } catch (const Error& error) {
+    notes.push_back("without a reference: " + error.line());
+    return nullptr;
+  }
+}
 
 } // namespace
 
@@ -28,7 +49,10 @@ NewRun Engine::make(const preset::Preset& preset)
   compute::kernels_changed(*context_);
   changed_ = false;
   previous_ = std::move(prepared);
-  return {run::make_job(*previous_, *context_), previous_->plan, nullptr};
+  plan::Plan plan = previous_->plan;
+  std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan.notes);
+  auto job = measure::measured(run::make_job(*previous_, *context_), preset, reference);
+  return {std::move(job), std::move(plan), std::move(reference)};
 }
 
 void Engine::watch(const std::stop_token& stop)
