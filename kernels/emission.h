@@ -121,8 +121,7 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
 static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random, float4 place)
 {
   Emission emission;
-  emission.origin = area_point(light, place.xy);
-  const float steradians = sample_targets(targets, light->target_count, emission.origin, random, &emission.direction);
+  const float steradians = sample_targets(targets, light->target_count, area_point(light, place.xy), random, &emission);
   const float cosine = dot(emission.direction, light->direction.xyz);
   emission.watts = cosine > 0.0f ? light->radiometric * cosine / PI_F * steradians : 0.0f;
   return emission;

@@ -127,7 +127,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const Emission emission = emit(&light, targets, &scene, random4(seed, pass, photon, 0u, STREAM_PHOTONS), place);
     if (emission.watts == 0.0f) continue;
     const float watts = emission.watts / (float)emitter.photon_count; // as if the cluster had all of the light's power
-    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, media_from(&light.inside), no_losses()};
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, media_from(&light.inside), no_losses(), emission.behind};
     const PhotonEnd end = trace_photon(&world, &emitter, &path, seed, pass, photon);
     if (end.outcome == OUTCOME_DEPOSITED && !splat(&world, &camera, &end, path.direction, watts, film, film_scale))
       ++outcomes[OUTCOME_REFUSED];

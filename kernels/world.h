@@ -51,6 +51,7 @@ typedef struct {
   uint skip;    // the triangle that the path leaves
   PathMedia media; // that enclose it
   Losses losses;
+  float behind; // the path begins this far behind `origin`: 0 but on its first way (Emission)
 } Path;
 
 static inline Hit next_hit(const World* world, const Path* path)
