@@ -18,20 +18,24 @@ enum class DifferenceMetric {
   flip       ///< LDR FLIP's map, 0..1
 };
 
-/// A value a pixel. Throws as compare does.
+/// What the command line calls them, in the order of the enumeration.
+inline constexpr std::array<const char*, 6> difference_names{"lab", "absolute", "relative", "square", "luminance", "flip"};
+
+/// A value a pixel, at most the largest float. Throws as compare does.
 std::vector<float> difference_map(const Pixels& picture, const Pixels& reference, DifferenceMetric metric);
 /// Where the colours end: a round number (1, 2, 5 times a power of ten) that 99 % of the values do not exceed; at least 1e-6.
 double colour_scale(std::span<const float> values);
-/// A colour of the map, 8 bits a channel: position 0..1 (signed maps: 0.5 is no difference).
+/// A colour of the map, sRGB-encoded, 8 bits a channel: position 0..1, magma from black to light yellow; signed maps from blue over
+/// white at 0.5, no difference, to red. Positions outside are clipped, NaN is 0.
 std::array<unsigned char, 3> map_colour(double position, bool is_signed = false);
 bool is_signed(DifferenceMetric metric);
 
 struct ColouredDifference {
   int width = 0, height = 0;       ///< the map with the colour scale and its numbers drawn at its right
-  std::vector<unsigned char> rgba; ///< 4 a pixel
+  std::vector<unsigned char> rgba; ///< 4 a pixel, opaque
   double scale = 1;                ///< the value at the end of the colours
 };
-/// scale 0: colour_scale of the values.
+/// The map in the left top corner. scale: the value at the end of the colours, above 0; or 0: colour_scale of the values.
 ColouredDifference coloured_difference(const Pixels& picture, const Pixels& reference, DifferenceMetric metric, double scale = 0);
 
 } // namespace nephroid::measure

@@ -125,22 +125,30 @@ std::optional<double> pooled(const Plane& similarity, const Plane* weights, cons
 
 } // namespace
 
-std::optional<double> iw_ssim(const Pixels& picture, const Pixels& reference, Mask mask)
+std::vector<std::optional<double>> iw_ssim_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks)
 {
-  if (std::min(picture.width, picture.height) < iw_ssim_smallest_side) return std::nullopt;
+  if (std::min(picture.width, picture.height) < iw_ssim_smallest_side) return std::vector<std::optional<double>>(masks.size());
   const std::vector<Plane> a = laplacian_pyramid(luma(picture), scale_count), b = laplacian_pyramid(luma(reference), scale_count);
   const double weight_sum = std::accumulate(scale_weights.begin(), scale_weights.end(), 0.0);
-  double result = 1;
+  std::vector<std::optional<double>> results(masks.size(), 1.0);
   for (std::size_t s = 0; s < scale_count; ++s) {
     const bool coarsest = s + 1 == scale_count, has_parent = s + 2 < scale_count;
     const Plane parent = has_parent ? enlarged_parent(b[s + 1], b[s].width, b[s].height) : Plane();
     const Plane weights = coarsest ? Plane() : information_weights(b[s], a[s], parent);
-    const ScaleMask scale_mask{mask, static_cast<std::size_t>(picture.width), static_cast<int>(s)};
-    const std::optional<double> mean = pooled(similarities(b[s], a[s], coarsest), coarsest ? nullptr : &weights, scale_mask);
-    if (!mean) return std::nullopt;
-    result *= std::pow(std::max(0.0, *mean), scale_weights[s] / weight_sum);
+    const Plane similar = similarities(b[s], a[s], coarsest);
+    for (std::size_t m = 0; m < masks.size(); ++m) {
+      const ScaleMask mask{masks[m], static_cast<std::size_t>(picture.width), static_cast<int>(s)};
+      const std::optional<double> mean = pooled(similar, coarsest ? nullptr : &weights, mask);
+      if (!mean) results[m].reset();
+      if (results[m]) *results[m] *= std::pow(std::max(0.0, *mean), scale_weights[s] / weight_sum);
+    }
   }
-  return result;
+  return results;
+}
+
+std::optional<double> iw_ssim(const Pixels& picture, const Pixels& reference, Mask mask)
+{
+  return iw_ssim_each(picture, reference, std::span<const Mask>(&mask, 1)).front();
 }
 
 } // namespace nephroid::measure

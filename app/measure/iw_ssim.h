@@ -18,5 +18,7 @@ inline constexpr int iw_ssim_smallest_side = 161;
 /// strength where it does not vary; where all weights of a scale are 0 its windows count alike. With a mask, windows count whose
 /// centre is in it (at coarser scales: the pixel that lies there); covariances are of the whole picture.
 std::optional<double> iw_ssim(const Pixels& picture, const Pixels& reference, Mask mask = {});
+/// The same for several masks at little more than the cost of one.
+std::vector<std::optional<double>> iw_ssim_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks);
 
 } // namespace nephroid::measure

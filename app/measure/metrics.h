@@ -39,6 +39,9 @@ enum class Effort { quick, full };
 /// FLIP's maps and IW-SSIM's are made of the whole pictures and averaged over the mask.
 /// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel that counts.
 Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, Effort effort = Effort::full);
+/// The same for several masks, one after the other, at little more than the cost of one.
+std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks,
+                                  Effort effort = Effort::full);
 
 /// Every metric's name and value in the order of contract.md, `pixels` left out; NaN where it is none.
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics);

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid compare`: every metric of a picture against a reference, and a picture of the difference.
+#include "base/error.h"
+#include "base/json_output.h"
+#include "cli/verbs.h"
+#include "image/image.h"
+#include "measure/difference.h"
+#include "measure/read_picture.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace nephroid::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using measure::LinearPicture;
+using measure::Metrics;
+
+struct CompareOptions {
+  std::string image, reference, mask, difference;
+  std::string metric = "lab";
+  std::optional<double> scale;
+  bool json = false;
+};
+
+Json to_json(const Metrics& metrics)
+{
+  Json object;
+  for (const auto& [name, value] : measure::named(metrics)) object[name] = std::isfinite(value) ? Json(value) : Json(nullptr);
+  object["pixels"] = metrics.pixels;
+  return object;
+}
+
+/// `of` are the metrics of all pixels and, where there is a mask, of its pixels.
+void print_json(const std::vector<Metrics>& of)
+{
+  Json object = to_json(of.front());
+  if (of.size() > 1) object["masked"] = to_json(of.back());
+  fmt::print("{}\n", json_text(object));
+}
+
+/// What a metric is, in the order of measure::named.
+constexpr std::array<const char*, 10> meanings{"distance in CIELAB, mean of the pixels (0 is equal, about 2.3 just noticeable)",
+                                               "distance in CIELAB, root mean square",
+                                               "distance in CIELAB, largest",
+                                               "(a - b)^2, mean",
+                                               "(a - b)^2 / (b^2 + 0.01), mean",
+                                               "|a - b| / |b|",
+                                               "decibels of the displayed pictures; more is better",
+                                               "structural similarity, 1 is equal; needs 161 pixels a side",
+                                               "what a viewer sees flipping between the displayed pictures, 0..1",
+                                               "the same at every exposure, 0..1"};
+
+void print_text(const std::vector<Metrics>& of)
+{
+  const auto cell = [](double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.6g}", value); };
+  const auto line = [&](const std::string& name, const std::string& all, const std::string& masked, const char* meaning) {
+    fmt::print("{:<9} {:>11}{}  {}\n", name, all, of.size() > 1 ? fmt::format(" {:>11}", masked) : "", meaning);
+  };
+  if (of.size() > 1) line("", "all", "mask", "");
+  const auto all = measure::named(of.front()), masked = measure::named(of.back());
+  for (std::size_t i = 0; i < all.size(); ++i) line(all[i].first, cell(all[i].second), cell(masked[i].second), meanings.at(i));
+  line("pixels", fmt::format("{}", of.front().pixels), fmt::format("{}", of.back().pixels), "that were compared");
+}
+
+const char* layout(const LinearPicture& picture) { return picture.grey ? "is grey (channel Y)" : "has colours (channels R, G, B)"; }
+
+void refuse_other_channels(const LinearPicture& image, const LinearPicture& reference)
+{
+  if (image.grey == reference.grey) return;
+  throw bad_input(image.name, fmt::format("{}, but {} {}", layout(image), reference.name, layout(reference)),
+                  "expected pictures with the same channels");
+}
+
+void check_difference_options(const CompareOptions& options)
+{
+  if (options.scale && !(std::isfinite(*options.scale) && *options.scale > 0))
+    throw bad_input("--scale", fmt::format("the colours cannot end at {}", *options.scale), "expected a number above 0");
+  if (options.difference.empty()) return;
+  if (std::filesystem::path(options.difference).extension() != ".png")
+    throw bad_input("-o", fmt::format("a difference picture is a PNG, not '{}'", options.difference), "expected FILE.png");
+}
+
+void write_difference(const CompareOptions& options, const LinearPicture& image, const LinearPicture& reference)
+{
+  const auto* const name = std::find(measure::difference_names.begin(), measure::difference_names.end(), options.metric);
+  const auto metric = static_cast<measure::DifferenceMetric>(name - measure::difference_names.begin());
+  const measure::ColouredDifference picture =
+      measure::coloured_difference(image.pixels(), reference.pixels(), metric, options.scale.value_or(0));
+  image::write_png_bytes(options.difference, picture.width, picture.height, picture.rgba);
+  fmt::print(stderr, "nephroid: {}: {}, colours end at {:g}\n", options.difference, options.metric, picture.scale);
+}
+
+void print_comparison(const CompareOptions& options)
+{
+  check_difference_options(options);
+  const LinearPicture image = measure::read_linear_rgb(options.image), reference = measure::read_linear_rgb(options.reference);
+  refuse_other_channels(image, reference);
+  std::vector<unsigned char> mask;
+  if (!options.mask.empty()) mask = measure::read_mask(options.mask, reference.width, reference.height);
+  std::vector<measure::Mask> masks(1);
+  if (!mask.empty()) masks.emplace_back(mask);
+  const std::vector<Metrics> metrics = measure::compare_each(image.pixels(), reference.pixels(), masks);
+  if (!options.difference.empty()) write_difference(options, image, reference);
+  options.json ? print_json(metrics) : print_text(metrics);
+}
+
+} // namespace
+
+void add_compare(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<CompareOptions>();
+  CLI::App* verb = program.add_subcommand("compare", "How far a picture is from a reference, by every metric");
+  verb->add_option("IMAGE", options->image, "A picture: EXR, HDR, PFM (linear), PNG, JPEG, TIFF (sRGB-encoded)")->required();
+  verb->add_option("REFERENCE", options->reference, "The picture that is right, of the same size")->required();
+  verb->add_option("--mask", options->mask, "A picture of the same size: also compare where it is not black alone")->type_name("FILE");
+  CLI::Option* difference = verb->add_option("-o,--output", options->difference, "Write a PNG of the difference, with its colour scale");
+  difference->type_name("FILE");
+  verb->add_option("--metric", options->metric, "What -o shows: lab (default), absolute, relative, square, luminance or flip")
+      ->check(CLI::IsMember(std::vector<std::string>(measure::difference_names.begin(), measure::difference_names.end())))
+      ->type_name("METRIC")
+      ->needs(difference);
+  verb->add_option("--scale", options->scale, "Where the colours of -o end; default: a round number that 99 % of the pixels keep to")
+      ->type_name("X")
+      ->needs(difference);
+  verb->add_flag("--json", options->json, "One JSON object instead of text");
+  verb->callback([options] { print_comparison(*options); });
+}
+
+} // namespace nephroid::cli
