@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid devices`: what --device chooses from.
 #include "base/json_output.h"
+#include "cli/device_line.h"
 #include "cli/verbs.h"
 #include "compute/compute.h"
 
@@ -24,15 +25,9 @@ nlohmann::ordered_json to_json(const compute::DeviceInfo& device)
           {"compute_units", device.compute_units},
           {"memory_bytes", device.memory_bytes},
           {"max_buffer_bytes", device.max_buffer_bytes},
+          {"max_group_items", device.max_group_items},
           {"fp64", device.fp64},
           {"int64_atomics", device.int64_atomics}};
-}
-
-std::string to_line(const compute::DeviceInfo& device)
-{
-  return fmt::format("{}  {}  ({}, {} compute units, {:.1f} GB, {} {}{}{})", device.index, device.name, device.type, device.compute_units,
-                     static_cast<double>(device.memory_bytes) * 1e-9, device.platform, device.driver, device.fp64 ? "" : ", no fp64",
-                     device.int64_atomics ? "" : ", no 64-bit atomics");
 }
 
 void print_devices(bool json)
@@ -46,10 +41,17 @@ void print_devices(bool json)
     fmt::print("{}\n", json_text(nlohmann::ordered_json{{"devices", list}}));
     return;
   }
-  for (const compute::DeviceInfo& device : devices) fmt::print("{}\n", to_line(device));
+  for (const compute::DeviceInfo& device : devices) fmt::print("{}\n", device_line(device));
 }
 
 } // namespace
+
+std::string device_line(const compute::DeviceInfo& device)
+{
+  return fmt::format("{}  {}  ({}, {} compute units, {:.1f} GB, {} {}{}{})", device.index, device.name, device.type, device.compute_units,
+                     static_cast<double>(device.memory_bytes) * 1e-9, device.platform, device.driver, device.fp64 ? "" : ", no fp64",
+                     device.int64_atomics ? "" : ", no 64-bit atomics");
+}
 
 void add_devices(CLI::App& program, Session&)
 {

@@ -15,8 +15,11 @@ void add_run(CLI::App& program, Session& session);
 void add_plan(CLI::App& program, Session& session);
 void add_dispersion(CLI::App& program, Session& session);
 void add_clusters(CLI::App& program, Session& session);
+void add_report(CLI::App& program, Session& session);
+void add_compare(CLI::App& program, Session& session);
 void add_presets(CLI::App& program, Session& session);
 void add_devices(CLI::App& program, Session& session);
+void add_check(CLI::App& program, Session& session);
 void add_schema(CLI::App& program, Session& session);
 void add_version(CLI::App& program, Session& session);
 

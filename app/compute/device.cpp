@@ -29,6 +29,7 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int 
   info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
   info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   info.max_buffer_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  info.max_group_items = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
   info.fp64 = device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
   info.int64_atomics = extensions.find("cl_khr_int64_base_atomics") != std::string::npos;
   return info;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays through a kernel of check.cl: inputs to the device, one item of work each, outputs back.
+#pragma once
+#include "compute/compute.h"
+#include "kernels/shared_types.h"
+
+#include <string>
+#include <vector>
+
+namespace nephroid::check {
+
+using shared::float4;
+
+struct Uint2 {
+  std::uint32_t x = 0, y = 0;
+};
+inline Uint2 device_seed(std::uint64_t seed) { return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}; }
+
+/// As the engine's kernels: a device that cannot run groups of so many cannot run those.
+inline constexpr std::size_t local_size = 64;
+
+template <class T>
+compute::Buffer<T> on_device(const compute::Context& context, const char* name, const std::vector<T>& items)
+{
+  return compute::Buffer<T>(context, name, std::span<const T>(items));
+}
+
+template <class T>
+compute::Buffer<T> zeros(const compute::Context& context, const char* name, std::size_t count)
+{
+  compute::Buffer<T> buffer(context, name, count);
+  buffer.fill_zero();
+  return buffer;
+}
+
+/// Kernel `name` of check.cl over `count` items; its last argument is the count, the others are given.
+template <class... Args>
+void run_over(const compute::Context& context, const char* name, std::size_t count, const Args&... args)
+{
+  compute::Program(context, "check.cl").kernel(name).run(count, local_size, args..., static_cast<std::uint32_t>(count));
+}
+
+} // namespace nephroid::check

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// kernels/emission.h: what the photons of a light carry towards spheres adds up to the power that the light sends there, where the
+// spheres overlap, too. In standard deviations of the photons' own spread.
+#include "check/device_arrays.h"
+#include "check/scene_parts.h"
+#include "check/subjects.h"
+#include "scene/scene.h"
+#include "spectral/device_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace nephroid::check {
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::size_t photon_count = 1 << 17;
+
+struct Photon {
+  double watts; ///< of the whole light, were it the only photon
+  double direction[3];
+};
+
+/// Photons of the preset's light towards spheres about its place: x, y, z from there, radius.
+std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, const preset::Light& light, std::vector<float4> spheres)
+{
+  preset::Preset p = empty_preset();
+  p.scene.materials["glass"] = glass(1.5);
+  p.scene.materials["white"] = white();
+  p.scene.objects = {object("ball", ball(1, 16), "glass", at({0, 0, 0})), object("wall", quad(20, 20), "white", at({0, -2, 0}))};
+  p.scene.lights = {light};
+  spectral::DeviceTables tables = spectral::make_device_tables(p, scene::load_scene(p));
+  shared::DeviceLight& on_host = tables.lights.at(0);
+  std::vector<shared::DeviceTarget> targets;
+  for (const float4& s : spheres) targets.push_back({{s.x + on_host.position.x, s.y + on_host.position.y, s.z + on_host.position.z, s.w}});
+  on_host.first_target = 0;
+  on_host.target_count = static_cast<int>(targets.size());
+  const compute::Buffer<float4> out(context, "photons", 2 * photon_count);
+  run_over(context, "emissions", photon_count, on_device(context, "lights", tables.lights), 0, on_device(context, "targets", targets),
+           tables.scene, device_seed(seed), out);
+  const std::vector<float4> got = out.read();
+  std::vector<Photon> photons;
+  for (std::size_t i = 0; i < got.size(); i += 2) photons.push_back({got[i].w, {got[i + 1].x, got[i + 1].y, got[i + 1].z}});
+  return photons;
+}
+
+/// How far the mean of `values` is from the truth, in standard errors, to which single precision adds 2e-6 of the truth.
+template <class Value>
+double z_of(const std::vector<Photon>& photons, const Value& value, double truth)
+{
+  double sum = 0, squares = 0;
+  const auto count = static_cast<double>(photons.size());
+  for (const Photon& photon : photons) {
+    const double v = value(photon);
+    sum += v;
+    squares += v * v;
+  }
+  const double mean = sum / count, variance = std::max(squares / count - mean * mean, 0.0) / count;
+  return (mean - truth) / std::sqrt(variance + std::pow(2e-6 * truth, 2));
+}
+
+double watts_of(const Photon& photon) { return photon.watts; }
+double one_minus_cos(double sine) { return 1 - std::sqrt(1 - sine * sine); }
+
+/// A sphere along +z, one in its shadow, one apart along -x.
+const std::vector<float4> three_spheres{{0, 0, 3, 1}, {0.2f, 0, 6, 0.5f}, {-2, 0, 0, 0.5f}};
+
+Result of_sigma(double z, std::string detail) { return {{}, z, 6, "sigma", std::move(detail)}; }
+
+Result point(const compute::Context& context, std::uint64_t seed)
+{
+  preset::Light light;
+  light.position = {0, 8, 0};
+  light.power_w = 7;
+  const double truth = 7 * (one_minus_cos(1 / 3.0) + one_minus_cos(0.25)) / 2;
+  return of_sigma(z_of(emit(context, seed, light, three_spheres), watts_of, truth),
+                  fmt::format("{} photons towards three spheres, one in another's shadow, against power times their solid angle over 4 pi",
+                              photon_count));
+}
+
+Result spot(const compute::Context& context, std::uint64_t seed)
+{
+  preset::Light wide, narrow;
+  wide.type = narrow.type = preset::Light::Type::spot;
+  wide.position = narrow.position = {0, 8, 0};
+  wide.direction = narrow.direction = {0, 0, 1};
+  wide.power_w = narrow.power_w = 7;
+  wide.half_angle_deg = 60;
+  narrow.half_angle_deg = 5;
+  // The wide cone holds the first two spheres and not the third; the narrow one lies inside the first and is sent as it is.
+  const double in_wide = 7 * one_minus_cos(1 / 3.0) / (1 - std::cos(pi / 3));
+  const double z = z_of(emit(context, seed, wide, three_spheres), watts_of, in_wide);
+  const double z_narrow = z_of(emit(context, seed, narrow, three_spheres), watts_of, 7);
+  return of_sigma(
+      std::abs(z) > std::abs(z_narrow) ? z : z_narrow,
+      "a cone of 60 degrees about three spheres and one of 5 degrees inside a sphere, against power times the part of the cone");
+}
+
+Result directional(const compute::Context& context, std::uint64_t seed)
+{
+  preset::Light light;
+  light.type = preset::Light::Type::directional;
+  light.direction = {0, -0.8, 0.6};
+  light.irradiance_w_m2 = 3;
+  // The second sphere lies in the first one's shadow, the third apart.
+  const double truth = 3 * pi * (1 + 0.49);
+  return of_sigma(z_of(emit(context, seed, light, {{0, 0, 0, 1}, {0, -2.4f, 1.8f, 0.5f}, {5, 0, 0, 0.7f}}), watts_of, truth),
+                  "photons towards three spheres, one in another's shadow, against irradiance times the area of the shadow");
+}
+
+Result area(const compute::Context& context, std::uint64_t seed)
+{
+  preset::Light light;
+  light.type = preset::Light::Type::area;
+  light.position = {0, 8, 0};
+  light.direction = {0, -1, 0};
+  light.size = {0.5, 0.25};
+  light.power_w = 7;
+  // From inside a sphere: the whole power, of which the cosine law makes the mean cosine 2/3.
+  const std::vector<Photon> photons = emit(context, seed, light, {{0, 0, 0, 5}});
+  const double z = z_of(photons, watts_of, 7);
+  const double z_cosine = z_of(
+      photons, [](const Photon& p) { return -p.watts * p.direction[1]; }, 7 * 2.0 / 3);
+  return of_sigma(std::abs(z) > std::abs(z_cosine) ? z : z_cosine,
+                  "photons in all directions, against the whole power and a mean cosine of 2/3");
+}
+
+} // namespace
+
+Checks emission_checks()
+{
+  return {{"emission: point light", point},
+          {"emission: spot", spot},
+          {"emission: directional light", directional},
+          {"emission: area light", area}};
+}
+
+} // namespace nephroid::check

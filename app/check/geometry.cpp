@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// The traversal of kernels/bvh.h against every triangle in double precision. Where a ray passes an edge within the rounding of
+// coordinates either side is right (exact_hits.h); nothing else may differ.
+#include "check/exact_hits.h"
+#include "check/subjects.h"
+#include "scene/shapes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace nephroid::check {
+namespace {
+
+constexpr std::size_t ray_count = 1 << 13;
+/// The longest distance between an origin below and a vertex, and the spacing of floats there.
+constexpr double reach = 5, rounding = 0x1p-24 * reach;
+
+/// A sphere of radius 1 with a brilliant in it: smooth and thin triangles, about 600.
+scene::Mesh sphere_and_brilliant()
+{
+  preset::Shape sphere, brilliant;
+  sphere.radius = 1;
+  sphere.segments = 24;
+  brilliant.type = preset::Shape::Type::brilliant;
+  brilliant.radius = 0.7;
+  scene::Mesh mesh = scene::make_shape(sphere);
+  const scene::Mesh inner = scene::make_shape(brilliant);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), inner.positions.begin(), inner.positions.end());
+  for (const glm::uvec3& t : inner.triangles) mesh.triangles.push_back(t + first);
+  mesh.normals.clear();
+  return mesh;
+}
+
+glm::vec3 direction(std::mt19937_64& random)
+{
+  std::normal_distribution<float> normal; // of three such numbers every direction is as likely
+  const float x = normal(random), y = normal(random), z = normal(random);
+  return glm::normalize(glm::vec3(x, y, z));
+}
+
+/// From outside and from inside towards the mesh; some along an axis, some that skip a triangle or end early.
+std::vector<Ray> rays_towards_the_mesh(std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<float> uniform(-0.9f, 0.9f);
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < ray_count; ++i) {
+    const float x = uniform(random), y = uniform(random), z = uniform(random);
+    const glm::vec3 to(x, y, z), from = direction(random) * (i % 2 ? 4.0f : 0.8f);
+    Ray ray{.origin = from, .direction = glm::normalize(to - from)};
+    if (i % 16 == 0) {
+      const auto axis = static_cast<glm::length_t>(i / 16 % 3);
+      ray.origin = to;
+      ray.origin[axis] = i % 32 == 0 ? 4.0f : -4.0f;
+      ray.direction = glm::vec3(0);
+      ray.direction[axis] = i % 32 == 0 ? -1.0f : 1.0f;
+    }
+    if (i % 16 == 1) ray.t_max = 3.2f + uniform(random);
+    if (i % 16 == 2) ray.skip = static_cast<std::uint32_t>(random() % 600);
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+/// What the mesh, the rays and the double-precision answers are for one seed.
+struct Rays {
+  scene::Mesh mesh = sphere_and_brilliant();
+  std::vector<Ray> rays;
+  std::vector<Hit> hits;
+  explicit Rays(const compute::Context& context, std::uint64_t seed) : rays(rays_towards_the_mesh(seed))
+  {
+    hits = KernelTracer(context, mesh).closest(rays);
+  }
+};
+
+Result closest_hits(const compute::Context& context, std::uint64_t seed)
+{
+  const Rays traced(context, seed);
+  const Judge judge(traced.mesh, 8 * rounding);
+  double wrong = 0;
+  std::size_t hits = 0, differ = 0;
+  for (std::size_t i = 0; i < traced.rays.size(); ++i) {
+    const Hit truth = judge.closest(traced.rays[i]);
+    wrong += judge.judge(traced.rays[i], traced.hits[i], truth) == Verdict::wrong;
+    hits += truth.primitive != no_primitive;
+    differ += traced.hits[i].primitive != truth.primitive;
+  }
+  return {{},
+          wrong,
+          0,
+          "rays",
+          fmt::format("{} rays at {} triangles, {} hits, {} decided otherwise than in double precision by rounding at an edge",
+                      traced.rays.size(), traced.mesh.triangles.size(), hits, differ - static_cast<std::size_t>(wrong))};
+}
+
+/// t and the point (1 - u - v) a + u b + v c, against where the ray's line meets the triangle's plane. Barycentrics of a thin triangle
+/// have the error of the coordinates over its height, so the place is off by that times its longest edge.
+Result hit_places(const compute::Context& context, std::uint64_t seed)
+{
+  const Rays traced(context, seed);
+  const Judge judge(traced.mesh, 8 * rounding);
+  double worst = 0;
+  for (std::size_t i = 0; i < traced.rays.size(); ++i) {
+    const Hit& hit = traced.hits[i];
+    if (hit.primitive == no_primitive) continue;
+    const Exact exact = judge.exact(traced.rays[i], hit.primitive);
+    worst = std::max(worst, std::abs(hit.t - exact.t) * exact.tilt);
+    const glm::uvec3& corner = traced.mesh.triangles[hit.primitive];
+    const glm::dvec3 a = traced.mesh.positions[corner.x], b = traced.mesh.positions[corner.y], c = traced.mesh.positions[corner.z];
+    const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    const double height = glm::length(glm::cross(b - a, c - a)) / longest;
+    const glm::dvec3 place = a + double(hit.u) * (b - a) + double(hit.v) * (c - a);
+    const glm::dvec3 truth = glm::dvec3(traced.rays[i].origin) + exact.t * glm::dvec3(traced.rays[i].direction);
+    worst = std::max(worst, glm::distance(place, truth) * exact.tilt * height / longest);
+  }
+  return {{},
+          worst / rounding,
+          16,
+          "roundings",
+          "distance and barycentric place of every hit, times the cosine there, in float spacings of the farthest coordinate"};
+}
+
+Result any_hits(const compute::Context& context, std::uint64_t seed)
+{
+  const Rays traced(context, seed);
+  const std::vector<std::uint32_t> any = KernelTracer(context, traced.mesh).any(traced.rays);
+  double differ = 0;
+  for (std::size_t i = 0; i < any.size(); ++i) differ += (any[i] != 0) != (traced.hits[i].primitive != no_primitive);
+  return {{}, differ, 0, "rays", fmt::format("of {} rays, those where \"is anything hit\" and \"what is hit first\" disagree", any.size())};
+}
+
+/// From inside a closed mesh, aimed exactly at its vertices and at points of its edges, where a leak would be.
+Result no_leaks(const compute::Context& context, std::uint64_t seed)
+{
+  const scene::Mesh mesh = sphere_and_brilliant();
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < ray_count; ++i) {
+    const glm::uvec3& t = mesh.triangles[random() % mesh.triangles.size()];
+    const float along = i % 3 == 0 ? 0 : uniform(random);
+    const glm::vec3 aim = mesh.positions[t.x] + along * (mesh.positions[i % 2 ? t.y : t.z] - mesh.positions[t.x]);
+    const glm::vec3 from = 0.9f * uniform(random) * direction(random);
+    rays.push_back({.origin = from, .direction = glm::normalize(aim - from)});
+  }
+  const std::vector<Hit> hits = KernelTracer(context, mesh).closest(rays);
+  const auto escaped = std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return h.primitive == no_primitive; });
+  return {{},
+          static_cast<double>(escaped),
+          0,
+          "rays",
+          fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size())};
+}
+
+} // namespace
+
+Checks geometry_checks()
+{
+  return {{"rays: closest hits", closest_hits},
+          {"rays: distance and place of hits", hit_places},
+          {"rays: any hit", any_hits},
+          {"rays: no gap between triangles", no_leaks}};
+}
+
+} // namespace nephroid::check

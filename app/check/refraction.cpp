@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pencils of light through plates, a prism and a ball lens by the real engine, against Fresnel and Snell.
+#include "check/closed_forms.h"
+#include "check/device_arrays.h"
+#include "check/render.h"
+#include "check/scene_parts.h"
+#include "check/subjects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace nephroid::check {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// The share of a pencil that reaches the floor below the objects of `p`, in sigma of the count from `truth`.
+double z_of_transmitted(const compute::Context& context, preset::Preset p, double truth)
+{
+  constexpr int photons = 1 << 17;
+  p.scene.materials["white"] = white();
+  p.scene.objects.push_back(object("floor", quad(400, 400), "white", at({0, -1, 0})));
+  p.scene.camera.position = {0, 5, 0};
+  p.scene.camera.up = {0, 0, -1};
+  p.spectral.photons_per_pass = photons;
+  const job::EnergyBalance e = render(std::move(p), context).energy;
+  return (e.deposited_w / e.emitted_w - truth) / std::sqrt(truth * (1 - truth) / photons);
+}
+
+/// A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m. It starts 0.1 m before, so that it is narrow at grazing angles, too.
+Result plate(const compute::Context& context, std::uint64_t seed)
+{
+  constexpr double n = 1.5;
+  double worst = 0;
+  for (const double theta_deg : {0.0, 40.0, 56.31, 70.0, 80.0, 86.0}) {
+    preset::Preset p = empty_preset(16);
+    p.seed = seed;
+    p.scene.materials["glass"] = glass(n);
+    p.scene.objects = {object("plate", box(40, 1e-3, 40), "glass")};
+    const double s = std::sin(theta_deg * degree), c = std::cos(theta_deg * degree);
+    p.scene.lights = {pencil({-0.1 * s, 0.5e-3 + 0.1 * c, 0}, {s, -c, 0}, 0.01)};
+    const double z = z_of_transmitted(context, std::move(p), plate_transmittance(theta_deg * degree, n));
+    worst = std::abs(z) <= std::abs(worst) ? worst : z;
+  }
+  return {
+      {}, worst, 6, "sigma", "transmittance at 0, 40, 56.3, 70, 80 and 86 degrees, the farthest from (1 - R) / (1 + R) with Fresnel's R"};
+}
+
+/// Four interfaces instead of two, without interference: T = (1 - R) / (1 + 3 R).
+Result plates_in_one(const compute::Context& context, std::uint64_t seed)
+{
+  preset::Preset p = empty_preset(16);
+  p.seed = seed;
+  p.scene.materials["glass"] = glass(1.8);
+  p.scene.materials["air"] = glass(1);
+  p.scene.objects = {object("block", box(1, 0.3, 1), "glass"), object("bubble", box(0.5, 0.1, 0.5), "air")};
+  p.scene.objects[1].priority = 1;
+  p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
+  const double r = std::pow(0.8 / 2.8, 2);
+  return {{},
+          z_of_transmitted(context, std::move(p), (1 - r) / (1 + 3 * r)),
+          6,
+          "sigma",
+          "transmittance of a slab of air inside a slab of glass of n = 1.8, against (1 - R) / (1 + 3 R)"};
+}
+
+/// A camera before the screen z = screen_z that sees the light which lands on it along y = 0: columns are x.
+struct Screen {
+  double z, x_first, x_last;     ///< what the columns hold
+  double distance_y, distance_z; ///< of the camera from the screen's middle
+  static constexpr int columns = 1024, rows = 64;
+
+  void put_into(preset::Preset& p) const
+  {
+    const double middle = (x_first + x_last) / 2, distance = std::hypot(distance_y, distance_z);
+    p.scene.camera.resolution = {columns, rows};
+    p.scene.camera.position = {middle, distance_y, z + distance_z};
+    p.scene.camera.target = {middle, 0, z};
+    p.scene.camera.fov_deg = 2 * std::atan((x_last - x_first) / 2 / distance * rows / columns) / degree;
+    p.scene.materials["white"] = white();
+    p.scene.objects.push_back(object("screen", quad(4, 4), "white", at({0, 0, z}, {90, 0, 0})));
+  }
+  double column(double x) const { return (x - x_first) / (x_last - x_first) * columns; }
+
+  /// The column of the light's centre within 6 columns of the brightest: what is reflected inside the glass lands elsewhere.
+  double landing(const job::Layer& picture) const
+  {
+    double flux[columns] = {};
+    for (int row = 0; row < rows; ++row)
+      for (int i = 0; i < columns; ++i) flux[i] += luminance(picture, columns, row, i);
+    const int brightest = static_cast<int>(std::max_element(flux, flux + columns) - flux);
+    double sum = 0, moment = 0;
+    for (int i = std::max(brightest - 6, 0); i <= std::min(brightest + 6, columns - 1); ++i) {
+      sum += flux[i];
+      moment += flux[i] * (i + 0.5);
+    }
+    return moment / sum; // NaN where nothing landed
+  }
+};
+
+/// Half a pixel: a pencil of 0.005 degrees is some pixels wide, and the centre of its thousands of photons is known better than that.
+Result off_by(double worst_pixels, std::string detail) { return {{}, worst_pixels, 0.5, "pixels", std::move(detail)}; }
+
+/// N-SF11 by Schott's Sellmeier formula, and by the same coefficients here.
+constexpr double sf11_b[] = {1.73759695, 0.313747346, 1.89878101}, sf11_c[] = {0.013188707, 0.0623068142, 155.23629};
+double sf11(double nm)
+{
+  const double l2 = nm * nm * 1e-6;
+  double n2 = 1;
+  for (int i = 0; i < 3; ++i) n2 += sf11_b[i] * l2 / (l2 - sf11_c[i]);
+  return std::sqrt(n2);
+}
+
+Result prism(const compute::Context& context, std::uint64_t seed)
+{
+  constexpr double side = 0.1, incidence = 62 * degree, screen_z = -1;
+  const auto path = [&](double nm) { return prism_path(side, incidence, sf11(nm), screen_z); };
+  const double blue = path(400).landing_x, red = path(700).landing_x, margin = 0.15 * (red - blue);
+  preset::Preset p = empty_preset();
+  p.seed = seed;
+  const Screen screen{screen_z, blue - margin, red + margin, 0.5, 1.5};
+  screen.put_into(p);
+  preset::Material& material = p.scene.materials["glass"] = glass(1);
+  material.dispersion.type = preset::Dispersion::Type::sellmeier;
+  material.dispersion.b.assign(std::begin(sf11_b), std::end(sf11_b));
+  material.dispersion.c_um2.assign(std::begin(sf11_c), std::end(sf11_c));
+  preset::Shape shape;
+  shape.type = preset::Shape::Type::prism;
+  shape.side = shape.height = side;
+  p.scene.objects.push_back(object("prism", shape, "glass"));
+  p.spectral.method = preset::Spectral::Method::brute_force;
+  p.spectral.photons_per_pass = 1 << 14;
+  double worst = 0;
+  for (const double nm : {400.0, 450.0, 500.0, 600.0, 700.0}) {
+    const PrismPath truth = path(nm);
+    p.scene.lights = {pencil({truth.from_x, 0, truth.from_z}, {truth.direction_x, 0, truth.direction_z}, 0.005, nm)};
+    const double off = screen.landing(layer(render(p, context), "caustic")) - screen.column(truth.landing_x);
+    worst = std::abs(off) <= std::abs(worst) ? worst : off;
+  }
+  return off_by(worst, fmt::format("five wavelengths through 60 degrees of N-SF11 onto a screen 1 m behind, the farthest from Snell's "
+                                   "place; {:.0f} pixels from violet to red",
+                                   screen.column(red) - screen.column(blue)));
+}
+
+Result ball_lens(const compute::Context& context, std::uint64_t seed)
+{
+  constexpr double radius = 0.05, n = 1.5, screen_z = -4 * radius;
+  preset::Preset p = empty_preset();
+  p.seed = seed;
+  const Screen screen{screen_z, -3.2 * radius, 0.2 * radius, 6 * radius, 6 * radius};
+  screen.put_into(p);
+  p.scene.materials["glass"] = glass(n);
+  p.scene.objects.push_back(object("ball", ball(radius, 512), "glass"));
+  p.scene.objects.back().normals = preset::Object::Normals::smooth;
+  p.spectral.photons_per_pass = 1 << 14;
+  double worst = 0;
+  for (const double height : {0.05, 0.2, 0.4, 0.6, 0.75}) {
+    p.scene.lights = {pencil({height * radius, 0, 4 * radius}, {0, 0, -1}, 0.005)};
+    const double off =
+        screen.landing(layer(render(p, context), "caustic")) - screen.column(ball_lens_landing(radius, height * radius, n, screen_z));
+    worst = std::abs(off) <= std::abs(worst) ? worst : off;
+  }
+  return off_by(worst, "rays at 0.05 to 0.75 radii of a ball of n = 1.5 onto a screen 4 radii behind it, the farthest from the ray trace "
+                       "whose paraxial focus is n R / (2 (n - 1))");
+}
+
+} // namespace
+
+Checks refraction_checks()
+{
+  return {{"plate: Fresnel's transmittance", plate},
+          {"plate: air inside glass", plates_in_one},
+          {"prism: wavelengths where Snell says", prism},
+          {"ball lens: rays towards its focus", ball_lens}};
+}
+
+} // namespace nephroid::check
