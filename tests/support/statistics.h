@@ -88,25 +88,25 @@ struct WeightedCells {
   double largest = 0;
 };
 
-/// Compares the means over `samples` of weights, cell by cell, with their expectations, which are known to relative_error each,
-/// independently. Sidak's p-value of the worst cell and of the total, each after Bernstein.
-inline double weights_test(const WeightedCells& cells, std::span<const double> expectation, double samples, double relative_error = 0)
+/// Compares the means over `samples` of weights, cell by cell, with their expectations, each of which is off by `error` itself where a
+/// quadrature made it. Sidak's p-value of the worst cell and of the total, each after Bernstein.
+inline double weights_test(const WeightedCells& cells, std::span<const double> expectation, double samples, double error = 0)
 {
   if (cells.sum.size() != expectation.size()) throw std::invalid_argument("weights_test: cells and expectations differ in number");
   double smallest = 1, total = 0, total_squares = 0, total_expected = 0, total_error2 = 0;
-  const auto test = [&](double sum, double sum_of_squares, double expected, double error2) {
+  const auto test = [&](double sum, double sum_of_squares, double expected, double variance_of_expected) {
     // One weight more than were seen: a cell that got none by chance has some variance too.
     const double unseen = cells.largest * std::min(cells.largest, expected);
-    const double variance = std::max(sum_of_squares - sum * sum / samples, 0.0) + unseen + error2;
+    const double variance = std::max(sum_of_squares - sum * sum / samples, 0.0) + unseen + variance_of_expected;
     if (sum != expected) smallest = std::min(smallest, variance > 0 ? bernstein(sum - expected, variance, cells.largest) : 0.0);
   };
   for (std::size_t i = 0; i < expectation.size(); ++i) {
-    const double expected = expectation[i] * samples, error = relative_error * expected;
-    test(cells.sum[i], cells.sum_of_squares[i], expected, error * error);
+    const double expected = expectation[i] * samples, error2 = error * error * samples * samples;
+    test(cells.sum[i], cells.sum_of_squares[i], expected, error2);
     total += cells.sum[i];
     total_squares += cells.sum_of_squares[i];
     total_expected += expected;
-    total_error2 += error * error;
+    total_error2 += error2;
   }
   test(total, total_squares, total_expected, total_error2);
   return sidak(smallest, static_cast<double>(expectation.size()) + 1);

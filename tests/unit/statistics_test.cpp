@@ -99,7 +99,7 @@ TEST(Statistics, WeightsTestFindsABiasOfTheTotalAndOfACell)
   EXPECT_LT(weights_test(cells, expectation, samples), false_alarm);
   std::fill(expectation.begin(), expectation.end(), 0.51 / 64);
   EXPECT_LT(weights_test(cells, expectation, samples), false_alarm);
-  EXPECT_GT(weights_test(cells, expectation, samples, 0.2), false_alarm);
+  EXPECT_GT(weights_test(cells, expectation, samples, 0.1 / 64), false_alarm);
 }
 
 } // namespace
