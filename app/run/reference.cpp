@@ -87,6 +87,11 @@ std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, c
   if (reference.width != width || reference.height != height)
     throw bad_input(file.string(), fmt::format("the reference has {} x {} pixels", reference.width, reference.height),
                     fmt::format("{} x {}, as scene.camera.resolution of {} says", width, height, prepared.preset.source));
+  // A run's picture has its seed: the same random numbers make the same noise, and comparing would call it right.
+  const auto seed = picture.attributes.find("nephroid:seed");
+  if (seed != picture.attributes.end() && seed->second == std::to_string(prepared.preset.seed))
+    throw bad_input(file.string(), fmt::format("the reference was rendered with seed {}, as this run is", seed->second), "another seed",
+                    "run with another --seed");
   if (const auto& mask = prepared.preset.measure.mask) {
     const FileFinder finder(fs::path(prepared.preset.source).parent_path());
     reference.mask = measure::read_mask(finder.find(*mask, prepared.preset.source + "#/measure/mask"), width, height);

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs that are measured while they work: against a file, against a recipe that is rendered once, without either; until an error.
+// What cannot be measured is one clear line before anything is rendered.
+#include "base/files.h"
+#include "image/image.h"
+#include "measure/history_file.h"
+#include "tests/support/child.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid::test;
+using nephroid::read_file;
+using nephroid::write_file_whole;
+using nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int width = 48, height = 40;
+
+class Measured : public testing::Test {
+protected:
+  TemporaryFolder scratch;
+
+  /// References go to a cache of this test's own; kernels stay in everybody's.
+  Environment environment() const
+  {
+    const char* home = std::getenv("HOME");
+    return {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()},
+            {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}};
+  }
+  Ended run(const std::string& name, std::vector<std::string> more) const
+  {
+    std::vector<std::string> arguments{"run",   "spectral/plate",
+                                       "-o",    (scratch.path() / name).string(),
+                                       "--set", "scene.camera.resolution=[48,40]",
+                                       "--set", "spectral.photons_per_pass=20000"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return nephroid::test::nephroid(arguments, scratch.path(), scratch.path(), environment());
+  }
+  fs::path file(const std::string& name) const { return scratch.path() / name; }
+  nephroid::job::History history(const std::string& name) const { return nephroid::measure::read_history(file(name) / "history.csv"); }
+  json run_json(const std::string& name) const { return json::parse(read_file(file(name) / "run.json")); }
+
+  /// A picture file of one value, with pixel 3 changed to `third`.
+  std::string picture(const std::string& name, int w, int h, float value, float third) const
+  {
+    nephroid::image::Image image;
+    image.width = w;
+    image.height = h;
+    image.channels = {"R", "G", "B"};
+    image.data.assign(static_cast<std::size_t>(3 * w * h), value);
+    for (std::size_t c = 9; c < 12; ++c) image.data[c] = third;
+    nephroid::image::write_exr(file(name), image);
+    return file(name).string();
+  }
+  std::string picture(const std::string& name, int w = width, int h = height) const { return picture(name, w, h, 0.5f, 0.25f); }
+};
+
+const std::string recipe = R"(reference={"type":"recipe","passes":6})";
+
+TEST_F(Measured, WithoutAReferenceARunLogsItsEstimate)
+{
+  ASSERT_EQ(run("a", {"--passes", "8"}).exit_code, 0);
+  const auto logged = history("a");
+  EXPECT_THAT(logged.columns, Contains("estimated_lab_mean"));
+  EXPECT_THAT(logged.columns, Not(Contains("lab_mean")));
+  ASSERT_FALSE(logged.rows.empty());
+  EXPECT_EQ(logged.rows.back().step, 8);
+  EXPECT_EQ(logged.rows.back().work, 160000u);
+  EXPECT_GE(logged.rows.back().wall_seconds, logged.rows.back().seconds);
+  const json result = run_json("a");
+  EXPECT_EQ(result["error_column"], "estimated_lab_mean");
+  EXPECT_GT(result["errors"]["estimated_lab_mean"].get<double>(), 0);
+  EXPECT_GT(result["measuring_seconds"].get<double>(), 0);
+  EXPECT_FALSE(result.contains("reference"));
+}
+
+TEST_F(Measured, WithTheEstimateLeftOutThePictureIsTheSameBits)
+{
+  ASSERT_EQ(run("with", {"--passes", "3"}).exit_code, 0);
+  ASSERT_EQ(run("without", {"--passes", "3", "--set", "measure.estimate=false"}).exit_code, 0);
+  const auto a = nephroid::image::read_image(file("with") / "image.exr"), b = nephroid::image::read_image(file("without") / "image.exr");
+  EXPECT_EQ(a.data, b.data);
+  EXPECT_FALSE(fs::exists(file("without") / "history.csv"));
+}
+
+TEST_F(Measured, ARecipeIsRenderedOnceAndItsNoiseFloorIsBesideTheErrors)
+{
+  const Ended first = run("a", {"--passes", "4", "--set", recipe});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.err, HasSubstr("rendering the reference, 2 x 6 passes"));
+  const Ended second = run("b", {"--passes", "4", "--seed", "2", "--set", recipe});
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_THAT(second.err, Not(HasSubstr("rendering"))) << "it does not depend on the run's seed";
+  for (const char* name : {"a", "b"}) {
+    const json result = run_json(name);
+    EXPECT_EQ(result["error_column"], "lab_mean");
+    const double error = result["errors"]["lab_mean"], floor = result["reference"]["noise_floor"]["lab_mean"];
+    EXPECT_GT(floor, 0);
+    EXPECT_GT(error, floor) << "4 passes are noisier than 12";
+    EXPECT_TRUE(fs::exists(result["reference"]["origin"].get<std::string>()));
+  }
+  EXPECT_EQ(run_json("a")["reference"], run_json("b")["reference"]);
+  EXPECT_THAT(history("a").columns, Contains("lab_mean"));
+  EXPECT_THAT(run("c", {"--passes", "1", "--set", recipe, "--set", "scene.lights.0.power_w=2"}).err, HasSubstr("rendering the reference"))
+      << "another scene has another reference";
+}
+
+TEST_F(Measured, UntilAnError)
+{
+  const Ended ended = run("a", {"--until-error", "0.05", "--set", "stop.metric=rel_l2"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto logged = history("a");
+  const auto column =
+      static_cast<std::size_t>(std::find(logged.columns.begin(), logged.columns.end(), "estimated_rel_l2") - logged.columns.begin());
+  EXPECT_LE(logged.rows.back().errors.at(column), 0.05);
+  EXPECT_GT(logged.rows.front().errors.at(column), 0.05);
+  EXPECT_EQ(run_json("a")["finished"], true);
+}
+
+TEST_F(Measured, AResumedRunGoesOnWithItsHistory)
+{
+  ASSERT_EQ(run("a", {"--passes", "4"}).exit_code, 0);
+  const auto before = history("a");
+  ASSERT_EQ(run("a", {"--passes", "12", "--resume"}).exit_code, 0);
+  const auto after = history("a");
+  ASSERT_GT(after.rows.size(), before.rows.size());
+  for (std::size_t i = 0; i < before.rows.size(); ++i) EXPECT_EQ(after.rows[i].seconds, before.rows[i].seconds);
+  EXPECT_EQ(after.rows.back().step, 12);
+}
+
+TEST_F(Measured, WhatCannotBeAReferenceIsSaidBeforeTheRun)
+{
+  const auto refused = [&](const std::string& line, std::vector<std::string> settings) {
+    std::vector<std::string> more{"--passes", "1"};
+    for (const std::string& setting : settings) more.insert(more.end(), {"--set", setting});
+    const Ended ended = run("refused", more);
+    EXPECT_NE(ended.exit_code, 0) << line;
+    EXPECT_THAT(ended.err, HasSubstr(line));
+    EXPECT_FALSE(fs::exists(file("refused"))) << "no folder is left: " << line;
+    return ended.exit_code;
+  };
+  const std::string good = picture("good.exr");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(refused("#/reference/file: there is no file '/nowhere/r.exr'", {"reference=/nowhere/r.exr"}), 2);
+  EXPECT_EQ(refused("the reference has 47 x 40 pixels; 48 x 40, as scene.camera.resolution",
+                    {"reference=" + picture("small.exr", width - 1, height)}),
+            2);
+  EXPECT_EQ(refused("nan.exr", {"reference=" + picture("nan.exr", width, height, 0.5f, nan)}), 2);
+  EXPECT_EQ(refused("#/measure/mask: there is no reference", {"measure.mask=" + good}), 2);
+  EXPECT_EQ(refused("mask.exr", {"reference=" + good, "measure.mask=" + picture("mask.exr", width, height + 1)}), 2);
+  EXPECT_EQ(refused("black.exr", {"reference=" + good, "measure.mask=" + picture("black.exr", width, height, 0, 0)}), 2);
+  EXPECT_EQ(refused("#/reference/seed: 1 and 2 are the reference's seeds, and 1 is the run's", {R"(reference={"type":"recipe","seed":1})"}),
+            2);
+  EXPECT_EQ(refused("#/stop/error: nothing measures the error of this run", {"stop.error=1", "measure.estimate=false"}), 2);
+  EXPECT_EQ(refused("#/reference/seconds: making the reference would take about",
+                    {R"(reference={"type":"recipe","passes":1000000,"seconds":10})"}),
+            1);
+}
+
+TEST_F(Measured, ARunIsNoReferenceForARunWithItsSeed)
+{
+  ASSERT_EQ(run("a", {"--passes", "2"}).exit_code, 0);
+  const std::string reference = "reference=" + (file("a") / "image.exr").string();
+  EXPECT_THAT(run("b", {"--passes", "1", "--set", reference}).err,
+              HasSubstr("the reference was rendered with seed 1, as this run is; another seed; run with another --seed"));
+  EXPECT_EQ(run("b", {"--passes", "1", "--seed", "2", "--set", reference}).exit_code, 0);
+}
+
+TEST_F(Measured, ACacheThatCannotBeWrittenToIsSaidBeforeTheWork)
+{
+  write_file_whole(file("cache"), "a file where the cache's folder should be");
+  const Ended ended = run("a", {"--passes", "1", "--set", recipe});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("the reference cannot be kept here"));
+  EXPECT_FALSE(fs::exists(file("a")));
+}
+
+} // namespace
