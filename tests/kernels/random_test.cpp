@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/random.h against the published test vectors of its generator, and its uniforms against their distribution.
-#include "base/error.h"
+// kernels/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
 #include "compute/compute.h"
 #include "tests/support/test_kernels.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
-#include <set>
 
 namespace {
 
@@ -21,11 +18,6 @@ kernel void philox(global const uint4* counters, global const uint2* keys, globa
 {
   const uint i = get_global_id(0);
   if (i < count) results[i] = philox4x32(counters[i], keys[i]);
-}
-kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* results, uint count)
-{
-  const uint i = get_global_id(0);
-  if (i < count) results[i] = random4(seed, pass, i, block, stream);
 }
 )";
 
@@ -43,52 +35,6 @@ TEST(Random, PhiloxGivesThePublishedVectors)
   const compute::Buffer<std::array<std::uint32_t, 2>> key(kernels.context(), "keys", std::span(keys));
   kernels.kernel("philox").run(counters.size(), 1, in, key, out, static_cast<std::uint32_t>(counters.size()));
   EXPECT_EQ(out.read(), published);
-}
-
-class Uniforms : public testing::Test {
-protected:
-  static constexpr std::uint32_t count = 1 << 16;
-
-  std::vector<std::array<float, 4>> draw(std::array<std::uint32_t, 2> seed, std::uint32_t pass, std::uint32_t block, std::uint32_t stream)
-  {
-    const compute::Buffer<std::array<float, 4>> results(kernels_.context(), "results", count);
-    kernels_.kernel("uniforms").run(count, 64, seed, pass, block, stream, results, count);
-    return results.read();
-  }
-
-private:
-  test::TestKernels kernels_{source};
-};
-
-TEST_F(Uniforms, FillTheUnitIntervalEvenly)
-{
-  // Pearson's chi-square over 256 bins a dimension has 255 degrees of freedom: mean 255, deviation sqrt(510); 5 deviations.
-  const auto numbers = draw({1, 2}, 3, 4, 5);
-  for (std::size_t dimension = 0; dimension < 4; ++dimension) {
-    std::array<int, 256> bins{};
-    for (const auto& number : numbers) {
-      ASSERT_GE(number[dimension], 0.0f);
-      ASSERT_LT(number[dimension], 1.0f);
-      ++bins[static_cast<std::size_t>(number[dimension] * 256)];
-    }
-    double chi_square = 0;
-    for (const int n : bins) chi_square += std::pow(n - count / 256.0, 2) / (count / 256.0);
-    EXPECT_NEAR(chi_square, 255, 5 * std::sqrt(510.0)) << "dimension " << dimension;
-  }
-}
-
-TEST_F(Uniforms, EveryKeyGivesOtherNumbers)
-{
-  const std::vector<std::vector<std::array<float, 4>>> draws{draw({1, 0}, 0, 0, 0), draw({0, 1}, 0, 0, 0), draw({0, 0}, 1, 0, 0),
-                                                             draw({0, 0}, 0, 1, 0), draw({0, 0}, 0, 0, 1)};
-  for (std::size_t a = 0; a < draws.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) {
-      // The mean product of independent uniforms is 1/4 with a deviation of sqrt(7 / 144 / count).
-      double product = 0;
-      for (std::size_t i = 0; i < count; ++i) product += static_cast<double>(draws[a][i][0]) * draws[b][i][0] / count;
-      EXPECT_NEAR(product, 0.25, 5 * std::sqrt(7.0 / 144 / count)) << a << " and " << b;
-    }
-  EXPECT_EQ(draws[0], draw({1, 0}, 0, 0, 0));
 }
 
 } // namespace

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+# Faults of one line that a hand or a merge may put into a kernel. run.py puts in one at a time and asks which tests notice.
+# A fault: its name, the file in kernels/, the text that is there exactly once, and what stands there instead.
+from typing import NamedTuple
+
+
+class Fault(NamedTuple):
+    name: str
+    file: str
+    right: str
+    wrong: str
+
+
+FAULTS = [
+    # Optics
+    Fault("r_p has a plus", "fresnel.h", "(n_t * cos_i - n_i * cos_t) /", "(n_t * cos_i + n_i * cos_t) /"),
+    Fault("only half of the polarisations", "fresnel.h", "0.5f * (s * s + p * p)", "s * s"),
+    Fault("eta is upside down", "surface.h", "const float eta = n_i / n_t;", "const float eta = n_t / n_i;"),
+    Fault("refracts to the wrong side", "fresnel.h", "(eta * cos_i - cos_t) * normal", "(eta * cos_i + cos_t) * normal"),
+    Fault("mirror reflects half as far", "fresnel.h", "direction + 2.0f * cos_i * normal", "direction + cos_i * normal"),
+    Fault("n^2 the other way round", "interface.h", "*n_ratio = n_i / n_t;", "*n_ratio = n_t / n_i;"),
+    Fault("radiance without n^2", "direct.cl", "radiance_scale *= n_ratio * n_ratio;", "radiance_scale *= n_ratio;"),
+    Fault("absorbs half", "world.h", "(path->behind + distance) * world->scene.metres_per_unit",
+          "0.5f * (path->behind + distance) * world->scene.metres_per_unit"),
+    Fault("absorption in units, not metres", "world.h", "(path->behind + distance) * world->scene.metres_per_unit", "(path->behind + distance)"),
+    Fault("a medium is never left", "interface.h", "leave_medium(&beyond, surface->object);", ";"),
+    Fault("leaves the medium of lowest priority", "media.h", "priority >= best_priority", "priority <= best_priority"),
+    # Emission
+    Fault("overlapping targets count twice", "emission.h", "return 2.0f * PI_F * sum / (float)count;", "return 2.0f * PI_F * sum;"),
+    Fault("overlapping discs count twice", "emission.h", "light->radiometric * square_metres / (float)count", "light->radiometric * square_metres"),
+    Fault("never the last target", "emission.h", "while (chosen + 1 < target_count && rest >=", "while (chosen + 2 < target_count && rest >="),
+    Fault("area light without its cosine", "emission.h", "light->radiometric * cosine / PI_F * steradians", "light->radiometric / PI_F * steradians"),
+    Fault("area light shines backwards", "emission.h", "cosine > 0.0f ? light->radiometric * cosine", "cosine < 0.0f ? -light->radiometric * cosine"),
+    Fault("disc not uniform", "emission.h", "w * sqrt(random.y)", "w * random.y"),
+    Fault("cone not uniform", "emission.h", "*below = u * one_minus_cos;", "*below = u * u * one_minus_cos;"),
+    Fault("half of the rectangle", "light.h", "(place.y - 0.5f) * light->edge_v", "place.y * light->edge_v"),
+    Fault("spot's solid angle forgotten", "emission.h", "emission.watts = light->radiometric * steradians / light->solid_angle;",
+          "emission.watts = light->radiometric * steradians / (4.0f * PI_F);"),
+    # Random numbers
+    Fault("place and direction from one block", "photons.cl", "random4(seed, pass, photon, 1u, STREAM_PHOTONS)",
+          "random4(seed, pass, photon, 0u, STREAM_PHOTONS)"),
+    Fault("choices from the block of emission", "photons.cl", "2u + (uint)surface_number / 4u", "(uint)surface_number / 4u"),
+    Fault("every pass alike", "photons.cl", "random4(seed, pass, photon, 0u, STREAM_PHOTONS)", "random4(seed, 0u, photon, 0u, STREAM_PHOTONS)"),
+    Fault("one choice for four surfaces", "photons.cl", "choices = choices.yzwx;", ";"),
+    Fault("nine rounds of Philox", "random.h", "round < 10", "round < 9"),
+    # Film, camera and direct light
+    Fault("splats a pixel to the right", "photons.cl", "min((int)(x * (float)camera->width), camera->width - 1)",
+          "min((int)(x * (float)camera->width) + 1, camera->width - 1)"),
+    Fault("splat without the surface's cosine", "photons.cl", "*weight = fabs(cos_camera) /", "*weight = length(to_camera) /"),
+    Fault("splat without 1/pi", "photons.cl", "end->xyz * (watts * weight / PI_F)", "end->xyz * (watts * weight)"),
+    Fault("film writes X for Y", "film.h", "add_exactly(sum + 1, convert_long_rte(quanta.y));", "add_exactly(sum + 1, convert_long_rte(quanta.x));"),
+    Fault("both halves in one image", "film.h", "(pass % NEPHROID_FILM_HALVES)", "(pass % 1)"),
+    Fault("photons of the cluster before", "photons.cl", "emitter->light, emitter->cluster, material.reflector",
+          "emitter->light, max(emitter->cluster - 1, 0), material.reflector"),
+    Fault("eye's cluster before", "direct.cl", "while (cluster + 1 < count && place >= cdf[cluster + 1]) ++cluster;",
+          "while (cluster + 2 < count && place >= cdf[cluster + 2]) ++cluster;"),
+    Fault("eye's cluster without its probability", "direct.cl", "(cluster_cdf[cluster + 1] - cluster_cdf[cluster])", "(1.0f / (float)scene.cluster_count)"),
+    Fault("no jitter down the pixel", "direct.cl", "((float)row + jitter.y)", "((float)row + 0.5f)"),
+    Fault("direct light without the cosine", "direct.cl", "light->radiometric * max(dot(arrival.direction, normal), 0.0f)", "light->radiometric"),
+    Fault("falls with the distance, not its square", "direct.cl", "cosine / (metres * metres)", "cosine / metres"),
+    # Geometry
+    Fault("edges leak", "bvh.h", "(low >= 0.0f) | (high <= 0.0f)", "(low > 1e-4f) | (high < -1e-4f)"),
+    Fault("boxes do not grow", "bvh.h", "0x1p-20f * BVH_MAX", "-0x1p-12f * BVH_MAX"),
+    Fault("barycentrics swapped", "surface.h", "a + hit.u * ab + hit.v * ac", "a + hit.v * ab + hit.u * ac"),
+    Fault("faceted where smooth", "surface.h", "if (objects[surface.object].smooth)", "if (!objects[surface.object].smooth)"),
+]

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Puts faults into copies of kernels/, one at a time, and says which tests notice; fails where none does. README.md says more."""
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from faults import FAULTS, Fault
+
+KERNELS = Path(__file__).resolve().parents[2] / "kernels"
+# Programs whose tests take their kernels from NEPHROID_TEST_KERNELS, the quick ones first.
+PROGRAMS = [
+    "kernels_fresnel_test", "kernels_film_test", "kernels_random_test", "kernels_emission_test", "kernels_samplers_test",
+    "kernels_emission_samplers_test", "kernels_trace_test", "physics_*", "images_statistics_test", "images_error_estimate_test",
+    "kernels_photons_test",
+]
+
+
+def find_programs(build: Path, names: list[str]) -> list[Path]:
+    """Test programs of a build folder by name or pattern, in the order given."""
+    programs = []
+    for name in names:
+        found = sorted(p for p in build.glob(f"tests/*/{name}") if p.is_file() and os.access(p, os.X_OK))
+        if not found:
+            sys.exit(f"run.py: {build}: there is no test program {name}; build the tests first")
+        programs += [p for p in found if p not in programs]
+    return programs
+
+
+def put_in(fault: Fault, folder: Path) -> None:
+    """Changes the one place in a copy of the kernels."""
+    file = folder / fault.file
+    text = file.read_text()
+    if text.count(fault.right) != 1:
+        sys.exit(f"run.py: faults.py, {fault.name!r}: {text.count(fault.right)} places in {fault.file} read {fault.right!r}; one is expected")
+    file.write_text(text.replace(fault.right, fault.wrong))
+
+
+def failed_tests(command: list[str], kernels: Path, timeout_s: int) -> list[str]:
+    """Names of the tests of a program that fail with these kernels. A crash or a hang counts, by the program's name."""
+    environment = dict(os.environ, NEPHROID_TEST_KERNELS=str(kernels), POCL_CACHE_DIR=str(kernels.parent / "cache"))
+    name = Path(command[0]).name
+    try:
+        ended = subprocess.run(command, env=environment, cwd=kernels.parent, capture_output=True, text=True, errors="replace", timeout=timeout_s)
+    except subprocess.TimeoutExpired:
+        return [f"{name} hangs"]
+    failed = sorted(set(re.findall(r"^\[  FAILED  \] ([\w/.]+)", ended.stdout, re.MULTILINE)))
+    if ended.returncode != 0 and not failed:
+        return [f"{name} exits with {ended.returncode}"]
+    return failed
+
+
+def run(commands: list[list[str]], fault: Fault | None, arguments: argparse.Namespace) -> list[str]:
+    """The tests that fail with a fault, or with none."""
+    with tempfile.TemporaryDirectory(prefix="nephroid-fault-") as folder:
+        kernels = Path(folder) / "kernels"
+        shutil.copytree(arguments.kernels, kernels)
+        (Path(folder) / "cache").mkdir()
+        if fault:
+            put_in(fault, kernels)
+        caught = []
+        for command in commands:
+            caught += failed_tests([part.replace("{kernels}", str(kernels)) for part in command], kernels, arguments.timeout)
+            if caught and fault and not arguments.all:
+                break
+        return caught
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=Path, required=True, help="a build folder with its tests built")
+    parser.add_argument("--kernels", type=Path, default=KERNELS, help="the right kernels (default: kernels/)")
+    parser.add_argument("--only", metavar="TEXT", action="append", help="faults whose name contains this; may be given again")
+    parser.add_argument("--programs", metavar="NAME", nargs="+", default=PROGRAMS, help="test programs, by name or pattern")
+    parser.add_argument("--all", action="store_true", help="run every test for every fault, rather than until one fails")
+    parser.add_argument("--timeout", type=int, default=600, help="seconds after which a test program hangs (default: %(default)s)")
+    arguments = parser.parse_args()
+    arguments.build = arguments.build.resolve()
+
+    faults = [f for f in FAULTS if not arguments.only or any(text in f.name for text in arguments.only)]
+    if not faults:
+        sys.exit("run.py: --only: no fault has such a name; see faults.py")
+    commands = [[str(program)] for program in find_programs(arguments.build, arguments.programs)]
+    if arguments.programs == PROGRAMS:
+        commands.append([str(arguments.build / "bin/nephroid"), "check", "--kernels", "{kernels}"])
+    wrongly = run(commands, None, arguments)
+    if wrongly:
+        sys.exit("run.py: without a fault there already fail: " + ", ".join(wrongly))
+
+    print("| fault | in | caught by |\n|---|---|---|", flush=True)
+    missed = 0
+    for fault in faults:
+        caught = run(commands, fault, arguments)
+        missed += not caught
+        print(f"| {fault.name} | {fault.file} | {', '.join(caught) or '**nothing**'} |", flush=True)
+    print(f"{len(faults) - missed} of {len(faults)} faults caught", file=sys.stderr)
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
