@@ -2,8 +2,11 @@
 #include "ui/actions.h"
 
 #include "base/error.h"
+#include "measure/history_file.h"
+#include "ui/error_panel.h"
 #include "ui/workbench.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
@@ -69,11 +72,45 @@ void reset_camera(W w, C commands)
   commands.push_back(command::Edit{"reset the camera", std::move(edited)});
 }
 
+bool has_history(W w) { return w.error_history() != nullptr; }
+bool has_plot(W w) { return !shown_metric(w).empty(); }
+bool has_plan(W w) { return w.plan() != nullptr; }
+bool comparable(W w) { return w.why_not_comparable().empty(); }
+std::string why_not_comparable(W w) { return w.why_not_comparable(); }
+bool has_choice(W w) { return !w.pinned().all().empty(); }
+std::string no_choice(W) { return "no run is pinned"; }
+std::string not_measured(W) { return "this run is not measured"; }
+
+void compare(W w, C commands, bool Comparison::*field, bool value)
+{
+  Comparison comparison = w.comparison();
+  comparison.*field = value;
+  commands.push_back(command::SetComparison{comparison});
+}
+
+void flip(W w, C commands) { compare(w, commands, &Comparison::flip, !w.comparison().flip); }
+void flip_back(W w, C commands)
+{
+  if (w.comparison().flip) compare(w, commands, &Comparison::flip, false);
+}
+
+/// The reference, then each pinned run, and round again.
+void compare_with_next(W w, C commands)
+{
+  const std::vector<PinnedRun>& runs = w.pinned().all();
+  Comparison comparison = w.comparison();
+  const auto next = std::find_if(runs.begin(), runs.end(), [&](const PinnedRun& run) { return run.id > comparison.pin; });
+  comparison.pin = next == runs.end() ? 0 : next->id;
+  commands.push_back(command::SetComparison{comparison});
+}
+
 constexpr int ctrl = ImGuiMod_Ctrl, shift = ImGuiMod_Shift;
 
 const Action table[] = {
     {"File", "Open...", ctrl | ImGuiKey_O, false, "A preset file, or one of the shipped presets", always,
      [](W, C c) { ask(c, Question::open); }},
+    {"File", "Open history...", ctrl | shift | ImGuiKey_O, false, "Pin an earlier run by its folder or its history.csv", always,
+     [](W, C c) { ask(c, Question::open_history); }},
     {"File", "Save preset", ctrl | ImGuiKey_S, false, "Write the preset as it is now to its file", has_preset, save},
     {"File", "Save preset as...", ctrl | shift | ImGuiKey_S, false, "Write the preset as it is now to another file", has_preset,
      [](W, C c) { ask(c, Question::save_preset); }},
@@ -85,11 +122,25 @@ const Action table[] = {
     {"Edit", "Redo", ctrl | shift | ImGuiKey_Z, true, "Do again what was taken back", can_redo,
      [](W, C c) { c.push_back(command::Redo{}); }},
     {"Edit", "Reset camera", ImGuiKey_Home, false, "The camera of the preset as it was opened", has_preset, reset_camera},
+    {"Edit", "Copy history as CSV", 0, false, "This run's errors so far, as history.csv has them", has_history,
+     [](W w, C) { ImGui::SetClipboardText(measure::to_csv(*w.error_history()).c_str()); }, not_measured},
+    {"Edit", "Copy plot as CSV", 0, false, "Every number of the plot of error against time", has_plot,
+     [](W w, C) { ImGui::SetClipboardText(plot_as_csv(w).c_str()); }, not_measured},
+    {"Edit", "Copy plan as JSON", 0, false, "As nephroid plan --json prints it", has_plan,
+     [](W w, C) { ImGui::SetClipboardText(plan::to_json(*w.plan()).c_str()); }},
     {"Run", "Start again", ImGuiKey_F5, false, "Start the run from its beginning", has_preset,
      [](W, C c) { c.push_back(command::Restart{}); }},
     {"Run", "Pause", ImGuiKey_Space, false, "Hold the run, or let it go on", works,
      [](W w, C c) { c.push_back(command::Pause{w.status().state != job::State::paused}); }},
     {"Run", "Cancel", ImGuiKey_Escape, false, "End the run; its picture stays", works, [](W, C c) { c.push_back(command::Cancel{}); }},
+    {"Run", "Pin this run", ImGuiKey_P, false, "Keep its history and its picture to hold later runs against", has_picture,
+     [](W, C c) { c.push_back(command::PinRun{}); }},
+    {"View", "Flip", ImGuiKey_R, false, "While held: the reference, or the pinned run that is compared with", comparable, flip,
+     why_not_comparable, flip_back},
+    {"View", "Difference", ImGuiKey_D, false, "The difference from it in false colour",
+     [](W w) { return w.comparison().difference || comparable(w); },
+     [](W w, C c) { compare(w, c, &Comparison::difference, !w.comparison().difference); }, why_not_comparable},
+    {"View", "Compare with the next", ImGuiKey_N, false, "The reference, then each pinned run", has_choice, compare_with_next, no_choice},
     {"View", "Fit", ImGuiKey_F, false, "The whole picture in the panel", has_picture, fit},
     {"View", "Actual size", ImGuiKey_1, false, "One pixel of the picture is one of the screen", has_picture, actual_size},
     {"View", "Brighter", ImGuiKey_E, true, "Half a stop more exposure", always, [](W w, C c) { brighten(w, c, 0.5); }},
@@ -101,6 +152,25 @@ const Action table[] = {
 };
 
 const char* keys(const Action& action) { return action.shortcut ? ImGui::GetKeyChordName(action.shortcut) : ""; }
+
+/// Under the mouse: what it does or, where it is greyed, why.
+void tooltip(const Action& action, bool enabled, const Workbench& workbench, bool with_keys)
+{
+  std::string text = action.help;
+  if (with_keys && action.shortcut) text += fmt::format(": {}", keys(action));
+  if (!enabled && action.why_not) text += fmt::format(". Not now: {}.", action.why_not(workbench));
+  ImGui::SetItemTooltip("%s", text.c_str());
+}
+
+void draw_item(const Action& action, const Workbench& workbench, Commands& commands)
+{
+  const bool enabled = action.enabled(workbench);
+  if (ImGui::MenuItem(action.name, keys(action), false, enabled)) action.run(workbench, commands);
+  tooltip(action, enabled, workbench, false);
+}
+
+/// The key of a chord without its modifiers.
+ImGuiKey key_of(int shortcut) { return static_cast<ImGuiKey>(shortcut & ~ImGuiMod_Mask_); }
 
 } // namespace
 
@@ -116,11 +186,14 @@ const Action& action(const char* name)
 void action_button(const char* name, const Workbench& workbench, Commands& commands)
 {
   const Action& meant = action(name);
-  ImGui::BeginDisabled(!meant.enabled(workbench));
+  const bool enabled = meant.enabled(workbench);
+  ImGui::BeginDisabled(!enabled);
   if (ImGui::Button(name)) meant.run(workbench, commands);
   ImGui::EndDisabled();
-  ImGui::SetItemTooltip("%s: %s", meant.help, keys(meant));
+  tooltip(meant, enabled, workbench, true);
 }
+
+void action_item(const char* name, const Workbench& workbench, Commands& commands) { draw_item(action(name), workbench, commands); }
 
 void draw_menus(const Workbench& workbench, Commands& commands)
 {
@@ -132,20 +205,26 @@ void draw_menus(const Workbench& workbench, Commands& commands)
       menu = action.menu;
       open = ImGui::BeginMenu(menu);
     }
-    if (!open) continue;
-    if (ImGui::MenuItem(action.name, keys(action), false, action.enabled(workbench))) action.run(workbench, commands);
-    ImGui::SetItemTooltip("%s", action.help);
+    if (open) draw_item(action, workbench, commands);
   }
   if (open) ImGui::EndMenu();
 }
 
 void run_shortcuts(const Workbench& workbench, Commands& commands)
 {
-  if (workbench.question() != Question::none || ImGui::GetIO().WantTextInput) return;
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool elsewhere = workbench.question() != Question::none || io.WantTextInput;
   for (const Action& action : table) {
+    if (!action.shortcut) continue;
+    // A window that loses the keyboard never hears that the key went up.
+    if (action.let_go && (ImGui::IsKeyReleased(key_of(action.shortcut)) || io.AppFocusLost)) action.let_go(workbench, commands);
     // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would be lost.
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
-    if (action.shortcut && ImGui::IsKeyChordPressed(action.shortcut, flags) && action.enabled(workbench)) action.run(workbench, commands);
+    if (elsewhere || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
+    if (action.enabled(workbench))
+      action.run(workbench, commands);
+    else if (action.why_not)
+      commands.push_back(command::Report{fmt::format("{}: {}", action.name, action.why_not(workbench)), false});
   }
 }
 

@@ -2,6 +2,7 @@
 // What panels, menus and shortcuts ask for. They never change the workbench themselves: they push commands, which the workbench
 // applies once every panel has drawn. That is why a test can read what a click meant.
 #pragma once
+#include "measure/difference.h"
 #include "preset/preset.h"
 
 #include <array>
@@ -22,12 +23,23 @@ struct Look {
   bool operator==(const Look&) const = default;
 };
 
+/// What the View holds the run's picture against, and how. Nothing here needs a new run.
+struct Comparison {
+  std::uint64_t pin = 0;   ///< a pinned run (PinnedRun::id); 0: the reference
+  bool flip = false;       ///< the other picture is shown in place of the run's
+  bool difference = false; ///< a map of their difference is shown; flip goes before it
+  measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
+  double scale = 0; ///< the value at the end of the map's colours; 0: measure::colour_scale
+  bool operator==(const Comparison&) const = default;
+};
+
 /// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
-enum class Question { none, open, save_preset, save_picture, unsaved };
+enum class Question { none, open, open_history, save_preset, save_picture, unsaved };
 
 namespace command {
 
-/// A preset file, or the name of a shipped preset. Asks first where there are unsaved changes, unless sure.
+/// A preset file, or the name of a shipped preset: asks first where there are unsaved changes, unless sure. A run's folder or a table
+/// (.csv) is pinned as PinFile does.
 struct Open {
   std::string name;
   bool sure = false;
@@ -52,6 +64,28 @@ struct Pause {
 struct SetLook {
   Look look;
 };
+struct SetComparison {
+  Comparison comparison;
+};
+/// Keeps the history and the picture of the run as they are now.
+struct PinRun {};
+/// The history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in the background.
+struct PinFile {
+  std::filesystem::path path;
+};
+struct ChangePin {
+  std::uint64_t pin = 0;
+  std::string name;         ///< empty: stays as it was
+  std::uint32_t colour = 0; ///< IM_COL32
+  bool shown = true;        ///< in the plot
+};
+struct Unpin {
+  std::uint64_t pin = 0;
+};
+/// Which error the plot of error against time shows: a name of measure/metrics.h, with "masked_" for that of the mask.
+struct ChooseMetric {
+  std::string metric;
+};
 struct Ask {
   Question question = Question::none;
 };
@@ -69,9 +103,10 @@ struct ShowHelp {
   bool on = true;
 };
 struct ResetLayout {};
-/// From a panel that could not go on: becomes a message.
+/// Becomes a message: an error from a panel that could not go on, or a note that goes by itself.
 struct Report {
   std::string line;
+  bool error = true;
 };
 /// Asks first where there are unsaved changes, unless sure.
 struct Quit {
@@ -80,9 +115,11 @@ struct Quit {
 
 } // namespace command
 
-using Command = std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart,
-                             command::Cancel, command::Pause, command::SetLook, command::Ask, command::SavePreset, command::SavePicture,
-                             command::Dismiss, command::ShowHelp, command::ResetLayout, command::Report, command::Quit>;
+using Command =
+    std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
+                 command::Pause, command::SetLook, command::SetComparison, command::PinRun, command::PinFile, command::ChangePin,
+                 command::Unpin, command::ChooseMetric, command::Ask, command::SavePreset, command::SavePicture, command::Dismiss,
+                 command::ShowHelp, command::ResetLayout, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

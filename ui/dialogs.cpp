@@ -2,6 +2,7 @@
 #include "ui/dialogs.h"
 
 #include "base/error.h"
+#include "ui/widgets.h"
 #include "ui/workbench.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,8 @@ const char* title(Question question)
   switch (question) {
   case Question::open:
     return "Open a preset";
+  case Question::open_history:
+    return "Open the history of a run";
   case Question::save_preset:
     return "Save the preset as";
   case Question::save_picture:
@@ -29,21 +32,8 @@ const char* title(Question question)
   return "";
 }
 
-int resize(ImGuiInputTextCallbackData* data)
-{
-  if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
-  auto* text = static_cast<std::string*>(data->UserData);
-  text->resize(static_cast<std::size_t>(data->BufTextLen));
-  data->Buf = text->data();
-  return 0;
-}
-
 /// True when Enter was pressed.
-bool input_text(const char* label, const char* hint, std::string& text)
-{
-  constexpr ImGuiInputTextFlags flags = ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_EnterReturnsTrue;
-  return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1, flags, resize, &text);
-}
+bool entered_text(const char* hint, std::string& text) { return input_text("##file", hint, text, ImGuiInputTextFlags_EnterReturnsTrue); }
 
 bool exists(const std::string& file)
 {
@@ -56,7 +46,7 @@ bool exists(const std::string& file)
 void Dialogs::begin(const Workbench& workbench)
 {
   shown_ = workbench.question();
-  name_ = shown_ == Question::open ? std::string() : workbench.proposed_name(shown_);
+  name_ = shown_ == Question::open || shown_ == Question::open_history ? std::string() : workbench.proposed_name(shown_);
   shipped_.clear();
   ImGui::OpenPopup(title(shown_));
   if (shown_ == Question::open) shipped_ = preset::shipped_presets();
@@ -79,6 +69,8 @@ void Dialogs::draw(const Workbench& workbench, Commands& commands)
   if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) open = false;
   if (shown_ == Question::open)
     draw_open(commands);
+  else if (shown_ == Question::open_history)
+    draw_open_history(commands);
   else if (shown_ == Question::unsaved)
     draw_unsaved(workbench, commands);
   else
@@ -92,7 +84,7 @@ void Dialogs::draw_open(Commands& commands)
   const float em = ImGui::GetFontSize();
   ImGui::SetNextItemWidth(em * 41);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered = input_text("##file", "path of a preset file, or its name", name_);
+  const bool entered = entered_text("path of a preset file, or its name", name_);
   ImGui::SameLine();
   ImGui::BeginDisabled(name_.empty());
   if (ImGui::Button("Open") || (entered && !name_.empty())) commands.push_back(command::Open{name_});
@@ -108,11 +100,23 @@ void Dialogs::draw_open(Commands& commands)
   ImGui::EndChild();
 }
 
+void Dialogs::draw_open_history(Commands& commands)
+{
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 30);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  const bool entered = entered_text("folder of a run, or its history.csv", name_);
+  ImGui::SameLine();
+  ImGui::BeginDisabled(name_.empty());
+  if (ImGui::Button("Open") || (entered && !name_.empty())) commands.push_back(command::PinFile{name_});
+  ImGui::EndDisabled();
+  ImGui::TextDisabled("Of a folder the picture is kept too. Dropping it on the window does the same.");
+}
+
 void Dialogs::draw_save(Commands& commands)
 {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 30);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered = input_text("##file", "file", name_);
+  const bool entered = entered_text("file", name_);
   ImGui::SameLine();
   ImGui::BeginDisabled(name_.empty());
   const bool there = !name_.empty() && exists(name_);

@@ -18,6 +18,7 @@ public:
 private:
   void begin(const Workbench& workbench);
   void draw_open(Commands& commands);
+  void draw_open_history(Commands& commands);
   void draw_save(Commands& commands);
   void draw_unsaved(const Workbench& workbench, Commands& commands);
 

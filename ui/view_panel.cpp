@@ -2,13 +2,15 @@
 #include "ui/view_panel.h"
 
 #include "ui/camera_moves.h"
+#include "ui/comparison_bar.h"
 #include "ui/shown_pixels.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include "ui/workbench.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -19,37 +21,26 @@ constexpr double notch = 1.1;                ///< a notch of the wheel changes d
 constexpr double wheel_gesture_s = 0.6;      ///< a longer rest starts a new entry to undo
 constexpr double pixel_squares_from = 3;     ///< at this zoom and above pixels are shown as squares
 
-std::array<int, 2> picture_size(const Workbench& workbench)
-{
-  if (const auto& snapshot = workbench.snapshot()) return {snapshot->picture->width, snapshot->picture->height};
-  if (const preset::Preset* preset = workbench.preset()) return preset->scene.camera.resolution;
-  return {1, 1};
-}
-
-/// Whether the renderer has no texture of the picture's size (0: it has every size).
-bool too_large(const job::Picture& picture)
-{
-  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
-  const auto beyond = [](int size, int limit) { return limit > 0 && size > limit; };
-  return beyond(picture.width, platform.Renderer_TextureMaxWidth) || beyond(picture.height, platform.Renderer_TextureMaxHeight);
-}
-
-std::string too_large_hint(const job::Picture& picture)
-{
-  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
-  return fmt::format("The picture is {} x {}; this display's OpenGL shows at most {} x {}. It is computed all the same: "
-                     "save it with Ctrl+E, or lower scene.camera.resolution.",
-                     picture.width, picture.height, platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight);
-}
-
 Point mouse() { return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}; }
 ImVec2 vec(const Point& p) { return {static_cast<float>(p[0]), static_cast<float>(p[1])}; }
+
+/// Lines of text on a dark ground, its upper left corner at `at`.
+void draw_overlay(const ImVec2& at, const std::string& text)
+{
+  const float pad = ImGui::GetFontSize() * 0.4f;
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+  ImDrawList* draw_list = ImGui::GetWindowDrawList();
+  draw_list->AddRectFilled(at, {at.x + extent.x + 2 * pad, at.y + extent.y + 2 * pad}, colour::overlay, pad);
+  draw_list->AddText({at.x + pad, at.y + pad}, colour::text, text.c_str());
+}
 
 } // namespace
 
 void ViewPanel::draw(const Workbench& workbench, Commands& commands)
 {
+  shown_ = shown_picture(workbench);
   draw_toolbar(workbench, commands);
+  draw_comparison_bar(workbench, commands);
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   canvas_ = {{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
   ImGui::InvisibleButton("picture", vec(canvas_.size),
@@ -57,11 +48,14 @@ void ViewPanel::draw(const Workbench& workbench, Commands& commands)
   hovered_ = ImGui::IsItemHovered();
   use_mouse(workbench, commands);
   refresh_texture(workbench);
+  const auto& map = workbench.difference();
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
   draw_picture(workbench);
-  draw_hint(workbench);
+  if (!shown_.hint.empty()) draw_hint(corner, vec(canvas_.size), shown_.hint);
+  if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
+  if (map && map == shown_.owner) draw_colour_scale(*map, canvas_);
   draw_pixel_value(workbench);
   draw_list->PopClipRect();
 }
@@ -80,7 +74,7 @@ void ViewPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
   }
   ImGui::SetItemTooltip("Brighter E, darker Shift+E, as it is 0. Ctrl+click to type. The run goes on.");
   if (!workbench.preset()) return;
-  const auto size = picture_size(workbench);
+  const auto& size = shown_.size;
   ImGui::SameLine(0, ImGui::GetFontSize());
   if (ImGui::Button("Fit")) {
     look.fit = true;
@@ -93,20 +87,21 @@ void ViewPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
 
 void ViewPanel::refresh_texture(const Workbench& workbench)
 {
-  const auto& snapshot = workbench.snapshot();
-  const double stops = workbench.look().exposure_stops;
-  if (!snapshot || (snapshot == in_texture_ && stops == stops_in_texture_)) return;
-  const job::Picture& picture = *snapshot->picture;
-  if (too_large(picture)) return;
-  shown_pixels(picture.rgb, stops, texture_.edit(picture.width, picture.height));
-  in_texture_ = snapshot;
+  const double stops = shown_.rgba.empty() ? workbench.look().exposure_stops : 0;
+  if (!shown_.owner || (shown_.owner == in_texture_ && stops == stops_in_texture_)) return;
+  const std::span<unsigned char> bytes = texture_.edit(shown_.size[0], shown_.size[1]);
+  if (shown_.rgba.empty())
+    shown_pixels(shown_.rgb, stops, bytes);
+  else
+    std::copy(shown_.rgba.begin(), shown_.rgba.end(), bytes.begin());
+  in_texture_ = shown_.owner;
   stops_in_texture_ = stops;
 }
 
 void ViewPanel::draw_picture(const Workbench& workbench)
 {
-  if (!workbench.snapshot() || texture_.empty() || too_large(*workbench.snapshot()->picture)) return;
-  const auto size = picture_size(workbench);
+  if (!shown_.owner) return;
+  const auto& size = shown_.size;
   const Placement placement = place(workbench.look(), canvas_, size);
   const ImVec2 from = vec(placement.to_screen({0, 0}));
   const ImVec2 to = vec(placement.to_screen({static_cast<double>(size[0]), static_cast<double>(size[1])}));
@@ -119,49 +114,15 @@ void ViewPanel::draw_picture(const Workbench& workbench)
   draw_list->AddRect({from.x - 1, from.y - 1}, {to.x + 1, to.y + 1}, colour::frame);
 }
 
-/// What to do or to wait for while there is no picture to see.
-void ViewPanel::draw_hint(const Workbench& workbench) const
-{
-  std::string hint;
-  if (const auto& snapshot = workbench.snapshot()) {
-    if (!too_large(*snapshot->picture)) return;
-    hint = too_large_hint(*snapshot->picture);
-  } else if (!workbench.preset())
-    hint = "Drop a preset here, or open one: Ctrl+O";
-  else if (workbench.status().state == job::State::failed)
-    hint = "No picture: see the message below";
-  else if (workbench.status().state == job::State::cancelled)
-    hint = "Cancelled before the first picture; start again: F5";
-  else
-    hint = "Preparing: reading the scene, building the kernels";
-  const float wrap = 0.9f * static_cast<float>(canvas_.size[0]);
-  const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
-  const ImVec2 middle = vec({canvas_.corner[0] + canvas_.size[0] / 2, canvas_.corner[1] + canvas_.size[1] / 2});
-  ImGui::GetWindowDrawList()->AddText(nullptr, 0, {middle.x - extent.x / 2, middle.y - extent.y / 2}, colour::quiet_text, hint.c_str(),
-                                      nullptr, wrap);
-}
-
-/// Linear values under the cursor in the picture's lower left corner, with the luminance that the preset's white makes of them.
+/// What the pixel under the cursor is, in the picture's lower left corner.
 void ViewPanel::draw_pixel_value(const Workbench& workbench) const
 {
-  const auto& snapshot = workbench.snapshot();
-  if (!hovered_ || !snapshot || !workbench.preset()) return;
-  const auto size = picture_size(workbench);
-  const auto pixel = pixel_at(place(workbench.look(), canvas_, size), size, mouse());
+  if (!hovered_ || !workbench.snapshot()) return;
+  const auto pixel = pixel_at(place(workbench.look(), canvas_, shown_.size), shown_.size, mouse());
   if (!pixel) return;
-  const std::size_t index =
-      3 * (static_cast<std::size_t>((*pixel)[1]) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>((*pixel)[0]));
-  const float* rgb = &snapshot->picture->rgb[index];
-  // The Y row of linear sRGB to XYZ (IEC 61966-2-1).
-  const double luminance = workbench.preset()->white * (0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]);
-  const std::string text = fmt::format("({}, {})   R {:.4g}   G {:.4g}   B {:.4g}   Y {:.4g} W/m2/sr", (*pixel)[0], (*pixel)[1], rgb[0],
-                                       rgb[1], rgb[2], luminance);
+  const std::string text = pixel_text(workbench, *pixel);
   const float pad = ImGui::GetFontSize() * 0.4f;
-  const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 corner = vec({canvas_.corner[0] + pad, canvas_.corner[1] + canvas_.size[1] - extent.y - 3 * pad});
-  ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  draw_list->AddRectFilled(corner, {corner.x + extent.x + 2 * pad, corner.y + extent.y + 2 * pad}, colour::overlay, pad);
-  draw_list->AddText({corner.x + pad, corner.y + pad}, colour::text, text.c_str());
+  draw_overlay(vec({canvas_.corner[0] + pad, canvas_.corner[1] + canvas_.size[1] - ImGui::CalcTextSize(text.c_str()).y - 3 * pad}), text);
 }
 
 void ViewPanel::use_mouse(const Workbench& workbench, Commands& commands)
@@ -195,7 +156,7 @@ void ViewPanel::continue_drag(const Workbench& workbench, Commands& commands)
   const Point delta{mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]};
   if (step.x != 0 || step.y != 0) {
     if (drag_ == Drag::move_picture) {
-      Look look = dragged(look_at_start_, canvas_, picture_size(workbench), delta);
+      Look look = dragged(look_at_start_, canvas_, shown_.size, delta);
       look.exposure_stops = workbench.look().exposure_stops;
       commands.push_back(command::SetLook{look});
     } else
@@ -208,8 +169,7 @@ void ViewPanel::continue_drag(const Workbench& workbench, Commands& commands)
 
 void ViewPanel::move_camera(const Workbench& workbench, const Point& delta, Commands& commands) const
 {
-  const auto size = picture_size(workbench);
-  const double height = place(workbench.look(), canvas_, size).scale * size[1];
+  const double height = place(workbench.look(), canvas_, shown_.size).scale * shown_.size[1];
   const double across = delta[0] / height, down = delta[1] / height;
   preset::Preset edited = *workbench.preset();
   const char* label = "";
@@ -231,8 +191,7 @@ void ViewPanel::use_wheel(const Workbench& workbench, Commands& commands)
 {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl) {
-    commands.push_back(
-        command::SetLook{zoomed(workbench.look(), canvas_, picture_size(workbench), mouse(), std::pow(notch, io.MouseWheel))});
+    commands.push_back(command::SetLook{zoomed(workbench.look(), canvas_, shown_.size, mouse(), std::pow(notch, io.MouseWheel))});
     return;
   }
   const double now = ImGui::GetTime();

@@ -1,35 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// The View panel: the picture as it converges. The mouse moves the camera (edits of the preset) or the picture in the panel (its look);
-// docs/window.md says which does what.
+// The View panel: the picture as it converges, or what it is compared with. The mouse moves the camera (edits of the preset) or the picture
+// in the panel (its look); docs/window.md says which does what.
 #pragma once
 #include "ui/panel.h"
 #include "ui/picture_texture.h"
 #include "ui/placement.h"
+#include "ui/shown_picture.h"
 
 #include <memory>
-#include <optional>
-
-namespace nephroid::job {
-struct Snapshot;
-}
 
 namespace nephroid::ui {
 
 class ViewPanel : public Panel {
 public:
-  const char* name() const override { return "View"; }
+  static constexpr const char* title = "View";
+  const char* name() const override { return title; }
   void draw(const Workbench& workbench, Commands& commands) override;
 
   /// Where the picture's part of the panel was drawn last, and the picture in it; for tests.
   const Canvas& canvas() const { return canvas_; }
   const PictureTexture& texture() const { return texture_; }
+  /// What it showed last; for tests.
+  const ShownPicture& shown() const { return shown_; }
 
 private:
   enum class Drag { none, orbit, pan, dolly, move_picture };
 
   void draw_toolbar(const Workbench& workbench, Commands& commands);
   void draw_picture(const Workbench& workbench);
-  void draw_hint(const Workbench& workbench) const;
   void draw_pixel_value(const Workbench& workbench) const;
   void use_mouse(const Workbench& workbench, Commands& commands);
   void start_drag(const Workbench& workbench);
@@ -39,9 +37,10 @@ private:
   void refresh_texture(const Workbench& workbench);
 
   Canvas canvas_;
+  ShownPicture shown_; ///< of the frame that is being drawn
   PictureTexture texture_;
-  std::shared_ptr<const job::Snapshot> in_texture_; ///< what the texture shows,
-  double stops_in_texture_ = 0;                     ///< and with which exposure
+  std::shared_ptr<const void> in_texture_; ///< what the texture shows,
+  double stops_in_texture_ = 0;            ///< and with which exposure
 
   Drag drag_ = Drag::none;
   Point drag_from_{0, 0};

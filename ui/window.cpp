@@ -9,6 +9,7 @@
 #include "ui/frame_clock.h"
 #include "ui/glfw_window.h"
 #include "ui/layout.h"
+#include "ui/pinned_runs.h"
 #include "ui/status_line.h"
 #include "ui/workbench.h"
 #include "ui/workspace.h"
@@ -39,11 +40,15 @@ bool is_over(job::State state)
   return state == job::State::finished || state == job::State::cancelled || state == job::State::failed || state == job::State::idle;
 }
 
-/// Opens the first file that can be opened; the others leave their messages.
+/// Pins the histories and opens the first preset that can be opened; the others leave their messages.
 void open_first(Workbench& workbench, const Options& options)
 {
+  bool opened = false;
   for (const std::string& file : options.files)
-    if (workbench.open(file, options.overrides)) return;
+    if (is_history(file))
+      workbench.apply({command::PinFile{file}});
+    else if (!opened)
+      opened = workbench.open(file, options.overrides);
   if (options.files.empty()) workbench.apply({command::Ask{Question::open}});
 }
 
@@ -144,7 +149,7 @@ std::unique_ptr<GlfwWindow> open_display(const Options& options)
   try {
     return std::make_unique<GlfwWindow>("Nephroid", options.size);
   } catch (const Error&) {
-    if (!options.files.empty()) {
+    if (!options.files.empty() && !is_history(options.files.front())) {
       refuse_other_kinds(options.files.front());
       preset::read_preset(options.files.front(), options.overrides);
     }

@@ -17,6 +17,15 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto note_lifetime = 6s; ///< notes go by themselves, errors stay until they are dismissed
 
+/// "Ball lens: distance of the camera": the preset and the newest edit.
+std::string name_of(const History& history)
+{
+  const preset::Preset& preset = history.current();
+  const std::string name = preset.name.empty() ? std::filesystem::path(preset.source).stem().string() : preset.name;
+  const std::string edit = history.undo_label();
+  return edit.empty() ? name : name + ": " + edit;
+}
+
 bool is_shipped(const std::filesystem::path& file)
 {
   std::error_code unknown;
@@ -30,10 +39,11 @@ bool is_shipped(const std::filesystem::path& file)
 
 } // namespace
 
-/// Filled on the worker's thread when a run's plan is made.
-struct Workbench::PlanNotes {
+/// Filled on the worker's thread when a run was made ready.
+struct Workbench::Arrival {
   std::mutex mutex;
-  std::optional<std::vector<std::string>> lines;
+  std::shared_ptr<const plan::Plan> plan; ///< null: not yet
+  std::shared_ptr<const measure::Reference> reference;
 };
 
 void Workbench::apply(const Commands& commands)
@@ -58,7 +68,9 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
     return false;
   }
   std::erase_if(messages_, [&](const Message& m) { return m.error && m.id <= last_before_commands_; });
-  plan_notes_.clear();
+  plan_.reset();
+  reference_.reset();
+  difference_.forget();
   look_ = Look{};
   snapshot_.reset(); // another preset's picture would be mistaken for this one's
   question_ = Question::none;
@@ -75,6 +87,10 @@ void Workbench::ask_first(Command command)
 
 void Workbench::carry_out(const command::Open& c)
 {
+  if (is_history(c.name)) {
+    carry_out(command::PinFile{c.name});
+    return;
+  }
   if (c.sure || !unsaved()) {
     open(c.name);
     return;
@@ -145,15 +161,15 @@ void Workbench::carry_out(const command::SavePicture& c)
   if (!snapshot_) return;
   question_ = Question::none;
   background_.push_back(std::async(std::launch::async, [file = c.file, snapshot = snapshot_, stops = look_.exposure_stops] {
-    Message message;
+    Finished done;
     try {
       save_picture(file, *snapshot->picture, stops);
-      message.error = false;
-      message.line = "saved " + file.string();
+      done.message.error = false;
+      done.message.line = "saved " + file.string();
     } catch (const std::exception& error) {
-      message.line = error.what();
+      done.message.line = error.what();
     }
-    return message;
+    return done;
   }));
 }
 
@@ -166,7 +182,7 @@ void Workbench::carry_out(const command::ShowHelp& c) { help_shown_ = c.on; }
 
 void Workbench::carry_out(const command::ResetLayout&) { layout_reset_ = true; }
 
-void Workbench::carry_out(const command::Report& c) { say(true, c.line); }
+void Workbench::carry_out(const command::Report& c) { say(c.error, c.line); }
 
 void Workbench::carry_out(const command::Quit& c)
 {
@@ -196,26 +212,30 @@ void Workbench::start()
   snapshot_is_current_ = shown_since_start_ = false;
   std::erase_if(messages_, [&](const Message& m) { return m.id == failure_message_; });
   before_start_ = worker_.snapshot();
-  coming_notes_ = std::make_shared<PlanNotes>();
-  worker_.start([&source = source_, preset = history_->current(), notes = coming_notes_] {
+  run_name_ = name_of(*history_);
+  arrival_ = std::make_shared<Arrival>();
+  worker_.start([&source = source_, preset = history_->current(), arrival = arrival_] {
     NewRun run = source.make(preset);
-    const std::lock_guard lock(notes->mutex);
-    notes->lines = std::move(run.plan.notes);
+    const std::lock_guard lock(arrival->mutex);
+    arrival->plan = std::make_shared<plan::Plan>(std::move(run.plan));
+    arrival->reference = std::move(run.reference);
     return std::move(run.job);
   });
 }
 
-void Workbench::take_plan_notes()
+void Workbench::take_arrival()
 {
-  if (!coming_notes_) return;
-  const std::lock_guard lock(coming_notes_->mutex);
-  if (coming_notes_->lines) plan_notes_ = *std::exchange(coming_notes_->lines, std::nullopt);
+  if (!arrival_) return;
+  const std::lock_guard lock(arrival_->mutex);
+  if (!arrival_->plan) return;
+  plan_ = std::exchange(arrival_->plan, nullptr);
+  reference_ = std::exchange(arrival_->reference, nullptr);
 }
 
 std::vector<std::string> Workbench::notes() const
 {
   std::vector<std::string> all = program_notes_;
-  all.insert(all.end(), plan_notes_.begin(), plan_notes_.end());
+  if (plan_) all.insert(all.end(), plan_->notes.begin(), plan_->notes.end());
   return all;
 }
 
@@ -224,6 +244,7 @@ void Workbench::take_snapshot()
   std::shared_ptr<const job::Snapshot> newest = worker_.snapshot();
   if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_) return;
   snapshot_ = std::move(newest);
+  snapshot_name_ = run_name_;
   shown_since_start_ = true;
   snapshot_is_current_ = !restart_wanted_;
 }
@@ -235,13 +256,18 @@ void Workbench::collect_messages(Clock::time_point now)
     say(true, status_.message, status_.error_kind);
     failure_message_ = last_message_;
   }
-  for (std::future<Message>& saved : background_)
-    if (saved.wait_for(0s) == std::future_status::ready) {
-      const Message message = saved.get();
-      say(message.error, message.line);
-    }
-  std::erase_if(background_, [](const std::future<Message>& f) { return !f.valid(); });
   std::erase_if(messages_, [&](const Message& m) { return !m.error && now - m.since > note_lifetime; });
+}
+
+void Workbench::collect_background()
+{
+  for (std::future<Finished>& future : background_)
+    if (future.wait_for(0s) == std::future_status::ready) {
+      Finished done = future.get();
+      if (!done.message.line.empty()) say(done.message.error, done.message.line);
+      if (done.pin) pinned_.add(std::move(*done.pin));
+    }
+  std::erase_if(background_, [](const std::future<Finished>& f) { return !f.valid(); });
 }
 
 void Workbench::update(Clock::time_point now)
@@ -249,8 +275,10 @@ void Workbench::update(Clock::time_point now)
   // In this order: the worker makes a run's last snapshot before it says that the run is over.
   status_ = worker_.status();
   take_snapshot();
-  take_plan_notes();
+  take_arrival();
+  collect_background();
   collect_messages(now);
+  make_difference(now);
   if (source_.take_changed() && history_) {
     restart_wanted_ = true;
     snapshot_is_current_ = false;

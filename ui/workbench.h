@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state behind the window: the preset with its history, the run it started, the newest snapshot, the messages. Knows nothing of
-// Dear ImGui. Panels read it; commands change it; update() runs once a frame and never waits for a device or a disk.
+// The state behind the window: the preset with its history, the run it started, the newest snapshot, the runs that were pinned, the
+// messages. Knows nothing of Dear ImGui. Panels read it; commands change it; update() runs once a frame and never waits for a device or a
+// disk.
 #pragma once
 #include "base/error.h"
 #include "job/worker.h"
 #include "preset/preset.h"
 #include "preset/read.h"
 #include "ui/commands.h"
+#include "ui/difference.h"
 #include "ui/history.h"
+#include "ui/pinned_runs.h"
 #include "ui/run_source.h"
 
 #include <chrono>
@@ -53,6 +56,20 @@ public:
   /// Whether snapshot() is of the preset as it is now.
   bool snapshot_is_current() const { return snapshot_is_current_; }
   const job::Status& status() const { return status_; }
+  /// What the run's error was so far, of snapshot(); null where nothing is measured.
+  std::shared_ptr<const job::History> error_history() const { return snapshot_ ? snapshot_->history : nullptr; }
+  /// Of the newest run that was made ready; null before the first of a preset. Another plan is another object.
+  const std::shared_ptr<const plan::Plan>& plan() const { return plan_; }
+  /// What was chosen to be plotted; empty: the run's own. Not every run has it.
+  const std::string& error_metric() const { return error_metric_; }
+  const PinnedRuns& pinned() const { return pinned_; }
+  const Comparison& comparison() const { return comparison_; }
+  /// The reference, or the pinned run that comparison() names; its owner is null where why_not_comparable() is not empty.
+  HeldPicture other_picture() const;
+  /// Why the run's picture and the other one cannot be held against each other: a sentence without a full stop; else empty.
+  std::string why_not_comparable() const;
+  /// The newest map of differences that comparison() asked for; may be of an earlier snapshot. Null before the first.
+  const std::shared_ptr<const ShownDifference>& difference() const { return difference_.newest(); }
   const std::vector<Message>& messages() const { return messages_; }
   const Look& look() const { return look_; }
   /// What is worth knowing and needs no answer: the program's notes, then those of the newest plan.
@@ -79,6 +96,12 @@ private:
   void carry_out(const command::Cancel&);
   void carry_out(const command::Pause& c);
   void carry_out(const command::SetLook& c);
+  void carry_out(const command::SetComparison& c);
+  void carry_out(const command::PinRun&);
+  void carry_out(const command::PinFile& c);
+  void carry_out(const command::ChangePin& c);
+  void carry_out(const command::Unpin& c);
+  void carry_out(const command::ChooseMetric& c);
   void carry_out(const command::Ask& c);
   void carry_out(const command::SavePreset& c);
   void carry_out(const command::SavePicture& c);
@@ -94,10 +117,17 @@ private:
   void say(const std::exception& error);
   void start();
   void take_snapshot();
-  void take_plan_notes();
+  void take_arrival();
+  void make_difference(Clock::time_point now);
   void collect_messages(Clock::time_point now);
+  void collect_background();
 
-  struct PlanNotes;
+  /// What comes back from a thread that reads or writes files.
+  struct Finished {
+    Message message; ///< none where its line is empty
+    std::optional<PinnedRun> pin;
+  };
+  struct Arrival;
 
   RunSource& source_;
   std::optional<History> history_;
@@ -115,14 +145,21 @@ private:
   job::Status status_;
   std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
 
-  std::vector<std::string> program_notes_, plan_notes_;
-  std::shared_ptr<PlanNotes> coming_notes_; ///< where the run in hand leaves its plan's notes
+  std::vector<std::string> program_notes_;
+  std::shared_ptr<Arrival> arrival_; ///< where the run in hand leaves its plan and its reference
+  std::shared_ptr<const plan::Plan> plan_;
+  std::shared_ptr<const measure::Reference> reference_;
+  std::string run_name_, snapshot_name_; ///< of the run in hand, and of the one that snapshot_ is of
+  std::string error_metric_;
+  PinnedRuns pinned_;
+  Comparison comparison_;
+  DifferenceMaker difference_;
 
   std::uint64_t last_message_ = 0;
   std::uint64_t last_before_commands_ = 0; ///< newer messages are about the commands that are being carried out
   std::vector<Message> messages_;
-  std::vector<std::future<Message>> background_; ///< files being written
-  job::Worker worker_;                           ///< last: its thread uses the source
+  std::vector<std::future<Finished>> background_; ///< files being read and written
+  job::Worker worker_;                            ///< last: its thread uses the source
 };
 
 } // namespace nephroid::ui

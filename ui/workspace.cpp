@@ -48,17 +48,27 @@ void strip(const char* name, float height, Draw draw)
 
 } // namespace
 
+template <class P>
+P* Workspace::add_own()
+{
+  auto panel = std::make_unique<P>();
+  P* added = panel.get();
+  add(std::move(panel));
+  return added;
+}
+
 Workspace::Workspace(std::string layout) : layout_(std::move(layout))
 {
   check_layout(layout_);
-  auto view = std::make_unique<ViewPanel>();
-  view_ = view.get();
-  add(std::move(view));
+  view_ = add_own<ViewPanel>();
+  error_ = add_own<ErrorPanel>();
+  plan_ = add_own<PlanPanel>();
 }
 
 Commands Workspace::draw(Workbench& workbench)
 {
   Commands commands;
+  plots_.follow_scale();
   guarded("menu", commands, [&] {
     if (ImGui::BeginMainMenuBar()) {
       draw_menus(workbench, commands);

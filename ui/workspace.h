@@ -2,7 +2,10 @@
 // One frame of the whole window, from menu bar to status line, without a back end: the window and the tests draw the same thing.
 #pragma once
 #include "ui/dialogs.h"
+#include "ui/error_panel.h"
 #include "ui/panel.h"
+#include "ui/plan_panel.h"
+#include "ui/plots.h"
 #include "ui/view_panel.h"
 
 #include <memory>
@@ -21,15 +24,22 @@ public:
   /// One more panel; the program's own are there from the start.
   void add(std::unique_ptr<Panel> panel) { panels_.push_back(std::move(panel)); }
   const ViewPanel& view() const { return *view_; }
+  const ErrorPanel& error() const { return *error_; }
+  const PlanPanel& plan() const { return *plan_; }
 
 private:
+  template <class P>
+  P* add_own();
   void draw_dock_space(Workbench& workbench);
   void draw_panel(Panel& panel, const Workbench& workbench, Commands& commands) const;
 
   std::string layout_;
   bool laid_out_ = false;
+  PlotContext plots_; ///< before the panels, which plot with it
   std::vector<std::unique_ptr<Panel>> panels_;
   ViewPanel* view_ = nullptr;
+  ErrorPanel* error_ = nullptr;
+  PlanPanel* plan_ = nullptr;
   Dialogs dialogs_;
 };
 

@@ -5,13 +5,17 @@
 #include "base/files.h"
 #include "job/job.h"
 #include "preset/preset.h"
+#include "measure/reference.h"
+#include "plan/plan.h"
 #include "ui/workbench.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -29,12 +33,26 @@ inline constexpr const char* preset_text = R"({
   "stop": {"passes": 20}
 })";
 
-/// How the fake jobs shall go.
+/// How the fake jobs shall go. What is not atomic is set before a run starts.
 struct FakeSettings {
   std::atomic<int> steps{20};
   std::atomic<int> step_ms{2}, make_ms{0};
   std::atomic<bool> fails{false};
+  std::function<std::shared_ptr<const job::History>(int step)> history; ///< after so many steps; empty: nothing is measured
 };
+
+/// lab_mean = level / sqrt(t) against a reference and the run's own estimate, a tenth above it; a row a step of 10 ms.
+inline std::shared_ptr<job::History> falling_history(int rows, double level = 0.01)
+{
+  auto history = std::make_shared<job::History>();
+  history->columns = {"lab_mean", "rel_mse", "estimated_lab_mean"};
+  history->error_column = "lab_mean";
+  for (int row = 1; row <= rows; ++row) {
+    const double seconds = 0.01 * row, error = level / std::sqrt(seconds);
+    history->rows.push_back({seconds, seconds + 0.5, row, 1000u * static_cast<unsigned>(row), {error, error * error, 1.1 * error}});
+  }
+  return history;
+}
 
 class FakeJob : public job::Job {
 public:
@@ -68,6 +86,8 @@ public:
     job::Snapshot made;
     made.picture = picture;
     made.progress = progress();
+    made.phases = {{"photons", 0.002 * done_}};
+    if (runs_.history) made.history = runs_.history(done_);
     return made;
   }
   std::vector<std::byte> save() override { return {}; }
@@ -87,12 +107,14 @@ public:
     std::this_thread::sleep_for(std::chrono::milliseconds(make_ms));
     ++made;
     if (broken) throw failed("photons.cl:12", "expected ';' after expression");
-    plan::Plan plan;
-    plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
-    return {std::make_unique<FakeJob>(preset, *this), std::move(plan), nullptr};
+    plan::Plan made_plan = plan;
+    made_plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
+    return {std::make_unique<FakeJob>(preset, *this), std::move(made_plan), reference};
   }
   bool take_changed() override { return changed.exchange(false); }
 
+  plan::Plan plan;                                     ///< but for its notes; set before a run starts, as is
+  std::shared_ptr<const measure::Reference> reference; ///< this
   std::atomic<int> made{0};
   std::atomic<bool> changed{false}, broken{false}; ///< the kernels
 };

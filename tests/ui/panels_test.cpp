@@ -92,8 +92,8 @@ TEST_F(PanelsTest, ShowsTheJobsPicture)
 TEST_F(PanelsTest, LeftDragOrbitsAsOneEntry)
 {
   open();
-  const double height = workspace.view().canvas().size[1];
-  drag(0, height / 2, 0); // half the height: a quarter round; the scene goes right, the camera left
+  const double height = 48 * place(workbench.look(), workspace.view().canvas(), {64, 48}).scale;
+  drag(0, height / 2, 0); // half the picture's height: a quarter round; the scene goes right, the camera left
   EXPECT_NEAR(camera().position[0], -4, 0.1);
   EXPECT_NEAR(camera().position[2], 0, 0.1);
   EXPECT_NEAR(distance(), 4, 1e-9);

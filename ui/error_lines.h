@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the panel "Error against time" draws of a history: curves of one metric with their slopes. No Dear ImGui.
+#pragma once
+#include "job/history.h"
+#include "measure/report_analysis.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+struct ErrorLine {
+  measure::Curve curve;                 ///< every row that has a logarithm; empty where the history has no such column
+  measure::Curve drawn;                 ///< a few points a pixel of it
+  std::optional<measure::PowerLaw> fit; ///< over the rows above the noise floor
+};
+
+/// One run's lines of one metric.
+struct RunLines {
+  ErrorLine error;    ///< against the reference
+  ErrorLine estimate; ///< the run's own, which needs no reference
+  std::optional<double> noise_floor;
+
+  bool empty() const { return error.curve.seconds.empty() && estimate.curve.seconds.empty(); }
+  /// The line that the run is judged by: the error, without a reference the estimate.
+  const ErrorLine& judged() const { return error.curve.seconds.empty() ? estimate : error; }
+};
+
+/// "lab_mean" of "estimated_lab_mean": the metric that a column is about.
+std::string metric_of(const std::string& column);
+/// Every metric that a history has a column of, in their order, each once.
+std::vector<std::string> metrics_of(const job::History& history);
+RunLines lines_of(const job::History& history, const std::string& metric);
+
+/// How much faster `run` came to the lowest error that both came to, well above the noise floor; nothing where there is none. Estimates are
+/// held against estimates, errors against errors.
+std::optional<measure::EqualError> speed_up(const RunLines& pinned, const RunLines& run);
+
+/// The point nearest in log time; nothing of an empty curve.
+struct CurvePoint {
+  double seconds = 0, error = 0;
+};
+std::optional<CurvePoint> nearest_point(const measure::Curve& curve, double seconds);
+
+/// Ends of the axes: all points of all curves and the extra errors (a floor, a target) with some room, in steps of an eighth of a
+/// decade, so that the axes of a growing curve rest most of the time. One decade each where there is nothing.
+struct PlotRange {
+  std::array<double, 2> seconds{0.1, 1}, errors{0.1, 1};
+};
+PlotRange plot_range(std::span<const RunLines* const> runs, std::span<const double> extra_errors);
+
+/// "run,line,seconds,error" of what the plot shows, every row.
+struct NamedLines {
+  std::string name;
+  const RunLines* lines = nullptr;
+};
+std::string plot_csv(std::span<const NamedLines> runs, std::optional<double> target);
+
+} // namespace nephroid::ui

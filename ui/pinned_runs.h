@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs that were kept to hold others against: their history and, where there is one, their picture. They stay while the window is
+// open, whatever becomes of the run in hand.
+#pragma once
+#include "job/job.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+struct PinnedRun {
+  std::uint64_t id = 0; ///< from 1
+  std::string name;
+  std::uint32_t colour = 0;                    ///< IM_COL32
+  bool shown = true;                           ///< in the plot
+  std::shared_ptr<const job::History> history; ///< never null
+  std::shared_ptr<const job::Picture> picture; ///< null where only a table was read
+};
+
+class PinnedRuns {
+public:
+  const std::vector<PinnedRun>& all() const { return runs_; }
+  /// Null where there is none of this id.
+  const PinnedRun* find(std::uint64_t id) const;
+  /// Gives it an id, a colour that no other has while there are such, and a name of its own ("glass", "glass (2)").
+  const PinnedRun& add(PinnedRun run);
+  /// An empty name leaves the name. Nothing where there is no such run, here and below.
+  void change(std::uint64_t id, std::string name, std::uint32_t colour, bool shown);
+  void remove(std::uint64_t id);
+
+private:
+  PinnedRun* find(std::uint64_t id);
+  std::string own_name(const std::string& wanted) const;
+  std::uint32_t free_colour() const;
+
+  std::vector<PinnedRun> runs_;
+  std::uint64_t last_id_ = 0;
+};
+
+/// Whether this names something that read_pin reads: a table (.csv), or a folder with a history.csv in it.
+bool is_history(const std::filesystem::path& path);
+/// An earlier run by its history.csv or its folder; named after the folder. Its image.exr is read where it lies beside. Throws
+/// bad_input as measure::read_history and measure::read_linear_rgb do, and for a folder without history.csv.
+PinnedRun read_pin(const std::filesystem::path& path);
+
+} // namespace nephroid::ui

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/plots.h"
+
+#include "ui/theme.h"
+
+#include <imgui.h>
+#include <implot.h>
+
+#include <utility>
+
+namespace nephroid::ui {
+
+PlotContext::PlotContext() : context_(ImPlot::CreateContext()) { ImPlot::SetCurrentContext(context_); }
+
+PlotContext::~PlotContext() { ImPlot::DestroyContext(context_); }
+
+void PlotContext::follow_scale()
+{
+  const float scale = ImGui::GetStyle().FontScaleDpi;
+  if (scale == std::exchange(scale_, scale)) return;
+  const auto scaled = [&](ImVec2& size) { size = {size.x * scale, size.y * scale}; };
+  ImPlotStyle style;
+  style.PlotPadding = {4, 6};
+  style.LegendPadding = {8, 8};
+  style.MajorTickLen = {6, 6};
+  style.MinorTickLen = {3, 3};
+  for (ImVec2* size : {&style.PlotPadding, &style.LabelPadding, &style.LegendPadding, &style.LegendInnerPadding, &style.LegendSpacing,
+                       &style.MajorTickLen, &style.MinorTickLen, &style.MousePosPadding, &style.PlotMinSize})
+    scaled(*size);
+  style.Colors[ImPlotCol_FrameBg] = {0, 0, 0, 0};
+  style.Colors[ImPlotCol_PlotBg] = ImGui::ColorConvertU32ToFloat4(colour::surround);
+  style.Colors[ImPlotCol_LegendBg] = ImGui::ColorConvertU32ToFloat4(colour::overlay);
+  style.Colors[ImPlotCol_LegendBorder] = {0, 0, 0, 0};
+  ImPlot::GetStyle() = style;
+}
+
+} // namespace nephroid::ui
