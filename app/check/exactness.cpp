@@ -108,7 +108,8 @@ Result film_limit(const compute::Context& context, std::uint64_t)
                         {{0, 0, limit * 1.0001f, 1}, 0, {}},
                         {{nan, 0, 0, 1}, 0, {}},
                         {{0, infinity, 0, 1}, 0, {}},
-                        {{-0.4f, 0.5f, 1.5f, 1}, 1, {0, 0, 2}}};
+                        {{-0.6f, 1.5f, 3.5f, 1}, 1, {-1, 2, 4}},
+                        {{-0.4f, 0.5f, 2.5f, 1}, 1, {0, 0, 2}}};
   std::vector<float4> in;
   for (const Case& c : cases) in.push_back(c.xyz_scale);
   const compute::Buffer<std::int64_t> film = zeros<std::int64_t>(context, "film", 3 * in.size());

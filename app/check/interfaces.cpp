@@ -16,8 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The specification lets a division be off by 2.5 units in the last place and a square root by 3, so that sin_t = n_i / n_t sin_i may be off
-// by about 6 of 2^-24, or 4e-7, and its square and 1 - sin_t^2 by twice that; tolerances below are about twice what follows.
+// The specification lets a division be off by 2.5 units in the last place and a square root by 3, so that sin_t = n_i / n_t sin_i may be
+// off by about 6 of 2^-24, or 4e-7, and its square and 1 - sin_t^2 by twice that; tolerances below are about twice what follows.
 constexpr float indices[] = {1, 1.0001f, 1.33f, 1.5f, 1.9f, 2.42f, 4};
 
 std::vector<float4> through(const compute::Context& context, const char* kernel, const std::vector<float4>& in, std::size_t outputs_each)

@@ -2,9 +2,9 @@
 // kernels/bvh.h against Embree on real meshes at several scales and places; every ray on which they differ is judged by a test of all
 // triangles in double precision. NEPHROID_TRACE_RAYS sets the number of rays a case (default 20000; a million for the table).
 #include "base/error.h"
+#include "check/exact_hits.h"
 #include "compute/compute.h"
 #include "scene/bvh.h"
-#include "tests/support/exact_hits.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test_kernels.h"
 #include "tests/support/tracer.h"
@@ -18,10 +18,10 @@
 namespace {
 
 using namespace nephroid;
+using check::Verdict;
 using test::Hit;
 using test::no_primitive;
 using test::Ray;
-using test::Verdict;
 
 std::size_t ray_count()
 {
@@ -76,7 +76,7 @@ protected:
     const std::vector<std::uint32_t> any = kernel.any(rays);
     // 8 roundings of the longest distance that the arithmetic meets, also far from the origin: it begins with the difference
     // of vertex and ray origin, which is exact there.
-    const test::Judge judge(mesh, 8 * 0x1p-24 * 5 * place.scale);
+    const check::Judge judge(mesh, 8 * 0x1p-24 * 5 * place.scale);
     std::array<std::size_t, 5> verdicts{};
     std::size_t hits = 0, differ = 0, any_differs = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -1,83 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Presets and their parts, built in tests without files.
 #pragma once
-#include "preset/preset.h"
-
-#include <string>
+#include "check/scene_parts.h"
 
 namespace nephroid::test {
 
-/// A preset in metres with nothing in it but a camera.
-inline preset::Preset empty_preset(int resolution = 64)
-{
-  preset::Preset p;
-  p.name = "test";
-  p.unit = preset::Preset::Unit::m;
-  p.scene.camera.resolution = {resolution, resolution};
-  p.spectral.direct = false;
-  p.spectral.photons_per_pass = 1 << 16;
-  p.stop.passes = 1;
-  return p;
-}
-
-inline preset::Material glass(double n)
-{
-  preset::Material m;
-  m.type = preset::Material::Type::dielectric;
-  m.dispersion.type = preset::Dispersion::Type::constant;
-  m.dispersion.n = n;
-  return m;
-}
-
-inline preset::Material white(double reflectance = 1)
-{
-  preset::Material m;
-  m.reflectance.value = reflectance;
-  return m;
-}
-
-inline preset::Object object(const std::string& name, const preset::Shape& shape, const std::string& material,
-                             const preset::Transform& transform = {})
-{
-  preset::Object o;
-  o.name = name;
-  o.shape = shape;
-  o.material = material;
-  o.transform = transform;
-  return o;
-}
-
-inline preset::Shape quad(double x, double z)
-{
-  preset::Shape s;
-  s.type = preset::Shape::Type::quad;
-  s.size = {x, 1, z};
-  return s;
-}
-
-inline preset::Shape box(double x, double y, double z)
-{
-  preset::Shape s;
-  s.type = preset::Shape::Type::box;
-  s.size = {x, y, z};
-  return s;
-}
-
-inline preset::Transform at(preset::Vec3 translate, preset::Vec3 rotate_deg = {0, 0, 0})
-{
-  preset::Transform t;
-  t.translate = translate;
-  t.rotate_deg = rotate_deg;
-  return t;
-}
-
-/// A single wavelength.
-inline preset::LightSpectrum line(double nm)
-{
-  preset::LightSpectrum s;
-  s.type = preset::LightSpectrum::Type::lines;
-  s.table = {{nm, 1}};
-  return s;
-}
+using check::at;
+using check::box;
+using check::empty_preset;
+using check::glass;
+using check::line;
+using check::object;
+using check::quad;
+using check::white;
 
 } // namespace nephroid::test
