@@ -76,6 +76,18 @@ static inline void lose_in_medium(const World* world, Path* path, float distance
 #endif
 }
 
+// Of a material that bends a path. Where the scene has mirrors or glass only, nothing is asked and the code of the other compiles to nothing.
+static inline bool is_mirror(const DeviceMaterial* material)
+{
+#if !NEPHROID_DIELECTRICS
+  return true;
+#elif !NEPHROID_MIRRORS
+  return false;
+#else
+  return material->type == MATERIAL_MIRROR;
+#endif
+}
+
 // Takes the path on from a mirror or dielectric that it hit. choice: uniform in [0, 1).
 // *n_ratio: n before over n after. False where the path is inside too many media.
 static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface, const DeviceMaterial* material,
@@ -84,14 +96,13 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   Bend bend;
   *n_ratio = 1.0f;
-  if (NEPHROID_MIRRORS && (!NEPHROID_DIELECTRICS || material->type == MATERIAL_MIRROR)) {
+  if (is_mirror(material)) {
     bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, -1.0f);
     lose(&path->losses, material->attenuator, 1.0f);
-  } else if (NEPHROID_DIELECTRICS) {
+  } else {
     __global const float* n_of = world->index_of_refraction + cluster * world->scene.material_count;
     if (!cross_interface(&path->media, surface, world->objects, n_of, path->direction, choice, &bend, n_ratio)) return false;
-  } else
-    return false; // no path comes here: nothing in the scene bends it
+  }
   path->direction = bend.direction;
   path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
   path->skip = triangle;

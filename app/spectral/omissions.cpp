@@ -52,10 +52,15 @@ std::string light_types_reason(unsigned bits)
   std::vector<std::string_view> names;
   for (const auto& choice : preset::Choices<preset::Light::Type>::all)
     if (bits >> device_light_type(choice.value) & 1) names.push_back(choice.name);
-  return names.empty() ? "there is no light" : fmt::format("{} only", fmt::join(names, ", "));
+  return names.empty() ? "there is no light" : fmt::format("every light is of type {}", fmt::join(names, " or "));
 }
 
 } // namespace
+
+std::string counted(std::int64_t count, const std::string& one, const std::string& many)
+{
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
 
 bool has_power(const scene::Light& light) { return light.power_w + light.irradiance_w_m2 > 0; }
 
@@ -152,18 +157,18 @@ std::vector<plan::Pass> code_omissions(const preset::LeaveOut& leave_out, const 
   return {
       omission("light_types", leave_out.light_types, types == all_light_types, light_types_reason(types)),
       omission("mirrors", leave_out.mirrors, counts.mirrors > 0,
-               either(counts.mirrors > 0, fmt::format("{} mirror objects", counts.mirrors), "no object is a mirror")),
+               either(counts.mirrors > 0, counted(counts.mirrors, "mirror object", "mirror objects"), "no object is a mirror")),
       omission("dielectrics", leave_out.dielectrics, counts.dielectrics > 0,
-               either(counts.dielectrics > 0, fmt::format("{} objects of glass", counts.dielectrics), "no object is of glass")),
+               either(counts.dielectrics > 0, counted(counts.dielectrics, "object of glass", "objects of glass"), "no object is of glass")),
       omission("bending", leave_out.bending, bends,
                either(bends, "glass has another n than its surroundings", "no glass has another n than 1")),
       omission("nested_media", leave_out.nested_media, nests,
                either(nests, "objects of glass may overlap, or are open", "no two objects of glass can enclose one point")),
       omission("attenuation", leave_out.attenuation, attenuators > 0,
-               either(attenuators > 0, fmt::format("{} materials take light away by wavelength", attenuators),
+               either(attenuators > 0, counted(attenuators, "material takes", "materials take") + " light away by wavelength",
                       "no glass absorbs and no mirror is coloured")),
       omission("smooth_normals", leave_out.smooth_normals, counts.smooth > 0,
-               either(counts.smooth > 0, fmt::format("{} smooth objects", counts.smooth), "every object is faceted")),
+               either(counts.smooth > 0, counted(counts.smooth, "smooth object", "smooth objects"), "every object is faceted")),
   };
 }
 

@@ -7,14 +7,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace nephroid::spectral {
 namespace {
-
-std::string counted(std::size_t count, const std::string& one, const std::string& many)
-{
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
 
 /// A layer that the preset does not ask for.
 plan::Pass not_asked_for(const std::string& name, const std::string& field)
@@ -33,11 +29,9 @@ plan::Pass direct_pass(const preset::Spectral& settings, const scene::Scene& sce
   if (!settings.direct) return not_asked_for("direct", "direct");
   const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(scene);
   if (!none.empty()) return omission("direct", settings.leave_out.direct, false, none);
-  const auto diffuse = static_cast<std::size_t>(objects.diffuse);
   return omission("direct", settings.leave_out.direct, true,
-                  fmt::format("{} lit by {}, {} a pixel", counted(diffuse, "diffuse object", "diffuse objects"),
-                              counted(scene.lights.size(), "light", "lights"),
-                              counted(static_cast<std::size_t>(settings.pixel_samples), "sample", "samples")));
+                  fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object", "diffuse objects"),
+                              counted(std::ssize(scene.lights), "light", "lights"), counted(settings.pixel_samples, "sample", "samples")));
 }
 
 plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects, const DeviceTables& tables)
@@ -52,14 +46,14 @@ plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& sce
   if (tables.emitters.empty()) return {"photons", false, "no light shines on glass or a mirror", "", false};
   return omission("photons", settings.leave_out.photons, true,
                   fmt::format("{} photons a pass in {}", tables.photons_per_pass,
-                              counted(tables.wavelengths.clusters.size(), "wavelength cluster", "wavelength clusters")));
+                              counted(std::ssize(tables.wavelengths.clusters), "wavelength cluster", "wavelength clusters")));
 }
 
 plan::Pass stray_photons_pass(const preset::LeaveOut& leave_out, const DeviceTables& tables)
 {
   return omission("stray_photons", leave_out.stray_photons, false,
                   leave_out.stray_photons ? fmt::format("photons start towards {} about glass and mirrors only",
-                                                        counted(tables.spheres.size(), "sphere", "spheres"))
+                                                        counted(std::ssize(tables.spheres), "sphere", "spheres"))
                                           : "photons need not start where there is no glass and no mirror");
 }
 

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+// Leaving out what a scene does not need changes no picture: each omission against the same run with it turned back on; and it is not
+// made in scenes that come close to not needing it.
+#include "base/files.h"
+#include "compute/compute.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "spectral/targets.h"
+#include "tests/support/leaving_out_scenes.h"
+#include "tests/support/passes.h"
+#include "tests/support/render.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+plan::Plan plan_of(const preset::Preset& p)
+{
+  const scene::Scene scene = scene::load_scene(p);
+  return spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
+}
+
+plan::Pass pass_of(const preset::Preset& p, std::string name)
+{
+  std::replace(name.begin(), name.end(), '_', ' ');
+  for (const plan::Pass& pass : plan_of(p).passes)
+    if (pass.name == name) return pass;
+  return {"", false, "no pass " + name, "", false};
+}
+
+preset::Preset with(preset::Preset p, bool preset::LeaveOut::*field, bool value)
+{
+  p.spectral.leave_out.*field = value;
+  return p;
+}
+
+/// Everything that there is code or a table for, other than where photons start.
+preset::Preset with_everything(preset::Preset p)
+{
+  for (const Omission& o : omissions())
+    if (o.same_bits) p.spectral.leave_out.*o.field = false;
+  return p;
+}
+
+/// Luminance of the layer "caustic" in 4 x 4 blocks of pixels, and the power that came down.
+std::vector<double> caustic_blocks(const job::Snapshot& snapshot)
+{
+  const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
+  const int size = snapshot.picture->width, block = size / 4;
+  std::vector<double> figures(17);
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column)
+      figures[static_cast<std::size_t>(4 * (row / block) + column / block)] += rgb[3 * static_cast<std::size_t>(row * size + column) + 1];
+  figures[16] = snapshot.energy.deposited_w;
+  return figures;
+}
+
+class LeavingOut : public testing::TestWithParam<Omission> {};
+
+TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn)
+{
+  const Omission& o = GetParam();
+  const plan::Pass out = pass_of(o.scene, o.key), in = pass_of(with(o.scene, o.field, false), o.key);
+  EXPECT_FALSE(out.runs);
+  EXPECT_GT(out.reason.size(), 10u) << out.reason;
+  EXPECT_EQ(out.field, "/spectral/leave_out/" + o.key);
+  EXPECT_FALSE(out.run_value);
+  EXPECT_TRUE(in.runs) << in.reason;
+  EXPECT_THAT(in.reason, testing::HasSubstr("but spectral.leave_out." + o.key + " is false"));
+}
+
+// Where the same photons fly, the sums are the same bits. Where others do, both pictures have the same expectation: the chance that two
+// such pictures differ as much in the worst of 17 figures, Sidak-corrected, is below 1e-9 in a false alarm.
+TEST_P(LeavingOut, ThePictureIsTheSame)
+{
+  const Omission& o = GetParam();
+  const preset::Preset back = with(o.scene, o.field, false);
+  if (o.same_bits) {
+    const job::Snapshot out = render(o.scene), in = render(back);
+    EXPECT_EQ(out.picture->rgb, in.picture->rgb);
+    EXPECT_EQ(out.energy.deposited_w, in.energy.deposited_w);
+    return;
+  }
+  preset::Preset other_seed = back;
+  other_seed.seed = 1000;
+  const std::vector<Estimate> out = render_passes(o.scene, caustic_blocks), in = render_passes(other_seed, caustic_blocks);
+  double smallest = 1, out_variance = 0, in_variance = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Estimate difference{out[i].mean - in[i].mean, out[i].variance + in[i].variance, std::min(out[i].degrees, in[i].degrees)};
+    if (difference.variance > 0) smallest = std::min(smallest, p_value(difference, 0));
+    if (i < 16) out_variance += out[i].variance, in_variance += in[i].variance;
+  }
+  EXPECT_GT(out[16].mean, 50 * out[16].error()); // enough photons to tell
+  EXPECT_GT(sidak(smallest, 17), false_alarm);
+  // What another way of sending photons is for.
+  EXPECT_LT(out_variance, in_variance);
+  RecordProperty("variance_ratio", std::to_string(in_variance / out_variance));
+}
+
+INSTANTIATE_TEST_SUITE_P(Omissions, LeavingOut, testing::ValuesIn(omissions()),
+                         [](const testing::TestParamInfo<Omission>& parameter) { return parameter.param.key; });
+
+/// Scenes that only just need a thing: the plan may not leave it out.
+TEST(NotLeftOut, WhereTheSceneNeedsIt)
+{
+  preset::Preset p = ball_scene();
+  p.scene.objects[0].normals = preset::Object::Normals::smooth;
+  EXPECT_TRUE(pass_of(p, "smooth_normals").runs);
+  EXPECT_TRUE(pass_of(p, "dielectrics").runs && pass_of(p, "bending").runs && pass_of(p, "photons").runs && pass_of(p, "direct").runs);
+  EXPECT_TRUE(pass_of(line_light_scene(), "mirrors").runs);
+  EXPECT_TRUE(pass_of(line_light_scene(), "attenuation").runs);
+
+  p = ball_scene(); // n = 1 but near one end of the spectrum
+  p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::table;
+  p.scene.materials["glass"].dispersion.table = {{380, 1.001}, {381, 1}, {780, 1}};
+  EXPECT_TRUE(pass_of(p, "bending").runs);
+
+  p = ball_scene();
+  p.scene.materials["glass"] = glass(1.5);
+  p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::file;
+  p.scene.materials["glass"].dispersion.file = "N-SF66"; // absorbs
+  EXPECT_TRUE(pass_of(p, "attenuation").runs);
+  p.scene.materials["glass"].absorption = false;
+  EXPECT_FALSE(pass_of(p, "attenuation").runs);
+
+  p = ball_scene();
+  using Type = preset::Light::Type;
+  for (const Type type : {Type::spot, Type::directional, Type::area}) {
+    EXPECT_FALSE(pass_of(p, "light_types").runs);
+    p.scene.lights.push_back(p.scene.lights[0]);
+    p.scene.lights.back().type = type;
+  }
+  EXPECT_TRUE(pass_of(p, "light_types").runs);
+}
+
+/// Two lights have the wavelengths of both.
+TEST(NotLeftOut, WavelengthsOfAnyLight)
+{
+  preset::Preset p = line_light_scene();
+  p.scene.lights.push_back(p.scene.lights[0]);
+  p.scene.lights[1].spectrum = line(500);
+  EXPECT_THAT(pass_of(p, "unlit_wavelengths").reason, testing::HasSubstr("397 of the 401"));
+  p.scene.lights[1].power_w = 0;
+  EXPECT_THAT(pass_of(p, "unlit_wavelengths").reason, testing::HasSubstr("398 of the 401"));
+  EXPECT_THAT(pass_of(p, "dark_lights").reason, testing::HasSubstr("1 of 2 lights"));
+  p.scene.lights[0].power_w = 0; // nothing to see, nothing to send
+  EXPECT_FALSE(pass_of(p, "photons").runs);
+  EXPECT_FALSE(pass_of(p, "direct").runs);
+  EXPECT_EQ(render(p).picture->rgb, std::vector<float>(3 * 24 * 24, 0.0f));
+}
+
+/// A second ball at x along the x axis.
+preset::Preset two_balls(double x)
+{
+  preset::Preset p = ball_scene();
+  p.scene.objects.push_back(p.scene.objects[0]);
+  p.scene.objects.back().name = "second";
+  p.scene.objects.back().transform.translate[0] = x;
+  return p;
+}
+
+TEST(NotLeftOut, MediaThatMayEncloseOnePoint)
+{
+  EXPECT_TRUE(pass_of(two_balls(0.9), "nested_media").runs);
+  EXPECT_FALSE(pass_of(two_balls(1.1), "nested_media").runs);
+  preset::Preset open = two_balls(1.1); // a path may leave by the hole and enter the other
+  open.scene.objects[2].shape->type = preset::Shape::Type::quad;
+  EXPECT_TRUE(pass_of(open, "nested_media").runs);
+  preset::Preset inside = two_balls(0);
+  inside.scene.objects[2].transform.scale = {0.5, 0.5, 0.5};
+  EXPECT_TRUE(pass_of(inside, "nested_media").runs);
+}
+
+// What the simpler bookkeeping of media has to get right by itself, against the full one and all other code: eyes and lights in glass,
+// glass without an inside, shells of one mesh that overlap.
+TEST(OneMedium, IsEnoughForAnEyeAndALightInGlass)
+{
+  preset::Preset p = two_balls(1.1);
+  p.scene.camera.position = {0, 1.1, 0.3};
+  p.scene.camera.target = {0.5, 0, -0.3};
+  p.scene.lights[0].position = {1.2, 1.2, 0};
+  ASSERT_FALSE(pass_of(p, "nested_media").runs);
+  EXPECT_EQ(render(p).picture->rgb, render(with_everything(p)).picture->rgb);
+}
+
+TEST(OneMedium, IsEnoughForOneOpenObjectAndForShellsOfOneMesh)
+{
+  preset::Preset open = ball_scene();
+  open.scene.objects[0].shape = quad(1, 1);
+  ASSERT_FALSE(pass_of(open, "nested_media").runs);
+  EXPECT_EQ(render(open).picture->rgb, render(with_everything(open)).picture->rgb);
+
+  // Two boxes of one mesh, the second half inside the first: entered twice, left twice.
+  const TemporaryFolder folder;
+  std::string obj;
+  for (const double shift : {0.0, 0.5})
+    for (int corner = 0; corner < 8; ++corner)
+      obj += "v " + std::to_string((corner & 1) + shift) + " " + std::to_string((corner >> 1 & 1) + 0.3 * shift) + " " +
+             std::to_string((corner >> 2) + 0.2 * shift) + "\n";
+  for (const int first : {1, 9})
+    for (const auto& [a, b, c, d] : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4}, std::array{2, 6, 7, 3},
+                                     std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}})
+      obj += "f " + std::to_string(first + a) + " " + std::to_string(first + b) + " " + std::to_string(first + c) + " " +
+             std::to_string(first + d) + "\n";
+  write_file_whole(folder.path() / "shells.obj", obj);
+  preset::Preset shells = ball_scene();
+  shells.scene.objects[0].shape.reset();
+  shells.scene.objects[0].mesh = (folder.path() / "shells.obj").string();
+  shells.scene.objects[0].transform = at({-0.7, 0.5, -0.5});
+  ASSERT_FALSE(pass_of(shells, "nested_media").runs);
+  EXPECT_EQ(render(shells).picture->rgb, render(with_everything(shells)).picture->rgb);
+}
+
+// From (0, 3, 0) the ball "beside" of radius 0.9 at (3, 1, 0) is seen from 56.31 degrees off the axis to its tangent at
+// 56.31 - asin(0.9 / sqrt(13)) = 41.86 degrees.
+TEST(NotLeftOut, WhatASpotsConeGrazes)
+{
+  EXPECT_EQ(pass_of(spot_scene(41.5), "unreached_targets").runs, false);
+  EXPECT_THAT(pass_of(spot_scene(41.5), "unreached_targets").reason, testing::HasSubstr("outside of a spot's cone"));
+  EXPECT_THAT(pass_of(spot_scene(42), "unreached_targets").reason, testing::HasSubstr("no pass"));
+}
+
+TEST(NotLeftOut, WhatAnAreaLightsPlaneCuts)
+{
+  scene::Light light;
+  light.type = preset::Light::Type::area;
+  light.direction = {0, -1, 0};
+  EXPECT_TRUE(spectral::reaches(light, {{5, -1, 0}, 0.5f}));
+  EXPECT_TRUE(spectral::reaches(light, {{5, 0.49f, 0}, 0.5f}));
+  EXPECT_FALSE(spectral::reaches(light, {{5, 0.51f, 0}, 0.5f}));
+  light.type = preset::Light::Type::spot;
+  light.cos_half_angle = -1; // the whole sphere
+  EXPECT_TRUE(spectral::reaches(light, {{0, 9, 0}, 0.5f}));
+  light.cos_half_angle = 0.999999;
+  EXPECT_FALSE(spectral::reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(spectral::reaches(light, {{0, 0.3f, 0}, 0.5f})); // the light is inside
+  light.type = preset::Light::Type::directional;
+  EXPECT_TRUE(spectral::reaches(light, {{0, 9, 0}, 0.5f}));
+  light.type = preset::Light::Type::point;
+  EXPECT_TRUE(spectral::reaches(light, {{0, 9, 0}, 0.5f}));
+}
+
+} // namespace
