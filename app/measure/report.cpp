@@ -13,11 +13,14 @@
 namespace nephroid::measure {
 namespace {
 
+constexpr std::size_t longest_label = 36; ///< of a legend, whose two columns share the chart's width
+
 std::string legend(const Report& report, const MetricCurves& curves, std::size_t run)
 {
   const auto slope = curves.slope(run);
-  return fmt::format("{} {}{}{}", run + 1, report.labels[run], curves.runs[run].is_judged_by_estimate() ? " (estimate)" : "",
-                     slope && metric_text(curves.metric).falls ? fmt::format(", slope {:.2f}", slope->exponent) : "");
+  return fmt::format("{} {}{}{}", run + 1, shortened(report.labels[run], longest_label),
+                     curves.runs[run].is_judged_by_estimate() ? " (estimate)" : "",
+                     slope && metric_text(curves.metric).falls ? ", slope " + signed_text(slope->exponent, 2) : "");
 }
 
 /// The judged curve of every run, and the estimates of those that have a reference as well.

@@ -18,9 +18,6 @@ namespace {
 
 constexpr std::array colours{"#3578d4", "#e07b30", "#229a6c", "#c4509c", "#8b6fd6", "#a98c12", "#2c9fb3", "#d24d4d"};
 constexpr std::chrono::seconds time_limit{30};
-constexpr std::size_t longest_label = 44;
-/// With more lines the legend goes below the chart.
-constexpr std::size_t lines_beside_legend = 8;
 
 struct Interval {
   double low = 0, high = 0;
@@ -59,16 +56,22 @@ std::string ticks(const Interval& axis)
   return text;
 }
 
+/// The legend stands below the chart, where it hides nothing.
+std::size_t legend_rows(const Chart& chart)
+{
+  const auto has_label = [](const ChartLine& line) { return !line.label.empty(); };
+  const auto labels = static_cast<std::size_t>(std::count_if(chart.lines.begin(), chart.lines.end(), has_label));
+  return labels + !chart.noise_floors.empty() + chart.guide_exponent.has_value();
+}
+
 void add_axes(std::string& script, const Chart& chart, const Interval& x, const Interval& y)
 {
   append(script, "reset\nset border 3 lw 0.8\nset tics nomirror scale 0.5\nset grid xtics ytics lt 1 lc rgb 'gray' lw 0.5\n");
-  append(script, "set logscale x\nset xrange [{}:{}]\nset xtics ({})\nset xlabel 'work (s)'\n", x.low, x.high, ticks(x));
+  append(script, "set logscale x\nset xrange [{}:{}]\nset xtics ({})\nset xlabel 'work (s)' offset 0,0.3\nset bmargin {}\n", x.low, x.high,
+         ticks(x), 3.8 + 1.2 * static_cast<double>(legend_rows(chart)));
   append(script, "set ylabel {} offset -0.5\n", quoted(chart.y_axis));
   if (chart.logarithmic) append(script, "set logscale y\nset yrange [{}:{}]\nset ytics ({})\n", y.low, y.high, ticks(y));
-  if (chart.lines.size() > lines_beside_legend)
-    append(script, "set key outside below left Left reverse maxrows {}\n", (chart.lines.size() + 3) / 2);
-  else
-    append(script, "set key {} right Left reverse samplen 2.5 spacing 1.15\n", chart.logarithmic ? "top" : "bottom");
+  append(script, "set key outside below left Left reverse samplen 2.5 spacing 1.2\n");
 }
 
 void add_data(std::string& script, const Chart& chart)
@@ -81,7 +84,7 @@ void add_data(std::string& script, const Chart& chart)
   }
 }
 
-/// A slope to compare with, through the geometric middle of the first line.
+/// A slope to compare with, somewhat below the first line: through its geometric middle it would hide it.
 std::string guide(const Chart& chart)
 {
   const Curve& curve = chart.lines.front().curve;
@@ -91,9 +94,10 @@ std::string guide(const Chart& chart)
     y += std::log(curve.errors[i]);
   }
   const auto count = static_cast<double>(curve.seconds.size());
-  const double factor = std::exp(y / count - *chart.guide_exponent * x / count);
-  return fmt::format("{} * x**({}) with lines lw 1.2 dt 3 lc rgb 'black' title 'slope {:g}'", factor, *chart.guide_exponent,
-                     *chart.guide_exponent);
+  constexpr double below = 0.7;
+  const double factor = below * std::exp(y / count - *chart.guide_exponent * x / count);
+  return fmt::format("{} * x**({}) with lines lw 1.2 dt 3 lc rgb 'black' title 'slope {}'", factor, *chart.guide_exponent,
+                     signed_text(*chart.guide_exponent, 1));
 }
 
 std::string plot_command(const Chart& chart)
@@ -102,7 +106,7 @@ std::string plot_command(const Chart& chart)
   const auto add = [&](const std::string& plot) { plots += (plots.empty() ? "" : ", \\\n  ") + plot; };
   for (std::size_t i = 0; i < chart.lines.size(); ++i) {
     const ChartLine& line = chart.lines[i];
-    const std::string title = line.label.empty() ? "notitle" : "title " + quoted(shortened(line.label, longest_label));
+    const std::string title = line.label.empty() ? "notitle" : "title " + quoted(line.label);
     add(fmt::format("$line{} using 1:2 with linespoints lw {} {} pt 7 ps {} lc rgb '{}' {}", i, line.is_estimate ? 1.4 : 2,
                     line.is_estimate ? "dt 2" : "dt 1", line.is_estimate ? 0.25 : 0.4, run_colour(line.run), title));
   }
@@ -138,7 +142,7 @@ std::string adapted_tag(std::string tag, const std::string& prefix)
   for (const char* quote : {"'", "\""}) {
     replace_all(tag, fmt::format(" id={}", quote), fmt::format(" id={}{}", quote, prefix));
     replace_all(tag, fmt::format("href={}#", quote), fmt::format("href={}#{}", quote, prefix));
-    for (const char* black : {"black", "gray"})
+    for (const char* black : {"black", "gray", "rgb(  0,   0,   0)"})
       replace_all(tag, fmt::format("{0}{1}{0}", quote, black), fmt::format("{0}currentColor{0}", quote));
   }
   replace_all(tag, " font-family=\"sans-serif\"", "");
@@ -184,8 +188,8 @@ std::vector<std::string> draw_charts(std::span<const Chart> charts)
   if (charts.empty()) return {};
   std::string script = "set encoding utf8\n";
   for (const Chart& chart : charts) {
-    const int height = chart.lines.size() > lines_beside_legend ? 460 + 11 * static_cast<int>(chart.lines.size()) : 460;
-    script += fmt::format("set terminal svg size 960,{} dynamic noenhanced font 'sans-serif,14'\n", height) + script_of(chart);
+    append(script, "set terminal svg size 960,{} dynamic noenhanced font 'sans-serif,14'\n", 400 + 26 * legend_rows(chart));
+    script += script_of(chart);
   }
   const std::string drawn = run_program({"gnuplot", "--default-settings"}, script, time_limit);
   std::vector<std::string> svgs;

@@ -46,64 +46,69 @@ std::string caption(const Report& report, const MetricCurves& curves)
   if (fits)
     words += fmt::format("The slopes are least-squares fits in log-log, equal parts of the time axis counting equally{}. ",
                          floors ? fmt::format(", over errors of at least {} times the floor", text.law == -1.0 ? 9 : 3) : "");
-  if (text.law) append(words, "Independent samples give {:g}.", *text.law);
+  if (text.law) append(words, "Independent samples give {}.", signed_text(*text.law, 1));
   return words;
 }
 
-/// All errors that some run came down to, from the lowest to the highest.
+/// The round errors that some run came down to, the largest first; powers of ten only where there would be too many.
 std::vector<double> levels_of(const MetricCurves& curves)
 {
   std::set<double> levels;
   for (const RunCurves& run : curves.runs)
     if (const auto reached = errors_reached(run.judged()))
       for (const double level : round_levels(reached->lowest, reached->highest)) levels.insert(level);
+  constexpr std::size_t comfortable = 9; // columns of a table
+  if (levels.size() > comfortable) std::erase_if(levels, [](double level) { return fmt::format("{:e}", level).front() != '1'; });
   return {levels.rbegin(), levels.rend()};
 }
 
 std::string time_cell(const MetricCurves& curves, std::size_t run, double level)
 {
   const Curve& curve = curves.runs[run].judged();
-  if (curve.errors.empty()) return "<td class=\"number out\">–</td>";
   if (const auto seconds = seconds_to_reach(curve, level)) {
     const bool meaningful = level >= curves.lowest_meaningful(run);
     return fmt::format("<td class=\"number{}\">{}</td>", meaningful ? "" : " out", readable_seconds(*seconds) + (meaningful ? "" : " *"));
   }
-  if (curve.errors.front() < level) return fmt::format("<td class=\"number\">before {}</td>", readable_seconds(curve.seconds.front()));
-  return "<td class=\"number out\">not reached</td>";
+  if (curve.errors.front() < level) return fmt::format("<td class=\"number\">&lt; {}</td>", readable_seconds(curve.seconds.front()));
+  return "<td class=\"number out\">–</td>";
 }
 
-/// A run's heading, which says where its figures are estimates.
-std::string judged_headings(const Report& report, const MetricCurves& curves)
+/// A round level as it is, another one with three figures.
+std::string level_text(double level)
 {
-  std::string html;
-  for (std::size_t i = 0; i < report.runs.size(); ++i)
-    append(html, "<th class=\"number\">{}{}</th>", run_name(report, i),
-           curves.runs[i].is_judged_by_estimate() && !curves.runs[i].estimate.errors.empty() ? " <span class=\"tag\">estimate</span>" : "");
-  return html;
+  const std::string text = fmt::format("{:g}", level);
+  return text.size() <= 7 ? text : three_figures(level);
 }
 
-std::string error_text(double error, const MetricText& text) { return three_figures(error) + (text.unit.empty() ? "" : " " + text.unit); }
+/// " (CIELAB units)", or nothing.
+std::string unit_of(const MetricCurves& curves)
+{
+  const std::string unit = metric_text(curves.metric).unit;
+  return unit.empty() ? "" : " (" + unit + ")";
+}
 
 std::string times_table(const Report& report, const MetricCurves& curves)
 {
-  const MetricText text = metric_text(curves.metric);
   const std::vector<double> levels = levels_of(curves);
   std::string html = "<h3>Time to reach an error</h3>\n";
   if (levels.empty()) return html + "<p>No run passed a round value.</p>\n";
-  append(html, "<div class=\"table\"><table><thead><tr><th>Error</th>{}</tr></thead><tbody>\n", judged_headings(report, curves));
+  append(html, "<div class=\"table\"><table><thead><tr><th>Error{}</th>", unit_of(curves));
+  for (const double level : levels) append(html, "<th class=\"number\">{:g}</th>", level);
+  html += "</tr></thead><tbody>\n";
   bool below_floor = false;
-  for (const double level : levels) {
-    append(html, "<tr><th>{}</th>", error_text(level, text));
-    for (std::size_t i = 0; i < report.runs.size(); ++i) {
+  for (std::size_t i = 0; i < report.runs.size(); ++i) {
+    const RunCurves& run = curves.runs[i];
+    if (run.judged().errors.empty()) continue;
+    append(html, "<tr><th>{}{}</th>", run_name(report, i), run.is_judged_by_estimate() ? " <span class=\"tag\">estimate</span>" : "");
+    for (const double level : levels) {
       html += time_cell(curves, i, level);
-      below_floor = below_floor || (level < curves.lowest_meaningful(i) && seconds_to_reach(curves.runs[i].judged(), level));
+      below_floor = below_floor || (level < curves.lowest_meaningful(i) && seconds_to_reach(run.judged(), level));
     }
     html += "</tr>\n";
   }
-  html +=
-      "</tbody></table></div>\n<p class=\"note\">Seconds of work until the error first fell so far, between measurements along a straight "
-      "line in log-log.";
-  if (below_floor) html += " * Near the reference's own noise floor.";
+  html += "</tbody></table></div>\n<p class=\"note\">Work until the error first fell so far, between measurements along a straight line in "
+          "log-log; –: never.";
+  if (below_floor) html += " *: near the reference's own noise floor.";
   return html + "</p>\n";
 }
 
@@ -163,7 +168,7 @@ void add_pair(Pairs& pairs, const Report& report, const MetricCurves& curves, st
     append(pairs.rows,
            "<tr><td>{}</td><td>{}</td><td class=\"number\">{}{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
            "<td class=\"number\"><strong>{} ×</strong></td><td class=\"warn\">{}</td></tr>\n",
-           run_name(report, b_is_faster ? b : a), run_name(report, b_is_faster ? a : b), three_figures(level),
+           run_name(report, b_is_faster ? b : a), run_name(report, b_is_faster ? a : b), level_text(level),
            by_estimate ? " <span class=\"tag\">estimate</span>" : "", readable_seconds(b_is_faster ? equal->seconds_b : equal->seconds_a),
            readable_seconds(b_is_faster ? equal->seconds_a : equal->seconds_b),
            three_figures(b_is_faster ? equal->speed_up() : 1 / equal->speed_up()), care);
@@ -178,12 +183,11 @@ std::string speed_up_table(const Report& report, const MetricCurves& curves)
     for (std::size_t b = a + 1; b < report.runs.size(); ++b) add_pair(pairs, report, curves, a, b);
   std::string html = "<h3>Speed-up at equal error</h3>\n";
   if (!pairs.rows.empty()) {
-    const std::string unit = metric_text(curves.metric).unit;
     append(html,
-           "<div class=\"table tall\"><table><thead><tr><th>Faster</th><th>Slower</th><th class=\"number\">at the error{}</th>"
+           "<div class=\"table tall\"><table><thead><tr><th>Faster</th><th>Slower</th><th class=\"number\">At the error{}</th>"
            "<th class=\"number\">Faster takes</th><th class=\"number\">Slower takes</th><th class=\"number\">Speed-up</th>"
            "<th>{}</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
-           unit.empty() ? "" : " (" + unit + ")", pairs.with_care ? "To be read with care" : "", pairs.rows);
+           unit_of(curves), pairs.with_care ? "To be read with care" : "", pairs.rows);
     html += "<p class=\"note\">Times are those of each run's own file: compare runs of one machine, made in one go.</p>\n";
   }
   if (!pairs.not_compared.empty()) append(html, "<p class=\"note\">Not compared: {}.</p>\n", pairs.not_compared);

@@ -28,21 +28,31 @@ std::string measuring_cell(const RunSummary& run)
   return fmt::format("{} ({:.1f} %)", readable_seconds(*run.measuring_seconds), all > 0 ? 100 * *run.measuring_seconds / all : 0.0);
 }
 
+bool have_one_device(const std::vector<RunSummary>& runs)
+{
+  return std::all_of(runs.begin(), runs.end(), [&](const RunSummary& run) { return run.device == runs.front().device; });
+}
+
 std::string runs_table(const Report& report)
 {
-  std::string html = "<div class=\"table\"><table><thead><tr><th>Run</th><th>Device</th><th class=\"number\">Passes</th>"
-                     "<th class=\"number\">Photons</th><th class=\"number\">Work</th><th class=\"number\">Wall clock</th>"
-                     "<th class=\"number\">Measuring, beside the work</th><th>Folder</th></tr></thead><tbody>\n";
+  const bool one_device = have_one_device(report.runs);
+  std::string html = fmt::format("<div class=\"table\"><table><thead><tr><th>Run</th>{}<th class=\"number\">Passes</th>"
+                                 "<th class=\"number\">Photons</th><th class=\"number\">Work</th><th class=\"number\">Measuring</th>"
+                                 "<th class=\"number\">Wall clock</th><th>Folder</th></tr></thead><tbody>\n",
+                                 one_device ? "" : "<th>Device</th>");
   for (std::size_t i = 0; i < report.runs.size(); ++i) {
     const RunSummary& run = report.runs[i];
     append(html,
-           "<tr><th class=\"name\">{}</th><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
+           "<tr><th class=\"name\">{}</th>{}<td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
            "<td class=\"number\">{}</td><td class=\"number\">{}</td><td><code>{}</code></td></tr>\n",
-           run_name(report, i), escaped(device_name(run)), run.passes, readable_count(static_cast<double>(run.photons)),
-           readable_seconds(run.work_seconds), run.wall_seconds ? readable_seconds(*run.wall_seconds) : "–", measuring_cell(run),
-           escaped(run.folder.string()));
+           run_name(report, i), one_device ? "" : "<td>" + escaped(device_name(run)) + "</td>", run.passes,
+           readable_count(static_cast<double>(run.photons)), readable_seconds(run.work_seconds), measuring_cell(run),
+           run.wall_seconds ? readable_seconds(*run.wall_seconds) : "–", escaped(run.folder.string()));
   }
-  return html + "</tbody></table></div>\n";
+  html += "</tbody></table></div>\n<p class=\"note\">Work is the time of rendering alone, without start-up and without measuring; errors "
+          "are drawn over it. The share is that of measuring in the two together.";
+  if (one_device) append(html, " Device: {}.", escaped(device_name(report.runs.front())));
+  return html + "</p>\n";
 }
 
 std::string value_cell(const RunSummary& run, const std::string& key)
@@ -100,7 +110,7 @@ std::string error_cell(const RunSummary& run, const std::map<std::string, double
   std::string cell = three_figures(error->second);
   if (run.reference) {
     const auto floor = run.reference->noise_floor.find(column);
-    if (floor != run.reference->noise_floor.end()) append(cell, " <span class=\"soft\">(floor {})</span>", three_figures(floor->second));
+    if (floor != run.reference->noise_floor.end()) append(cell, "<br><small class=\"soft\">floor {}</small>", three_figures(floor->second));
   }
   return "<td class=\"number\">" + cell + "</td>";
 }
@@ -109,7 +119,7 @@ std::string error_cell(const RunSummary& run, const std::map<std::string, double
 std::string metric_cells(const std::string& metric, bool is_estimate)
 {
   const MetricText text = metric_text(metric);
-  return fmt::format("<th>{}{}</th><td class=\"soft\">{}</td>", escaped(text.label),
+  return fmt::format("<th>{}{}</th><td class=\"soft unit\">{}</td>", escaped(text.label),
                      is_estimate ? " <span class=\"tag\">estimate</span>" : "", text.unit);
 }
 
@@ -145,13 +155,18 @@ std::vector<std::string> labels_of(const std::vector<RunSummary>& runs)
   const auto all_differ = [](const std::vector<std::string>& labels) {
     return std::set<std::string>(labels.begin(), labels.end()).size() == labels.size();
   };
-  std::vector<std::string> names, with_folder, with_path;
+  std::vector<std::string> names, swept, with_folder, with_path;
+  std::set<std::string> sweeps;
   for (const RunSummary& run : runs) {
-    const std::filesystem::path folder = std::filesystem::weakly_canonical(run.folder);
+    const std::size_t comma = std::min(run.name.find(','), run.name.size()); // a sweep's runs are "NAME,key=value"
+    sweeps.insert(run.name.substr(0, comma));
+    swept.push_back(run.name.substr(std::min(comma + 1, run.name.size())));
     names.push_back(run.name);
-    with_folder.push_back(fmt::format("{} ({})", run.name, folder.filename().string()));
+    with_folder.push_back(fmt::format("{} ({})", run.name, std::filesystem::weakly_canonical(run.folder).filename().string()));
     with_path.push_back(fmt::format("{} ({})", run.name, run.folder.string()));
   }
+  const bool is_one_sweep = sweeps.size() == 1 && std::none_of(swept.begin(), swept.end(), [](const auto& part) { return part.empty(); });
+  if (is_one_sweep && all_differ(swept)) return swept;
   return all_differ(names) ? names : all_differ(with_folder) ? with_folder : with_path;
 }
 
@@ -169,9 +184,8 @@ std::string run_headings(const Report& report)
 
 std::string overview_section(const Report& report)
 {
-  return "<section id=\"compared\"><h2>What was compared</h2>\n" + runs_table(report) +
-         "<p class=\"note\">Work is the time of rendering alone, without start-up and without measuring; errors are drawn over it.</p>\n" +
-         settings_table(report) + final_errors_table(report) + "</section>\n";
+  return "<section id=\"compared\"><h2>What was compared</h2>\n" + runs_table(report) + settings_table(report) +
+         final_errors_table(report) + "</section>\n";
 }
 
 } // namespace nephroid::measure

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::measure {
@@ -61,10 +62,17 @@ std::string base64(std::string_view bytes)
 std::string three_figures(double value)
 {
   if (value == 0 || !std::isfinite(value)) return fmt::format("{}", value);
-  const int digits = 2 - static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12));
-  if (digits > 6 || digits < -6) return fmt::format("{:.2e}", value);
-  const double scale = std::pow(10.0, digits);
-  return fmt::format("{:.{}f}", std::round(value * scale) / scale, std::max(digits, 0));
+  const std::string scientific = fmt::format("{:.2e}", value); // rounded, so that its exponent is that of what is shown
+  const int exponent = std::stoi(scientific.substr(scientific.find('e') + 1));
+  if (exponent < -4 || exponent > 8) return scientific;
+  const double rounded = std::stod(scientific);
+  return fmt::format("{:.{}f}", rounded, std::max(2 - exponent, 0));
+}
+
+std::string signed_text(double value, int decimals)
+{
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.starts_with('-') ? "−" + text.substr(1) : text;
 }
 
 std::string readable_seconds(double seconds)

@@ -26,6 +26,8 @@ std::string base64(std::string_view bytes);
 
 /// Three significant figures: "0.00123", "12.3", "1230".
 std::string three_figures(double value);
+/// "-0.5" with a minus sign instead of the hyphen.
+std::string signed_text(double value, int decimals);
 /// "1.23 s", "12 ms", "3 min 20 s", "2 h 05 min".
 std::string readable_seconds(double seconds);
 /// "262 thousand", "8.39 million".

@@ -4,10 +4,15 @@
 #include "measure/report_page.h"
 #include "measure/report_text.h"
 
+#include <algorithm>
+
 namespace nephroid::measure {
 namespace {
 
 using Kind = ReportPicture::Kind;
+
+/// Smaller pictures are shown several times as large, by a whole number, up to this width.
+constexpr int comfortable_width = 640;
 
 const char* word(Kind kind)
 {
@@ -25,8 +30,7 @@ const char* word(Kind kind)
 std::string caption(const Report& report, const ReportPicture& picture)
 {
   if (picture.kind == Kind::reference) return "reference";
-  const std::string name = fmt::format("{} {}", *picture.run + 1, report.labels[*picture.run]);
-  if (picture.kind == Kind::run) return name;
+  if (picture.kind == Kind::run) return report.labels[*picture.run];
   return picture.from ? fmt::format("{} − {}", *picture.run + 1, *picture.from + 1) : fmt::format("{} − reference", *picture.run + 1);
 }
 
@@ -35,7 +39,7 @@ std::string key(const ReportPicture& picture)
 {
   if (picture.kind == Kind::reference) return "<kbd>r</kbd>";
   if (picture.kind == Kind::difference) return "<kbd>d</kbd>";
-  return *picture.run < 9 ? fmt::format("<kbd>{}</kbd>", *picture.run + 1) : "";
+  return *picture.run < 9 ? fmt::format("<kbd>{}</kbd>", *picture.run + 1) : std::to_string(*picture.run + 1);
 }
 
 std::string colour_bar(const PictureGroup& group)
@@ -54,8 +58,9 @@ std::string colour_bar(const PictureGroup& group)
 
 std::string viewer(const Report& report, const PictureGroup& group)
 {
-  std::string html = fmt::format("<figure class=\"viewer\" tabindex=\"0\">\n<div class=\"stage\" style=\"--aspect:{}; --width:{}px\">\n",
-                                 static_cast<double>(group.width) / group.height, std::max(group.width, 720));
+  std::string html =
+      fmt::format("<figure class=\"viewer\" tabindex=\"0\">\n<div class=\"stage\" style=\"--aspect:{}; --width:{}px\">\n",
+                  static_cast<double>(group.width) / group.height, group.width * std::max(1, comfortable_width / group.width));
   std::string buttons;
   for (const ReportPicture& picture : group.pictures) {
     const std::string name = escaped(caption(report, picture));

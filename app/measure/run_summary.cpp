@@ -77,7 +77,8 @@ void read_settings(RunSummary& run)
   const fs::path file = run.folder / "preset.json";
   const Json document = read_json(file);
   if (!document.is_object()) throw bad_input(file.string(), "is no object");
-  for (const auto& [pointer, value] : document.flatten().items()) { // "/scene/lights/0/power_w"
+  const Json flat = document.flatten();
+  for (const auto& [pointer, value] : flat.items()) { // "/scene/lights/0/power_w"
     std::string key = pointer.empty() ? pointer : pointer.substr(1);
     std::replace(key.begin(), key.end(), '/', '.');
     run.settings[key] = value.dump();

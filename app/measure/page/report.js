@@ -23,7 +23,7 @@ function viewer(figure) {
     stage.style.setProperty("--x", x + "px");
     stage.style.setProperty("--y", y + "px");
     stage.style.setProperty("--zoom", zoom);
-    stage.classList.toggle("near", zoom * stage.clientWidth > 2 * pictures[0].naturalWidth);
+    stage.classList.toggle("near", zoom * stage.clientWidth >= 2 * pictures[0].naturalWidth);
   }
 
   function zoomAt(factor, atX, atY) {
@@ -73,6 +73,7 @@ function viewer(figure) {
   stage.addEventListener("dblclick", () => { zoom = 1; place(); });
   figure.classList.add("flips");
   show(0);
+  pictures[0].decode().then(place);
 }
 
 const viewers = [...document.querySelectorAll(".viewer")];
