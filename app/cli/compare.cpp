@@ -65,7 +65,7 @@ void print_text(const std::vector<Metrics>& of)
   const auto line = [&](const std::string& name, const std::string& all, const std::string& masked, const char* meaning) {
     fmt::print("{:<9} {:>11}{}  {}\n", name, all, of.size() > 1 ? fmt::format(" {:>11}", masked) : "", meaning);
   };
-  if (of.size() > 1) line("", "all", "mask", "");
+  if (of.size() > 1) fmt::print("{:>21} {:>11}\n", "all", "mask");
   const auto all = measure::named(of.front()), masked = measure::named(of.back());
   for (std::size_t i = 0; i < all.size(); ++i) line(all[i].first, cell(all[i].second), cell(masked[i].second), meanings.at(i));
   line("pixels", fmt::format("{}", of.front().pixels), fmt::format("{}", of.back().pixels), "that were compared");

@@ -17,7 +17,7 @@ constexpr Colour ground{32, 32, 32}, ink{224, 224, 224};
 
 // All in units of a stroke.
 constexpr int digit_width = 5, digit_height = 9, digit_step = digit_width + 2, point_step = 3;
-constexpr int margin = 6, bar_width = 14, tick_length = 3, longest_number = 7; ///< "-2.5E-7"
+constexpr int margin = 6, bar_width = 14, gap = 4, longest_number = 7; ///< "-2.5E-7"
 
 /// Segments a to g as bits 0 to 6: top, right above, right below, bottom, left below, left above, middle.
 int segments(char character)
@@ -90,8 +90,8 @@ ColourBar colour_bar(int picture_height, double scale, bool is_signed)
   ColourBar bar{};
   bar.unit = std::max(1, picture_height / 400);
   bar.height = std::max(picture_height, 4 * digit_height * bar.unit);
-  bar.ticks = bar.height > 12 * digit_height * bar.unit ? 5 : is_signed ? 3 : 2;
-  bar.width = (2 * margin + bar_width + tick_length + 1 + longest_number * digit_step) * bar.unit;
+  bar.numbers = bar.height > 12 * digit_height * bar.unit ? 5 : is_signed ? 3 : 2;
+  bar.width = (2 * margin + bar_width + gap + longest_number * digit_step) * bar.unit;
   bar.scale = scale;
   bar.is_signed = is_signed;
   return bar;
@@ -102,11 +102,11 @@ void draw(Bitmap& bitmap, int x, const ColourBar& bar)
   const int top = margin * bar.unit, length = bar.height - 2 * top;
   const int left = x + margin * bar.unit, right = left + bar_width * bar.unit;
   for (int y = 0; y < length; ++y) bitmap.fill(left, top + y, bar_width * bar.unit, 1, map_colour(1 - (y + 0.5) / length, bar.is_signed));
-  for (int tick = 0; tick < bar.ticks; ++tick) {
-    const double share = static_cast<double>(tick) / (bar.ticks - 1);
-    const int y = top + static_cast<int>(std::lround((1 - share) * (length - bar.unit)));
-    bitmap.fill(right, y, tick_length * bar.unit, bar.unit, ink);
-    draw_number(bitmap, right + (tick_length + 2) * bar.unit, y - digit_height / 2 * bar.unit, bar.unit,
+  for (int i = 0; i < bar.numbers; ++i) {
+    const double share = static_cast<double>(i) / (bar.numbers - 1);
+    const int middle =
+        top + static_cast<int>(std::lround((1 - share) * (length - bar.unit))); // of the number: no stroke, it reads as minus
+    draw_number(bitmap, right + gap * bar.unit, middle - digit_height / 2 * bar.unit, bar.unit,
                 number_text(bar.scale * (bar.is_signed ? 2 * share - 1 : share)));
   }
 }

@@ -21,7 +21,7 @@ struct Bitmap {
 struct ColourBar {
   int width, height; ///< with its margins and numbers
   int unit;          ///< the width of a stroke of a digit, in pixels
-  int ticks;         ///< numbers along the bar, both ends included
+  int numbers;       ///< along the bar, both ends included
   double scale;      ///< the value at its top; 0 at its bottom, or minus this
   bool is_signed;
 };
