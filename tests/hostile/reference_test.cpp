@@ -112,7 +112,8 @@ TEST_F(Measured, ARecipeIsRenderedOnceAndItsNoiseFloorIsBesideTheErrors)
   }
   EXPECT_EQ(run_json("a")["reference"], run_json("b")["reference"]);
   EXPECT_THAT(history("a").columns, Contains("lab_mean"));
-  EXPECT_THAT(run("c", {"--passes", "1", "--set", recipe, "--set", "scene.lights.0.power_w=2"}).err, HasSubstr("rendering the reference"))
+  EXPECT_THAT(run("c", {"--passes", "1", "--set", recipe, "--set", "scene.lights.0.irradiance_w_m2=2"}).err,
+              HasSubstr("rendering the reference"))
       << "another scene has another reference";
 }
 
@@ -142,7 +143,7 @@ TEST_F(Measured, AResumedRunGoesOnWithItsHistory)
 TEST_F(Measured, WhatCannotBeAReferenceIsSaidBeforeTheRun)
 {
   const auto refused = [&](const std::string& line, std::vector<std::string> settings) {
-    std::vector<std::string> more{"--passes", "1"};
+    std::vector<std::string> more{"--set", "stop.passes=1"};
     for (const std::string& setting : settings) more.insert(more.end(), {"--set", setting});
     const Ended ended = run("refused", more);
     EXPECT_NE(ended.exit_code, 0) << line;
@@ -160,7 +161,8 @@ TEST_F(Measured, WhatCannotBeAReferenceIsSaidBeforeTheRun)
   EXPECT_EQ(refused("#/measure/mask: there is no reference", {"measure.mask=" + good}), 2);
   EXPECT_EQ(refused("mask.exr", {"reference=" + good, "measure.mask=" + picture("mask.exr", width, height + 1)}), 2);
   EXPECT_EQ(refused("black.exr", {"reference=" + good, "measure.mask=" + picture("black.exr", width, height, 0, 0)}), 2);
-  EXPECT_EQ(refused("#/reference/seed: 1 and 2 are the reference's seeds, and 1 is the run's", {R"(reference={"type":"recipe","seed":1})"}),
+  EXPECT_EQ(refused("1 and 2 are the reference's seeds, and 1 is the run's; expected other seeds than the run's",
+                    {R"(reference={"type":"recipe","seed":1})"}),
             2);
   EXPECT_EQ(refused("#/stop/error: nothing measures the error of this run", {"stop.error=1", "measure.estimate=false"}), 2);
   EXPECT_EQ(refused("#/reference/seconds: making the reference would take about",
