@@ -78,7 +78,7 @@ std::string signed_text(double value, int decimals)
 std::string readable_seconds(double seconds)
 {
   if (seconds < 0.1) return three_figures(seconds * 1000) + " ms";
-  if (seconds < 100) return three_figures(seconds) + " s";
+  if (seconds < 99.95) return three_figures(seconds) + " s";
   const auto whole = static_cast<long long>(std::llround(seconds));
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid report` over real runs, and over what is no run, not finished, cut, damaged or too much: one clear line, exit code 2, and
+// no page; without gnuplot a line and exit code 1.
+#include "base/files.h"
+#include "image/image.h"
+#include "measure/history_file.h"
+#include "tests/support/child.h"
+#include "tests/support/made_runs.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid::test;
+using nephroid::read_file;
+using nephroid::write_file_whole;
+using testing::AllOf;
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+class Reports : public testing::Test {
+protected:
+  TemporaryFolder temporary;
+  fs::path folder = temporary.path() / "runs";
+  fs::path logs = temporary.path();
+
+  void SetUp() override { fs::create_directories(folder); }
+
+  Ended command(const std::vector<std::string>& arguments, const Environment& environment = {}) const
+  {
+    return nephroid::test::nephroid(arguments, folder, logs, environment);
+  }
+  Ended report(std::vector<std::string> arguments, const Environment& environment = {}) const
+  {
+    arguments.insert(arguments.begin(), "report");
+    return command(arguments, environment);
+  }
+
+  /// The line that the report over these folders is refused with.
+  std::string refusal(const std::vector<std::string>& folders) const
+  {
+    std::vector<std::string> arguments = folders;
+    arguments.insert(arguments.end(), {"-o", "page.html"});
+    const Ended ended = report(arguments);
+    EXPECT_EQ(ended.exit_code, 2) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    EXPECT_EQ(ended.out, "");
+    EXPECT_FALSE(fs::exists(folder / "page.html"));
+    return ended.err;
+  }
+
+  /// A good run, then one of its files replaced.
+  std::string refusal_with(const std::string& file, const std::string& content) const
+  {
+    write_measured_run(folder / "run", "run", 3);
+    write_file_whole(folder / "run" / file, content);
+    return refusal({"run"});
+  }
+  std::string refusal_with_run_json(const std::string& pointer, const Json& value) const
+  {
+    Json json = made_run_json("run");
+    json[Json::json_pointer(pointer)] = value;
+    return refusal_with("run.json", json.dump());
+  }
+};
+
+TEST_F(Reports, are_made_of_real_runs)
+{
+  const std::vector<std::string> small{
+      "run", "spectral/plate", "--set", "scene.camera.resolution=[48,40]", "--set", "spectral.photons_per_pass=20000", "--passes", "4"};
+  for (const char* seed : {"1", "2"}) {
+    std::vector<std::string> arguments = small;
+    arguments.insert(arguments.end(), {"--seed", seed, "-o", std::string("seed") + seed});
+    ASSERT_EQ(command(arguments).exit_code, 0);
+  }
+  const Ended ended = report({"seed1", "seed2"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("report.html: "));
+  const std::string html = read_file(folder / "report.html");
+  EXPECT_THAT(html, AllOf(HasSubstr("<tr><th><code>seed</code></th><td><code>1</code></td><td><code>2</code></td></tr>"), HasSubstr("<svg"),
+                          HasSubstr("(estimate)"), HasSubstr("left out"), HasSubstr("48 × 40 pixels"), HasSubstr("2 − 1")));
+  EXPECT_EQ(report({"seed1"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "seed1" / "report.html"));
+}
+
+TEST_F(Reports, of_no_run_are_refused)
+{
+  fs::create_directories(folder / "empty");
+  write_file_whole(folder / "file", "");
+  EXPECT_EQ(refusal({"none"}), "nephroid: none: there is no such folder\n");
+  EXPECT_THAT(refusal({"empty"}), HasSubstr("nephroid: empty: holds no run; expected a folder with run.json"));
+  EXPECT_THAT(refusal({"file"}), HasSubstr("file: is a file; expected the folder of a run"));
+  EXPECT_EQ(report({}).exit_code, 2);
+  write_measured_run(folder / "run", "run", 3);
+  EXPECT_THAT(refusal({"run", "./run/"}), HasSubstr("this run is named twice"));
+  EXPECT_THAT(refusal({"run", "none"}), HasSubstr("none: there is no such folder"));
+}
+
+TEST_F(Reports, of_unfinished_runs_are_refused)
+{
+  EXPECT_THAT(refusal_with_run_json("/finished", false), HasSubstr("run: this run is not finished: it stopped in pass 31"));
+  fs::remove(folder / "run" / "run.json"); // as it is while a run is at work
+  EXPECT_THAT(refusal({"run"}), HasSubstr("run: this run is not finished: it has no run.json"));
+  write_measured_run(folder / "sweep" / "001", "run", 3);
+  fs::rename(folder / "run", folder / "sweep" / "002");
+  EXPECT_THAT(refusal({"sweep"}), HasSubstr("002: this run is not finished"));
+}
+
+TEST_F(Reports, of_damaged_runs_are_refused_at_the_place)
+{
+  EXPECT_THAT(refusal_with("run.json", ""), HasSubstr("run/run.json: is empty"));
+  EXPECT_THAT(refusal_with("run.json", made_run_json("run").dump().substr(0, 200)), HasSubstr("run/run.json: is cut or no JSON"));
+  EXPECT_THAT(refusal_with("run.json", "[1]"), HasSubstr("run/run.json: is no object"));
+  EXPECT_THAT(refusal_with("run.json", std::string(200000, '[')), HasSubstr("is nested deeper than 64 levels"));
+  EXPECT_THAT(refusal_with("run.json", std::string("\0\xff\xfe", 3)), HasSubstr("is cut or no JSON"));
+  EXPECT_THAT(refusal_with("run.json", "{}"), HasSubstr("run/run.json#/passes: is missing"));
+  EXPECT_THAT(refusal_with_run_json("/passes", -1), HasSubstr("run.json#/passes: is no whole number from 0"));
+  EXPECT_THAT(refusal_with_run_json("/device", "GPU"), HasSubstr("run.json#/device: is no object"));
+  EXPECT_THAT(refusal_with_run_json("/work_seconds", nullptr), HasSubstr("run.json#/work_seconds: is no number"));
+  EXPECT_THAT(refusal_with_run_json("/energy/lost_w", "much"), HasSubstr("run.json#/energy/lost_w: is no number"));
+  EXPECT_THAT(refusal_with_run_json("/reference", Json::object()), HasSubstr("run.json#/reference/origin: is missing"));
+  EXPECT_THAT(refusal_with("plan.json", R"({"engine": "spectral", "passes": [{"name": 1}]})"),
+              HasSubstr("plan.json#/passes/0/name: is no text"));
+  EXPECT_THAT(refusal_with("plan.json", R"({"engine": "spectral", "passes": 7})"), HasSubstr("plan.json#/passes: is no list"));
+  EXPECT_THAT(refusal_with("preset.json", "7"), HasSubstr("preset.json: is no object"));
+  EXPECT_THAT(refusal_with("history.csv", "seconds,wall_seconds,step,work,lab_mean\n1,1,1,1,0.5\n2,2,"),
+              HasSubstr("history.csv:3: the row has 3 cells"));
+  EXPECT_THAT(refusal_with("image.exr", "not a picture"), HasSubstr("image.exr: is no picture that can be read"));
+  fs::remove(folder / "run" / "image.exr");
+  fs::remove(folder / "run" / "plan.json");
+  EXPECT_THAT(refusal({"run"}), HasSubstr("run/plan.json: is missing"));
+}
+
+/// A picture is only ever compared where it is finite; alone it is shown.
+TEST_F(Reports, of_pictures_with_nan_are_refused_where_they_are_compared)
+{
+  write_made_run(folder / "nan", made_run_json("nan"), {{"seed", 1}}, 4, 3, std::nanf(""));
+  EXPECT_EQ(report({"nan"}).exit_code, 0);
+  write_made_run(folder / "good", made_run_json("good"));
+  EXPECT_THAT(refusal({"good", "nan"}), HasSubstr("nan/image.exr"));
+}
+
+TEST_F(Reports, of_too_many_runs_are_refused)
+{
+  for (int i = 0; i <= 64; ++i)
+    write_file_whole((fs::create_directories(folder / "all" / std::to_string(i)), folder / "all" / std::to_string(i) / "run.json"), "{}");
+  EXPECT_THAT(refusal({"all"}), HasSubstr("65 runs are too many for one page; expected at most 64"));
+}
+
+TEST_F(Reports, without_gnuplot_fail_in_one_line)
+{
+  write_measured_run(folder / "run", "run", 3);
+  fs::create_directories(folder / "bin");
+  Ended ended = report({"run"}, {{"PATH", (folder / "bin").string()}});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_EQ(ended.err, "nephroid: gnuplot: is not installed; install gnuplot\n");
+  write_file_whole(folder / "bin" / "gnuplot", "#!/bin/sh\necho no fonts >&2\nexit 1\n");
+  fs::permissions(folder / "bin" / "gnuplot", fs::perms::owner_all);
+  ended = report({"run"}, {{"PATH", (folder / "bin").string()}});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_EQ(ended.err, "nephroid: gnuplot: failed with exit code 1; no fonts \n");
+  EXPECT_FALSE(fs::exists(folder / "run" / "report.html"));
+}
+
+TEST_F(Reports, that_cannot_be_written_fail_in_one_line)
+{
+  write_measured_run(folder / "run", "run", 3);
+  for (const char* file : {"run", "none/page.html", "/proc/page.html"}) {
+    const Ended ended = report({"run", "-o", file});
+    EXPECT_EQ(ended.exit_code, 1) << file;
+    EXPECT_THAT(ended.err, HasSubstr(std::string("nephroid: ") + file + ": cannot be written")) << file;
+  }
+}
+
+} // namespace
