@@ -71,7 +71,7 @@ void add_axes(std::string& script, const Chart& chart, const Interval& x, const 
          ticks(x), 3.8 + 1.2 * static_cast<double>(legend_rows(chart)));
   append(script, "set ylabel {} offset -0.5\n", quoted(chart.y_axis));
   if (chart.logarithmic) append(script, "set logscale y\nset yrange [{}:{}]\nset ytics ({})\n", y.low, y.high, ticks(y));
-  append(script, "set key outside below left Left reverse samplen 2.5 spacing 1.2\n");
+  append(script, "set key outside below left Left reverse maxcols 1 samplen 2.5 spacing 1.2\n");
 }
 
 void add_data(std::string& script, const Chart& chart)
