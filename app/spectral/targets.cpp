@@ -2,10 +2,10 @@
 #include "spectral/targets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <tuple>
 
 namespace nephroid::spectral {
@@ -91,39 +91,42 @@ bool reaches(const scene::Light& light, const scene::Sphere& sphere)
   return off_axis - std::asin(sphere.radius / distance) <= std::acos(std::clamp(light.cos_half_angle, -1.0, 1.0)) + angle_margin;
 }
 
-// Weighted by 1 / (number of spheres over a point), points drawn from all discs measure the union; Fibonacci directions, fixed seed.
+// The mean over directions of the area that the spheres' shadows cover together. Each shadow is a disc; points spread evenly over it
+// count by 1 / (number of discs over the point), so the union is measured once. Directions are Fibonacci's, points Vogel's sunflower.
 double mean_shadow(const std::vector<scene::Sphere>& spheres)
 {
-  constexpr int directions = 32, points = 256;
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  double total = 0;
-  for (const scene::Sphere& s : spheres) total += std::numbers::pi * double(s.radius) * s.radius;
+  constexpr int directions = 32, points = 64;
+  constexpr double pi = std::numbers::pi, golden_angle = pi * 0.7639320225002103; // pi (3 - sqrt 5)
+  static const std::array<glm::dvec2, points> disc = [] {
+    std::array<glm::dvec2, points> places;
+    for (int p = 0; p < points; ++p)
+      places[static_cast<std::size_t>(p)] =
+          std::sqrt((p + 0.5) / points) * glm::dvec2(std::cos(p * golden_angle), std::sin(p * golden_angle));
+    return places;
+  }();
+  std::vector<glm::dvec2> centres(spheres.size());
   double sum = 0;
   for (int d = 0; d < directions; ++d) {
-    const double z = 1 - (2 * d + 1.0) / directions, phi = d * std::numbers::pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
+    const double z = 1 - (2 * d + 1.0) / directions, phi = d * golden_angle, r = std::sqrt(1 - z * z);
     const glm::dvec3 direction(r * std::cos(phi), r * std::sin(phi), z);
     const glm::dvec3 x = glm::normalize(glm::cross(direction, std::abs(z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
     const glm::dvec3 y = glm::cross(direction, x);
-    for (int p = 0; p < points; ++p) {
-      double rest = uniform(random) * total;
-      std::size_t chosen = 0;
-      while (chosen + 1 < spheres.size() && rest >= std::numbers::pi * double(spheres[chosen].radius) * spheres[chosen].radius) {
-        rest -= std::numbers::pi * double(spheres[chosen].radius) * spheres[chosen].radius;
-        ++chosen;
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+      centres[i] = {glm::dot(glm::dvec3(spheres[i].centre), x), glm::dot(glm::dvec3(spheres[i].centre), y)};
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      const double radius = spheres[i].radius;
+      for (const glm::dvec2& offset : disc) {
+        const glm::dvec2 place = centres[i] + radius * offset;
+        int over = 1;
+        for (std::size_t j = 0; j < spheres.size(); ++j) {
+          const glm::dvec2 way = place - centres[j];
+          over += j != i && glm::dot(way, way) <= double(spheres[j].radius) * spheres[j].radius;
+        }
+        sum += pi * radius * radius / (points * over);
       }
-      const double radius = spheres[chosen].radius * std::sqrt(uniform(random)), angle = 2 * std::numbers::pi * uniform(random);
-      const glm::dvec3 place = glm::dvec3(spheres[chosen].centre) + radius * (std::cos(angle) * x + std::sin(angle) * y);
-      int over = 0;
-      for (std::size_t i = 0; i < spheres.size(); ++i) {
-        const glm::dvec3 way = place - glm::dvec3(spheres[i].centre);
-        const double aside = std::hypot(glm::dot(way, x), glm::dot(way, y));
-        over += i == chosen || aside <= spheres[i].radius;
-      }
-      sum += total / over;
     }
   }
-  return sum / (directions * points);
+  return sum / directions;
 }
 
 std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
