@@ -6,7 +6,7 @@
 #include "optics/fresnel.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
-#include "tests/support/render.h"
+#include "tests/support/closed_form.h"
 
 #include <gmock/gmock.h>
 
@@ -18,19 +18,6 @@ using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
-
-constexpr double degree = M_PI / 180;
-
-preset::Light pencil(const preset::Vec3& from, const preset::Vec3& direction, double half_angle_deg, double nm = 550)
-{
-  preset::Light light;
-  light.type = preset::Light::Type::spot;
-  light.position = from;
-  light.direction = direction;
-  light.half_angle_deg = half_angle_deg;
-  light.spectrum = line(nm);
-  return light;
-}
 
 // ---- Plate -----------------------------------------------------------------------------------------------------------------
 // Light that meets a plate at theta is partly reflected at the first face, R; of what goes in, 1 - R leaves at the second face and

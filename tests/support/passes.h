@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Figures of a run pass by pass: passes are independent, so their scatter says how well the mean is known, whatever the photons carry.
+#pragma once
+#include "tests/support/render.h"
+#include "tests/support/statistics.h"
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace nephroid::test {
+
+/// A mean over passes.
+struct Estimate {
+  double mean = 0, variance = 0; ///< variance of the mean
+  double degrees = 1;            ///< of freedom of that
+  double error() const { return std::sqrt(variance); }
+};
+
+/// Runs a preset and hands back the mean of each of the figures that `figures` reads from a snapshot; they have to be means over passes
+/// themselves (pixels, the energy balance), from which each pass's own is worked out.
+inline std::vector<Estimate> render_passes(const preset::Preset& preset,
+                                           const std::function<std::vector<double>(const job::Snapshot&)>& figures)
+{
+  const scene::Scene scene = scene::load_scene(preset);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  const plan::Plan plan = spectral::make_plan(preset, scene, bvh);
+  const auto job = spectral::make_job(preset, scene, bvh, plan, shared_context());
+  std::vector<double> last;
+  std::vector<Estimate> estimates;
+  int pass = 0;
+  while (!job->finished()) {
+    job->step();
+    if (job->progress().step == pass) continue;
+    const std::vector<double> mean = figures(job->snapshot());
+    last.resize(mean.size(), 0.0);
+    estimates.resize(mean.size());
+    for (std::size_t i = 0; i < mean.size(); ++i) { // Welford's sums
+      const double own = (pass + 1) * mean[i] - pass * last[i], off = own - estimates[i].mean;
+      estimates[i].mean += off / (pass + 1);
+      estimates[i].variance += off * (own - estimates[i].mean);
+    }
+    last = mean;
+    ++pass;
+  }
+  for (Estimate& e : estimates) {
+    e.variance /= double(pass) * (pass - 1);
+    e.degrees = pass - 1;
+  }
+  return estimates;
+}
+
+/// The chance that an estimate is at least so far from the truth, after Student with Bernstein's bound; bias: what it may be off by
+/// besides.
+inline double p_value(const Estimate& e, double truth, double bias = 0)
+{
+  return bernstein(std::max(std::abs(e.mean - truth) - bias, 0.0), e.variance, 0, e.degrees);
+}
+
+/// How far off such an estimate may be before its p-value is a false alarm: bernstein() turned round.
+inline double tolerance(const Estimate& e)
+{
+  return std::sqrt(e.variance * e.degrees * std::expm1(2 / e.degrees * std::log(2 / false_alarm)));
+}
+
+} // namespace nephroid::test
