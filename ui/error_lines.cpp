@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/error_lines.h"
 
+#include "measure/report_curves.h"
+#include "measure/report_metrics.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <string_view>
 
 namespace nephroid::ui {
 namespace {
-
-constexpr std::string_view estimated = "estimated_";
-/// Below this many noise floors nothing is fitted or compared: the floor adds to the error there and bends the line.
-constexpr double floors_above = 3;
-
-std::optional<std::size_t> column_of(const job::History& history, const std::string& name)
-{
-  const auto found = std::find(history.columns.begin(), history.columns.end(), name);
-  if (found == history.columns.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - history.columns.begin());
-}
 
 /// At most four points in each of 500 parts of the log time axis: the first, the lowest, the highest, the last. A plot is about
 /// as many pixels wide.
@@ -50,19 +41,17 @@ measure::Curve thinned(const measure::Curve& curve)
   return kept;
 }
 
-ErrorLine line_of(const job::History& history, std::optional<std::size_t> column, double lowest_error)
+ErrorLine line_of(const job::History& history, std::size_t column)
 {
-  if (!column) return {};
   std::vector<double> seconds, errors;
   for (const job::HistoryRow& row : history.rows) {
-    if (*column >= row.errors.size()) continue;
+    if (column >= row.errors.size()) continue;
     seconds.push_back(row.seconds);
-    errors.push_back(row.errors[*column]);
+    errors.push_back(row.errors[column]);
   }
   ErrorLine line;
   line.curve = measure::curve_of(seconds, errors);
   line.drawn = thinned(line.curve);
-  line.fit = measure::fit_power_law(line.curve, lowest_error);
   return line;
 }
 
@@ -70,36 +59,53 @@ ErrorLine line_of(const job::History& history, std::optional<std::size_t> column
 double step_below(double value) { return std::pow(10.0, std::floor(8 * std::log10(value)) / 8); }
 double step_above(double value) { return std::pow(10.0, std::ceil(8 * std::log10(value)) / 8); }
 
-} // namespace
+/// The ends of an axis that shows all of values (infinity, 0: none), at least half a decade.
+std::array<double, 2> axis_ends(const std::array<double, 2>& values, double room, const std::array<double, 2>& without)
+{
+  if (!(values[1] > 0)) return without;
+  const double low = std::min(values[0] / room, std::sqrt(values[0] * values[1] / 3)), high = std::max(values[1] * room, low * 3);
+  return {step_below(low), step_above(high)};
+}
 
-std::string metric_of(const std::string& column) { return column.starts_with(estimated) ? column.substr(estimated.size()) : column; }
+} // namespace
 
 std::vector<std::string> metrics_of(const job::History& history)
 {
   std::vector<std::string> metrics;
   for (const std::string& column : history.columns)
-    if (const std::string metric = metric_of(column); std::find(metrics.begin(), metrics.end(), metric) == metrics.end())
-      metrics.push_back(metric);
+    if (std::string metric = measure::error_column_of(column).metric; std::find(metrics.begin(), metrics.end(), metric) == metrics.end())
+      metrics.push_back(std::move(metric));
   return metrics;
 }
 
 RunLines lines_of(const job::History& history, const std::string& metric)
 {
   RunLines lines;
-  const auto column = column_of(history, metric);
-  if (column && *column < history.noise_floor.size() && history.noise_floor[*column] > 0) lines.noise_floor = history.noise_floor[*column];
-  lines.error = line_of(history, column, floors_above * lines.noise_floor.value_or(0));
-  lines.estimate = line_of(history, column_of(history, std::string(estimated) + metric), 0);
+  lines.falls = measure::metric_text(metric).falls;
+  for (std::size_t column = 0; column < history.columns.size(); ++column) {
+    const measure::ErrorColumn is = measure::error_column_of(history.columns[column]);
+    if (is.metric != metric) continue;
+    (is.is_estimate ? lines.estimate : lines.error) = line_of(history, column);
+    if (!is.is_estimate && column < history.noise_floor.size() && history.noise_floor[column] > 0)
+      lines.noise_floor = history.noise_floor[column];
+  }
+  if (!lines.falls) return lines;
+  // As the report has them: what is too near to the noise floor bends the line and is left out.
+  const measure::MetricCurves curves{metric, {{lines.error.curve, lines.estimate.curve, lines.noise_floor.value_or(0)}}};
+  if (!lines.error.curve.seconds.empty()) lines.error.fit = curves.slope(0);
+  lines.estimate.fit = measure::fit_power_law(lines.estimate.curve);
+  lines.lowest_meaningful = curves.lowest_meaningful(0);
   return lines;
 }
 
 std::optional<measure::EqualError> speed_up(const RunLines& pinned, const RunLines& run)
 {
+  if (!pinned.falls || !run.falls) return std::nullopt;
   const bool both_have_errors = !pinned.error.curve.seconds.empty() && !run.error.curve.seconds.empty();
   const measure::Curve& a = both_have_errors ? pinned.error.curve : pinned.estimate.curve;
   const measure::Curve& b = both_have_errors ? run.error.curve : run.estimate.curve;
-  const double floor = both_have_errors ? std::max(pinned.noise_floor.value_or(0), run.noise_floor.value_or(0)) : 0;
-  const auto both = measure::errors_both_reached(a, b, floors_above * floor);
+  const double lowest = both_have_errors ? std::max(pinned.lowest_meaningful, run.lowest_meaningful) : 0;
+  const auto both = measure::errors_both_reached(a, b, lowest);
   if (!both) return std::nullopt;
   return measure::at_equal_error(a, b, both->lowest);
 }
@@ -128,10 +134,28 @@ PlotRange plot_range(std::span<const RunLines* const> runs, std::span<const doub
     }
   if (errors[1] > 0)
     for (const double value : extra_errors) widen(errors, value);
-  PlotRange range;
-  if (seconds[1] > 0) range.seconds = {step_below(seconds[0] / 1.1), step_above(seconds[1] * 1.1)};
-  if (errors[1] > 0) range.errors = {step_below(errors[0] / 1.3), step_above(errors[1] * 1.3)};
-  return range;
+  const PlotRange empty;
+  const bool is_linear = std::any_of(runs.begin(), runs.end(), [](const RunLines* run) { return !run->falls; });
+  if (is_linear && errors[1] > 0) {
+    const double room = std::max(0.1 * (errors[1] - errors[0]), 0.01 * errors[1]);
+    return {axis_ends(seconds, 1.1, empty.seconds), {errors[0] - room, errors[1] + room}};
+  }
+  return {axis_ends(seconds, 1.1, empty.seconds), axis_ends(errors, 1.3, empty.errors)};
+}
+
+std::vector<double> axis_ticks(const std::array<double, 2>& ends)
+{
+  constexpr std::size_t most = 9;
+  std::vector<double> ticks = measure::round_levels(ends[0], ends[1]);
+  if (ticks.size() > most) {
+    const double step = std::ceil(std::log10(ends[1] / ends[0]) / most); // whole decades
+    std::erase_if(ticks, [&](double tick) {
+      const double decades = std::log10(tick);
+      return std::abs(decades / step - std::round(decades / step)) > 1e-6;
+    });
+  }
+  if (ticks.size() < 2) ticks = {ends[0], std::sqrt(ends[0] * ends[1]), ends[1]}; // zoomed in between two round numbers
+  return ticks;
 }
 
 std::string plot_csv(std::span<const NamedLines> runs, std::optional<double> target)

@@ -23,14 +23,14 @@ struct RunLines {
   ErrorLine error;    ///< against the reference
   ErrorLine estimate; ///< the run's own, which needs no reference
   std::optional<double> noise_floor;
+  double lowest_meaningful = 0; ///< errors below it are too near to the noise floor to be compared
+  bool falls = true;            ///< false: larger is better (psnr_db), on a linear axis; no slopes then, no speed-ups
 
   bool empty() const { return error.curve.seconds.empty() && estimate.curve.seconds.empty(); }
   /// The line that the run is judged by: the error, without a reference the estimate.
   const ErrorLine& judged() const { return error.curve.seconds.empty() ? estimate : error; }
 };
 
-/// "lab_mean" of "estimated_lab_mean": the metric that a column is about.
-std::string metric_of(const std::string& column);
 /// Every metric that a history has a column of, in their order, each once.
 std::vector<std::string> metrics_of(const job::History& history);
 RunLines lines_of(const job::History& history, const std::string& metric);
@@ -45,12 +45,16 @@ struct CurvePoint {
 };
 std::optional<CurvePoint> nearest_point(const measure::Curve& curve, double seconds);
 
-/// Ends of the axes: all points of all curves and the extra errors (a floor, a target) with some room, in steps of an eighth of a
-/// decade, so that the axes of a growing curve rest most of the time. One decade each where there is nothing.
+/// Ends of the axes (seconds on a log axis, errors on one where they fall): all points of all curves and the extra errors (a floor, a
+/// target) with some room, in steps of an eighth of a decade, so that the axes of a growing curve rest most of the time, and at least half
+/// a decade. One decade each where there is nothing.
 struct PlotRange {
   std::array<double, 2> seconds{0.1, 1}, errors{0.1, 1};
 };
 PlotRange plot_range(std::span<const RunLines* const> runs, std::span<const double> extra_errors);
+
+/// Where an axis has numbers: 1, 2 and 5 times powers of ten, or powers of ten alone where that were too many.
+std::vector<double> axis_ticks(const std::array<double, 2>& ends);
 
 /// "run,line,seconds,error" of what the plot shows, every row.
 struct NamedLines {

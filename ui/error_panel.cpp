@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/error_panel.h"
 
+#include "measure/report_metrics.h"
 #include "ui/actions.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -41,7 +42,7 @@ std::string empty_hint(const Workbench& workbench)
 std::optional<double> target_of(const Workbench& workbench, const std::string& metric)
 {
   const auto history = workbench.error_history();
-  if (!history || metric_of(history->error_column) != metric) return std::nullopt;
+  if (!history || measure::error_column_of(history->error_column).metric != metric) return std::nullopt;
   return history->target;
 }
 
@@ -52,8 +53,8 @@ std::string shown_metric(const Workbench& workbench)
   const std::vector<std::string> all = all_metrics(workbench);
   const auto there = [&](const std::string& metric) { return std::find(all.begin(), all.end(), metric) != all.end(); };
   if (there(workbench.error_metric())) return workbench.error_metric();
-  if (const auto history = workbench.error_history(); history && there(metric_of(history->error_column)))
-    return metric_of(history->error_column);
+  if (const auto history = workbench.error_history(); history && there(measure::error_column_of(history->error_column).metric))
+    return measure::error_column_of(history->error_column).metric;
   return all.empty() ? std::string() : all.front();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/error_plot.h"
 
+#include "measure/report_metrics.h"
 #include "ui/theme.h"
 
 #include <fmt/format.h>
@@ -116,16 +117,37 @@ void draw_values(const PlotContents& contents)
   ImPlot::GetPlotDrawList()->AddLine({x, top.y}, {x, top.y + ImPlot::GetPlotSize().y}, colour::frame, scale());
 }
 
+/// ImPlot's own ticks of a log axis have no numbers within a decade.
+void set_up_ticks(ImAxis axis, const std::array<double, 2>& ends)
+{
+  const std::vector<double> ticks = axis_ticks(ends);
+  std::vector<std::string> texts;
+  std::vector<const char*> labels;
+  for (const double tick : ticks) texts.push_back(fmt::format("{:.3g}", tick));
+  for (const std::string& text : texts) labels.push_back(text.c_str());
+  ImPlot::SetupAxisTicks(axis, ticks.data(), static_cast<int>(ticks.size()), labels.data());
+}
+
+/// "mean CIELAB distance", with its unit where it says more than its name.
+std::string axis_label(const std::string& metric)
+{
+  const measure::MetricText text = measure::metric_text(metric);
+  return text.unit.empty() ? text.label : fmt::format("{} ({})", text.label, text.unit);
+}
+
 void set_up_axes(const PlotContents& contents, const PlotRange& range, bool follows)
 {
-  ImPlot::SetupAxes("seconds of work", contents.metric.empty() ? nullptr : contents.metric.c_str());
+  const bool is_log = measure::metric_text(contents.metric).falls;
+  ImPlot::SetupAxes("seconds of work", contents.metric.empty() ? nullptr : axis_label(contents.metric).c_str());
   ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
-  ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
-  if (follows) { // not ImPlotCond_Always: that takes the mouse's zoom away
+  ImPlot::SetupAxisScale(ImAxis_Y1, is_log ? ImPlotScale_Log10 : ImPlotScale_Linear);
+  set_up_ticks(ImAxis_X1, range.seconds);
+  if (is_log) set_up_ticks(ImAxis_Y1, range.errors);
+  if (follows) {
     ImPlot::SetupAxisLimits(ImAxis_X1, range.seconds[0], range.seconds[1], ImPlotCond_Always);
     ImPlot::SetupAxisLimits(ImAxis_Y1, range.errors[0], range.errors[1], ImPlotCond_Always);
   }
-  ImPlot::SetupLegend(ImPlotLocation_SouthWest);
+  ImPlot::SetupLegend(ImPlotLocation_SouthWest, ImPlotLegendFlags_Reverse);
   ImPlot::SetupFinish();
 }
 
@@ -158,7 +180,8 @@ void ErrorPlot::draw(const PlotContents& contents, float height)
   if (contents.target) levels.push_back(*contents.target);
   constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText;
   if (!ImPlot::BeginPlot("##error against time", {-1, height}, flags)) return;
-  set_up_axes(contents, plot_range(lines, levels), follows_);
+  // While nobody holds the axes they are as wide as what there is; else as they were drawn last, which the ticks go by.
+  set_up_axes(contents, follows_ ? plot_range(lines, levels) : shown_, follows_);
   plot_runs(contents);
   const ImPlotRect limits = ImPlot::GetPlotLimits();
   shown_ = {{limits.X.Min, limits.X.Max}, {limits.Y.Min, limits.Y.Max}};

@@ -27,12 +27,12 @@ const PinnedRun* PinnedRuns::find(std::uint64_t id) const
   return found == runs_.end() ? nullptr : &*found;
 }
 
-PinnedRun* PinnedRuns::find(std::uint64_t id) { return const_cast<PinnedRun*>(std::as_const(*this).find(id)); }
+PinnedRun* PinnedRuns::found(std::uint64_t id) { return const_cast<PinnedRun*>(std::as_const(*this).find(id)); }
 
-std::string PinnedRuns::own_name(const std::string& wanted) const
+std::string PinnedRuns::own_name(const std::string& wanted, std::uint64_t id) const
 {
   const auto taken = [&](const std::string& name) {
-    return std::any_of(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.name == name; });
+    return std::any_of(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.id != id && run.name == name; });
   };
   std::string name = wanted;
   for (int number = 2; taken(name); ++number) name = fmt::format("{} ({})", wanted, number);
@@ -49,16 +49,16 @@ std::uint32_t PinnedRuns::free_colour() const
 const PinnedRun& PinnedRuns::add(PinnedRun run)
 {
   run.id = ++last_id_;
-  run.name = own_name(run.name);
+  run.name = own_name(run.name, run.id);
   run.colour = free_colour();
   return runs_.emplace_back(std::move(run));
 }
 
 void PinnedRuns::change(std::uint64_t id, std::string name, std::uint32_t colour, bool shown)
 {
-  PinnedRun* run = find(id);
+  PinnedRun* run = found(id);
   if (!run) return;
-  if (!name.empty() && name != run->name) run->name = own_name(name);
+  if (!name.empty() && name != run->name) run->name = own_name(name, id);
   run->colour = colour;
   run->shown = shown;
 }

@@ -33,8 +33,9 @@ public:
   void remove(std::uint64_t id);
 
 private:
-  PinnedRun* find(std::uint64_t id);
-  std::string own_name(const std::string& wanted) const;
+  PinnedRun* found(std::uint64_t id);
+  /// The wanted name, with a number where another run than this has it.
+  std::string own_name(const std::string& wanted, std::uint64_t id) const;
   std::uint32_t free_colour() const;
 
   std::vector<PinnedRun> runs_;

@@ -156,7 +156,7 @@ void PlanPanel::read_fields(const Workbench& workbench)
 void PlanPanel::draw_passes(const Workbench& workbench, Commands& commands)
 {
   if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
-  ImGui::TableSetupColumn("##box", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("Always", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("Time", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);

@@ -35,24 +35,38 @@ std::string waiting_hint(const Workbench& workbench)
   return "Preparing: reading the scene, building the kernels";
 }
 
-/// The map, or why there is none yet.
-void show_difference(const Workbench& workbench, ShownPicture& shown)
+/// The newest map, where it is of the metric and the pictures that are compared now; of the run's own picture an earlier one will do.
+std::shared_ptr<const ShownDifference> fitting_map(const Workbench& workbench, const HeldPicture& other, const std::array<int, 2>& size)
 {
   const auto& map = workbench.difference();
-  const bool fits = map && map->of.picture.pixels.width == shown.size[0] && map->of.picture.pixels.height == shown.size[1];
+  if (!map || map->of.metric != workbench.comparison().metric || map->of.other.owner != other.owner) return nullptr;
+  const measure::Pixels& of = map->of.picture.pixels;
+  return of.width == size[0] && of.height == size[1] ? map : nullptr;
+}
+
+/// The map, or why there is none yet.
+void show_difference(const Workbench& workbench, const HeldPicture& other, ShownPicture& shown)
+{
+  const auto map = fitting_map(workbench, other, shown.size);
   shown.label = difference_label(workbench);
-  if (map && !map->error.empty())
+  if (!map)
+    shown.hint = "The difference is being computed";
+  else if (!map->error.empty())
     shown.hint = map->error;
-  else if (fits) {
+  else {
     shown.owner = map;
     shown.rgba = map->rgba;
-  } else
-    shown.hint = "The difference is being computed";
+  }
 }
 
 struct Rgb {
   float r = 0, g = 0, b = 0;
 };
+
+std::size_t index_of(const std::array<int, 2>& size, const std::array<int, 2>& pixel)
+{
+  return static_cast<std::size_t>(pixel[1]) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(pixel[0]);
+}
 
 Rgb value_at(std::span<const float> rgb, const std::array<int, 2>& size, const std::array<int, 2>& pixel)
 {
@@ -94,7 +108,7 @@ ShownPicture shown_picture(const Workbench& workbench)
     shown.rgb = other.pixels.rgb;
     shown.label = other_name(workbench);
   } else
-    show_difference(workbench, shown);
+    show_difference(workbench, other, shown);
   return shown;
 }
 
@@ -115,13 +129,8 @@ std::string pixel_text(const Workbench& workbench, const std::array<int, 2>& pix
   const Rgb difference{of_run.r - of_other.r, of_run.g - of_other.g, of_run.b - of_other.b};
   text += fmt::format("\n{}   {}\ndifference   {}", other_name(workbench), text_of(of_other, white, format),
                       text_of(difference, white, "R {:+.4g}   G {:+.4g}   B {:+.4g}   Y {:+.4g} W/m2/sr"));
-  if (const auto& map = workbench.difference(); comparison.difference && map && map->values) {
-    const measure::Pixels& of = map->of.picture.pixels;
-    if (of.width == size[0] && of.height == size[1])
-      text += fmt::format(
-          "   {} {:.4g}", metric_name(map->of.metric),
-          (*map->values)[static_cast<std::size_t>(pixel[1]) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(pixel[0])]);
-  }
+  if (const auto map = fitting_map(workbench, other, size); comparison.difference && map && map->values)
+    text += fmt::format("   {} {:.4g}", metric_name(map->of.metric), (*map->values)[index_of(size, pixel)]);
   return text;
 }
 

@@ -101,7 +101,9 @@ void Workspace::draw_dock_space(Workbench& workbench)
 
 void Workspace::draw_panel(Panel& panel, const Workbench& workbench, Commands& commands) const
 {
-  if (ImGui::Begin(panel.name(), nullptr, ImGuiWindowFlags_NoCollapse)) panel.draw(workbench, commands);
+  // Without NoFocusOnAppearing the last panel to be drawn would come before the one that the layout has in front.
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
+  if (ImGui::Begin(panel.name(), nullptr, flags)) panel.draw(workbench, commands);
   ImGui::End();
 }
 

@@ -4,9 +4,9 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "job/job.h"
-#include "preset/preset.h"
 #include "measure/reference.h"
 #include "plan/plan.h"
+#include "preset/preset.h"
 #include "ui/workbench.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole window without a display: the mouse and the keys are injected, the preset and the commands are looked at.
-#include "fake_job.h"
-#include "headless.h"
 #include "ui/actions.h"
 #include "ui/status_line.h"
+#include "window_fixture.h"
 
 #include <gmock/gmock.h>
 
@@ -16,59 +15,7 @@ namespace {
 
 using test::eventually;
 
-class PanelsTest : public ::testing::Test {
-protected:
-  test::FakeRuns runs;
-  test::TemporaryFolder folder;
-  test::Headless imgui;
-  Workbench workbench{runs};
-  Workspace workspace;
-
-  void frame() { imgui.frame(workspace, workbench); }
-  void frames(int count)
-  {
-    for (int i = 0; i < count; ++i) frame();
-  }
-  void open()
-  {
-    ASSERT_TRUE(workbench.open(folder.file("test.json")));
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.view().texture().empty(); }));
-    frames(3); // strips and docks take their final places
-  }
-  Point middle() const
-  {
-    const Canvas& canvas = workspace.view().canvas();
-    return {canvas.corner[0] + canvas.size[0] / 2, canvas.corner[1] + canvas.size[1] / 2};
-  }
-  void drag(int button, double dx, double dy)
-  {
-    imgui.move(middle()[0], middle()[1]);
-    frame();
-    imgui.button(button, true);
-    frame();
-    for (int step = 1; step <= 5; ++step) {
-      imgui.move(middle()[0] + dx * step / 5, middle()[1] + dy * step / 5);
-      frame();
-    }
-    imgui.button(button, false);
-    frame();
-  }
-  void press(ImGuiKey key, ImGuiKey modifier = ImGuiKey_None)
-  {
-    if (modifier) imgui.key(modifier, true);
-    imgui.key(key, true);
-    frame();
-    imgui.key(key, false);
-    if (modifier) imgui.key(modifier, false);
-    frame();
-  }
-  const preset::Camera& camera() const { return workbench.preset()->scene.camera; }
-  double distance() const
-  {
-    return std::hypot(camera().position[0] - camera().target[0], camera().position[1] - camera().target[1],
-                      camera().position[2] - camera().target[2]);
-  }
-};
+class PanelsTest : public test::WindowFixture {};
 
 TEST_F(PanelsTest, DrawsWithNothingOpen)
 {

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: Apache-2.0
+// Holding runs against each other in the window: pinned runs, the plot of error against time, flip and difference in the View.
+#include "measure/history_file.h"
+#include "ui/actions.h"
+#include "ui/error_panel.h"
+#include "ui/shown_picture.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <limits>
+
+namespace nephroid::ui {
+namespace {
+
+using test::eventually;
+using test::falling_history;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+class CompareTest : public test::WindowFixture {
+protected:
+  void finish()
+  {
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::finished; }));
+    frames(2);
+  }
+  /// A reference of the pictures' size, all of one colour.
+  void give_reference(std::array<float, 3> rgb, int width = 64, int height = 48)
+  {
+    auto reference = std::make_shared<measure::Reference>();
+    reference->width = width;
+    reference->height = height;
+    for (int i = 0; i < width * height; ++i) reference->rgb.insert(reference->rgb.end(), rgb.begin(), rgb.end());
+    reference->origin = "reference.exr";
+    runs.reference = reference;
+  }
+  void measured()
+  {
+    runs.history = [](int steps) { return falling_history(steps); };
+  }
+  void change_camera(double z)
+  {
+    preset::Preset edited = *workbench.preset();
+    edited.scene.camera.position[2] = z;
+    workbench.apply({command::Edit{"camera", edited}});
+  }
+  std::array<int, 3> first_texel() const
+  {
+    const auto pixels = workspace.view().texture().pixels();
+    return {pixels[0], pixels[1], pixels[2]};
+  }
+  void hover(const std::array<double, 4>& area)
+  {
+    imgui.move(area[0] + area[2] / 2, area[1] + area[3] / 2);
+    frame();
+  }
+};
+
+TEST_F(CompareTest, ThePlotFollowsTheRunInHand)
+{
+  frames(3);
+  EXPECT_TRUE(workspace.error().contents().runs.empty()) << "nothing is open";
+  measured();
+  open();
+  finish();
+  const PlotContents& contents = workspace.error().contents();
+  EXPECT_EQ(contents.metric, "lab_mean");
+  ASSERT_THAT(contents.runs, SizeIs(1));
+  EXPECT_EQ(contents.runs[0].lines->error.curve.seconds.size(), 20u);
+  const PlotRange& shown = workspace.error().plot().shown();
+  EXPECT_LT(shown.seconds[0], 0.01);
+  EXPECT_GT(shown.seconds[1], 0.2);
+  workbench.apply({command::ChooseMetric{"rel_mse"}});
+  frame();
+  EXPECT_EQ(workspace.error().contents().metric, "rel_mse");
+  workbench.apply({command::ChooseMetric{"flip"}});
+  frame();
+  EXPECT_EQ(workspace.error().contents().metric, "lab_mean") << "no run has that one";
+}
+
+TEST_F(CompareTest, HistoriesOfAnyKindAreDrawn)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  auto nothing = std::make_shared<job::History>();
+  auto no_rows = falling_history(0);
+  auto one_row = falling_history(1);
+  auto all_nan = falling_history(5);
+  for (job::HistoryRow& row : all_nan->rows) row.errors = {nan, nan, nan};
+  auto same = falling_history(5); // all at one time and of one error
+  for (job::HistoryRow& row : same->rows) {
+    row.seconds = 1;
+    row.errors = {1, 1, 1};
+  }
+  auto zero = falling_history(5);
+  for (job::HistoryRow& row : zero->rows) row.errors = {0, 0, 0};
+  auto psnr = falling_history(5);
+  psnr->columns = {"psnr_db", "iw_ssim", "estimated_lab_mean"};
+  psnr->error_column = "psnr_db";
+  auto floor = falling_history(50);
+  floor->noise_floor = {0.02, nan, nan};
+  floor->target = 0.03;
+  runs.steps = 2;
+  for (const auto& history : {nothing, no_rows, one_row, all_nan, same, zero, psnr, floor}) {
+    runs.history = [&](int) { return history; };
+    open();
+    finish();
+    workbench.apply({command::PinRun{}});
+    frames(2);
+    hover(workspace.error().plot().area());
+    EXPECT_TRUE(workbench.messages().empty());
+    EXPECT_EQ(workbench.error_history(), history);
+  }
+  EXPECT_EQ(workspace.error().contents().target, 0.03);
+  workbench.apply({command::ChooseMetric{"psnr_db"}});
+  frames(2);
+  EXPECT_EQ(workspace.error().contents().metric, "psnr_db");
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(CompareTest, TenThousandRowsAreDrawnInAFewMilliseconds)
+{
+  const auto history = falling_history(10000);
+  runs.steps = 2;
+  runs.history = [&](int) { return history; };
+  open();
+  finish();
+  const auto mean_ms = [&] {
+    const auto begin = std::chrono::steady_clock::now();
+    frames(50);
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count() / 50;
+  };
+  const double one = mean_ms();
+  for (int i = 0; i < 5; ++i) workbench.apply({command::PinRun{}});
+  frame();
+  const double six = mean_ms();
+  RecordProperty("frame_ms", std::to_string(one));
+  RecordProperty("frame_ms_with_five_pinned", std::to_string(six));
+  // A bound for a machine that is busy with other things; alone it is a tenth of this.
+  EXPECT_LT(one, 15);
+  EXPECT_LT(six, 50);
+}
+
+TEST_F(CompareTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
+{
+  measured();
+  open();
+  finish();
+  const PlotRange before = workspace.error().plot().shown();
+  hover(workspace.error().plot().area());
+  for (int i = 0; i < 3; ++i) {
+    imgui.wheel(1);
+    frame();
+  }
+  frames(2);
+  EXPECT_FALSE(workspace.error().plot().follows());
+  EXPECT_GT(workspace.error().plot().shown().seconds[0], before.seconds[0]);
+  EXPECT_EQ(camera().position[2], 4) << "the wheel over the plot is the plot's";
+  for (int click = 0; click < 2; ++click) {
+    imgui.button(0, true);
+    frame();
+    imgui.button(0, false);
+    frame();
+  }
+  frames(2);
+  EXPECT_TRUE(workspace.error().plot().follows());
+  EXPECT_NEAR(workspace.error().plot().shown().seconds[0], before.seconds[0], 1e-9);
+}
+
+TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
+{
+  measured();
+  open();
+  finish();
+  press(ImGuiKey_P);
+  ASSERT_THAT(workbench.pinned().all(), SizeIs(1));
+  const PinnedRun pinned = workbench.pinned().all()[0];
+  EXPECT_EQ(pinned.name, "Test");
+  EXPECT_EQ(pinned.history->rows.size(), 20u);
+  EXPECT_EQ(pinned.picture->rgb[2], 4);
+  runs.history = [](int steps) { return falling_history(steps, 0.005); }; // half the error
+  change_camera(2);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+  finish();
+  EXPECT_THAT(workspace.error().contents().runs, SizeIs(2));
+  EXPECT_EQ(workbench.pinned().all()[0].history, pinned.history);
+  EXPECT_EQ(workbench.pinned().all()[0].picture->rgb[2], 4);
+  press(ImGuiKey_P);
+  ASSERT_THAT(workbench.pinned().all(), SizeIs(2));
+  EXPECT_EQ(workbench.pinned().all()[1].name, "Test: camera");
+  EXPECT_NE(workbench.pinned().all()[1].colour, pinned.colour);
+  // Hidden, the first is no longer in the plot; the second is.
+  workbench.apply({command::ChangePin{pinned.id, "far", pinned.colour, false}});
+  frame();
+  EXPECT_EQ(workbench.pinned().find(pinned.id)->name, "far");
+  EXPECT_THAT(workspace.error().contents().runs, SizeIs(2));
+  EXPECT_EQ(workspace.error().contents().runs[0].name, "Test: camera");
+  workbench.apply({command::SetComparison{{.pin = pinned.id}}, command::Unpin{pinned.id}});
+  frame();
+  EXPECT_EQ(workbench.comparison().pin, 0u);
+  EXPECT_THAT(workbench.pinned().all(), SizeIs(1));
+  EXPECT_TRUE(workbench.open(folder.file("other.json")));
+  frames(2);
+  EXPECT_THAT(workbench.pinned().all(), SizeIs(1)) << "another preset may be compared with it";
+}
+
+TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
+{
+  measured();
+  open();
+  finish();
+  folder.file("history.csv", measure::to_csv(*falling_history(7)));
+  workbench.apply({command::Open{folder.path.string()}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.pinned().all().size() == 1; }));
+  EXPECT_EQ(workbench.pinned().all()[0].history->rows.size(), 7u);
+  EXPECT_EQ(workbench.preset()->name, "Test") << "the preset stays";
+  frames(2);
+  EXPECT_THAT(workspace.error().contents().runs, SizeIs(2));
+  workbench.apply({command::Open{folder.file("cut.csv", "seconds,wall_seconds,step,work,lab_mean\n1,1,1,1")}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.messages().size() == 1; }));
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("cut.csv:2"));
+  EXPECT_THAT(workbench.pinned().all(), SizeIs(1));
+}
+
+TEST_F(CompareTest, ADialogOpensAHistory)
+{
+  open();
+  const std::string file = folder.file("old.csv", measure::to_csv(*falling_history(3)));
+  imgui.key(ImGuiMod_Shift, true);
+  press(ImGuiKey_O, ImGuiMod_Ctrl);
+  imgui.key(ImGuiMod_Shift, false);
+  frames(3);
+  ASSERT_EQ(workbench.question(), Question::open_history);
+  ImGui::GetIO().AddInputCharactersUTF8(file.c_str());
+  frames(2);
+  press(ImGuiKey_Enter);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.pinned().all().size() == 1; }));
+  EXPECT_EQ(workbench.pinned().all()[0].name, "old");
+  EXPECT_EQ(workbench.question(), Question::none);
+}
+
+TEST_F(CompareTest, CopiesGoToTheClipboard)
+{
+  measured();
+  open();
+  finish();
+  Commands commands;
+  action("Copy history as CSV").run(workbench, commands);
+  EXPECT_EQ(std::string(ImGui::GetClipboardText()), measure::to_csv(*workbench.error_history()));
+  action("Copy plot as CSV").run(workbench, commands);
+  EXPECT_THAT(std::string(ImGui::GetClipboardText()), StartsWith("run,line,seconds,error\n\"this run\",error,0.01,"));
+  EXPECT_TRUE(commands.empty());
+}
+
+TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
+{
+  give_reference({1, 0, 0});
+  open();
+  finish();
+  EXPECT_EQ(first_texel(), (std::array{0, 0, 255})) << "the camera at (0, 0, 4)";
+  imgui.key(ImGuiKey_R, true);
+  frame();
+  ASSERT_NE(imgui.pushed<command::SetComparison>(), nullptr);
+  EXPECT_TRUE(imgui.pushed<command::SetComparison>()->comparison.flip);
+  frames(3);
+  EXPECT_EQ(first_texel(), (std::array{255, 0, 0}));
+  EXPECT_EQ(workspace.view().shown().label, "Reference");
+  imgui.key(ImGuiKey_R, false);
+  frames(2);
+  EXPECT_FALSE(workbench.comparison().flip);
+  EXPECT_EQ(first_texel(), (std::array{0, 0, 255}));
+  EXPECT_EQ(runs.made, 1) << "no new run";
+}
+
+TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack)
+{
+  give_reference({1, 0, 0});
+  open();
+  finish();
+  imgui.key(ImGuiKey_R, true);
+  frames(2);
+  EXPECT_TRUE(workbench.comparison().flip);
+  ImGui::GetIO().AddFocusEvent(false);
+  frames(2);
+  EXPECT_FALSE(workbench.comparison().flip);
+}
+
+TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
+{
+  open();
+  finish();
+  press(ImGuiKey_P);
+  change_camera(0);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+  finish();
+  EXPECT_EQ(first_texel(), (std::array{0, 0, 0}));
+  press(ImGuiKey_N); // from the reference to the pinned run
+  EXPECT_EQ(workbench.comparison().pin, workbench.pinned().all()[0].id);
+  imgui.key(ImGuiKey_R, true);
+  frames(2);
+  EXPECT_EQ(first_texel(), (std::array{0, 0, 255}));
+  EXPECT_EQ(workspace.view().shown().label, "\"Test\"");
+  imgui.key(ImGuiKey_R, false);
+  frame();
+  press(ImGuiKey_N);
+  EXPECT_EQ(workbench.comparison().pin, 0u) << "round again";
+}
+
+TEST_F(CompareTest, WithoutAReferenceTheActionsSayWhy)
+{
+  open();
+  finish();
+  EXPECT_FALSE(action("Flip").enabled(workbench));
+  EXPECT_FALSE(action("Difference").enabled(workbench));
+  EXPECT_THAT(action("Flip").why_not(workbench), HasSubstr("the preset has no reference"));
+  press(ImGuiKey_R);
+  frame();
+  ASSERT_THAT(workbench.messages(), SizeIs(1));
+  EXPECT_FALSE(workbench.messages()[0].error);
+  EXPECT_THAT(workbench.messages()[0].line, StartsWith("Flip: the preset has no reference"));
+  EXPECT_FALSE(workbench.comparison().flip);
+}
+
+TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
+{
+  give_reference({0, 0, 3});
+  open();
+  finish();
+  press(ImGuiKey_D);
+  workbench.apply({command::SetComparison{{.difference = true, .metric = measure::DifferenceMetric::absolute}}});
+  ASSERT_TRUE(
+      eventually([&] { frame(); }, [&] { return workspace.view().shown().owner == workbench.difference() && workbench.difference(); }));
+  const auto map = workbench.difference();
+  ASSERT_NE(map->values, nullptr);
+  EXPECT_NEAR(map->values->at(0), 1.0 / 3, 1e-6) << "(|0| + |0| + |4 - 3|) / 3";
+  EXPECT_EQ(map->scale, measure::colour_scale(*map->values));
+  const auto colour = measure::map_colour(map->values->at(0) / map->scale);
+  EXPECT_NEAR(first_texel()[0], colour[0], 2);
+  EXPECT_NEAR(first_texel()[1], colour[1], 2);
+  EXPECT_THAT(pixel_text(workbench, {3, 2}), HasSubstr("\nReference   R 0   G 0   B 3"));
+  EXPECT_THAT(pixel_text(workbench, {3, 2}), HasSubstr("\ndifference   R +0   G +0   B +1"));
+  EXPECT_THAT(pixel_text(workbench, {3, 2}), HasSubstr("|a - b| 0.3333"));
+  // A fixed scale is another map of the same values, which are not computed again.
+  workbench.apply({command::SetComparison{{.difference = true, .metric = measure::DifferenceMetric::absolute, .scale = 1.0 / 3}}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference()->scale == 1.0 / 3; }));
+  EXPECT_EQ(workbench.difference()->values, map->values);
+  frame();
+  EXPECT_NEAR(first_texel()[0], measure::map_colour(1)[0], 2);
+  press(ImGuiKey_D);
+  frames(2);
+  EXPECT_EQ(first_texel(), (std::array{0, 0, 255}));
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(CompareTest, EveryMetricHasADifference)
+{
+  give_reference({0, 0, 3});
+  open();
+  finish();
+  for (std::size_t i = 0; i < measure::difference_names.size(); ++i) {
+    const auto metric = static_cast<measure::DifferenceMetric>(i);
+    workbench.apply({command::SetComparison{{.difference = true, .metric = metric}}});
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference() && workbench.difference()->of.metric == metric; }));
+    frame();
+    EXPECT_EQ(workbench.difference()->error, "");
+    EXPECT_EQ(workspace.view().shown().hint, "");
+  }
+}
+
+TEST_F(CompareTest, PicturesOfOtherSizesAreSaidNotCompared)
+{
+  give_reference({1, 0, 0}, 32, 32);
+  open();
+  finish();
+  EXPECT_THAT(workbench.why_not_comparable(), HasSubstr("32 x 32, the picture 64 x 48"));
+  workbench.apply({command::SetComparison{{.difference = true}}});
+  frames(5);
+  EXPECT_THAT(workspace.view().shown().hint, HasSubstr("32 x 32"));
+  EXPECT_EQ(workbench.difference(), nullptr);
+  workbench.apply({command::SetComparison{{.flip = true}}});
+  frames(2);
+  EXPECT_THAT(workspace.view().shown().hint, HasSubstr("32 x 32"));
+  EXPECT_TRUE(action("Difference").why_not(workbench).size() > 10);
+}
+
+TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo)
+{
+  give_reference({0, std::numeric_limits<float>::quiet_NaN(), 0});
+  open();
+  finish();
+  workbench.apply({command::SetComparison{{.difference = true}}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference() != nullptr; }));
+  frame();
+  EXPECT_THAT(workspace.view().shown().hint, HasSubstr("reference.exr"));
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+} // namespace
+} // namespace nephroid::ui

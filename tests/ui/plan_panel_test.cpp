@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Plan": what is left out can be computed all the same by a click, which is an edit of the preset.
+#include "plan/plan.h"
+#include "preset/read.h"
+#include "ui/actions.h"
+#include "ui/plan_panel.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using test::eventually;
+
+class PlanPanelTest : public test::WindowFixture {
+protected:
+  PlanPanelTest() : test::WindowFixture("plan")
+  {
+    runs.plan.engine = "spectral";
+    runs.plan.passes = {{"direct", true, "1 diffuse object", "/spectral/direct", true},
+                        {"mirrors", false, "no object is a mirror", "/spectral/leave_out/mirrors", false},
+                        {"indirect", false, "not rendered yet", "", false},
+                        {"fog", false, "there is none", "/spectral/leave_out/fog", false}};
+    runs.plan.buffers = {{"tree", 1 << 20}, {"film", 3 << 20}};
+    runs.plan.defines = {{"NEPHROID_MIRRORS", "0"}};
+  }
+  /// Clicks the box of a pass; the edit that this pushed.
+  std::optional<command::Edit> click(const std::string& pass)
+  {
+    const auto at = workspace.plan().box_of(pass);
+    if (!at) return std::nullopt;
+    imgui.move((*at)[0], (*at)[1]);
+    frame();
+    imgui.button(0, true);
+    frame();
+    imgui.button(0, false);
+    frame();
+    const auto* edit = imgui.pushed<command::Edit>();
+    return edit ? std::optional(*edit) : std::nullopt;
+  }
+};
+
+TEST_F(PlanPanelTest, WhatAFieldDecidesHasABox)
+{
+  frames(3);
+  open();
+  EXPECT_TRUE(workspace.plan().box_of("direct"));
+  EXPECT_TRUE(workspace.plan().box_of("mirrors"));
+  EXPECT_FALSE(workspace.plan().box_of("indirect"));
+  EXPECT_FALSE(workspace.plan().box_of("fog")) << "the preset has no such field";
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(PlanPanelTest, ABoxEditsThePresetAndCanBeUndone)
+{
+  open();
+  const auto edit = click("mirrors");
+  ASSERT_TRUE(edit);
+  EXPECT_FALSE(edit->preset.spectral.leave_out.mirrors);
+  EXPECT_EQ(edit->label, "compute mirrors");
+  preset::Preset back = edit->preset;
+  back.spectral.leave_out.mirrors = true;
+  EXPECT_EQ(back, workbench.history()->opened()) << "nothing else changed";
+  EXPECT_FALSE(workbench.preset()->spectral.leave_out.mirrors);
+  const int made = runs.made;
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made || workbench.snapshot_is_current(); }));
+  frames(2);
+  const auto again = click("mirrors");
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(again->preset.spectral.leave_out.mirrors);
+  EXPECT_EQ(again->label, "leave out mirrors");
+  const auto direct = click("direct");
+  ASSERT_TRUE(direct);
+  EXPECT_FALSE(direct->preset.spectral.direct) << "its box was checked: true is to run";
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_TRUE(workbench.preset()->spectral.direct);
+}
+
+TEST_F(PlanPanelTest, AFieldThatThereIsNotIsRefused)
+{
+  const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
+  EXPECT_FALSE(with_field(preset, "/spectral/caustic", false).spectral.caustic);
+  EXPECT_THROW(with_field(preset, "/spectral/fog", false), Error);
+}
+
+TEST_F(PlanPanelTest, ThePlanIsCopiedAsJson)
+{
+  EXPECT_FALSE(action("Copy plan as JSON").enabled(workbench));
+  open();
+  Commands commands;
+  action("Copy plan as JSON").run(workbench, commands);
+  EXPECT_EQ(std::string(ImGui::GetClipboardText()), plan::to_json(*workbench.plan()));
+}
+
+TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
+{
+  open();
+  EXPECT_NE(workbench.plan(), nullptr);
+  runs.make_ms = 300;
+  ASSERT_TRUE(workbench.open(folder.file("other.json")));
+  frame();
+  EXPECT_EQ(workbench.plan(), nullptr);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.plan() != nullptr; }));
+  frames(2);
+  EXPECT_TRUE(workspace.plan().box_of("mirrors"));
+}
+
+} // namespace
+} // namespace nephroid::ui
