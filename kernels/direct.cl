@@ -109,7 +109,8 @@ static inline int choose_cluster(__global const float* cdf, int count, uint2 see
 __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
                      __global const float* cluster_cdf,                         // [cluster + 1]: which cluster a path through glass takes
                      volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                     DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale)
+                     DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale,
+                     float film_limit)
 {
   const World world = WORLD;
   const int index = (int)get_global_id(0);
@@ -133,5 +134,6 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
       const float probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
       xyz += follow(&world, path, hit, cluster, reflected_xyz_all, seed, sample, pixel) / probability;
     }
-  if (!film_add(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale)) add_exactly(energy + OUTCOME_REFUSED, 1);
+  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, film_limit, jitter.z))
+    add_exactly(energy + OUTCOME_REFUSED, 1);
 }

@@ -32,16 +32,24 @@ static inline volatile __global long* film_of_pass(volatile __global long* film,
   return film + 3 * (size_t)pixels * (pass % NEPHROID_FILM_HALVES);
 }
 
-// Adds xyz * scale to a pixel. Returns false, and adds nothing, where that is not finite or above FILM_LIMIT.
-static inline bool film_add(volatile __global long* film, int pixel, float3 xyz, float scale)
+// Adds xyz * scale to a pixel. dither: uniform in [0, 1); then a contribution of q quanta, however small, adds q in the mean, where rounding
+// to the nearest would lose all below a half. Returns false, and adds nothing, where that is not finite or above `limit` quanta.
+static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit, float dither)
 {
   const float3 quanta = xyz * scale;
-  if (!(fabs(quanta.x) <= FILM_LIMIT && fabs(quanta.y) <= FILM_LIMIT && fabs(quanta.z) <= FILM_LIMIT)) return false;
+  if (!(fabs(quanta.x) <= limit && fabs(quanta.y) <= limit && fabs(quanta.z) <= limit)) return false;
   volatile __global long* sum = film + 3 * (size_t)pixel;
-  add_exactly(sum, convert_long_rte(quanta.x));
-  add_exactly(sum + 1, convert_long_rte(quanta.y));
-  add_exactly(sum + 2, convert_long_rte(quanta.z));
+  const float shift = dither - 0.5f;
+  add_exactly(sum, convert_long_rte(quanta.x + shift));
+  add_exactly(sum + 1, convert_long_rte(quanta.y + shift));
+  add_exactly(sum + 2, convert_long_rte(quanta.z + shift));
   return true;
+}
+
+// The same to the nearest quantum, up to FILM_LIMIT.
+static inline bool film_add(volatile __global long* film, int pixel, float3 xyz, float scale)
+{
+  return film_add_dithered(film, pixel, xyz, scale, FILM_LIMIT, 0.5f);
 }
 
 #endif

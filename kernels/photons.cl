@@ -97,7 +97,7 @@ static inline PhotonEnd trace_photon(const World* world, const DeviceEmitter* em
 
 // Adds a deposited photon to the pixel that sees it. False where the film refused it.
 static inline bool splat(const World* world, const DeviceCamera* camera, const PhotonEnd* end, float3 arriving, float watts,
-                         volatile __global long* film, float film_scale)
+                         volatile __global long* film, float film_scale, float dither)
 {
   float weight;
   const int pixel = project_to_pixel(camera, end->surface.position, end->surface.geometric, arriving, world->scene.metres_per_unit, &weight);
@@ -106,7 +106,7 @@ static inline bool splat(const World* world, const DeviceCamera* camera, const P
   const float3 way = camera->position.xyz - from;
   const float distance = length(way);
   if (is_blocked(world, from, way / distance, distance, end->triangle)) return true;
-  return film_add(film, pixel, end->xyz * (watts * weight / PI_F), film_scale);
+  return film_add_dithered(film, pixel, end->xyz * (watts * weight / PI_F), film_scale, FILM_LIMIT, dither);
 }
 
 // Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass.
@@ -124,12 +124,13 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const DeviceEmitter emitter = emitters[emitter_of(emitters, scene.emitter_count, photon)];
     const DeviceLight light = lights[emitter.light];
     const float4 place = is_light(&light, LIGHT_AREA) ? random4(seed, pass, photon, 1u, STREAM_PHOTONS) : (float4)(0.0f);
-    const Emission emission = emit(&light, targets, &scene, random4(seed, pass, photon, 0u, STREAM_PHOTONS), place);
+    const float4 random = random4(seed, pass, photon, 0u, STREAM_PHOTONS); // w: the film's
+    const Emission emission = emit(&light, targets, &scene, random, place);
     if (emission.watts == 0.0f) continue;
     const float watts = emission.watts / (float)emitter.photon_count; // as if the cluster had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, media_from(&light.inside), no_losses(), emission.behind};
     const PhotonEnd end = trace_photon(&world, &emitter, &path, seed, pass, photon);
-    if (end.outcome == OUTCOME_DEPOSITED && !splat(&world, &camera, &end, path.direction, watts, film, film_scale))
+    if (end.outcome == OUTCOME_DEPOSITED && !splat(&world, &camera, &end, path.direction, watts, film, film_scale, random.w))
       ++outcomes[OUTCOME_REFUSED];
 
     const long quanta = convert_long_rte(watts * emitter.share * energy_scale);

@@ -37,11 +37,10 @@ int touching_axis(const Bounds& glass, const Bounds& other, double tolerance)
   return -1;
 }
 
-/// Moves every face of the object that lies across the axis inwards by `gap`; Bounds that are no thicker than that stay.
-bool draw_in(Scene& scene, const Object& object, const Bounds& bounds, int axis, double gap)
+/// Calls change(coordinate along the axis) for every vertex of the object.
+template <class Change>
+void change_vertices(Scene& scene, const Object& object, int axis, const Change& change)
 {
-  const double middle = 0.5 * (bounds.low[axis] + bounds.high[axis]), half = 0.5 * (bounds.high[axis] - bounds.low[axis]);
-  if (half < 8 * gap) return false;
   std::uint32_t first = ~0u, last = 0;
   for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
     for (int corner = 0; corner < 3; ++corner) {
@@ -50,14 +49,37 @@ bool draw_in(Scene& scene, const Object& object, const Bounds& bounds, int axis,
     }
   for (std::uint32_t v = first; v <= last; ++v) {
     float& coordinate = scene.geometry.positions[v][axis];
-    coordinate = static_cast<float>(middle + (coordinate - middle) * (1 - gap / half));
+    coordinate = static_cast<float>(change(coordinate));
   }
-  return true;
+}
+
+/// Leaves a gap between the glass and what it touches across the axis: moves every face of it that lies across inwards, or, where it is too
+/// thin for that, all of it away from the other's face.
+void part(Scene& scene, const Object& glass, const Bounds& bounds, const Bounds& other, int axis, double gap)
+{
+  const double middle = 0.5 * (bounds.low[axis] + bounds.high[axis]), half = 0.5 * (bounds.high[axis] - bounds.low[axis]);
+  const auto distance_of = [&](double face) { return std::min(std::abs(face - other.low[axis]), std::abs(face - other.high[axis])); };
+  if (half >= 8 * gap)
+    change_vertices(scene, glass, axis, [&](double at) { return middle + (at - middle) * (1 - gap / half); });
+  else {
+    const double away = distance_of(bounds.low[axis]) < distance_of(bounds.high[axis]) ? gap : -gap;
+    change_vertices(scene, glass, axis, [&](double at) { return at + away; });
+  }
 }
 
 std::string label(const Scene& scene, std::size_t object)
 {
   return scene.objects[object].name.empty() ? fmt::format("object {}", object) : fmt::format("object '{}'", scene.objects[object].name);
+}
+
+/// Moved away from one thing onto another: there is no room for it.
+void warn_if_between(Scene& scene, const std::vector<Bounds>& bounds, std::size_t i)
+{
+  for (std::size_t j = 0; j < scene.objects.size(); ++j)
+    if (i != j && touching_axis(bounds[i], bounds[j], touching_share * largest_coordinate(bounds[i], bounds[j])) >= 0)
+      scene.warnings.push_back(fmt::format("{} lies exactly on {} and is too thin to be parted from it: light may be lost between them; "
+                                           "move it, make it thicker, or let them overlap",
+                                           label(scene, i), label(scene, j)));
 }
 
 } // namespace
@@ -82,14 +104,16 @@ void part_touching(Scene& scene)
     if (scene.materials[static_cast<std::size_t>(scene.objects[i].material)].type != Material::Type::dielectric) continue;
     for (std::size_t j = 0; j < scene.objects.size(); ++j) {
       if (i == j) continue;
-      const double largest = largest_coordinate(bounds[i], bounds[j]);
-      const int axis = touching_axis(bounds[i], bounds[j], touching_share * largest);
-      if (axis < 0 || !draw_in(scene, scene.objects[i], bounds[i], axis, gap_share * largest)) continue;
+      const double largest = largest_coordinate(bounds[i], bounds[j]), tolerance = touching_share * largest;
+      const int axis = touching_axis(bounds[i], bounds[j], tolerance);
+      if (axis < 0) continue;
+      part(scene, scene.objects[i], bounds[i], bounds[j], axis, gap_share * largest);
       bounds[i] = object_bounds(scene, scene.objects[i]);
       scene.warnings.push_back(
           fmt::format("{} touches {}: a gap of {:.2g} length units is left between them; let them overlap to have none", label(scene, i),
                       label(scene, j), gap_share * largest));
     }
+    warn_if_between(scene, bounds, i);
   }
 }
 

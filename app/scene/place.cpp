@@ -68,6 +68,23 @@ void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3
                                           extent, farthest, spacing / 2));
 }
 
+/// Rays start some 2^-21 of a triangle's coordinates off it (kernels/surface.h): glass thinner than that would be stepped over, and light
+/// go on inside it for ever. Twice the volume over the area is the thickness of a plate or a shell.
+void check_thickness(const Mesh& mesh, double volume, const std::string& where)
+{
+  double area = 0, largest = 0;
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const glm::dvec3 a = mesh.positions[triangle.x], ab = glm::dvec3(mesh.positions[triangle.y]) - a,
+                     ac = glm::dvec3(mesh.positions[triangle.z]) - a;
+    area += 0.5 * glm::length(glm::cross(ab, ac));
+    for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(a[axis]), std::abs(ab[axis]), std::abs(ac[axis])});
+  }
+  const double thickness = 2 * std::abs(volume) / area, thinnest = 0x1p-20 * largest;
+  if (thickness < thinnest)
+    throw bad_input(where, fmt::format("is {:.3g} units thick, too little for single precision", thickness),
+                    fmt::format("at least {:.3g} for what is {:.3g} units long", thinnest, largest), "make it thicker or smaller");
+}
+
 const char* plural(std::uint32_t count) { return count == 1 ? "" : "s"; }
 
 void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
@@ -137,6 +154,7 @@ Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& ori
   const MeshReport report = inspect(placed.mesh);
   check_surface(report, dielectric, placed);
   if (report.degenerate + report.duplicated > 0) drop_useless(placed.mesh);
+  if (dielectric && placed.closed && !placed.mesh.triangles.empty()) check_thickness(placed.mesh, report.signed_volume, where);
   if (placed.mesh.triangles.empty())
     throw bad_input(where, "no triangle has an area after scaling", "a mesh with a surface", "use a scale closer to 1");
   if (placed.mesh.normals.empty()) compute_smooth_normals(placed.mesh);

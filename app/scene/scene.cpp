@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <optional>
 
 namespace nephroid::scene {
@@ -139,6 +140,49 @@ void warn_if_straddling(Scene& scene, const Light& light, std::size_t index)
   }
 }
 
+/// In units, from the middle of the scene's coordinates.
+double scene_radius(const Scene& scene)
+{
+  double radius = 0;
+  for (const Object& object : scene.objects) radius = std::max<double>(radius, glm::length(object.bounds.centre) + object.bounds.radius);
+  return radius;
+}
+
+/// Places on a rectangle are drawn uniformly. Of one much larger than the scene hardly any is near enough to matter.
+void warn_if_wide(Scene& scene, const Light& light, std::size_t index)
+{
+  const double size = std::max(glm::length(light.edge_u), glm::length(light.edge_v)), radius = scene_radius(scene);
+  if (light.type == preset::Light::Type::area && radius > 0 && size > 50 * radius)
+    scene.warnings.push_back(
+        fmt::format("light {}: is {:.3g} times as wide as the scene: nearly all of its samples are too far away to matter, "
+                    "and the picture is dark but for rare bright dots; make it smaller, or take directional light",
+                    index, size / (2 * radius)));
+}
+
+/// W/m^2 at the scene's radius, or in a spot's cone there.
+double typical_irradiance(const Scene& scene, const Light& light)
+{
+  if (light.type == preset::Light::Type::directional) return light.irradiance_w_m2;
+  const double metres = scene_radius(scene) * scene.metres_per_unit;
+  const double half_angle_share = light.type == preset::Light::Type::spot ? (1 - light.cos_half_angle) / 2 : 1;
+  return light.power_w / (4 * std::numbers::pi * metres * metres * half_angle_share);
+}
+
+/// Films hold some 2^40 between the strongest and the weakest light that is to be seen without noise of their own.
+void warn_of_faint_lights(Scene& scene)
+{
+  double strongest = 0;
+  for (const Light& light : scene.lights) strongest = std::max(strongest, typical_irradiance(scene, light));
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const double share = typical_irradiance(scene, scene.lights[i]) / strongest;
+    if (share > 0 && share < 0x1p-30)
+      scene.warnings.push_back(
+          fmt::format("light {}: is {:.2g} of the strongest light, less than the film's numbers resolve: what it lights alone is "
+                      "noise; render it in a run of its own",
+                      i, share));
+  }
+}
+
 } // namespace
 
 std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
@@ -186,7 +230,9 @@ Scene load_scene(const preset::Preset& preset)
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     scene.lights.push_back(make_light(preset.scene.lights[i], scene, fmt::format("{}/lights/{}", where, i)));
     warn_if_straddling(scene, scene.lights.back(), i);
+    warn_if_wide(scene, scene.lights.back(), i);
   }
+  warn_of_faint_lights(scene);
   scene.camera = make_camera(preset.scene.camera, scene);
   return scene;
 }

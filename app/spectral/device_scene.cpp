@@ -33,7 +33,7 @@ shared::Media to_media(const std::vector<int>& inside, const std::string& where)
   return media;
 }
 
-shared::DeviceLight device_light(const scene::Light& light, const std::string& where)
+shared::DeviceLight device_light(const scene::Light& light, double power_unit, const std::string& where)
 {
   shared::DeviceLight out{};
   out.position = to_float4(light.position);
@@ -44,7 +44,7 @@ shared::DeviceLight device_light(const scene::Light& light, const std::string& w
   out.type = device_light_type(light.type);
   out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
   out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
-  out.radiometric = static_cast<float>(light.type == Type::directional ? light.irradiance_w_m2 : light.power_w);
+  out.radiometric = static_cast<float>((light.type == Type::directional ? light.irradiance_w_m2 : light.power_w) / power_unit);
   out.inside = to_media(light.inside, where + "/position");
   return out;
 }
@@ -115,7 +115,7 @@ void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, co
                DeviceTables& tables, std::vector<double>& watts)
 {
   const auto number = static_cast<int>(&light - scene.lights.data());
-  shared::DeviceLight out = device_light(light, fmt::format("{}#/scene/lights/{}", scene.source, number));
+  shared::DeviceLight out = device_light(light, tables.power_unit, fmt::format("{}#/scene/lights/{}", scene.source, number));
   out.number = number;
   if (leave_out.unreached_targets) std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });
   set_targets(out, targets, tables);
@@ -161,20 +161,32 @@ scene::Sphere scene_bounds(const scene::Scene& scene)
 
 double power_of_two_below(double value) { return std::isfinite(value) && value > 0 ? std::exp2(std::floor(std::log2(value))) : 1.0; }
 
-/// Fixed-point scales. The caustic film gets 2^38 quanta for all the light's power in one pixel of a surface as far away as the
-/// scene's middle (a contribution may be 16 times that, see film.h); the direct film 2^30 for a surface that the light reaches from
-/// the scene's radius; the energy counters 2^40 for the power of one pass. 2^20 passes fit into 63 bits.
-void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, DeviceTables& tables)
+/// A power of two near the power of the strongest light.
+double choose_power_unit(const scene::Scene& scene)
+{
+  double strongest = 0;
+  for (const scene::Light& light : scene.lights) strongest = std::max({strongest, light.power_w, light.irradiance_w_m2});
+  return power_of_two_below(strongest);
+}
+
+/// Fixed-point scales, so that what is usual lies in the middle of 63 bits and may be far brighter or fainter. The caustic film gets 2^16
+/// quanta for a photon with a mean share of all the light's power, on a surface as far away as the scene's middle (the limit of one is
+/// 2^42, see film.h: 8000 times nearer). The direct film gets 2^24 for a surface that the light reaches from the scene's radius, and a
+/// limit that the pixel's samples cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches. The energy
+/// counters get 2^40 for the power of one pass. 2^20 passes fit into 63 bits.
+void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, int pixel_samples, DeviceTables& tables)
 {
   const scene::Camera& camera = scene.camera;
   const double metres = scene.metres_per_unit;
   const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius) * metres;
   const double pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
-  tables.caustic_scale = power_of_two_below(std::exp2(38) * pi * distance * distance * pixel_area / tables.light_towards_targets_w);
+  tables.caustic_scale =
+      power_of_two_below(std::exp2(16) * tables.photons_per_pass * pi * distance * distance * pixel_area / tables.light_towards_targets_w);
   double irradiance = 0;
   for (const scene::Light& light : scene.lights)
     irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(bounds.radius * metres, 2));
-  tables.direct_scale = power_of_two_below(std::exp2(30) * pi / irradiance);
+  tables.direct_scale = power_of_two_below(std::exp2(24) * pi / irradiance);
+  tables.direct_limit = std::exp2(62) / pixel_samples;
   tables.energy_scale = power_of_two_below(std::exp2(40) / tables.light_towards_targets_w);
 }
 
@@ -202,6 +214,7 @@ std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, c
 DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene)
 {
   DeviceTables tables;
+  tables.power_unit = choose_power_unit(scene);
   const preset::LeaveOut& leave_out = preset.spectral.leave_out;
   std::vector<const scene::Light*> lights;
   for (const scene::Light& light : scene.lights)
@@ -217,7 +230,7 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
   tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");
 
   const scene::Sphere bounds = scene_bounds(scene);
-  set_scales(scene, bounds, tables);
+  set_scales(scene, bounds, preset.spectral.pixel_samples, tables);
   tables.scene.material_count = static_cast<int>(scene.materials.size());
   tables.scene.light_count = static_cast<int>(tables.lights.size());
   tables.scene.cluster_count = static_cast<int>(tables.wavelengths.clusters.size());

@@ -65,8 +65,7 @@ public:
         white_(preset.white), stop_seconds_(preset.stop.seconds), pixel_samples_(preset.spectral.pixel_samples),
         direct_(runs(plan, "direct")), photons_(runs(plan, "photons")), halves_(preset.measure.estimate ? 2 : 1)
   {
-    if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error))
-      passes_ = preset.stop.passes.value_or(preset::default_passes);
+    if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
     // Without photons a run is over when every pixel has its samples.
     if (!photons_ && (passes_ < 0 || passes_ > pixel_samples_)) passes_ = pixel_samples_;
     tables_.scene.root = bvh.root;
@@ -247,13 +246,16 @@ private:
     context_.finish();
   }
 
+  /// A scale for powers as the device knows them.
+  float on_device(double scale) const { return static_cast<float>(scale * tables_.power_unit); }
+
   void step_direct()
   {
     const auto rows = std::clamp<std::int64_t>(std::llround(row_pace_.amount()), 1, direct_left());
     const std::size_t items = static_cast<std::size_t>(rows) * static_cast<std::size_t>(tables_.camera.width);
     run_in_world(direct_kernel_, items, 64, buffers_.reflected_xyz_all, buffers_.cluster_cdf, direct_film_, energy_, tables_.camera, seed_,
-                 static_cast<std::uint32_t>(at_.pass), static_cast<int>(at_.row), static_cast<int>(rows),
-                 static_cast<float>(tables_.direct_scale));
+                 static_cast<std::uint32_t>(at_.pass), static_cast<int>(at_.row), static_cast<int>(rows), on_device(tables_.direct_scale),
+                 static_cast<float>(tables_.direct_limit));
     at_.row += rows;
     last_amount_ = rows;
   }
@@ -266,7 +268,7 @@ private:
     const std::uint32_t count = (all - slice + slices - 1) / slices;
     run_in_world(photon_kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, buffers_.targets, buffers_.emitters,
                  caustic_film_, energy_, tables_.camera, seed_, static_cast<std::uint32_t>(at_.pass), slice, slices, count,
-                 static_cast<float>(tables_.caustic_scale), static_cast<float>(tables_.energy_scale));
+                 on_device(tables_.caustic_scale), on_device(tables_.energy_scale));
     ++at_.slice;
     last_amount_ = count;
   }

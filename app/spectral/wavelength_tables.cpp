@@ -19,8 +19,8 @@ using shared::float4;
 
 static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the same wavelengths");
 
-/// A mirror that reflects nothing: exp(-50) is below every count.
-constexpr double blackest = 50;
+/// A mirror that reflects nothing: exp(-200) is 0 in single precision.
+constexpr double blackest = 200;
 
 float4 to_float4(const std::array<double, 4>& v)
 {

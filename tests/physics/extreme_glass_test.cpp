@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Extreme materials: indices of refraction at and around 1 and far from it, curves with steps and poles, absorption without end, nested and
+// total reflection. docs/extremes.md has the table.
+#include "compute/compute.h"
+#include "optics/fresnel.h"
+#include "preset/read.h"
+#include "scene/scene.h"
+#include "spectral/clusters.h"
+#include "spectral/engine.h"
+#include "tests/support/extremes.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+constexpr int photons = 1 << 17;
+
+/// A plate in y = 0 under a pencil of 0.01 degrees that meets it at theta. The pencil starts 0.1 m from there.
+preset::Preset plate(double n, double theta_deg, double thickness = 1e-3)
+{
+  preset::Preset p = over_floor(photons);
+  p.scene.materials["glass"] = glass(n);
+  p.scene.objects.push_back(object("plate", box(40, thickness, 40), "glass"));
+  const double s = std::sin(theta_deg * degree), c = std::cos(theta_deg * degree);
+  p.scene.lights = {pencil({-0.1 * s, thickness / 2 + 0.1 * c, 0}, {s, -c, 0}, 0.01)};
+  return p;
+}
+
+/// T = (1 - R)^2 (1 + R^2 + ...) = (1 - R) / (1 + R).
+double plate_transmittance(double cos_i, double n_outside, double n)
+{
+  const double r = optics::fresnel_reflectance(cos_i, n_outside, n);
+  return (1 - r) / (1 + r);
+}
+
+/// The mean of f(cos theta') over the pencil's cone, whose rays meet the plate at theta' = theta + a r cos(phi).
+template <class F>
+double mean_over_pencil(double theta_deg, const F& f)
+{
+  constexpr int rings = 256, spokes = 64;
+  double sum = 0;
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < spokes; ++k) {
+      const double r = std::sqrt((i + 0.5) / rings), phi = 2 * M_PI * (k + 0.5) / spokes;
+      sum += f(std::cos((theta_deg + 0.01 * r * std::cos(phi)) * degree));
+    }
+  return sum / (rings * spokes);
+}
+
+Outcome plate_is_fresnels(double n, double theta_deg, double thickness = 1e-3)
+{
+  const double truth = mean_over_pencil(theta_deg, [&](double cos_i) { return plate_transmittance(cos_i, 1, n); });
+  return share(deposited(plate(n, theta_deg, thickness)), truth, photons);
+}
+
+/// A gap of air, or of a glass of index n, across a block of glass that holds the light and the floor. What the gap reflects is caught by a
+/// mirror that reflects nothing.
+Outcome gap_in_glass(double n_block, double n_gap, double theta_deg)
+{
+  preset::Preset p = plate(n_gap, theta_deg);
+  p.scene.materials["block"] = glass(n_block);
+  p.scene.materials["black"].type = preset::Material::Type::mirror;
+  p.scene.materials["black"].reflectance.value = 0;
+  p.scene.objects[1].priority = 1;
+  p.scene.objects.push_back(object("block", box(900, 10, 900), "block"));
+  p.scene.objects.push_back(object("trap", quad(40, 40), "black", at({0, 2, 0})));
+  const double truth = mean_over_pencil(theta_deg, [&](double cos_i) { return plate_transmittance(cos_i, n_block, n_gap); });
+  return share(deposited(p), truth, photons);
+}
+
+preset::Material table_glass(const std::vector<std::array<double, 2>>& rows)
+{
+  preset::Material m = glass(1.5);
+  m.dispersion.type = preset::Dispersion::Type::table;
+  m.dispersion.table = rows;
+  return m;
+}
+
+std::size_t clusters_of(const preset::Material& material, double threshold_deg)
+{
+  preset::Preset p = over_floor(1);
+  p.scene.materials["glass"] = material;
+  const scene::Scene scene = scene::load_scene(p);
+  for (const scene::Material& m : scene.materials)
+    if (m.name == "glass") return spectral::cluster_wavelengths(m.n, threshold_deg, spectral::ClusterMethod::optimal).clusters.size();
+  return 0;
+}
+
+preset::Material n_sf66()
+{
+  preset::Material m = glass(1.5);
+  m.absorption = false;
+  m.dispersion.type = preset::Dispersion::Type::file;
+  m.dispersion.file = NEPHROID_SOURCE_DIR "/presets/materials/N-SF66.yml";
+  return m;
+}
+
+/// A plate 2 mm thick whose glass has n = 1.5 and this k: T = (1 - R)^2 tau / (1 - R^2 tau^2), tau = exp(-4 pi k d / lambda).
+Outcome absorbing_plate(double k)
+{
+  const TemporaryFolder folder;
+  preset::Preset p = plate(1.5, 0, 2e-3);
+  preset::Material m = n_sf66();
+  m.absorption = true;
+  m.dispersion.file = write_constant_nk(folder.path() / "glass.yml", 1.5, k);
+  p.scene.materials["glass"] = m;
+  const double tau = std::exp(-4 * M_PI * k * 2e-3 / 550e-9), r = 0.04, truth = (1 - r) * (1 - r) * tau / (1 - r * r * tau * tau);
+  const job::EnergyBalance e = render(p).energy;
+  const double back = r + (1 - r) * (1 - r) * r * tau * tau / (1 - r * r * tau * tau);
+  return both(share(e.deposited_w / e.emitted_w, truth, photons), share(e.absorbed_w / e.emitted_w, 1 - truth - back, photons));
+}
+
+/// `count` nested boxes, the innermost 0.1 m across, each of the same glass of n = 1.5 but the outermost ones larger; the light inside.
+preset::Preset nested(int count)
+{
+  preset::Preset p = over_floor(photons);
+  p.scene.materials["glass"] = glass(1.5);
+  for (int i = 0; i < count; ++i) p.scene.objects.push_back(object("", box(0.1 + 0.1 * i, 0.1 + 0.1 * i, 0.1 + 0.1 * i), "glass"));
+  p.scene.lights = {pencil({0.001, 0, 0.002}, {0, -1, 0}, 0.01)};
+  return p;
+}
+
+const std::vector<Extreme> extremes = {
+    {"IndexOfOne", "n exactly 1, 45 degrees", "n = 1 bends and reflects nothing", [] { return exactly(deposited(plate(1, 45)), 1); }},
+    {"IndexOfOneAndAFloat", "n = 1 + 1e-7, 89.9 degrees", "Fresnel, in double", [] { return plate_is_fresnels(1 + 1e-7, 89.9); }},
+    {"IndexJustAboveOne", "n = 1 + 1e-4, 89.5 degrees", "Fresnel, in double", [] { return plate_is_fresnels(1 + 1e-4, 89.5); }},
+    {"IndexJustBelowOne", "n = 1 - 1e-4, 89 degrees (critical angle 89.19)", "Fresnel, in double",
+     [] { return plate_is_fresnels(1 - 1e-4, 89); }},
+    {"IndexOfFour", "n = 4, 60 degrees", "Fresnel", [] { return plate_is_fresnels(4, 60); }},
+    {"IndexOfAHundred", "n = 100, 0 degrees: 49 reflections in the mean", "Fresnel", [] { return plate_is_fresnels(100, 0); }},
+    {"IndexOfAHalf", "n = 0.5, 29 degrees (critical angle 30)", "Fresnel", [] { return plate_is_fresnels(0.5, 29); }},
+    {"IndexOfAHalfTotal", "n = 0.5, 30.1 degrees", "total reflection: nothing", [] { return exactly(deposited(plate(0.5, 30.1)), 0); }},
+    {"CriticalAngle", "n = 0.5 at the critical angle itself, half of the pencil beyond it", "Fresnel, mean over the pencil",
+     [] { return plate_is_fresnels(0.5, 30); }},
+    {"Grazing", "n = 1.5, 89.9 degrees", "Fresnel, mean over the pencil", [] { return plate_is_fresnels(1.5, 89.9); }},
+    {"GapOfAir", "light and floor inside glass of n = 1.8, a gap of air at 33 degrees (critical angle 33.75)", "Fresnel",
+     [] { return gap_in_glass(1.8, 1, 33); }},
+    {"GapOfAirTotal", "the same at 34 degrees", "total reflection: nothing", [] { return gap_in_glass(1.8, 1, 34); }},
+    {"GapOfTheSame", "a plate inside glass of its own n", "nothing is there", [] { return gap_in_glass(1.8, 1.8, 60); }},
+    {"FlatCurve", "n(lambda) flat, threshold 1e-9 degrees", "nothing changes: one cluster",
+     [] {
+       return exactly(static_cast<double>(clusters_of(table_glass({{380, 1.5}, {780, 1.5}}), 1e-9)), 1);
+     }},
+    {"Staircase", "n(lambda) a staircase of two steps", "the two steps, and the jump in a cluster of its own",
+     [] {
+       return exactly(static_cast<double>(clusters_of(table_glass({{380, 1.9}, {550, 1.9}, {551, 1.5}, {780, 1.5}}), 0.05)), 3);
+     }},
+    {"OneBadSample", "n(lambda) = 1.5 but 90 at 550 nm", "the bad wavelength alone: two clusters",
+     [] {
+       return exactly(static_cast<double>(clusters_of(table_glass({{380, 1.5}, {549, 1.5}, {550, 90}, {551, 1.5}, {780, 1.5}}), 0.05)), 2);
+     }},
+    {"BadSampleRefused", "n(lambda) with a 0", "no such glass",
+     [] {
+       return refused_json(R"("scene":{"materials":{"g":{"type":"dielectric","dispersion":{"type":"table","table":[[380,1.5],[550,0]]}}}})",
+                           "/scene/materials/g/dispersion/table/1/1: is 0; expected a number from 0.01 to 100");
+     }},
+    {"Pole", "n(lambda) with a pole at 500 nm", "n^2 is negative beside it",
+     [] {
+       preset::Preset p = over_floor(1);
+       p.source = "p.json";
+       preset::Material m = glass(1.5);
+       m.dispersion.type = preset::Dispersion::Type::sellmeier;
+       m.dispersion.b = {1};
+       m.dispersion.c_um2 = {0.25};
+       p.scene.materials["glass"] = m;
+       return refused(
+           [&] { scene::load_scene(p); },
+           "p.json#/scene/materials/glass/dispersion: sellmeier: the formula of sellmeier gives no number at 380 nm: n^2 is negative "
+           "or infinite there; expected n^2 above 0; check the coefficients: does a resonance lie inside the range?");
+     }},
+    {"ThresholdTiny", "threshold 1e-9 degrees, N-SF66", "each wavelength alone",
+     [] { return exactly(static_cast<double>(clusters_of(n_sf66(), 1e-9)), 401); }},
+    {"ThresholdHuge", "threshold 89.9999 degrees, N-SF66", "all in one",
+     [] { return exactly(static_cast<double>(clusters_of(n_sf66(), 89.9999)), 1); }},
+    {"ThresholdZero", "threshold 0", "refused",
+     [] {
+       return refused_json(R"("spectral":{"threshold_deg":0})",
+                           "/spectral/threshold_deg: is 0; expected a number above 0 and below 90 degrees");
+     }},
+    {"ThresholdNinety", "threshold 90", "refused",
+     [] {
+       return refused_json(R"("spectral":{"threshold_deg":90})",
+                           "/spectral/threshold_deg: is 90; expected a number above 0 and below 90 degrees");
+     }},
+    {"AbsorbsNothing", "k = 0", "a plate of clear glass", [] { return absorbing_plate(0); }},
+    {"AbsorbsAll", "k = 1e-2: exp(-457)", "nothing gets through, all but the first reflection is absorbed",
+     [] { return absorbing_plate(1e-2); }},
+    {"AbsorbsBeyondNumbers", "k = 1e30: exp(-infinity)", "the same", [] { return absorbing_plate(1e30); }},
+    {"EightGlasses", "8 nested glasses of one n around the light", "one surface: T = (1 - R) / (1 - R^2)",
+     [] { return share(deposited(nested(8)), 1 / 1.04, photons); }},
+    {"NineGlasses", "9 nested glasses", "refused",
+     [] {
+       preset::Preset p = nested(9);
+       p.source = "p.json";
+       return refused(
+           [&] { render(p); },
+           "p.json#/scene/lights/0/position: is inside 9 dielectric objects; expected at most 8 around one point; move it, or take some "
+           "of them away");
+     }},
+};
+
+class Glass : public testing::TestWithParam<Extreme> {};
+TEST_P(Glass, IsRight) { expect_right(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Extremes, Glass, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
+
+} // namespace
