@@ -7,7 +7,9 @@
 #include "spectral/device_scene.h"
 #include "tests/support/tracer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <vector>
 
@@ -18,7 +20,7 @@ struct ReferenceFilm {
   std::vector<glm::dvec3> sum, sum_of_squares;
 };
 
-/// Photons from a point light into the cone about everything that is glass or a mirror. No absorption, no coloured mirrors.
+/// Photons from a point light, in the open, into the cone about everything that is glass or a mirror.
 class ReferencePhotons {
 public:
   ReferencePhotons(const scene::Scene& scene, const spectral::DeviceTables& tables, unsigned seed)
@@ -55,6 +57,11 @@ private:
     glm::dvec3 position, geometric, shading;
     int object = 0;
     std::uint32_t triangle = 0;
+  };
+
+  /// What a photon has behind it, by material: metres of glass, reflections of mirrors.
+  struct Losses {
+    std::vector<double> metres, reflections;
   };
 
   glm::dvec3 light() const { return scene_.lights[0].position; }
@@ -100,34 +107,92 @@ private:
     const double cosine = 1 - uniform() * (1 - std::cos(half_angle_)), phi = 2 * M_PI * uniform(), sine = std::sqrt(1 - cosine * cosine);
     const glm::dvec3 x = glm::normalize(glm::cross(axis_, std::abs(axis_.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     glm::dvec3 direction = cosine * axis_ + sine * (std::cos(phi) * x + std::sin(phi) * glm::cross(axis_, x)), from = light();
-    int inside = -1; // objects do not overlap here
+    std::vector<int> inside; // the dielectric objects around it, in the order in which it entered them
+    Losses losses{std::vector<double>(scene_.materials.size(), 0.0), std::vector<double>(scene_.materials.size(), 0.0)};
     for (int surface = 0; surface <= 32; ++surface) {
       Contact contact;
       if (!meet(from, direction, INFINITY, contact)) return;
+      if (const int medium = medium_of(inside); medium >= 0)
+        losses.metres[material_number(medium)] += glm::distance(from, contact.position) * scene_.metres_per_unit;
       const scene::Material& here = material(contact.object);
       if (here.type == scene::Material::Type::diffuse) {
-        if (surface > 0) deposit(contact, direction, cluster, watts, film);
+        if (surface > 0) deposit(contact, direction, cluster, watts, losses, film);
         return;
       }
       const double side = glm::dot(direction, contact.geometric) < 0 ? 1 : -1;
-      const double n = tables_.wavelengths.index_of_refraction[static_cast<std::size_t>(cluster) * scene_.materials.size() +
-                                                               static_cast<std::size_t>(&here - scene_.materials.data())];
       const bool mirror = here.type == scene::Material::Type::mirror;
-      glm::dvec3 next = direction;
-      glm::dvec3 normal = side * (glm::dot(direction, side * contact.shading) < 0 ? contact.shading : contact.geometric);
-      bool through = bend(next, normal, inside < 0 ? 1 : n, inside < 0 ? n : 1, mirror);
-      // A shading normal may not send light to the wrong side of the triangle.
-      if ((glm::dot(next, side * contact.geometric) < 0) != through) {
-        next = direction;
-        through = bend(next, side * contact.geometric, inside < 0 ? 1 : n, inside < 0 ? n : 1, mirror);
-      }
-      if (through) inside = inside < 0 ? contact.object : -1;
-      direction = next;
+      if (mirror) losses.reflections[material_number(contact.object)] += 1;
+      const std::vector<int> beyond = mirror ? inside : across(inside, contact.object, side > 0);
+      const double n_i = index_in(inside, cluster), n_t = index_in(beyond, cluster);
+      bool through = !mirror && n_i == n_t; // nothing changes there
+      if (!through) through = bend_at(direction, contact, side, n_i, n_t, mirror);
+      if (through) inside = beyond;
       from = contact.position + 1e-5 * (through ? -side : side) * contact.geometric;
     }
   }
 
-  void deposit(const Contact& contact, const glm::dvec3& arriving, int cluster, double watts, ReferenceFilm& film)
+  /// Bends about the shading normal, unless that sends light to the wrong side of the triangle. True: went through.
+  bool bend_at(glm::dvec3& direction, const Contact& contact, double side, double n_i, double n_t, bool mirror)
+  {
+    glm::dvec3 next = direction;
+    bool through =
+        bend(next, side * (glm::dot(direction, side * contact.shading) < 0 ? contact.shading : contact.geometric), n_i, n_t, mirror);
+    if ((glm::dot(next, side * contact.geometric) < 0) != through) {
+      next = direction;
+      through = bend(next, side * contact.geometric, n_i, n_t, mirror);
+    }
+    direction = next;
+    return through;
+  }
+
+  std::size_t material_number(int object) const
+  {
+    return static_cast<std::size_t>(scene_.objects[static_cast<std::size_t>(object)].material);
+  }
+
+  /// Of nested objects the one whose material is there: the highest priority, of equals the one entered last; -1: air.
+  int medium_of(const std::vector<int>& objects) const
+  {
+    int medium = -1;
+    for (const int object : objects)
+      if (medium < 0 ||
+          scene_.objects[static_cast<std::size_t>(object)].priority >= scene_.objects[static_cast<std::size_t>(medium)].priority)
+        medium = object;
+    return medium;
+  }
+
+  double index_in(const std::vector<int>& objects, int cluster) const
+  {
+    const int medium = medium_of(objects);
+    return medium < 0 ? 1
+                      : tables_.wavelengths
+                            .index_of_refraction[static_cast<std::size_t>(cluster) * scene_.materials.size() + material_number(medium)];
+  }
+
+  /// The objects around what has crossed a surface of one of them.
+  static std::vector<int> across(std::vector<int> objects, int object, bool enters)
+  {
+    if (enters)
+      objects.push_back(object);
+    else if (const auto last = std::find(objects.rbegin(), objects.rend(), object); last != objects.rend())
+      objects.erase(std::next(last).base());
+    return objects;
+  }
+
+  /// What is left of a wavelength: Beer and Lambert in glass, the reflectance of each mirror.
+  double left(const Losses& losses, int wavelength) const
+  {
+    const auto w = static_cast<std::size_t>(wavelength);
+    double share = 1;
+    for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
+      const scene::Material& one = scene_.materials[m];
+      if (losses.metres[m] > 0) share *= std::exp(-4 * M_PI * one.k[w] * losses.metres[m] / ((380 + wavelength) * 1e-9));
+      if (losses.reflections[m] > 0) share *= std::pow(one.reflectance[w], losses.reflections[m]);
+    }
+    return share;
+  }
+
+  void deposit(const Contact& contact, const glm::dvec3& arriving, int cluster, double watts, const Losses& losses, ReferenceFilm& film)
   {
     const scene::Camera& camera = scene_.camera;
     const glm::dvec3 way = glm::dvec3(camera.position) - contact.position;
@@ -150,7 +215,7 @@ private:
     glm::dvec3 xyz(0);
     for (const int w : tables_.wavelengths.clusters[static_cast<std::size_t>(cluster)]) {
       const shared::float4& light = tables_.wavelengths.light_xyz[static_cast<std::size_t>(w)];
-      xyz += diffuse[static_cast<std::size_t>(w)] * glm::dvec3(light.x, light.y, light.z);
+      xyz += left(losses, w) * diffuse[static_cast<std::size_t>(w)] * glm::dvec3(light.x, light.y, light.z);
     }
     xyz *= watts * weight / M_PI;
     const auto pixel = static_cast<std::size_t>(static_cast<int>(py) * camera.width + static_cast<int>(px));
