@@ -49,7 +49,7 @@ def failed_tests(command: list[str], kernels: Path, timeout_s: int) -> list[str]
         ended = subprocess.run(command, env=environment, cwd=kernels.parent, capture_output=True, text=True, errors="replace", timeout=timeout_s)
     except subprocess.TimeoutExpired:
         return [f"{name} hangs"]
-    failed = sorted(set(re.findall(r"^\[  FAILED  \] ([\w/.]+)", ended.stdout, re.MULTILINE)))
+    failed = sorted(set(re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", ended.stdout, re.MULTILINE)))
     if ended.returncode != 0 and not failed:
         return [f"{name} exits with {ended.returncode}"]
     return failed
