@@ -28,6 +28,7 @@ Chart chart_of(const Report& report, const MetricCurves& curves)
 {
   const MetricText text = metric_text(curves.metric);
   Chart chart;
+  chart.title = text.label + " against seconds of work";
   chart.y_axis = text.label + (text.unit.empty() ? "" : " (" + text.unit + ")");
   chart.logarithmic = text.falls;
   if (text.falls) chart.guide_exponent = text.law;

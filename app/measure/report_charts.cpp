@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace nephroid::measure {
 namespace {
@@ -84,18 +85,14 @@ void add_data(std::string& script, const Chart& chart)
   }
 }
 
-/// A slope to compare with, somewhat below the first line: through its geometric middle it would hide it.
+/// A slope to compare with, just below everything, where it hides nothing.
 std::string guide(const Chart& chart)
 {
-  const Curve& curve = chart.lines.front().curve;
-  double x = 0, y = 0;
-  for (std::size_t i = 0; i < curve.seconds.size(); ++i) {
-    x += std::log(curve.seconds[i]);
-    y += std::log(curve.errors[i]);
-  }
-  const auto count = static_cast<double>(curve.seconds.size());
-  constexpr double below = 0.7;
-  const double factor = below * std::exp(y / count - *chart.guide_exponent * x / count);
+  constexpr double below = 0.75;
+  double factor = std::numeric_limits<double>::infinity();
+  for (const ChartLine& line : chart.lines)
+    for (std::size_t i = 0; i < line.curve.seconds.size(); ++i)
+      factor = std::min(factor, below * line.curve.errors[i] / std::pow(line.curve.seconds[i], *chart.guide_exponent));
   return fmt::format("{} * x**({}) with lines lw 1.2 dt 3 lc rgb 'black' title 'slope {}'", factor, *chart.guide_exponent,
                      signed_text(*chart.guide_exponent, 1));
 }
@@ -196,7 +193,10 @@ std::vector<std::string> draw_charts(std::span<const Chart> charts)
   for (std::size_t begin = drawn.find("<svg"); begin != std::string::npos; begin = drawn.find("<svg", begin + 1)) {
     const std::size_t end = drawn.find("</svg>", begin);
     if (end == std::string::npos) break;
-    svgs.push_back(adapted(drawn.substr(begin, end + 6 - begin), fmt::format("chart{}-", svgs.size())));
+    if (svgs.size() == charts.size()) break;
+    std::string svg = adapted(drawn.substr(begin, end + 6 - begin), fmt::format("chart{}-", svgs.size()));
+    svg.insert(4, fmt::format(" aria-label=\"{}\"", escaped(charts[svgs.size()].title))); // behind "<svg"
+    svgs.push_back(std::move(svg));
   }
   if (svgs.size() != charts.size())
     throw failed("gnuplot", fmt::format("drew {} of {} charts", svgs.size(), charts.size()), {},

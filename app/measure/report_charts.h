@@ -21,7 +21,7 @@ struct ChartLine {
 };
 
 struct Chart {
-  std::string title;       ///< for screen readers and tooltips
+  std::string title;       ///< for those who hear the page
   std::string y_axis;      ///< with its unit
   bool logarithmic = true; ///< the axis of errors; that of time always is
   std::vector<ChartLine> lines;

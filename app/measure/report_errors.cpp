@@ -5,6 +5,7 @@
 #include "measure/report_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace nephroid::measure {
@@ -127,11 +128,12 @@ std::string remarks(const Report& report, std::size_t a, std::size_t b, bool by_
   return words;
 }
 
-/// The lowest round errors that both runs came down to, at most `count`; the lowest common one where none is round.
+/// The lowest round errors that both runs came down to, at most `count`. Where none is round, the middle of what they have in common:
+/// at its end a flat curve's time says little.
 std::vector<double> levels_for_pair(const ErrorRange& both, std::size_t count)
 {
   std::vector<double> levels = round_levels(both.lowest, both.highest);
-  if (levels.empty()) return {both.lowest};
+  if (levels.empty()) return {std::sqrt(both.lowest * both.highest)};
   if (levels.size() > count) levels.erase(levels.begin(), levels.end() - static_cast<std::ptrdiff_t>(count));
   return levels;
 }
@@ -194,13 +196,35 @@ std::string speed_up_table(const Report& report, const MetricCurves& curves)
   return html;
 }
 
+/// Whether the run ended much further from its reference than its own noise and the reference's explain.
+bool looks_biased(const MetricCurves& curves, std::size_t run)
+{
+  const RunCurves& of_run = curves.runs[run];
+  if (of_run.error.errors.empty() || of_run.estimate.errors.empty()) return false;
+  const double error = of_run.error.errors.back(), noise = of_run.estimate.errors.back(), floor = of_run.noise_floor;
+  const bool is_square = metric_text(curves.metric).law == -1.0;
+  return is_square ? error > 4 * (noise + floor) : error > 2 * std::hypot(noise, floor);
+}
+
+std::string bias_note(const Report& report, const MetricCurves& curves)
+{
+  std::string names;
+  for (std::size_t i = 0; i < report.runs.size(); ++i)
+    if (looks_biased(curves, i)) names += (names.empty() ? "" : ", ") + run_name(report, i);
+  if (names.empty()) return "";
+  return fmt::format(
+      "<p class=\"note\"><span class=\"warn\">Biased:</span> {}. At the end the distance to the reference is more than twice what "
+      "noise explains: a systematic difference, which more work does not remove.</p>\n",
+      names);
+}
+
 std::string panel(const Report& report, std::size_t index)
 {
   const MetricCurves& curves = report.metrics[index];
   std::string html =
       fmt::format("<div class=\"panel\" id=\"{}-panel\">\n<figure class=\"chart\">\n{}\n<figcaption>{}</figcaption></figure>\n",
                   panel_id(index), report.charts[index], caption(report, curves));
-  if (metric_text(curves.metric).falls) html += times_table(report, curves) + speed_up_table(report, curves);
+  if (metric_text(curves.metric).falls) html += bias_note(report, curves) + times_table(report, curves) + speed_up_table(report, curves);
   return html + "</div>\n";
 }
 

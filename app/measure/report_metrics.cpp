@@ -15,7 +15,7 @@ const std::map<std::string, MetricText, std::less<>>& texts()
       {"lab_mean", {"mean CIELAB distance", "CIELAB units", -0.5}},
       {"lab_rms", {"root mean square CIELAB distance", "CIELAB units", -0.5}},
       {"lab_max", {"largest CIELAB distance", "CIELAB units", -0.5}},
-      {"mse", {"mean square error", "white squared", -1.0}},
+      {"mse", {"mean square error", "white²", -1.0}},
       {"rel_mse", {"relative mean square error", "", -1.0}},
       {"rel_l2", {"relative L2 error", "", -0.5}},
       {"psnr_db", {"peak signal-to-noise ratio", "dB", std::nullopt, false}},

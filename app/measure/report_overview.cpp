@@ -106,21 +106,20 @@ std::map<std::string, double> final_errors(const RunSummary& run)
 std::string error_cell(const RunSummary& run, const std::map<std::string, double>& errors, const std::string& column)
 {
   const auto error = errors.find(column);
-  if (error == errors.end()) return "<td class=\"number out\">–</td>";
+  if (error == errors.end()) return "<td class=\"out\">–</td>";
   std::string cell = three_figures(error->second);
   if (run.reference) {
     const auto floor = run.reference->noise_floor.find(column);
     if (floor != run.reference->noise_floor.end()) append(cell, "<br><small class=\"soft\">floor {}</small>", three_figures(floor->second));
   }
-  return "<td class=\"number\">" + cell + "</td>";
+  return "<td class=\"value\">" + cell + "</td>";
 }
 
-/// "<th>mean CIELAB distance</th><td>CIELAB units</td>"
-std::string metric_cells(const std::string& metric, bool is_estimate)
+std::string metric_cell(const std::string& metric, bool is_estimate)
 {
   const MetricText text = metric_text(metric);
-  return fmt::format("<th>{}{}</th><td class=\"soft unit\">{}</td>", escaped(text.label),
-                     is_estimate ? " <span class=\"tag\">estimate</span>" : "", text.unit);
+  return fmt::format("<th class=\"name\">{} <small class=\"soft\">{}</small>{}</th>", escaped(text.label), text.unit,
+                     is_estimate ? " <span class=\"tag\">estimate</span>" : "");
 }
 
 std::string final_errors_table(const Report& report)
@@ -132,14 +131,13 @@ std::string final_errors_table(const Report& report)
     for (const auto& [column, value] : errors.back()) present.insert(column);
   }
   if (present.empty()) return "";
-  std::string html =
-      fmt::format("<h3>Errors at the end</h3>\n<div class=\"table\"><table><thead><tr><th>Metric</th><th>Unit</th>{}</tr></thead><tbody>\n",
-                  run_headings(report));
+  std::string html = fmt::format(
+      "<h3>Errors at the end</h3>\n<div class=\"table\"><table><thead><tr><th>Metric</th>{}</tr></thead><tbody>\n", run_headings(report));
   for (const bool is_estimate : {false, true})
     for (const MetricCurves& curves : report.metrics) {
       const std::string column = (is_estimate ? "estimated_" : "") + curves.metric;
       if (!present.contains(column)) continue;
-      append(html, "<tr>{}", metric_cells(curves.metric, is_estimate));
+      append(html, "<tr>{}", metric_cell(curves.metric, is_estimate));
       for (std::size_t i = 0; i < report.runs.size(); ++i) html += error_cell(report.runs[i], errors[i], column);
       html += "</tr>\n";
     }
@@ -172,7 +170,9 @@ std::vector<std::string> labels_of(const std::vector<RunSummary>& runs)
 
 std::string run_name(const Report& report, std::size_t run)
 {
-  return fmt::format("<span class=\"dot\" style=\"--run:{}\"></span>{} {}", run_colour(run), run + 1, escaped(report.labels[run]));
+  std::string name;
+  for (const char c : escaped(report.labels[run])) name += c == ',' ? std::string(",<wbr>") : std::string(1, c); // a line may end there
+  return fmt::format("<span class=\"dot\" style=\"--run:{}\"></span>{}&nbsp;{}", run_colour(run), run + 1, name);
 }
 
 std::string run_headings(const Report& report)

@@ -53,7 +53,7 @@ std::vector<std::string> speed_ups(const std::string& html)
   std::vector<std::string> rows;
   for (const std::string& row : all_matches(html, "<tr>(<td>.*<strong>.*)</tr>")) {
     const std::string cells = std::regex_replace(row, std::regex("</td><td[^>]*>"), " | ");
-    rows.push_back(std::regex_replace(cells, std::regex("<[^>]*>"), ""));
+    rows.push_back(std::regex_replace(std::regex_replace(cells, std::regex("<[^>]*>"), ""), std::regex("&nbsp;"), " "));
   }
   return rows;
 }
@@ -171,6 +171,19 @@ TEST_F(ReportPage, never_compares_an_error_with_an_estimate)
               AllOf(HasSubstr("2 alone | 1 measured"), HasSubstr("estimate"), HasSubstr("4.00 ×")));
 }
 
+/// error^2 = 2^2 / t + bias^2 against an estimate of 2 / sqrt(t): at the end, 323 s, noise is 0.11.
+TEST_F(ReportPage, says_where_noise_does_not_explain_the_error)
+{
+  write_measured_run(folder / "a", "a", 2);
+  const auto with_bias = [&](double bias) {
+    write_file_whole(folder / "a" / "history.csv", measure::to_csv(made_history({{"lab_mean", 2, -0.5, bias}, {"estimated_lab_mean", 2}})));
+    return page({"a"});
+  };
+  EXPECT_THAT(with_bias(0), Not(HasSubstr("Biased")));
+  EXPECT_THAT(with_bias(0.1), Not(HasSubstr("Biased")));
+  EXPECT_THAT(with_bias(0.25), HasSubstr("Biased:</span> <span"));
+}
+
 TEST_F(ReportPage, warns_of_other_devices_builds_and_references)
 {
   write_measured_run(folder / "a", "a", 3);
@@ -212,7 +225,7 @@ TEST_F(ReportPage, takes_a_sweep_as_its_runs)
 TEST_F(ReportPage, says_what_is_not_there)
 {
   write_made_run(folder / "none", made_run_json("none"));
-  EXPECT_THAT(page({"none"}), AllOf(HasSubstr("Nothing to draw"), HasSubstr("1 none: has no history.csv")));
+  EXPECT_THAT(page({"none"}), AllOf(HasSubstr("Nothing to draw"), HasSubstr("1&nbsp;none: has no history.csv")));
   write_made_run(folder / "zero", made_run_json("zero"));
   write_file_whole(folder / "zero" / "history.csv", measure::to_csv(made_history({{"lab_mean"}}, 0)));
   EXPECT_THAT(page({"zero"}), AllOf(HasSubstr("Nothing to draw"), HasSubstr("has no row")));
@@ -249,11 +262,11 @@ TEST_F(ReportPage, embeds_pictures_as_shown)
 
 TEST(Charts, have_ids_of_their_own_and_the_colours_of_the_page)
 {
-  measure::Chart chart{"", "it's \"1\" (unit)", true, {{"a", 0, false, {{1, 10}, {1, 0.1}}}}, -0.5, {0.05}};
+  measure::Chart chart{"a \"title\"", "it's \"1\" (unit)", true, {{"a", 0, false, {{1, 10}, {1, 0.1}}}}, -0.5, {0.05}};
   const std::vector<std::string> svgs = measure::draw_charts(std::vector{chart, chart});
   ASSERT_EQ(svgs.size(), 2u);
   for (const std::string& svg : svgs) {
-    EXPECT_THAT(svg, AllOf(testing::StartsWith("<svg"), testing::EndsWith("</svg>")));
+    EXPECT_THAT(svg, AllOf(testing::StartsWith("<svg aria-label=\"a &quot;title&quot;\" "), testing::EndsWith("</svg>")));
     EXPECT_THAT(svg, AllOf(HasSubstr("it's \"1\" (unit)"), HasSubstr("currentColor"), Not(HasSubstr("black")), Not(HasSubstr("xmlns"))));
   }
   EXPECT_THAT(svgs[0], Not(HasSubstr("chart1-")));
