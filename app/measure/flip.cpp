@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <thread>
 
@@ -55,6 +56,9 @@ ColourImage cut(const Pixels& picture, const Strip& strip, const Change& change)
 /// Raises map to the error of the strip between the two, which are linear, 0..1, and used up.
 void raise_to_error(std::vector<float>& map, const Strip& strip, ColourImage& picture, ColourImage& reference)
 {
+  const std::size_t bytes =
+      sizeof(FLIP::color3) * static_cast<std::size_t>(picture.getWidth()) * static_cast<std::size_t>(picture.getHeight());
+  if (std::memcmp(picture.getHostData(), reference.getHostData(), bytes) == 0) return; // black or white alike: the error is 0
   FLIP::image<float> error(picture.getWidth(), picture.getHeight());
   error.LDR_FLIP(reference, picture, FLIP::Parameters().PPD);
   float* raised = map.data() + static_cast<std::size_t>(picture.getWidth()) * static_cast<std::size_t>(strip.begin);

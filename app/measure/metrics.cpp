@@ -72,7 +72,7 @@ Metrics metrics_of(const Sums& sums)
   metrics.rel_l2 = sums.squared == 0             ? 0
                    : sums.reference_squared == 0 ? std::numeric_limits<double>::infinity()
                                                  : std::sqrt(sums.squared / sums.reference_squared);
-  if (sums.encoded_squared > 0) metrics.psnr_db = -10 * std::log10(sums.encoded_squared / values);
+  if (sums.encoded_squared > 0) metrics.psnr_db = 10 * std::log10(values / sums.encoded_squared);
   metrics.pixels = sums.pixels;
   return metrics;
 }
