@@ -36,7 +36,7 @@ std::string properties(const compute::DeviceInfo& device)
                      device.max_group_items);
 }
 
-constexpr const char* row = "{:<38}  {:>10}  {:>10}  {:<9}  {}\n";
+constexpr const char* row = "{:<42}  {:>10}  {:>10}  {:<9}  {}\n";
 
 void print_row(const check::Result& result, bool details)
 {
@@ -63,7 +63,7 @@ std::vector<std::string> check_device(const CheckOptions& options, const compute
   const compute::DeviceInfo& device = context.device();
   if (!options.json) {
     fmt::print("{}\n   {}\n\n", device_line(device), properties(device));
-    fmt::print(fmt::runtime(row), "check", "figure", "tolerance", "unit", "");
+    fmt::print(fmt::runtime(row), "check", "figure", "tolerance", "unit", "result");
   }
   std::vector<check::Result> results;
   std::vector<std::string> failures;

@@ -13,23 +13,6 @@ using namespace nephroid;
 
 namespace {
 
-constexpr const char* source = R"(
-#ifdef TEST_HALVES
-#undef NEPHROID_INT64_ATOMICS
-#endif
-#include "film.h"
-kernel void add_all(global const long* values, global const int* places, volatile global long* sums, uint count)
-{
-  const uint i = get_global_id(0);
-  if (i < count) add_exactly(sums + places[i], values[i]);
-}
-kernel void add_to_film(global const float4* xyz_scale, volatile global long* film, global int* accepted, uint count)
-{
-  const uint i = get_global_id(0);
-  if (i < count) accepted[i] = film_add(film, (int)i, xyz_scale[i].xyz, xyz_scale[i].w);
-}
-)";
-
 struct Float4 {
   float x, y, z, w;
 };
@@ -45,13 +28,15 @@ TEST(Film, BothKindsOfAtomicsGiveTheExactSum)
     places[i] = static_cast<std::int32_t>(random() % sums);
     truth[static_cast<std::size_t>(places[i])] += values[i];
   }
-  const test::TestKernels kernels(source);
-  const compute::Buffer<std::int64_t> from(kernels.context(), "values", std::span<const std::int64_t>(values));
-  const compute::Buffer<std::int32_t> where(kernels.context(), "places", std::span<const std::int32_t>(places));
-  for (const compute::Defines& defines : {compute::Defines{}, compute::Defines{{"TEST_HALVES", "1"}}}) {
-    compute::Buffer<std::int64_t> to(kernels.context(), "sums", sums);
+  const compute::Context context = compute::Context::open(test::device_options());
+  const compute::Buffer<std::int64_t> from(context, "values", std::span<const std::int64_t>(values));
+  const compute::Buffer<std::int32_t> where(context, "places", std::span<const std::int32_t>(places));
+  for (const compute::Defines& defines : {compute::Defines{}, compute::Defines{{"NEPHROID_CHECK_HALVES", "1"}}}) {
+    compute::Buffer<std::int64_t> to(context, "sums", sums);
     to.fill_zero();
-    kernels.kernel("add_all", defines).run(count, 64, from, where, to, static_cast<std::uint32_t>(count));
+    compute::Program(context, "check_sums.cl", defines)
+        .kernel("add_all")
+        .run(count, 64, from, where, to, static_cast<std::uint32_t>(count));
     EXPECT_EQ(to.read(), truth) << (defines.empty() ? "the device's own" : "32-bit halves");
   }
 }
@@ -62,12 +47,14 @@ TEST(Film, RefusesWhatDoesNotFit)
   const std::vector<Float4> in{{1, 2, 3, 4},   {limit, 0, 0, 1},    {0, -limit, 0, 1},      {0, 0, limit * 1.0001f, 1},
                                {nan, 0, 0, 1}, {0, infinity, 0, 1}, {-0.4f, 0.5f, 1.5f, 1}, {1, 1, 1, 0}};
   const std::vector<int> truth{1, 1, 1, 0, 0, 0, 1, 1};
-  const test::TestKernels kernels(source);
-  const compute::Buffer<Float4> from(kernels.context(), "in", std::span<const Float4>(in));
-  compute::Buffer<std::int64_t> film(kernels.context(), "film", 3 * in.size());
+  const compute::Context context = compute::Context::open(test::device_options());
+  const compute::Buffer<Float4> from(context, "in", std::span<const Float4>(in));
+  compute::Buffer<std::int64_t> film(context, "film", 3 * in.size());
   film.fill_zero();
-  compute::Buffer<std::int32_t> accepted(kernels.context(), "accepted", in.size());
-  kernels.kernel("add_to_film").run(in.size(), 64, from, film, accepted, static_cast<std::uint32_t>(in.size()));
+  compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
+  compute::Program(context, "check_sums.cl")
+      .kernel("add_to_film")
+      .run(in.size(), 64, from, film, accepted, static_cast<std::uint32_t>(in.size()));
   EXPECT_EQ(accepted.read(), truth);
   const std::vector<std::int64_t> sums = film.read();
   EXPECT_EQ(std::vector<std::int64_t>(sums.begin(), sums.begin() + 3), (std::vector<std::int64_t>{4, 8, 12}));

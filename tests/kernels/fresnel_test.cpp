@@ -12,37 +12,15 @@ using namespace nephroid;
 
 namespace {
 
-constexpr const char* source = R"(
-#include "fresnel.h"
-kernel void interfaces(global const float4* in, global float4* out, uint count)
-{
-  const uint i = get_global_id(0);
-  if (i >= count) return;
-  const float cos_t = refracted_cosine(in[i].x, in[i].y / in[i].z);
-  const float r = cos_t < 0.0f ? 1.0f : fresnel_reflectance(in[i].x, cos_t, in[i].y, in[i].z);
-  out[i] = (float4)(cos_t, r, 0.0f, 0.0f);
-}
-kernel void directions(global const float4* in, global float4* out, uint count)
-{
-  const uint i = get_global_id(0);
-  if (i >= count) return;
-  const float3 d = in[i].xyz, n = (float3)(0.0f, 0.0f, 1.0f);
-  const float cos_i = -d.z, cos_t = refracted_cosine(cos_i, in[i].w);
-  out[2 * i] = (float4)(reflect_about(d, n, cos_i), 0.0f);
-  out[2 * i + 1] = (float4)(cos_t < 0.0f ? (float3)(0.0f) : refract_through(d, n, cos_i, cos_t, in[i].w), cos_t);
-}
-)";
-
 struct Float4 {
   float x, y, z, w;
 };
 
 std::vector<Float4> run(const char* kernel, const std::vector<Float4>& in, std::size_t outputs_each)
 {
-  const test::TestKernels kernels(source);
-  compute::Buffer<Float4> from(kernels.context(), "in", std::span<const Float4>(in)),
-      to(kernels.context(), "out", in.size() * outputs_each);
-  kernels.kernel(kernel).run(in.size(), 64, from, to, static_cast<std::uint32_t>(in.size()));
+  const compute::Context context = compute::Context::open(test::device_options());
+  compute::Buffer<Float4> from(context, "in", std::span<const Float4>(in)), to(context, "out", in.size() * outputs_each);
+  compute::Program(context, "check.cl").kernel(kernel).run(in.size(), 64, from, to, static_cast<std::uint32_t>(in.size()));
   return to.read();
 }
 
