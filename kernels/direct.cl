@@ -118,8 +118,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
   const int column = index % camera.width, row = first_row + index / camera.width;
   const uint pixel = (uint)(row * camera.width + column);
   const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_CAMERA);
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, media_from(&camera.inside),
-                     no_losses(), 0.0f};
+  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 

@@ -7,6 +7,10 @@
 #include "film.h"
 #include "world.h"
 
+// 0: nothing can stand between the camera and what it sees.
+#ifndef NEPHROID_OCCLUSION
+#define NEPHROID_OCCLUSION 1
+#endif
 #ifndef NEPHROID_PHOTONS_PER_ITEM
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
@@ -102,10 +106,12 @@ static inline bool splat(const World* world, const DeviceCamera* camera, const P
   float weight;
   const int pixel = project_to_pixel(camera, end->surface.position, end->surface.geometric, arriving, world->scene.metres_per_unit, &weight);
   if (pixel < 0) return true;
+#if NEPHROID_OCCLUSION
   const float3 from = start_on_side(&end->surface, dot(arriving, end->surface.geometric) < 0.0f ? 1.0f : -1.0f);
   const float3 way = camera->position.xyz - from;
   const float distance = length(way);
   if (is_blocked(world, from, way / distance, distance, end->triangle)) return true;
+#endif
   return film_add_dithered(film, pixel, end->xyz * (watts * weight / PI_F), film_scale, FILM_LIMIT, dither);
 }
 
@@ -128,7 +134,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const Emission emission = emit(&light, targets, &scene, random, place);
     if (emission.watts == 0.0f) continue;
     const float watts = emission.watts / (float)emitter.photon_count; // as if the cluster had all of the light's power
-    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, media_from(&light.inside), no_losses(), emission.behind};
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
     const PhotonEnd end = trace_photon(&world, &emitter, &path, seed, pass, photon);
     if (end.outcome == OUTCOME_DEPOSITED && !splat(&world, &camera, &end, path.direction, watts, film, film_scale, random.w))
       ++outcomes[OUTCOME_REFUSED];

@@ -16,9 +16,6 @@
 #ifndef NEPHROID_MIRRORS
 #define NEPHROID_MIRRORS 1
 #endif
-#ifndef NEPHROID_DIELECTRICS
-#define NEPHROID_DIELECTRICS 1
-#endif
 
 typedef struct {
   Geometry geometry;
@@ -49,7 +46,7 @@ typedef struct {
 typedef struct {
   float3 origin, direction;
   uint skip;    // the triangle that the path leaves
-  PathMedia media; // that enclose it
+  Media media;  // that enclose it
   Losses losses;
   float behind; // the path begins this far behind `origin`: 0 but on its first way (Emission)
 } Path;
@@ -70,21 +67,9 @@ static inline DeviceMaterial material_of(const World* world, int object) { retur
 // The absorption of the medium that the path has crossed up to its next hit, `distance` from its origin.
 static inline void lose_in_medium(const World* world, Path* path, float distance)
 {
-#if NEPHROID_ATTENUATORS > 0 && NEPHROID_DIELECTRICS
+#if NEPHROID_ATTENUATORS > 0
   const int medium = medium_object(&path->media, world->objects);
   if (medium >= 0) lose(&path->losses, material_of(world, medium).attenuator, (path->behind + distance) * world->scene.metres_per_unit);
-#endif
-}
-
-// Of a material that bends a path. Where the scene has mirrors or glass only, nothing is asked and the code of the other compiles to nothing.
-static inline bool is_mirror(const DeviceMaterial* material)
-{
-#if !NEPHROID_DIELECTRICS
-  return true;
-#elif !NEPHROID_MIRRORS
-  return false;
-#else
-  return material->type == MATERIAL_MIRROR;
 #endif
 }
 
@@ -96,10 +81,13 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   Bend bend;
   *n_ratio = 1.0f;
-  if (is_mirror(material)) {
+#if NEPHROID_MIRRORS
+  if (material->type == MATERIAL_MIRROR) {
     bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, -1.0f);
     lose(&path->losses, material->attenuator, 1.0f);
-  } else {
+  } else
+#endif
+  {
     __global const float* n_of = world->index_of_refraction + cluster * world->scene.material_count;
     if (!cross_interface(&path->media, surface, world->objects, n_of, path->direction, choice, &bend, n_ratio)) return false;
   }

@@ -266,13 +266,11 @@ void describe(V& v, S& s)
           s.unreached_targets);
   v.field({.name = "dark_lights", .sentence = "Leave out lights without power."}, s.dark_lights);
   v.field({.name = "unlit_wavelengths", .sentence = "Leave out wavelengths that no light has."}, s.unlit_wavelengths);
-  v.field({.name = "unused_materials", .sentence = "Leave out tables of materials that no object has."}, s.unused_materials);
+  v.field({.name = "occlusion", .sentence = "Leave out the look from a caustic back to the camera where nothing can stand between them."},
+          s.occlusion);
   v.field({.name = "light_types", .sentence = "Leave out the code of types of light that the scene does not have."}, s.light_types);
   v.field({.name = "mirrors", .sentence = "Leave out the code of mirrors where there is none."}, s.mirrors);
-  v.field({.name = "dielectrics", .sentence = "Leave out the code of glass where there is none."}, s.dielectrics);
   v.field({.name = "bending", .sentence = "Leave out the code of Snell and Fresnel where all glass has n = 1."}, s.bending);
-  v.field({.name = "nested_media", .sentence = "Leave out the code of media inside media where no two can enclose a point."},
-          s.nested_media);
   v.field({.name = "attenuation", .sentence = "Leave out the code of absorption where no glass absorbs and no mirror is coloured."},
           s.attenuation);
   v.field({.name = "smooth_normals", .sentence = "Leave out the code of interpolated normals where every object is faceted."},

@@ -132,12 +132,10 @@ struct LeaveOut {
   bool unreached_targets = true; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
   bool dark_lights = true;       ///< lights without power
   bool unlit_wavelengths = true; ///< wavelengths that no light has
-  bool unused_materials = true;  ///< rows of the spectral tables for materials that no object has
+  bool occlusion = true;         ///< the look from a caustic back to the camera where nothing can stand between them
   bool light_types = true;       ///< kernels without the code of types of light that the scene does not have
   bool mirrors = true;           ///< kernels without mirrors
-  bool dielectrics = true;       ///< kernels without glass
   bool bending = true;           ///< kernels without Snell and Fresnel where all glass has n = 1
-  bool nested_media = true;      ///< kernels that know of one medium at a time where no two can enclose a point
   bool attenuation = true;       ///< kernels without absorption where no glass absorbs and no mirror is coloured
   bool smooth_normals = true;    ///< kernels without interpolated normals
   bool operator==(const LeaveOut&) const = default;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/contact.h"
 
+#include "scene/place.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +15,18 @@ namespace {
 /// Of the largest coordinate of the two objects. Rays start 2^-21 of a triangle's coordinates off it (kernels/surface.h), so this is
 /// several times what either side's rays step over.
 constexpr double gap_share = 0x1p-18, touching_share = 0x1p-21;
+
+Bounds bounds_of(const Scene& scene, const Object& object)
+{
+  Bounds bounds{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(-std::numeric_limits<double>::max())};
+  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      const glm::dvec3 p = scene.geometry.positions[scene.geometry.triangles[t][corner]];
+      bounds.low = glm::min(bounds.low, p);
+      bounds.high = glm::max(bounds.high, p);
+    }
+  return bounds;
+}
 
 double largest_coordinate(const Bounds& a, const Bounds& b)
 {
@@ -84,22 +98,10 @@ void warn_if_between(Scene& scene, const std::vector<Bounds>& bounds, std::size_
 
 } // namespace
 
-Bounds object_bounds(const Scene& scene, const Object& object)
-{
-  Bounds bounds{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(-std::numeric_limits<double>::max())};
-  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
-    for (int corner = 0; corner < 3; ++corner) {
-      const glm::dvec3 p = scene.geometry.positions[scene.geometry.triangles[t][corner]];
-      bounds.low = glm::min(bounds.low, p);
-      bounds.high = glm::max(bounds.high, p);
-    }
-  return bounds;
-}
-
 void part_touching(Scene& scene)
 {
   std::vector<Bounds> bounds;
-  for (const Object& object : scene.objects) bounds.push_back(object_bounds(scene, object));
+  for (const Object& object : scene.objects) bounds.push_back(bounds_of(scene, object));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.materials[static_cast<std::size_t>(scene.objects[i].material)].type != Material::Type::dielectric) continue;
     for (std::size_t j = 0; j < scene.objects.size(); ++j) {
@@ -108,7 +110,7 @@ void part_touching(Scene& scene)
       const int axis = touching_axis(bounds[i], bounds[j], tolerance);
       if (axis < 0) continue;
       part(scene, scene.objects[i], bounds[i], bounds[j], axis, gap_share * largest);
-      bounds[i] = object_bounds(scene, scene.objects[i]);
+      bounds[i] = bounds_of(scene, scene.objects[i]);
       scene.warnings.push_back(
           fmt::format("{} touches {}: a gap of {:.2g} length units is left between them; let them overlap to have none", label(scene, i),
                       label(scene, j), gap_share * largest));

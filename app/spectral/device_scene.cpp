@@ -219,7 +219,8 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
   std::vector<const scene::Light*> lights;
   for (const scene::Light& light : scene.lights)
     if (has_power(light) || !leave_out.dark_lights) lights.push_back(&light);
-  tables.wavelengths = make_wavelength_tables(scene, lights, scene_clusters(preset.spectral, scene), leave_out, tables.materials);
+  const std::vector<bool> lit = leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(optics::wavelength_count, true);
+  tables.wavelengths = make_wavelength_tables(scene, lights, scene_clusters(preset.spectral, scene), lit, tables.materials);
   for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority, object.smooth ? 1 : 0, 0});
   tables.spheres = scene_targets(leave_out, scene);
   std::vector<double> watts;

@@ -2,7 +2,6 @@
 #include "spectral/omissions.h"
 
 #include "preset/choices.h"
-#include "scene/contact.h"
 #include "spectral/device_scene.h"
 #include "spectral/targets.h"
 
@@ -10,6 +9,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -37,6 +39,53 @@ bool anything_bends(const scene::Scene& scene)
     const optics::Spectrum& n = material_of(scene, object).n;
     return is_dielectric(scene, object) && std::any_of(n.begin(), n.end(), [](double value) { return value != 1; });
   });
+}
+
+template <class Visit>
+void for_each_corner(const scene::Scene& scene, const scene::Object& object, const Visit& visit)
+{
+  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
+    for (int corner = 0; corner < 3; ++corner) visit(glm::dvec3(scene.geometry.positions[scene.geometry.triangles[t][corner]]));
+}
+
+/// False only where all of the object is beyond one side of the camera's pyramid, or behind the camera.
+bool may_be_in_view(const scene::Scene& scene, const scene::Object& object)
+{
+  const scene::Camera& c = scene.camera;
+  const glm::dvec3 eye = c.position, right = c.right, up = c.up, forward = c.forward;
+  std::array<bool, 5> beyond;
+  beyond.fill(true);
+  for_each_corner(scene, object, [&](const glm::dvec3& p) {
+    const glm::dvec3 way = p - eye;
+    const double z = glm::dot(way, forward), x = glm::dot(way, right), y = glm::dot(way, up);
+    // Single precision decides which pixel a point is in: what is outside by less counts as inside.
+    const double margin = 1e-4 * glm::length(way);
+    const double outside[] = {x - c.tan_x * z, -x - c.tan_x * z, y - c.tan_y * z, -y - c.tan_y * z, -z};
+    for (std::size_t side = 0; side < beyond.size(); ++side) beyond[side] = beyond[side] && outside[side] > margin;
+  });
+  return std::none_of(beyond.begin(), beyond.end(), [](bool b) { return b; });
+}
+
+struct Plane {
+  glm::dvec3 point{0}, normal{0};
+  double tolerance = 0; ///< what rounding the corners to single precision may add
+  double height(const glm::dvec3& p) const { return glm::dot(p - point, normal); }
+};
+
+/// The plane that an object lies in, if it is flat.
+std::optional<Plane> plane_of(const scene::Scene& scene, const scene::Object& object)
+{
+  if (object.triangle_count == 0) return std::nullopt;
+  const glm::uvec3 first = scene.geometry.triangles[object.first_triangle];
+  const auto corner = [&](std::uint32_t vertex) { return glm::dvec3(scene.geometry.positions[vertex]); };
+  Plane plane{corner(first.x), glm::normalize(glm::cross(corner(first.y) - corner(first.x), corner(first.z) - corner(first.x))), 0};
+  double largest = 0, highest = 0;
+  for_each_corner(scene, object, [&](const glm::dvec3& p) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    highest = std::max(highest, std::abs(plane.height(p)));
+  });
+  plane.tolerance = 1e-6 * largest;
+  return highest <= plane.tolerance ? std::optional(plane) : std::nullopt;
 }
 
 /// NEPHROID_LIGHT_TYPES of kernels/light.h.
@@ -74,33 +123,25 @@ std::vector<bool> lit_wavelengths(const scene::Scene& scene)
   return lit;
 }
 
-std::vector<bool> used_materials(const scene::Scene& scene)
+bool nothing_blocks_the_view(const scene::Scene& scene)
 {
-  std::vector<bool> used(scene.materials.size(), false);
-  for (const scene::Object& object : scene.objects) used[static_cast<std::size_t>(object.material)] = true;
-  return used;
-}
-
-bool media_may_nest(const scene::Scene& scene)
-{
-  std::vector<scene::Bounds> boxes;
-  bool closed = true;
-  for (const scene::Object& object : scene.objects) {
-    if (!is_dielectric(scene, object) || object.triangle_count == 0) continue;
-    boxes.push_back(scene::object_bounds(scene, object));
-    closed = closed && object.closed;
+  const glm::dvec3 eye = scene.camera.position;
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (may_be_in_view(scene, scene.objects[i])) seen.push_back(i);
+  for (const std::size_t i : seen) {
+    const std::optional<Plane> plane = plane_of(scene, scene.objects[i]);
+    if (!plane) return false;
+    const double side = plane->height(eye) > 0 ? 1 : -1;
+    if (side * plane->height(eye) <= plane->tolerance) return false;
+    for (const std::size_t j : seen) {
+      bool behind = false;
+      for_each_corner(scene, scene.objects[j],
+                      [&](const glm::dvec3& p) { behind = behind || side * plane->height(p) < -plane->tolerance; });
+      if (behind) return false;
+    }
   }
-  if (boxes.size() < 2) return false;
-  if (!closed) return true;
-  const auto apart = [](const scene::Bounds& a, const scene::Bounds& b) {
-    for (int axis = 0; axis < 3; ++axis)
-      if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return true;
-    return false;
-  };
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (!apart(boxes[i], boxes[j])) return true;
-  return false;
+  return true;
 }
 
 ObjectCounts count_objects(const scene::Scene& scene)
@@ -140,11 +181,9 @@ std::vector<plan::Pass> data_omissions(const preset::LeaveOut& leave_out, const 
   add("unreached_targets", leave_out.unreached_targets, unreached,
       fmt::format("{} of {} ways from a light to a target are outside of a spot's cone or behind an area light", unreached, ways));
 
-  const std::vector<bool> lit = lit_wavelengths(scene), used = used_materials(scene);
+  const std::vector<bool> lit = lit_wavelengths(scene);
   const auto unlit = static_cast<std::size_t>(std::count(lit.begin(), lit.end(), false));
-  const auto unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
   add("unlit_wavelengths", leave_out.unlit_wavelengths, unlit, fmt::format("no light has {} of the {} wavelengths", unlit, lit.size()));
-  add("unused_materials", leave_out.unused_materials, unused, fmt::format("no object has {} of {} materials", unused, used.size()));
   return passes;
 }
 
@@ -152,18 +191,16 @@ std::vector<plan::Pass> code_omissions(const preset::LeaveOut& leave_out, const 
 {
   const ObjectCounts counts = count_objects(scene);
   const unsigned types = light_type_bits(scene);
-  const bool bends = anything_bends(scene), nests = media_may_nest(scene);
+  const bool bends = anything_bends(scene), blocked = !nothing_blocks_the_view(scene);
   const auto either = [](bool needed, const std::string& yes, const std::string& no) { return needed ? yes : no; };
   return {
+      omission("occlusion", leave_out.occlusion, blocked,
+               either(blocked, "objects in view may stand before each other", "the camera sees flat objects only, none before another")),
       omission("light_types", leave_out.light_types, types == all_light_types, light_types_reason(types)),
       omission("mirrors", leave_out.mirrors, counts.mirrors > 0,
                either(counts.mirrors > 0, counted(counts.mirrors, "mirror object", "mirror objects"), "no object is a mirror")),
-      omission("dielectrics", leave_out.dielectrics, counts.dielectrics > 0,
-               either(counts.dielectrics > 0, counted(counts.dielectrics, "object of glass", "objects of glass"), "no object is of glass")),
       omission("bending", leave_out.bending, bends,
                either(bends, "glass has another n than its surroundings", "no glass has another n than 1")),
-      omission("nested_media", leave_out.nested_media, nests,
-               either(nests, "objects of glass may overlap, or are open", "no two objects of glass can enclose one point")),
       omission("attenuation", leave_out.attenuation, attenuators > 0,
                either(attenuators > 0, counted(attenuators, "material takes", "materials take") + " light away by wavelength",
                       "no glass absorbs and no mirror is coloured")),
@@ -179,11 +216,10 @@ std::map<std::string, std::string> omission_defines(const std::vector<plan::Pass
   };
   const auto flag = [&](const std::string& name) { return std::string(runs(name) ? "1" : "0"); };
   const unsigned types = runs("light types") ? all_light_types : light_type_bits(scene);
-  return {{"NEPHROID_LIGHT_TYPES", std::to_string(types)},
+  return {{"NEPHROID_OCCLUSION", flag("occlusion")},
+          {"NEPHROID_LIGHT_TYPES", std::to_string(types)},
           {"NEPHROID_MIRRORS", flag("mirrors")},
-          {"NEPHROID_DIELECTRICS", flag("dielectrics")},
           {"NEPHROID_BENDING", flag("bending")},
-          {"NEPHROID_NESTED_MEDIA", flag("nested media")},
           // Without materials that attenuate, one place for none of them: the code is there and does nothing.
           {"NEPHROID_ATTENUATORS", std::to_string(runs("attenuation") ? std::max(attenuators, 1) : 0)},
           {"NEPHROID_SMOOTH", flag("smooth normals")}};

@@ -18,10 +18,8 @@ std::string counted(std::int64_t count, const std::string& one, const std::strin
 bool has_power(const scene::Light& light);
 /// [401]: which wavelengths a light with power has; all of them where no light has power.
 std::vector<bool> lit_wavelengths(const scene::Scene& scene);
-/// [material]: which of them an object has.
-std::vector<bool> used_materials(const scene::Scene& scene);
-/// Whether a path can be inside two dielectric objects at once: their boxes overlap, or a path can leave one of several by a hole.
-bool media_may_nest(const scene::Scene& scene);
+/// Whether the camera sees all that is in its view: flat objects only, with the camera and all the others on one side of each.
+bool nothing_blocks_the_view(const scene::Scene& scene);
 
 /// How many objects there are of each kind.
 struct ObjectCounts {

@@ -2,7 +2,6 @@
 #include "spectral/wavelength_tables.h"
 
 #include "optics/colour.h"
-#include "spectral/omissions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +26,17 @@ float4 to_float4(const std::array<double, 4>& v)
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(v[3])};
 }
 
-/// Rows of the reflectance and attenuation tables, one for each material that needs one.
-void add_material_rows(const scene::Scene& scene, const std::vector<bool>& used, WavelengthTables& tables,
-                       std::vector<shared::DeviceMaterial>& materials)
+std::vector<bool> used_materials(const scene::Scene& scene)
 {
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const scene::Object& object : scene.objects) used[static_cast<std::size_t>(object.material)] = true;
+  return used;
+}
+
+/// Rows of the reflectance and attenuation tables, one for each material that needs one.
+void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std::vector<shared::DeviceMaterial>& materials)
+{
+  const std::vector<bool> used = used_materials(scene);
   materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, 0});
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
@@ -139,13 +145,11 @@ void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthT
 } // namespace
 
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
-                                        const std::vector<std::vector<int>>& clusters, const preset::LeaveOut& leave_out,
+                                        const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
                                         std::vector<shared::DeviceMaterial>& materials)
 {
   WavelengthTables tables;
-  const std::vector<bool> used = leave_out.unused_materials ? used_materials(scene) : std::vector<bool>(scene.materials.size(), true);
-  const std::vector<bool> lit = leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(wavelength_count, true);
-  add_material_rows(scene, used, tables, materials);
+  add_material_rows(scene, tables, materials);
   add_cluster_rows(scene, clusters, lit, tables);
   add_light_rows(lights, tables);
   add_cluster_cdf(lights, tables);

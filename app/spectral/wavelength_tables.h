@@ -5,11 +5,10 @@
 
 namespace nephroid::spectral {
 
-/// For `lights` of the scene; fills materials[i].type, reflector and attenuator and every table. As leave_out says, only materials that
-/// an object has get rows, and only wavelengths that one of the lights has stay in the clusters (a cluster's index of refraction is the
-/// mean over all that it had).
+/// For `lights` of the scene; fills materials[i].type, reflector and attenuator and every table. Only materials that an object uses get
+/// rows. lit: which wavelengths stay in the clusters; a cluster's index of refraction is the mean over all that it had.
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
-                                        const std::vector<std::vector<int>>& clusters, const preset::LeaveOut& leave_out,
+                                        const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
                                         std::vector<shared::DeviceMaterial>& materials);
 
 /// Photons of one pass for each emitter (light and cluster), in proportion to weight, none without at least one; sums to

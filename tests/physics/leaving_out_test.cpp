@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Leaving out what a scene does not need changes no picture: each omission against the same run with it turned back on; and it is not
 // made in scenes that come close to not needing it.
-#include "base/files.h"
 #include "compute/compute.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
@@ -11,7 +10,6 @@
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"
-#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
@@ -39,14 +37,6 @@ plan::Pass pass_of(const preset::Preset& p, std::string name)
 preset::Preset with(preset::Preset p, bool preset::LeaveOut::*field, bool value)
 {
   p.spectral.leave_out.*field = value;
-  return p;
-}
-
-/// Everything that there is code or a table for, other than where photons start.
-preset::Preset with_everything(preset::Preset p)
-{
-  for (const Omission& o : omissions())
-    if (o.same_bits) p.spectral.leave_out.*o.field = false;
   return p;
 }
 
@@ -114,7 +104,7 @@ TEST(NotLeftOut, WhereTheSceneNeedsIt)
   preset::Preset p = ball_scene();
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
   EXPECT_TRUE(pass_of(p, "smooth_normals").runs);
-  EXPECT_TRUE(pass_of(p, "dielectrics").runs && pass_of(p, "bending").runs && pass_of(p, "photons").runs && pass_of(p, "direct").runs);
+  EXPECT_TRUE(pass_of(p, "bending").runs && pass_of(p, "photons").runs && pass_of(p, "direct").runs);
   EXPECT_TRUE(pass_of(line_light_scene(), "mirrors").runs);
   EXPECT_TRUE(pass_of(line_light_scene(), "attenuation").runs);
 
@@ -157,66 +147,26 @@ TEST(NotLeftOut, WavelengthsOfAnyLight)
   EXPECT_EQ(render(p).picture->rgb, std::vector<float>(3 * 24 * 24, 0.0f));
 }
 
-/// A second ball at x along the x axis.
-preset::Preset two_balls(double x)
+TEST(NotLeftOut, TheLookBackWhereSomethingMayBlockIt)
 {
-  preset::Preset p = ball_scene();
-  p.scene.objects.push_back(p.scene.objects[0]);
-  p.scene.objects.back().name = "second";
-  p.scene.objects.back().transform.translate[0] = x;
-  return p;
-}
+  EXPECT_TRUE(pass_of(ball_scene(), "occlusion").runs);
+  preset::Preset p = floor_scene();
+  EXPECT_FALSE(pass_of(p, "occlusion").runs);
+  p.scene.camera.fov_deg = 44; // the upper edge of the view is 0.2 degrees above the horizon, the ball 0.1 / 2.5 = 2.3 degrees
+  EXPECT_FALSE(pass_of(p, "occlusion").runs);
+  p.scene.camera.fov_deg = 52; // 4.2 degrees above
+  EXPECT_TRUE(pass_of(p, "occlusion").runs);
 
-TEST(NotLeftOut, MediaThatMayEncloseOnePoint)
-{
-  EXPECT_TRUE(pass_of(two_balls(0.9), "nested_media").runs);
-  EXPECT_FALSE(pass_of(two_balls(1.1), "nested_media").runs);
-  preset::Preset open = two_balls(1.1); // a path may leave by the hole and enter the other
-  open.scene.objects[2].shape->type = preset::Shape::Type::quad;
-  EXPECT_TRUE(pass_of(open, "nested_media").runs);
-  preset::Preset inside = two_balls(0);
-  inside.scene.objects[2].transform.scale = {0.5, 0.5, 0.5};
-  EXPECT_TRUE(pass_of(inside, "nested_media").runs);
-}
-
-// What the simpler bookkeeping of media has to get right by itself, against the full one and all other code: eyes and lights in glass,
-// glass without an inside, shells of one mesh that overlap.
-TEST(OneMedium, IsEnoughForAnEyeAndALightInGlass)
-{
-  preset::Preset p = two_balls(1.1);
-  p.scene.camera.position = {0, 1.1, 0.3};
-  p.scene.camera.target = {0.5, 0, -0.3};
-  p.scene.lights[0].position = {1.2, 1.2, 0};
-  ASSERT_FALSE(pass_of(p, "nested_media").runs);
-  EXPECT_EQ(render(p).picture->rgb, render(with_everything(p)).picture->rgb);
-}
-
-TEST(OneMedium, IsEnoughForOneOpenObjectAndForShellsOfOneMesh)
-{
-  preset::Preset open = ball_scene();
-  open.scene.objects[0].shape = quad(1, 1);
-  ASSERT_FALSE(pass_of(open, "nested_media").runs);
-  EXPECT_EQ(render(open).picture->rgb, render(with_everything(open)).picture->rgb);
-
-  // Two boxes of one mesh, the second half inside the first: entered twice, left twice.
-  const TemporaryFolder folder;
-  std::string obj;
-  for (const double shift : {0.0, 0.5})
-    for (int corner = 0; corner < 8; ++corner)
-      obj += "v " + std::to_string((corner & 1) + shift) + " " + std::to_string((corner >> 1 & 1) + 0.3 * shift) + " " +
-             std::to_string((corner >> 2) + 0.2 * shift) + "\n";
-  for (const int first : {1, 9})
-    for (const auto& [a, b, c, d] : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4}, std::array{2, 6, 7, 3},
-                                     std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}})
-      obj += "f " + std::to_string(first + a) + " " + std::to_string(first + b) + " " + std::to_string(first + c) + " " +
-             std::to_string(first + d) + "\n";
-  write_file_whole(folder.path() / "shells.obj", obj);
-  preset::Preset shells = ball_scene();
-  shells.scene.objects[0].shape.reset();
-  shells.scene.objects[0].mesh = (folder.path() / "shells.obj").string();
-  shells.scene.objects[0].transform = at({-0.7, 0.5, -0.5});
-  ASSERT_FALSE(pass_of(shells, "nested_media").runs);
-  EXPECT_EQ(render(shells).picture->rgb, render(with_everything(shells)).picture->rgb);
+  // Walls of a room, seen from inside: none stands before another. Moved towards the eye, the wall hides a part of the floor.
+  p = floor_scene();
+  p.scene.objects.push_back(object("wall", quad(8, 8), "white", at({0, 4, -4}, {90, 0, 0})));
+  EXPECT_FALSE(pass_of(p, "occlusion").runs);
+  p.scene.objects.back().transform.translate[2] = -1;
+  EXPECT_TRUE(pass_of(p, "occlusion").runs);
+  // What is flat but for one corner may stand before itself.
+  p = floor_scene();
+  p.scene.objects[1].shape = box(8, 0.01, 8);
+  EXPECT_TRUE(pass_of(p, "occlusion").runs);
 }
 
 // From (0, 3, 0) the ball "beside" of radius 0.9 at (3, 1, 0) is seen from 56.31 degrees off the axis to its tangent at
