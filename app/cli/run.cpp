@@ -219,10 +219,21 @@ private:
     const job::Snapshot snapshot = job.snapshot();
     run::write_run(target_.folder, prepared, device, snapshot, reference_.get(), finished);
     run::write_checkpoint(target_.folder, prepared, job);
+    if (finished && snapshot.history) write_report();
     report_result(options_, target_, snapshot.progress, finished);
     if (!finished)
       throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted in pass {}", snapshot.progress.step + 1),
                   "the image and a checkpoint are saved", "go on with --resume");
+  }
+
+  /// The picture is what the run was for: without gnuplot there is one file less.
+  void write_report() const
+  {
+    try {
+      run::write_report(target_.folder);
+    } catch (const Error& error) {
+      fmt::print(stderr, "warning: there is no report.html: {}\n", error.line());
+    }
   }
 
   const RunOptions& options_;

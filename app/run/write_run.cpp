@@ -6,6 +6,7 @@
 #include "base/json_output.h"
 #include "image/image.h"
 #include "measure/history_file.h"
+#include "measure/report.h"
 #include "plan/plan.h"
 #include "preset/read.h"
 #include "run/picture.h"
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <span>
 
 namespace nephroid::run {
 namespace {
@@ -98,6 +100,11 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
 }
 
 } // namespace
+
+void write_report(const std::filesystem::path& folder)
+{
+  write_file_whole(folder / "report.html", measure::report_html(std::span(&folder, 1)));
+}
 
 void write_history(const std::filesystem::path& folder, const job::History& history)
 {
