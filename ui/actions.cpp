@@ -81,27 +81,24 @@ bool has_choice(W w) { return !w.pinned().all().empty(); }
 std::string no_choice(W) { return "no run is pinned"; }
 std::string not_measured(W) { return "this run is not measured"; }
 
-void compare(W w, C commands, bool Comparison::*field, bool value)
-{
-  Comparison comparison = w.comparison();
-  comparison.*field = value;
-  commands.push_back(command::SetComparison{comparison});
-}
-
-void flip(W w, C commands) { compare(w, commands, &Comparison::flip, !w.comparison().flip); }
+void flip(W w, C commands) { commands.push_back(command::Flip{!w.comparison().flip}); }
 void flip_back(W w, C commands)
 {
-  if (w.comparison().flip) compare(w, commands, &Comparison::flip, false);
+  if (w.comparison().flip) commands.push_back(command::Flip{false});
+}
+
+void difference(W w, C commands)
+{
+  const Comparison& now = w.comparison();
+  commands.push_back(command::ShowDifference{!now.difference, now.metric, now.scale});
 }
 
 /// The reference, then each pinned run, and round again.
 void compare_with_next(W w, C commands)
 {
   const std::vector<PinnedRun>& runs = w.pinned().all();
-  Comparison comparison = w.comparison();
-  const auto next = std::find_if(runs.begin(), runs.end(), [&](const PinnedRun& run) { return run.id > comparison.pin; });
-  comparison.pin = next == runs.end() ? 0 : next->id;
-  commands.push_back(command::SetComparison{comparison});
+  const auto next = std::find_if(runs.begin(), runs.end(), [&](const PinnedRun& run) { return run.id > w.comparison().pin; });
+  commands.push_back(command::CompareWith{next == runs.end() ? 0 : next->id});
 }
 
 constexpr int ctrl = ImGuiMod_Ctrl, shift = ImGuiMod_Shift;
@@ -138,8 +135,7 @@ const Action table[] = {
     {"View", "Flip", ImGuiKey_R, false, "While held: the reference, or the pinned run that is compared with", comparable, flip,
      why_not_comparable, flip_back},
     {"View", "Difference", ImGuiKey_D, false, "The difference from it in false colour",
-     [](W w) { return w.comparison().difference || comparable(w); },
-     [](W w, C c) { compare(w, c, &Comparison::difference, !w.comparison().difference); }, why_not_comparable},
+     [](W w) { return w.comparison().difference || comparable(w); }, difference, why_not_comparable},
     {"View", "Compare with the next", ImGuiKey_N, false, "The reference, then each pinned run", has_choice, compare_with_next, no_choice},
     {"View", "Fit", ImGuiKey_F, false, "The whole picture in the panel", has_picture, fit},
     {"View", "Actual size", ImGuiKey_1, false, "One pixel of the picture is one of the screen", has_picture, actual_size},

@@ -64,8 +64,17 @@ struct Pause {
 struct SetLook {
   Look look;
 };
-struct SetComparison {
-  Comparison comparison;
+/// Parts of the Comparison, one command each: two keys in one frame must not undo each other.
+struct Flip {
+  bool on = true;
+};
+struct CompareWith {
+  std::uint64_t pin = 0; ///< as Comparison::pin
+};
+struct ShowDifference {
+  bool on = true;
+  measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
+  double scale = 0; ///< as Comparison::scale
 };
 /// Keeps the history and the picture of the run as they are now.
 struct PinRun {};
@@ -117,9 +126,9 @@ struct Quit {
 
 using Command =
     std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
-                 command::Pause, command::SetLook, command::SetComparison, command::PinRun, command::PinFile, command::ChangePin,
-                 command::Unpin, command::ChooseMetric, command::Ask, command::SavePreset, command::SavePicture, command::Dismiss,
-                 command::ShowHelp, command::ResetLayout, command::Report, command::Quit>;
+                 command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::PinRun,
+                 command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::Ask, command::SavePreset,
+                 command::SavePicture, command::Dismiss, command::ShowHelp, command::ResetLayout, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

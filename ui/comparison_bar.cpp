@@ -19,14 +19,12 @@ using measure::DifferenceMetric;
 constexpr std::array all_metrics{DifferenceMetric::lab,    DifferenceMetric::absolute,  DifferenceMetric::relative,
                                  DifferenceMetric::square, DifferenceMetric::luminance, DifferenceMetric::flip};
 
-void draw_other_choice(const Workbench& workbench, Comparison comparison, Commands& commands)
+void draw_other_choice(const Workbench& workbench, Commands& commands)
 {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
   if (!ImGui::BeginCombo("##other", other_name(workbench).c_str())) return;
   const auto choice = [&](const char* name, std::uint64_t pin) {
-    if (!ImGui::Selectable(name, comparison.pin == pin)) return;
-    comparison.pin = pin;
-    commands.push_back(command::SetComparison{comparison});
+    if (ImGui::Selectable(name, workbench.comparison().pin == pin)) commands.push_back(command::CompareWith{pin});
   };
   choice("Reference", 0);
   for (const PinnedRun& run : workbench.pinned().all()) {
@@ -37,37 +35,30 @@ void draw_other_choice(const Workbench& workbench, Comparison comparison, Comman
   ImGui::EndCombo();
 }
 
-void draw_metric_choice(Comparison comparison, Commands& commands)
+void draw_metric_choice(const Comparison& comparison, Commands& commands)
 {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
   if (!ImGui::BeginCombo("##difference metric", metric_name(comparison.metric))) return;
   for (const DifferenceMetric metric : all_metrics)
-    if (ImGui::Selectable(metric_name(metric), metric == comparison.metric)) {
-      comparison.metric = metric;
-      comparison.scale = 0; // the values of another metric have another size
-      commands.push_back(command::SetComparison{comparison});
-    }
+    if (ImGui::Selectable(metric_name(metric), metric == comparison.metric))
+      commands.push_back(command::ShowDifference{true, metric, 0}); // the values of another metric have another size
   ImGui::EndCombo();
 }
 
-void draw_scale_choice(const Workbench& workbench, Comparison comparison, Commands& commands)
+void draw_scale_choice(const Workbench& workbench, Commands& commands)
 {
-  bool automatic = comparison.scale == 0;
+  const Comparison& comparison = workbench.comparison();
+  const auto set = [&](double scale) { commands.push_back(command::ShowDifference{true, comparison.metric, scale}); };
   const auto& map = workbench.difference();
-  if (ImGui::Checkbox("Auto", &automatic)) {
-    comparison.scale = automatic ? 0 : map ? map->scale : 1;
-    commands.push_back(command::SetComparison{comparison});
-  }
+  bool automatic = comparison.scale == 0;
+  if (ImGui::Checkbox("Auto", &automatic)) set(automatic ? 0 : map ? map->scale : 1);
   ImGui::SetItemTooltip("The colours end where 99 %% of the pixels are below; else at the value given here.");
   ImGui::SameLine();
-  double scale = automatic && map ? map->scale : comparison.scale;
+  double scale = comparison.scale == 0 && map ? map->scale : comparison.scale;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
-  ImGui::BeginDisabled(automatic);
+  ImGui::BeginDisabled(comparison.scale == 0);
   ImGui::InputDouble("##scale", &scale, 0, 0, "%.3g");
-  if (ImGui::IsItemDeactivatedAfterEdit() && scale > 0) {
-    comparison.scale = scale;
-    commands.push_back(command::SetComparison{comparison});
-  }
+  if (ImGui::IsItemDeactivatedAfterEdit() && scale > 0) set(scale);
   ImGui::EndDisabled();
 }
 
@@ -106,11 +97,11 @@ std::string difference_label(const Workbench& workbench)
 
 void draw_comparison_bar(const Workbench& workbench, Commands& commands)
 {
-  const Comparison comparison = workbench.comparison();
+  const Comparison& comparison = workbench.comparison();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Compare");
   ImGui::SameLine();
-  draw_other_choice(workbench, comparison, commands);
+  draw_other_choice(workbench, commands);
   ImGui::SameLine();
   action_button("Flip", workbench, commands);
   ImGui::SameLine();
@@ -121,7 +112,7 @@ void draw_comparison_bar(const Workbench& workbench, Commands& commands)
   ImGui::SameLine();
   draw_metric_choice(comparison, commands);
   ImGui::SameLine();
-  draw_scale_choice(workbench, comparison, commands);
+  draw_scale_choice(workbench, commands);
 }
 
 void draw_colour_scale(const ShownDifference& map, const Canvas& canvas)

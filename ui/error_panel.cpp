@@ -172,11 +172,8 @@ void ErrorPanel::draw_pin(const Workbench& workbench, const PinnedRun& pin, Comm
   input_text("##name", "name", name);
   if (ImGui::IsItemDeactivatedAfterEdit()) change(name, pin.colour, pin.shown);
   ImGui::SameLine();
-  Comparison comparison = workbench.comparison();
-  if (ImGui::RadioButton("Compare", comparison.pin == pin.id)) {
-    comparison.pin = comparison.pin == pin.id ? 0 : pin.id;
-    commands.push_back(command::SetComparison{comparison});
-  }
+  const bool compared = workbench.comparison().pin == pin.id;
+  if (ImGui::RadioButton("Compare", compared)) commands.push_back(command::CompareWith{compared ? 0 : pin.id});
   ImGui::SetItemTooltip("%s", pin.picture ? "The View flips to this run's picture and shows the difference from it"
                                           : "Only a history was read: the View has no picture of this run");
   ImGui::SameLine();
@@ -195,9 +192,8 @@ std::string ErrorPanel::findings(const Workbench& workbench, const PinnedRun& pi
   if (const auto& fit = of_pin.judged().fit) text = fmt::format("slope {:.2f}; ", fit->exponent);
   const auto equal = speed_up(of_pin, present);
   if (!equal) return text + "no error yet that both runs came to";
-  const double ratio = equal->speed_up();
-  return text + fmt::format("this run is {:.3g} times as fast: {} {:.3g} after {:.3g} s, the pinned one's {:.3g} s", ratio,
-                            contents_.metric, equal->error, equal->seconds_b, equal->seconds_a);
+  return text + fmt::format("at {} {:.3g}: {:.3g} s, this run {:.3g} s, {:.3g} times as fast", contents_.metric, equal->error,
+                            equal->seconds_a, equal->seconds_b, equal->speed_up());
 }
 
 } // namespace nephroid::ui

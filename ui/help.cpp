@@ -22,7 +22,8 @@ const MouseHabit mouse_habits[] = {
     {"Ctrl+wheel", "Zoom the picture about the cursor"},
     {"Ctrl+drag", "Move the picture in the panel"},
     {"Hover", "Linear values and luminance of the pixel"},
-    {"Drop a file", "Open that preset"},
+    {"Drop a file", "Open that preset; pin a run's folder or history.csv"},
+    {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},
 };
 
 void row(const char* how, const char* what)

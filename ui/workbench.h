@@ -96,7 +96,9 @@ private:
   void carry_out(const command::Cancel&);
   void carry_out(const command::Pause& c);
   void carry_out(const command::SetLook& c);
-  void carry_out(const command::SetComparison& c);
+  void carry_out(const command::Flip& c);
+  void carry_out(const command::CompareWith& c);
+  void carry_out(const command::ShowDifference& c);
   void carry_out(const command::PinRun&);
   void carry_out(const command::PinFile& c);
   void carry_out(const command::ChangePin& c);

@@ -9,11 +9,16 @@
 
 namespace nephroid::ui {
 
-void Workbench::carry_out(const command::SetComparison& c)
+void Workbench::carry_out(const command::Flip& c) { comparison_.flip = c.on; }
+
+void Workbench::carry_out(const command::CompareWith& c) { comparison_.pin = pinned_.find(c.pin) ? c.pin : 0; }
+
+void Workbench::carry_out(const command::ShowDifference& c)
 {
-  comparison_ = c.comparison;
-  if (!(comparison_.scale > 0 && std::isfinite(comparison_.scale))) comparison_.scale = 0;
-  if (!comparison_.difference) difference_.forget();
+  comparison_.difference = c.on;
+  comparison_.metric = c.metric;
+  comparison_.scale = c.scale > 0 && std::isfinite(c.scale) ? c.scale : 0;
+  if (!c.on) difference_.forget();
 }
 
 void Workbench::carry_out(const command::PinRun&)

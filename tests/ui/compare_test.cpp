@@ -197,7 +197,7 @@ TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
   EXPECT_EQ(workbench.pinned().find(pinned.id)->name, "far");
   EXPECT_THAT(workspace.error().contents().runs, SizeIs(2));
   EXPECT_EQ(workspace.error().contents().runs[0].name, "Test: camera");
-  workbench.apply({command::SetComparison{{.pin = pinned.id}}, command::Unpin{pinned.id}});
+  workbench.apply({command::CompareWith{pinned.id}, command::Unpin{pinned.id}});
   frame();
   EXPECT_EQ(workbench.comparison().pin, 0u);
   EXPECT_THAT(workbench.pinned().all(), SizeIs(1));
@@ -262,8 +262,8 @@ TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
   EXPECT_EQ(first_texel(), (std::array{0, 0, 255})) << "the camera at (0, 0, 4)";
   imgui.key(ImGuiKey_R, true);
   frame();
-  ASSERT_NE(imgui.pushed<command::SetComparison>(), nullptr);
-  EXPECT_TRUE(imgui.pushed<command::SetComparison>()->comparison.flip);
+  ASSERT_NE(imgui.pushed<command::Flip>(), nullptr);
+  EXPECT_TRUE(imgui.pushed<command::Flip>()->on);
   frames(3);
   EXPECT_EQ(first_texel(), (std::array{255, 0, 0}));
   EXPECT_EQ(workspace.view().shown().label, "Reference");
@@ -272,6 +272,22 @@ TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
   EXPECT_FALSE(workbench.comparison().flip);
   EXPECT_EQ(first_texel(), (std::array{0, 0, 255}));
   EXPECT_EQ(runs.made, 1) << "no new run";
+}
+
+TEST_F(CompareTest, KeysOfOneFrameDoNotUndoEachOther)
+{
+  give_reference({1, 0, 0});
+  open();
+  finish();
+  imgui.key(ImGuiKey_R, true);
+  frame();
+  imgui.key(ImGuiKey_R, false); // a slow frame takes the release and the next key at once
+  imgui.key(ImGuiKey_D, true);
+  frame();
+  imgui.key(ImGuiKey_D, false);
+  frame();
+  EXPECT_FALSE(workbench.comparison().flip);
+  EXPECT_TRUE(workbench.comparison().difference);
 }
 
 TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack)
@@ -329,7 +345,7 @@ TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
   open();
   finish();
   press(ImGuiKey_D);
-  workbench.apply({command::SetComparison{{.difference = true, .metric = measure::DifferenceMetric::absolute}}});
+  workbench.apply({command::ShowDifference{true, measure::DifferenceMetric::absolute}});
   ASSERT_TRUE(
       eventually([&] { frame(); }, [&] { return workspace.view().shown().owner == workbench.difference() && workbench.difference(); }));
   const auto map = workbench.difference();
@@ -343,7 +359,7 @@ TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
   EXPECT_THAT(pixel_text(workbench, {3, 2}), HasSubstr("\ndifference   R +0   G +0   B +1"));
   EXPECT_THAT(pixel_text(workbench, {3, 2}), HasSubstr("|a - b| 0.3333"));
   // A fixed scale is another map of the same values, which are not computed again.
-  workbench.apply({command::SetComparison{{.difference = true, .metric = measure::DifferenceMetric::absolute, .scale = 1.0 / 3}}});
+  workbench.apply({command::ShowDifference{true, measure::DifferenceMetric::absolute, 1.0 / 3}});
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference()->scale == 1.0 / 3; }));
   EXPECT_EQ(workbench.difference()->values, map->values);
   frame();
@@ -361,7 +377,7 @@ TEST_F(CompareTest, EveryMetricHasADifference)
   finish();
   for (std::size_t i = 0; i < measure::difference_names.size(); ++i) {
     const auto metric = static_cast<measure::DifferenceMetric>(i);
-    workbench.apply({command::SetComparison{{.difference = true, .metric = metric}}});
+    workbench.apply({command::ShowDifference{true, metric}});
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference() && workbench.difference()->of.metric == metric; }));
     frame();
     EXPECT_EQ(workbench.difference()->error, "");
@@ -375,11 +391,11 @@ TEST_F(CompareTest, PicturesOfOtherSizesAreSaidNotCompared)
   open();
   finish();
   EXPECT_THAT(workbench.why_not_comparable(), HasSubstr("32 x 32, the picture 64 x 48"));
-  workbench.apply({command::SetComparison{{.difference = true}}});
+  workbench.apply({command::ShowDifference{}});
   frames(5);
   EXPECT_THAT(workspace.view().shown().hint, HasSubstr("32 x 32"));
   EXPECT_EQ(workbench.difference(), nullptr);
-  workbench.apply({command::SetComparison{{.flip = true}}});
+  workbench.apply({command::Flip{}});
   frames(2);
   EXPECT_THAT(workspace.view().shown().hint, HasSubstr("32 x 32"));
   EXPECT_TRUE(action("Difference").why_not(workbench).size() > 10);
@@ -390,7 +406,7 @@ TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo)
   give_reference({0, std::numeric_limits<float>::quiet_NaN(), 0});
   open();
   finish();
-  workbench.apply({command::SetComparison{{.difference = true}}});
+  workbench.apply({command::ShowDifference{}});
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference() != nullptr; }));
   frame();
   EXPECT_THAT(workspace.view().shown().hint, HasSubstr("reference.exr"));
