@@ -23,7 +23,7 @@ namespace {
 // Light that meets a plate at theta is partly reflected at the first face, R; of what goes in, 1 - R leaves at the second face and
 // R goes back, and so on: T = (1 - R)^2 (1 + R^2 + R^4 + ...) = (1 - R) / (1 + R). A pencil of 0.01 degrees crosses a plate of
 // 40 m x 1 mm x 40 m that lies in y = 0; a floor below catches what goes through.
-double plate_transmittance(double theta_deg, double n, unsigned photons, double* sigma, double* emitted)
+double plate_transmittance(double theta_deg, double n, unsigned photons, double* emitted)
 {
   preset::Preset p = empty_preset(16);
   p.scene.materials["glass"] = glass(n);
@@ -38,7 +38,6 @@ double plate_transmittance(double theta_deg, double n, unsigned photons, double*
   p.spectral.max_surfaces = 200;
   const job::EnergyBalance e = render(p).energy;
   const double t = e.deposited_w / e.emitted_w;
-  *sigma = std::sqrt(t * (1 - t) / photons);
   *emitted = e.emitted_w;
   EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
   EXPECT_EQ(e.missed_w, 0);
@@ -51,15 +50,11 @@ class Plate : public testing::TestWithParam<int> {};
 TEST_P(Plate, TransmittanceIsFresnels)
 {
   const double theta = GetParam(), n = 1.5;
-  double sigma, emitted;
-  const double measured = plate_transmittance(theta, n, 1 << 20, &sigma, &emitted);
+  constexpr unsigned photons = 1 << 20;
+  double emitted;
+  const double measured = plate_transmittance(theta, n, photons, &emitted);
   const double r = optics::fresnel_reflectance(std::cos(theta * degree), 1, n);
-  const double truth = (1 - r) / (1 + r);
-  RecordProperty("measured", std::to_string(measured));
-  RecordProperty("truth", std::to_string(truth));
-  RecordProperty("sigmas", std::to_string((measured - truth) / sigma));
-  // 3.8 sigma: three sigma for all sixteen angles together (Sidak), so that no seed fails oftener than one in 370.
-  EXPECT_NEAR(measured, truth, 3.8 * sigma) << "at " << theta << " degrees: " << (measured - truth) / sigma << " sigma";
+  expect_share("plate: transmittance at " + std::to_string(GetParam()) + " degrees", measured, (1 - r) / (1 + r), photons);
   EXPECT_NEAR(emitted, 1, 1e-4); // the whole pencil
 }
 
@@ -90,7 +85,8 @@ TEST(AbsorbingPlate, TransmittanceFollowsBeerAndLambert)
     const job::EnergyBalance e = render(p).energy;
     const double measured = e.deposited_w / e.emitted_w;
     // Each photon that gets through carries tau, so the count's error is that of the number of those.
-    EXPECT_NEAR(measured, truth, 4 * std::sqrt(truth * tau / p.spectral.photons_per_pass)) << nm << " nm";
+    expect_truth("absorbing plate: transmittance at " + std::to_string(static_cast<int>(nm)) + " nm", measured, truth,
+                 sigmas * std::sqrt(truth * tau / p.spectral.photons_per_pass));
     EXPECT_NEAR(e.deposited_w + e.absorbed_w + e.escaped_w, e.emitted_w, 1e-6);
   }
 }
@@ -213,7 +209,7 @@ TEST(Prism, NineWavelengthsLandWhereSnellSays)
   // Violet is bent most. The prism bends light towards its base, which is at -z, so violet lands nearest the prism's foot: smallest x.
   EXPECT_LT(x_blue, x_red);
   EXPECT_EQ(order, 1);
-  RecordProperty("worst_pixels", std::to_string(worst));
+  record("prism: farthest of nine wavelengths from its place, pixels", worst, 0, 1);
 }
 
 // ---- Nested dielectrics ----------------------------------------------------------------------------------------------------
@@ -232,7 +228,7 @@ TEST(Nested, OverlappingBoxesOfOneGlassAreOne)
   p.spectral.photons_per_pass = 1 << 18;
   const job::EnergyBalance e = render(p).energy;
   const double r = std::pow(0.8 / 2.8, 2), truth = (1 - r) / (1 + r);
-  EXPECT_NEAR(e.deposited_w / e.emitted_w, truth, 4 * std::sqrt(truth * (1 - truth) / (1 << 18)));
+  expect_share("nested: transmittance of overlapping boxes of one glass", e.deposited_w / e.emitted_w, truth, 1 << 18);
 }
 
 TEST(Nested, AirInsideGlassMakesTwoPlates)
@@ -251,7 +247,7 @@ TEST(Nested, AirInsideGlassMakesTwoPlates)
   p.spectral.max_surfaces = 200;
   const job::EnergyBalance e = render(p).energy;
   const double r = std::pow(0.8 / 2.8, 2), truth = (1 - r) / (1 + 3 * r);
-  EXPECT_NEAR(e.deposited_w / e.emitted_w, truth, 4 * std::sqrt(truth * (1 - truth) / (1 << 18)));
+  expect_share("nested: transmittance of a bubble of air in glass", e.deposited_w / e.emitted_w, truth, 1 << 18);
 }
 
 // ---- Contact ---------------------------------------------------------------------------------------------------------------
@@ -282,12 +278,12 @@ TEST(Contact, NoLightIsLostBetweenTouchingSurfaces)
   const double r = 0.04, sigma = 1.0 / std::sqrt(1 << 17);
   for (const bool glass_first : {true, false}) {
     const preset::Object floor = object("floor", quad(40, 40), "white", at({0, -2, 0}));
-    EXPECT_NEAR(standing_on(floor, "below", glass_first), (1 - r) / (1 + r), 4 * 0.3 * sigma);
+    EXPECT_NEAR(standing_on(floor, "below", glass_first), (1 - r) / (1 + r), sigmas * 0.3 * sigma);
     // All light comes back from a mirror, and goes up to the catcher whatever the glass reflects on its way.
     const preset::Object mirror = object("mirror", quad(40, 40), "mirror", at({0, -2, 0}));
     EXPECT_NEAR(standing_on(mirror, "above", glass_first), 1, 1e-4);
     const preset::Object more_glass = object("more glass", box(1, 1, 1), "glass", at({0, -2.5, 0}));
-    EXPECT_NEAR(standing_on(more_glass, "below", glass_first), (1 - r) / (1 + 3 * r), 4 * 0.35 * sigma);
+    EXPECT_NEAR(standing_on(more_glass, "below", glass_first), (1 - r) / (1 + 3 * r), sigmas * 0.35 * sigma);
   }
 }
 
@@ -311,8 +307,8 @@ TEST(TotalReflection, ACubeKeepsWhatIsOutsideItsCones)
   const job::EnergyBalance e = render(p).energy;
   // Inside a cone a photon comes back to a face of the same kind at the same angle until it is let out: all of it leaves.
   const double critical = *optics::critical_angle_deg(n, 1) * degree, truth = 6 * (1 - std::cos(critical)) / 2;
-  EXPECT_NEAR(e.deposited_w / e.emitted_w, truth, 4 * std::sqrt(truth * (1 - truth) / photons));
-  EXPECT_NEAR(e.lost_w / e.emitted_w, 1 - truth, 4 * std::sqrt(truth * (1 - truth) / photons));
+  expect_share("total reflection: light that leaves a cube of n = 2", e.deposited_w / e.emitted_w, truth, photons);
+  expect_share("total reflection: light that stays in it", e.lost_w / e.emitted_w, 1 - truth, photons);
   EXPECT_NEAR(e.emitted_w, 1, 1e-6);
 }
 
