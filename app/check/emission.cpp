@@ -44,7 +44,8 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
            tables.scene, device_seed(seed), out);
   const std::vector<float4> got = out.read();
   std::vector<Photon> photons;
-  for (std::size_t i = 0; i < got.size(); i += 2) photons.push_back({got[i].w, {got[i + 1].x, got[i + 1].y, got[i + 1].z}});
+  for (std::size_t i = 0; i < got.size(); i += 2)
+    photons.push_back({got[i].w * tables.power_unit, {got[i + 1].x, got[i + 1].y, got[i + 1].z}});
   return photons;
 }
 

@@ -29,7 +29,6 @@ job::Snapshot render(preset::Preset preset, const compute::Context& context)
   preset.spectral.max_surfaces = 64;
   preset::LeaveOut& leave_out = preset.spectral.leave_out;
   leave_out.light_types = leave_out.mirrors = leave_out.bending = leave_out.attenuation = leave_out.smooth_normals = false;
-  leave_out.occlusion = false;
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   plan::Plan plan = spectral::make_plan(preset, scene, bvh);
