@@ -32,12 +32,13 @@ double seconds_on_segment(const Curve& curve, std::size_t end, double error)
 
 } // namespace
 
+bool can_be_drawn(double value) { return value > 1e-100 && value < 1e100; }
+
 Curve curve_of(const std::vector<double>& seconds, const std::vector<double>& errors)
 {
-  const auto has_logarithm = [](double value) { return std::isfinite(value) && value > 0; };
   Curve curve;
   for (std::size_t i = 0; i < seconds.size(); ++i) {
-    if (!has_logarithm(seconds[i]) || !has_logarithm(errors[i])) continue;
+    if (!can_be_drawn(seconds[i]) || !can_be_drawn(errors[i])) continue;
     curve.seconds.push_back(seconds[i]);
     curve.errors.push_back(errors[i]);
   }

@@ -8,12 +8,15 @@
 
 namespace nephroid::measure {
 
-/// Errors at times, in the order of time; all finite and above 0.
+/// Whether a value has a place on a logarithmic axis: above 0, and within 1e-100..1e100 so that its powers are finite as well.
+bool can_be_drawn(double value);
+
+/// Errors at times, in the order of time; all can be drawn.
 struct Curve {
   std::vector<double> seconds, errors;
 };
 
-/// Without what has no logarithm: times that are 0, errors that are 0, undefined or infinite. The vectors are of one length.
+/// Without what cannot be drawn: times that are 0, errors that are 0, undefined or infinite. The vectors are of one length.
 Curve curve_of(const std::vector<double>& seconds, const std::vector<double>& errors);
 
 /// error = factor * seconds^exponent.

@@ -61,7 +61,7 @@ RunCurves run_curves(const RunSummary& run, const std::string& metric)
   }
   if (!run.reference) return curves;
   const auto floor = run.reference->noise_floor.find(metric);
-  if (floor != run.reference->noise_floor.end() && floor->second > 0) curves.noise_floor = floor->second;
+  if (floor != run.reference->noise_floor.end() && can_be_drawn(floor->second)) curves.noise_floor = floor->second;
   return curves;
 }
 

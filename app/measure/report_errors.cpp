@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace nephroid::measure {
@@ -113,6 +114,17 @@ std::string times_table(const Report& report, const MetricCurves& curves)
   return html + "</p>\n";
 }
 
+/// Whether both rendered one picture: an error of a simpler one is no speed-up.
+bool show_one_scene(const RunSummary& a, const RunSummary& b)
+{
+  const auto scene = [](const RunSummary& run) {
+    std::map<std::string, std::string> settings = run.settings;
+    std::erase_if(settings, [](const auto& setting) { return !setting.first.starts_with("scene."); });
+    return settings;
+  };
+  return scene(a) == scene(b);
+}
+
 /// Why times of two runs are to be read with care; empty where there is no reason.
 std::string remarks(const Report& report, std::size_t a, std::size_t b, bool by_estimate)
 {
@@ -121,6 +133,7 @@ std::string remarks(const Report& report, std::size_t a, std::size_t b, bool by_
   const auto add = [&](bool applies, const char* text) {
     if (applies) words += (words.empty() ? "" : ", ") + std::string(text);
   };
+  add(!show_one_scene(run_a, run_b), "different scenes");
   add(run_a.device != run_b.device, "different devices");
   add(run_a.version != run_b.version || run_a.commit != run_b.commit || run_a.compiler != run_b.compiler,
       "different builds of the program");

@@ -135,6 +135,19 @@ TEST_F(Reports, of_damaged_runs_are_refused_at_the_place)
   EXPECT_THAT(refusal({"run"}), HasSubstr("run/plan.json: is missing"));
 }
 
+TEST_F(Reports, draw_what_they_can_of_extreme_histories)
+{
+  write_measured_run(folder / "run", "run", 3);
+  std::string history = "seconds,wall_seconds,step,work,lab_mean,mse\n0,0,0,0,1,1\n";
+  for (const char* row : {"5e-324,1,1,1,1e308,5e-324", "1e-99,1,1,1,1e99,1e-99", "1,1,1,1,1,1e-99", "1,1,1,1,inf,", "1e99,1,1,1,1e-99,1e99",
+                          "1e308,1,9223372036854775807,18446744073709551615,0,-1"})
+    history += std::string(row) + "\n";
+  write_file_whole(folder / "run" / "history.csv", history);
+  const Ended ended = report({"run", "-o", "page.html"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(read_file(folder / "page.html"), AllOf(HasSubstr("<svg"), HasSubstr("slope −1.0")));
+}
+
 /// A picture is only ever compared where it is finite; alone it is shown.
 TEST_F(Reports, of_pictures_with_nan_are_refused_where_they_are_compared)
 {

@@ -25,10 +25,10 @@ Curve power_curve(double factor, double exponent, double first, double ratio, in
   return curve;
 }
 
-TEST(CurveOf, leaves_out_what_has_no_logarithm)
+TEST(CurveOf, leaves_out_what_cannot_be_drawn)
 {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  const Curve curve = curve_of({0, 1, 2, 3, 4, 5}, {1, nan, infinity, 0, -1, 2});
+  const Curve curve = curve_of({0, 1, 2, 3, 4, 5, 6, 7}, {1, nan, infinity, 0, -1, 2, 1e300, 5e-324});
   EXPECT_THAT(curve.seconds, ElementsAre(5));
   EXPECT_THAT(curve.errors, ElementsAre(2));
 }

@@ -184,7 +184,7 @@ TEST_F(ReportPage, says_where_noise_does_not_explain_the_error)
   EXPECT_THAT(with_bias(0.25), HasSubstr("Biased:</span> <span"));
 }
 
-TEST_F(ReportPage, warns_of_other_devices_builds_and_references)
+TEST_F(ReportPage, warns_of_other_scenes_devices_builds_and_references)
 {
   write_measured_run(folder / "a", "a", 3);
   write_measured_run(folder / "b", "b", 2, 0, "another.exr");
@@ -196,6 +196,8 @@ TEST_F(ReportPage, warns_of_other_devices_builds_and_references)
   other["commit"] = "1234567";
   write_file_whole(folder / "b" / "run.json", other.dump());
   EXPECT_THAT(speed_ups(page({"a", "b"})).at(0), HasSubstr("different devices, different builds of the program"));
+  write_file_whole(folder / "b" / "preset.json", R"({"seed": 1, "scene": {"lights": [{"power_w": 2}]}})");
+  EXPECT_THAT(speed_ups(page({"a", "b"})).at(0), HasSubstr("different scenes, different devices"));
 }
 
 /// Two files with one picture are one reference.
