@@ -27,7 +27,8 @@ preset::Preset settings_only(preset::Preset preset)
   preset.name = preset.description = preset.source = "";
   preset.stop = {};
   preset.reference = {};
-  preset.measure = {.estimate = preset.measure.estimate};
+  preset.measure.perceptual = false;
+  preset.measure.mask.reset();
   for (preset::Object& object : preset.scene.objects)
     if (object.mesh) object.mesh = "mesh";
   for (auto& [name, material] : preset.scene.materials)

@@ -31,7 +31,8 @@ preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
   preset::Preset made = preset;
   made.seed = seed;
   made.reference.reset();
-  made.measure = {.estimate = false};
+  made.measure = {};
+  made.measure.estimate = false;
   made.stop = {};
   made.stop.passes = recipe.passes;
   if (recipe.spectral)
