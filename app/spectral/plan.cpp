@@ -31,7 +31,8 @@ plan::Pass direct_pass(const preset::Spectral& settings, const scene::Scene& sce
   if (!none.empty()) return omission("direct", settings.leave_out.direct, false, none);
   return omission("direct", settings.leave_out.direct, true,
                   fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object", "diffuse objects"),
-                              counted(std::ssize(scene.lights), "light", "lights"), counted(settings.pixel_samples, "sample", "samples")));
+                              counted(std::count_if(scene.lights.begin(), scene.lights.end(), has_power), "light", "lights"),
+                              counted(settings.pixel_samples, "sample", "samples")));
 }
 
 plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects, const DeviceTables& tables)

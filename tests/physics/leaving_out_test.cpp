@@ -67,8 +67,8 @@ TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn)
   EXPECT_THAT(in.reason, testing::HasSubstr("but spectral.leave_out." + o.key + " is false"));
 }
 
-// Where the same photons fly, the sums are the same bits. Where others do, both pictures have the same expectation: the chance that two
-// such pictures differ as much in the worst of 17 figures, Sidak-corrected, is below 1e-9 in a false alarm.
+// Where the same photons fly, the sums are the same bits. Where others do, both pictures have the same expectation: of the worst
+// of 17 figures, the chance to differ as much, Sidak-corrected, may not be below 1e-9.
 TEST_P(LeavingOut, ThePictureIsTheSame)
 {
   const Omission& o = GetParam();
