@@ -75,7 +75,9 @@ void reset_camera(W w, C commands)
 bool has_history(W w) { return w.error_history() != nullptr; }
 bool has_plot(W w) { return !shown_metric(w).empty(); }
 bool has_plan(W w) { return w.plan() != nullptr; }
-bool comparable(W w) { return w.why_not_comparable().empty(); }
+// What is on can be turned off, whatever became of the other picture.
+bool can_flip(W w) { return w.comparison().flip || w.why_not_comparable().empty(); }
+bool can_difference(W w) { return w.comparison().difference || w.why_not_comparable().empty(); }
 std::string why_not_comparable(W w) { return w.why_not_comparable(); }
 bool has_choice(W w) { return !w.pinned().all().empty(); }
 std::string no_choice(W) { return "no run is pinned"; }
@@ -132,10 +134,9 @@ const Action table[] = {
     {"Run", "Cancel", ImGuiKey_Escape, false, "End the run; its picture stays", works, [](W, C c) { c.push_back(command::Cancel{}); }},
     {"Run", "Pin this run", ImGuiKey_P, false, "Keep its history and its picture to hold later runs against", has_picture,
      [](W, C c) { c.push_back(command::PinRun{}); }},
-    {"View", "Flip", ImGuiKey_R, false, "While held: the reference, or the pinned run that is compared with", comparable, flip,
+    {"View", "Flip", ImGuiKey_R, false, "While held: the reference, or the pinned run that is compared with", can_flip, flip,
      why_not_comparable, flip_back},
-    {"View", "Difference", ImGuiKey_D, false, "The difference from it in false colour",
-     [](W w) { return w.comparison().difference || comparable(w); }, difference, why_not_comparable},
+    {"View", "Difference", ImGuiKey_D, false, "The difference from it in false colour", can_difference, difference, why_not_comparable},
     {"View", "Compare with the next", ImGuiKey_N, false, "The reference, then each pinned run", has_choice, compare_with_next, no_choice},
     {"View", "Fit", ImGuiKey_F, false, "The whole picture in the panel", has_picture, fit},
     {"View", "Actual size", ImGuiKey_1, false, "One pixel of the picture is one of the screen", has_picture, actual_size},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holding runs against each other in the window: pinned runs, the plot of error against time, flip and difference in the View.
+// Holding runs against each other in the window: pinned runs, flip and difference in the View.
 #include "measure/history_file.h"
 #include "ui/actions.h"
 #include "ui/error_panel.h"
@@ -8,7 +8,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <limits>
 
 namespace nephroid::ui {
@@ -22,11 +21,6 @@ using ::testing::StartsWith;
 
 class CompareTest : public test::WindowFixture {
 protected:
-  void finish()
-  {
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::finished; }));
-    frames(2);
-  }
   /// A reference of the pictures' size, all of one colour.
   void give_reference(std::array<float, 3> rgb, int width = 64, int height = 48)
   {
@@ -36,10 +30,6 @@ protected:
     for (int i = 0; i < width * height; ++i) reference->rgb.insert(reference->rgb.end(), rgb.begin(), rgb.end());
     reference->origin = "reference.exr";
     runs.reference = reference;
-  }
-  void measured()
-  {
-    runs.history = [](int steps) { return falling_history(steps); };
   }
   void change_camera(double z)
   {
@@ -52,122 +42,7 @@ protected:
     const auto pixels = workspace.view().texture().pixels();
     return {pixels[0], pixels[1], pixels[2]};
   }
-  void hover(const std::array<double, 4>& area)
-  {
-    imgui.move(area[0] + area[2] / 2, area[1] + area[3] / 2);
-    frame();
-  }
 };
-
-TEST_F(CompareTest, ThePlotFollowsTheRunInHand)
-{
-  frames(3);
-  EXPECT_TRUE(workspace.error().contents().runs.empty()) << "nothing is open";
-  measured();
-  open();
-  finish();
-  const PlotContents& contents = workspace.error().contents();
-  EXPECT_EQ(contents.metric, "lab_mean");
-  ASSERT_THAT(contents.runs, SizeIs(1));
-  EXPECT_EQ(contents.runs[0].lines->error.curve.seconds.size(), 20u);
-  const PlotRange& shown = workspace.error().plot().shown();
-  EXPECT_LT(shown.seconds[0], 0.01);
-  EXPECT_GT(shown.seconds[1], 0.2);
-  workbench.apply({command::ChooseMetric{"rel_mse"}});
-  frame();
-  EXPECT_EQ(workspace.error().contents().metric, "rel_mse");
-  workbench.apply({command::ChooseMetric{"flip"}});
-  frame();
-  EXPECT_EQ(workspace.error().contents().metric, "lab_mean") << "no run has that one";
-}
-
-TEST_F(CompareTest, HistoriesOfAnyKindAreDrawn)
-{
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  auto nothing = std::make_shared<job::History>();
-  auto no_rows = falling_history(0);
-  auto one_row = falling_history(1);
-  auto all_nan = falling_history(5);
-  for (job::HistoryRow& row : all_nan->rows) row.errors = {nan, nan, nan};
-  auto same = falling_history(5); // all at one time and of one error
-  for (job::HistoryRow& row : same->rows) {
-    row.seconds = 1;
-    row.errors = {1, 1, 1};
-  }
-  auto zero = falling_history(5);
-  for (job::HistoryRow& row : zero->rows) row.errors = {0, 0, 0};
-  auto psnr = falling_history(5);
-  psnr->columns = {"psnr_db", "iw_ssim", "estimated_lab_mean"};
-  psnr->error_column = "psnr_db";
-  auto floor = falling_history(50);
-  floor->noise_floor = {0.02, nan, nan};
-  floor->target = 0.03;
-  runs.steps = 2;
-  for (const auto& history : {nothing, no_rows, one_row, all_nan, same, zero, psnr, floor}) {
-    runs.history = [&](int) { return history; };
-    open();
-    finish();
-    workbench.apply({command::PinRun{}});
-    frames(2);
-    hover(workspace.error().plot().area());
-    EXPECT_TRUE(workbench.messages().empty());
-    EXPECT_EQ(workbench.error_history(), history);
-  }
-  EXPECT_EQ(workspace.error().contents().target, 0.03);
-  workbench.apply({command::ChooseMetric{"psnr_db"}});
-  frames(2);
-  EXPECT_EQ(workspace.error().contents().metric, "psnr_db");
-  EXPECT_TRUE(workbench.messages().empty());
-}
-
-TEST_F(CompareTest, TenThousandRowsAreDrawnInAFewMilliseconds)
-{
-  const auto history = falling_history(10000);
-  runs.steps = 2;
-  runs.history = [&](int) { return history; };
-  open();
-  finish();
-  const auto mean_ms = [&] {
-    const auto begin = std::chrono::steady_clock::now();
-    frames(50);
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count() / 50;
-  };
-  const double one = mean_ms();
-  for (int i = 0; i < 5; ++i) workbench.apply({command::PinRun{}});
-  frame();
-  const double six = mean_ms();
-  RecordProperty("frame_ms", std::to_string(one));
-  RecordProperty("frame_ms_with_five_pinned", std::to_string(six));
-  // A bound for a machine that is busy with other things; alone it is a tenth of this.
-  EXPECT_LT(one, 15);
-  EXPECT_LT(six, 50);
-}
-
-TEST_F(CompareTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
-{
-  measured();
-  open();
-  finish();
-  const PlotRange before = workspace.error().plot().shown();
-  hover(workspace.error().plot().area());
-  for (int i = 0; i < 3; ++i) {
-    imgui.wheel(1);
-    frame();
-  }
-  frames(2);
-  EXPECT_FALSE(workspace.error().plot().follows());
-  EXPECT_GT(workspace.error().plot().shown().seconds[0], before.seconds[0]);
-  EXPECT_EQ(camera().position[2], 4) << "the wheel over the plot is the plot's";
-  for (int click = 0; click < 2; ++click) {
-    imgui.button(0, true);
-    frame();
-    imgui.button(0, false);
-    frame();
-  }
-  frames(2);
-  EXPECT_TRUE(workspace.error().plot().follows());
-  EXPECT_NEAR(workspace.error().plot().shown().seconds[0], before.seconds[0], 1e-9);
-}
 
 TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
 {
@@ -239,19 +114,6 @@ TEST_F(CompareTest, ADialogOpensAHistory)
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.pinned().all().size() == 1; }));
   EXPECT_EQ(workbench.pinned().all()[0].name, "old");
   EXPECT_EQ(workbench.question(), Question::none);
-}
-
-TEST_F(CompareTest, CopiesGoToTheClipboard)
-{
-  measured();
-  open();
-  finish();
-  Commands commands;
-  action("Copy history as CSV").run(workbench, commands);
-  EXPECT_EQ(std::string(ImGui::GetClipboardText()), measure::to_csv(*workbench.error_history()));
-  action("Copy plot as CSV").run(workbench, commands);
-  EXPECT_THAT(std::string(ImGui::GetClipboardText()), StartsWith("run,line,seconds,error\n\"this run\",error,0.01,"));
-  EXPECT_TRUE(commands.empty());
 }
 
 TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)

@@ -29,6 +29,17 @@ protected:
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.view().texture().empty(); }));
     frames(3); // strips and docks take their final places
   }
+  /// Until the run is over and drawn.
+  void finish()
+  {
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::finished; }));
+    frames(2);
+  }
+  /// The runs that follow note an error after every step.
+  void measured()
+  {
+    runs.history = [](int steps) { return falling_history(steps); };
+  }
   ui::Point middle() const
   {
     const ui::Canvas& canvas = workspace.view().canvas();
