@@ -2,6 +2,7 @@
 // Extreme materials: indices of refraction at and around 1 and far from it, curves with steps and poles, absorption without end, nested and
 // total reflection. docs/extremes.md has the table.
 #include "compute/compute.h"
+#include "kernels/shared_types.h"
 #include "optics/fresnel.h"
 #include "preset/read.h"
 #include "scene/scene.h"
@@ -9,6 +10,7 @@
 #include "spectral/engine.h"
 #include "tests/support/extremes.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_kernels.h"
 
 using namespace nephroid;
 using namespace nephroid::test;
@@ -122,7 +124,50 @@ preset::Preset nested(int count)
   return p;
 }
 
+/// The largest relative error of 1 - R on the device, against double, around an angle of incidence: of the formulas alone, from the float
+/// nearest to cos, or of a direction whose three components are rounded, at a plate turned by 30 degrees.
+double transmission_error(double theta_deg, double n, bool turned)
+{
+  const TestKernels kernels(R"(
+#include "fresnel.h"
+kernel void bend(global const float4* direction, global const float4* normal, float n, global float* transmitted)
+{
+  const int i = get_global_id(0);
+  const float cos_i = -dot(direction[i].xyz, normal[i].xyz);
+  transmitted[i] = 1.0f - fresnel_reflectance(cos_i, refracted_cosine(cos_i, 1.0f / n), 1.0f, n);
+}
+)");
+  std::vector<shared::float4> directions, normals;
+  std::vector<double> truth;
+  for (int i = 0; i < 1024; ++i) {
+    const double theta = (theta_deg - 1e-4 * (90 - theta_deg) * i) * degree, turn = turned ? 30 * degree : 0;
+    // Out of the plane as well, so that no component is a round number.
+    const double across = turned ? 0.3 : 0, s = std::sin(theta) * std::cos(across), c = std::cos(theta),
+                 z = std::sin(theta) * std::sin(across);
+    const glm::dvec3 d(s * std::cos(turn) + c * std::sin(turn), s * std::sin(turn) - c * std::cos(turn), z);
+    directions.push_back({float(d.x), float(d.y), float(d.z), 0});
+    normals.push_back({float(-std::sin(turn)), float(std::cos(turn)), 0, 0});
+    truth.push_back(1 - optics::fresnel_reflectance(turned ? c : double(float(c)), 1, n));
+  }
+  const compute::Buffer<shared::float4> d(kernels.context(), "d", std::span<const shared::float4>(directions)),
+      m(kernels.context(), "n", std::span<const shared::float4>(normals));
+  compute::Buffer<float> out(kernels.context(), "out", truth.size());
+  kernels.kernel("bend").run(truth.size(), 64, d, m, static_cast<float>(n), out);
+  const std::vector<float> gave = out.read();
+  double worst = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) worst = std::max(worst, std::abs(gave[i] / truth[i] - 1));
+  return worst;
+}
+
 const std::vector<Extreme> extremes = {
+    {"DigitsAt89", "relative error of 1 - R at 89 degrees, from an exact cosine", "double",
+     [] { return at_most(transmission_error(89, 1.5, false), 1e-5); }},
+    {"DigitsAt89999", "at 89.999 degrees", "double; 1 - R is 1e-4 there, a float's spacing below 1 is 6e-8",
+     [] { return at_most(transmission_error(89.999, 1.5, false), 4e-3); }},
+    {"DigitsTurned89", "the same from a rounded direction at a plate turned by 30 degrees, 89 degrees", "cos = 0.017, rounded by some 1e-7",
+     [] { return at_most(transmission_error(89, 1.5, true), 2e-5); }},
+    {"DigitsTurned89999", "at 89.999 degrees", "cos = 1.7e-5, rounded by some 1e-7: two digits are left",
+     [] { return at_most(transmission_error(89.999, 1.5, true), 2e-2); }},
     {"IndexOfOne", "n exactly 1, 45 degrees", "n = 1 bends and reflects nothing", [] { return exactly(deposited(plate(1, 45)), 1); }},
     {"IndexOfOneAndAFloat", "n = 1 + 1e-7, 89.9 degrees", "Fresnel, in double", [] { return plate_is_fresnels(1 + 1e-7, 89.9); }},
     {"IndexJustAboveOne", "n = 1 + 1e-4, 89.5 degrees", "Fresnel, in double", [] { return plate_is_fresnels(1 + 1e-4, 89.5); }},

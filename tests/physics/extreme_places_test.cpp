@@ -15,15 +15,6 @@ namespace {
 
 constexpr int photons = 1 << 17;
 
-preset::Shape sphere(double radius, int segments = 256)
-{
-  preset::Shape s;
-  s.type = preset::Shape::Type::sphere;
-  s.radius = radius;
-  s.segments = segments;
-  return s;
-}
-
 /// A glass ball over a floor with a lamp, all lengths times `size`, moved by `shift`, with the power that keeps the radiance.
 preset::Preset ball(double size, double shift = 0)
 {
@@ -31,7 +22,7 @@ preset::Preset ball(double size, double shift = 0)
   p.scene.materials["white"] = white(0.8);
   p.scene.materials["glass"] = glass(1.5);
   const auto place = [&](double x, double y, double z) { return preset::Vec3{x * size + shift, y * size - shift, z * size + shift}; };
-  p.scene.objects = {object("ball", sphere(0.5 * size, 64), "glass", at(place(0, 0, 0))),
+  p.scene.objects = {object("ball", sphere(0.5 * size), "glass", at(place(0, 0, 0))),
                      object("floor", quad(4 * size, 4 * size), "white", at(place(0, -1, 0)))};
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
   p.scene.lights.resize(1);
@@ -58,7 +49,7 @@ preset::Preset small_ball(double radius)
 {
   preset::Preset p = over_floor(1 << 14);
   p.scene.materials["glass"] = glass(1.5);
-  p.scene.objects.push_back(object("ball", sphere(radius), "glass"));
+  p.scene.objects.push_back(object("ball", sphere(radius, 256), "glass"));
   p.scene.objects[1].normals = preset::Object::Normals::smooth;
   p.scene.lights.resize(1);
   p.scene.lights[0].position = {0.4, 1, 0.3};

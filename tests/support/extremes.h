@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "preset/preset.h"
 #include "preset/read.h"
+#include "scene/scene.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/presets.h"
 #include "tests/support/render.h"
@@ -17,6 +18,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -114,6 +116,96 @@ inline double largest_difference(const std::vector<float>& a, const std::vector<
     largest = std::max(largest, std::abs(double(b[i])));
   }
   return difference / largest;
+}
+
+inline preset::Shape sphere(double radius, int segments = 64)
+{
+  preset::Shape s;
+  s.type = preset::Shape::Type::sphere;
+  s.radius = radius;
+  s.segments = segments;
+  return s;
+}
+
+/// A white floor under a lamp of 1 W, seen from above; the picture is 1 m of it.
+inline preset::Preset lit_floor(int pixels = 16)
+{
+  preset::Preset p = empty_preset(pixels);
+  p.source = "p.json";
+  p.scene.materials["white"] = white();
+  p.scene.objects = {object("floor", quad(10, 10), "white")};
+  p.scene.lights.resize(1);
+  p.scene.lights[0].spectrum = line(550);
+  p.scene.lights[0].position = {0.1, 1, -0.2};
+  Screen screen;
+  screen.pixels = pixels;
+  screen.fill(p.scene.camera, 2);
+  p.spectral.direct = true;
+  p.spectral.pixel_samples = 16;
+  p.stop.passes = 16;
+  return p;
+}
+
+/// The same with a glass ball in the light, so that there is a caustic.
+inline preset::Preset ball_over_lit_floor()
+{
+  preset::Preset p = lit_floor();
+  p.scene.materials["glass"] = glass(1.5);
+  p.scene.objects.push_back(object("ball", sphere(0.1), "glass", at({0.3, 0.4, 0.2})));
+  p.stop.passes = 4;
+  return p;
+}
+
+inline double mean_y(const job::Snapshot& snapshot, const std::string& name)
+{
+  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+  const std::vector<double> y = luminance(layer(snapshot, name));
+  return std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size());
+}
+
+/// The mean irradiance on the picture in W/m^2, by its layer.
+inline double mean_irradiance(const preset::Preset& p, const std::string& name = "direct")
+{
+  return mean_y(render(p), name) * M_PI / optics::to_xyz(optics::light_lines(p.scene.lights[0].spectrum.table))[1] * p.white;
+}
+
+/// I cos / d^2 of a point, mean over 1 m of floor.
+inline double irradiance_of_point(const preset::Vec3& light, double intensity, double side = 1)
+{
+  constexpr int n = 400;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) {
+      const double x = ((i + 0.5) / n - 0.5) * side - light[0], z = ((k + 0.5) / n - 0.5) * side - light[2], y = light[1];
+      sum += y / std::pow(x * x + y * y + z * z, 1.5);
+    }
+  return intensity * sum / (n * n);
+}
+
+inline Outcome share_of_one(double gave, double right, double tolerance) { return near(gave / right, 1, tolerance); }
+
+inline preset::Material mirror(double reflectance)
+{
+  preset::Material m;
+  m.type = preset::Material::Type::mirror;
+  m.reflectance.value = reflectance;
+  return m;
+}
+
+/// Loading warns with exactly this line.
+inline Outcome warns(const preset::Preset& p, const std::string& line)
+{
+  std::string lines;
+  for (const std::string& warning : scene::load_scene(p).warnings) lines += (lines.empty() ? "" : " / ") + warning;
+  return says(lines, line);
+}
+
+inline Outcome black(const preset::Preset& p)
+{
+  const job::Snapshot snapshot = render(p);
+  double largest = 0;
+  for (const float v : snapshot.picture->rgb) largest = std::max(largest, std::isfinite(v) ? std::abs(double(v)) : INFINITY);
+  return exactly(largest, 0);
 }
 
 } // namespace nephroid::test

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes, cameras in glass, in a
+// mirror, in a surface and close to it, any white. docs/extremes.md has the table.
+#include "compute/compute.h"
+#include "optics/colour.h"
+#include "optics/spectrum.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/extremes.h"
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+/// Looking at a wall from far away through a telescope: the picture of a white square of 1 m on black, which fills half of it.
+Outcome telescope(double distance)
+{
+  preset::Preset p = lit_floor(32);
+  p.scene.objects = {object("floor", quad(0.5, 0.5), "white")};
+  p.scene.lights[0].type = preset::Light::Type::directional;
+  p.scene.lights[0].direction = {0, -1, 0};
+  const preset::Vec3 way{0.48 * distance, 0.8 * distance, 0.36 * distance};
+  p.scene.camera.position = way;
+  p.scene.camera.up = {0, 0, -1};
+  p.scene.camera.fov_deg = 2 * std::atan(0.5 / distance) / degree;
+  const job::Snapshot snapshot = render(p);
+  const std::vector<double> y = luminance(layer(snapshot, "direct"));
+  // E / pi everywhere on the square; it fills 0.25 m^2 cos(36.87 degrees) of 1 m^2.
+  const double white_y = optics::to_xyz(optics::light_lines(p.scene.lights[0].spectrum.table))[1] / M_PI;
+  double seen = 0;
+  for (const double v : y) seen += v / white_y / static_cast<double>(y.size());
+  // 64 pixels lie at the edges, each with an error of at most 1/2 / sqrt(16), in all 6 sigmas 0.006.
+  return near(seen, 0.25 * 0.8, 0.006);
+}
+
+const std::vector<Extreme> extremes = {
+    {"PhotonsOne", "one photon a pass, 2000 passes", "the caustic of many photons",
+     [] {
+       preset::Preset p = ball_over_lit_floor(), many = p;
+       p.spectral.direct = many.spectral.direct = false;
+       p.spectral.photons_per_pass = 1;
+       p.stop.passes = 1 << 13;
+       // 8192 photons at 1 / 401 of a wavelength each; the ball's share of them lands in the picture.
+       return share_of_one(mean_y(render(p), "caustic"), mean_y(render(many), "caustic"), 0.15);
+     }},
+    {"PhotonsFarTooMany", "2^31 photons a pass", "refused",
+     [] {
+       return refused_json(R"("spectral":{"photons_per_pass":2147483648})",
+                           "/spectral/photons_per_pass: is 2147483648; expected a whole number from 1 to 16777216");
+     }},
+    {"PassesZero", "0 passes", "refused",
+     [] { return refused_json(R"("stop":{"passes":0})", "/stop/passes: is 0; expected a whole number from 1 to 1048576"); }},
+    {"SurfacesFarTooMany", "max_surfaces 1025", "refused",
+     [] {
+       return refused_json(R"("spectral":{"max_surfaces":1025})",
+                           "/spectral/max_surfaces: is 1025; expected a whole number from 1 to 1024");
+     }},
+    {"OnePixel", "a picture of one pixel", "I cos / d^2, mean over it",
+     [] {
+       auto p = lit_floor(1);
+       p.stop.passes = p.spectral.pixel_samples = 1 << 12;
+       return share_of_one(mean_irradiance(p), irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI)), 0.05);
+     }},
+    {"OneByFourThousand", "a picture of 1 x 4096", "the mean over it of a square one's middle column",
+     [] {
+       preset::Preset p = lit_floor();
+       p.scene.camera.resolution = {1, 4096};
+       double sum = 0;
+       for (int i = 0; i < 4096; ++i) {
+         const double z = (i + 0.5) / 4096 - 0.5 + 0.2, d2 = 0.01 + 1 + z * z;
+         sum += 1 / (4 * M_PI) / (d2 * std::sqrt(d2)) / 4096;
+       }
+       return share_of_one(mean_irradiance(p), sum, 2e-3);
+     }},
+    {"NothingInView", "a camera that looks away", "black",
+     [] {
+       auto p = ball_over_lit_floor();
+       p.scene.camera.target = {0, 4, 0.001};
+       return black(p);
+     }},
+    {"Fov179", "a field of view of 179.9 degrees", "the floor's own edge: 10 m of 4584 m are lit",
+     [] {
+       preset::Preset p = lit_floor(1);
+       p.scene.camera.fov_deg = 179.9;
+       p.spectral.pixel_samples = p.stop.passes.emplace(1 << 14);
+       p.scene.objects[0].shape->size = {1000, 1, 1000};
+       p.scene.lights[0].type = preset::Light::Type::directional;
+       p.scene.lights[0].direction = {0, -1, 0};
+       const double side = 2 * 2 * std::tan(89.95 * degree);
+       return near(mean_irradiance(p), 1e6 / (side * side), sigmas * std::sqrt(0.05 / (1 << 14)));
+     }},
+    {"Telescope1e2", "a telescope 100 m away", "the square's projected area", [] { return telescope(1e2); }},
+    {"Telescope5e4", "a telescope 57 km away, 0.001 degrees", "the same", [] { return telescope(5.7e4); }},
+    {"White1em12", "white = 1e-12", "1e12 times the picture",
+     [] {
+       auto p = lit_floor();
+       const auto a = render(p);
+       p.white = 1e-12;
+       return at_most(largest_difference(render(p).picture->rgb, a.picture->rgb, 1e-12), 1e-6);
+     }},
+    {"White1e12", "white = 1e12", "1e-12 times the picture",
+     [] {
+       auto p = lit_floor();
+       const auto a = render(p);
+       p.white = 1e12;
+       return at_most(largest_difference(render(p).picture->rgb, a.picture->rgb, 1e12), 1e-6);
+     }},
+    {"DiffuseBlack", "a floor of reflectance 0", "black",
+     [] {
+       auto p = ball_over_lit_floor();
+       p.scene.materials["white"] = white(0);
+       return black(p);
+     }},
+    {"CameraInGlass", "a camera inside a glass box", "radiance n^2 L (1 - R) (1 + R^2 + ...) = n^2 L / (1 + R)",
+     [] {
+       preset::Preset p = lit_floor(1);
+       p.scene.camera.fov_deg = 0.1;
+       p.scene.lights[0].type = preset::Light::Type::directional;
+       p.scene.lights[0].direction = {1, -1, 0};
+       p.scene.materials["glass"] = glass(1.5);
+       p.scene.objects.push_back(object("box", box(0.2, 0.2, 0.2), "glass", at({0, 2, 0})));
+       p.spectral.caustic = false;
+       p.spectral.pixel_samples = p.stop.passes.emplace(1 << 14);
+       return near(mean_irradiance(p) * std::sqrt(2.0), 2.25 / 1.04, 0.02);
+     }},
+    {"CameraInMirrorBall", "a camera inside a mirror ball", "no light gets in: black, and it ends",
+     [] {
+       auto p = ball_over_lit_floor();
+       p.scene.materials["glass"] = mirror(1);
+       p.scene.camera.position = {0.3, 0.4, 0.21};
+       return black(p);
+     }},
+    {"CameraAtLight", "a camera at the place of the lamp", "I cos / d^2",
+     [] {
+       preset::Preset p = lit_floor();
+       p.scene.lights[0].position = p.scene.camera.position;
+       return share_of_one(mean_irradiance(p), irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI)), 2e-3);
+     }},
+    {"CameraInFloor", "a camera in the plane of the floor, looking along it",
+     "a sample that starts in the floor sees nothing or its own foot",
+     [] {
+       preset::Preset p = lit_floor();
+       p.scene.camera.position = {0, 0, 3};
+       p.scene.camera.target = {0, 0, 0};
+       p.scene.camera.up = {0, 1, 0};
+       const double foot =
+           1 / (4 * M_PI) / std::pow(0.01 + 1 + 3.2 * 3.2, 1.5) / M_PI * optics::to_xyz(optics::light_lines({{{550, 1}}}))[1];
+       const std::vector<double> y = luminance(layer(render(p), "direct"));
+       const double brightest = *std::max_element(y.begin(), y.end()) / foot;
+       return Outcome{fmt::format("0 to {:.4f} of the floor at its foot", brightest), "0 to 1", brightest <= 1.001};
+     }},
+    {"CameraNearFloor", "a camera 1 mm above the caustic of a floor of 10 m", "flux through the picture: that of a camera 1 m above",
+     [] {
+       preset::Preset p = lit_floor(8);
+       p.scene.materials["glass"] = glass(1);
+       p.scene.objects.push_back(object("sheet", box(2, 0.01, 2), "glass", at({0, 0.5, 0})));
+       p.spectral.direct = false;
+       p.spectral.photons_per_pass = 1 << 18;
+       p.scene.lights[0].position = {0, 1, 0};
+       p.scene.camera.position = {0, 1e-3, 0};
+       p.scene.camera.fov_deg = 2 * std::atan(50.0) / degree;
+       // 8e-4 W fall on the 10 cm in view: 3300 of the 2^22 photons, so 6.2 sigmas are 0.11.
+       return share_of_one(mean_irradiance(p, "caustic"), irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI), 0.1), 0.11);
+     }},
+};
+
+class Views : public testing::TestWithParam<Extreme> {};
+TEST_P(Views, AreRight) { expect_right(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Extremes, Views, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
+
+} // namespace
