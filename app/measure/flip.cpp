@@ -77,8 +77,8 @@ Exposures hdr_exposures(std::span<const float> reference_rgb)
   }
   const auto median = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() / 2);
   std::nth_element(luminances.begin(), median, luminances.end());
-  const float darkest = std::numeric_limits<float>::epsilon();
-  const float largest = std::max(darkest, *std::max_element(median, luminances.end()));
+  constexpr float darkest = std::numeric_limits<float>::epsilon(), brightest = std::numeric_limits<float>::max();
+  const float largest = std::clamp(*std::max_element(median, luminances.end()), darkest, brightest); // the sum may round to infinity
   // Where the tone curve reaches .85: the positive root of a x^2 + b x + c, 2.11887.
   const float* const t = FLIP::ToneMappingCoefficients[1];
   const float a = t[0] - 0.85f * t[3], b = t[1] - 0.85f * t[4], c = t[2] - 0.85f * t[5];
