@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/status_line.h"
 
+#include "job/pace.h"
 #include "ui/actions.h"
 #include "ui/theme.h"
 #include "ui/workbench.h"
@@ -33,8 +34,8 @@ void draw_notes(const Workbench& workbench)
 
 double seconds_left(const job::Progress& progress)
 {
-  if (progress.fraction < 0.005 || progress.work_seconds <= 0) return -1;
-  return progress.work_seconds * (1 - progress.fraction) / progress.fraction;
+  if (progress.fraction < 0.005) return -1; // the first steps are not typical
+  return job::pace_between({}, progress).seconds_left;
 }
 
 const char* name_of(job::State state)
@@ -60,8 +61,8 @@ const char* name_of(job::State state)
 
 std::string rate_text(const job::Progress& progress)
 {
-  if (progress.photons == 0 || progress.work_seconds <= 0) return {};
-  const double rate = static_cast<double>(progress.photons) / progress.work_seconds;
+  const double rate = job::pace_between({}, progress).photons_per_second;
+  if (rate <= 0) return {};
   if (rate >= 1e6) return fmt::format("{:.2f} M photons/s", rate / 1e6);
   if (rate >= 1e3) return fmt::format("{:.1f} k photons/s", rate / 1e3);
   return fmt::format("{:.0f} photons/s", rate);

@@ -77,17 +77,7 @@ ProgressStyle progress_style(bool json)
   return ::isatty(STDERR_FILENO) && moves ? ProgressStyle::live : ProgressStyle::lines;
 }
 
-Pace pace_between(const job::Progress& start, const job::Progress& now)
-{
-  Pace pace;
-  const double seconds = now.work_seconds - start.work_seconds, fraction = now.fraction - start.fraction;
-  if (seconds <= 0) return pace;
-  pace.photons_per_second = static_cast<double>(now.photons - start.photons) / seconds;
-  if (fraction > 0) pace.seconds_left = std::max(0.0, seconds * (1 - now.fraction) / fraction);
-  return pace;
-}
-
-std::string progress_line(const std::string& name, const job::Progress& now, const Pace& pace, int columns)
+std::string progress_line(const std::string& name, const job::Progress& now, const job::Pace& pace, int columns)
 {
   std::string figures = fmt::format("{:3.0f} %  {}", std::floor(now.fraction * 100), pass_text(now));
   if (pace.photons_per_second > 0) figures += fmt::format("  {} photons/s", with_prefix(pace.photons_per_second));
@@ -98,7 +88,7 @@ std::string progress_line(const std::string& name, const job::Progress& now, con
   return line;
 }
 
-std::string progress_json(const std::string& name, const job::Progress& now, const Pace& pace)
+std::string progress_json(const std::string& name, const job::Progress& now, const job::Pace& pace)
 {
   const nlohmann::ordered_json all{
       {"type", "progress"},
@@ -143,7 +133,7 @@ void ProgressDisplay::clear()
 
 void ProgressDisplay::show(const job::Progress& now)
 {
-  const Pace pace = pace_between(start_, now);
+  const job::Pace pace = job::pace_between(start_, now);
   if (style_ == ProgressStyle::json) {
     fmt::print("{}\n", progress_json(name_, now, pace));
     std::fflush(stdout);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a run shows where it is: one live line on a terminal, a line every few seconds elsewhere, JSON lines with --json.
 #pragma once
-#include "job/job.h"
+#include "job/pace.h"
 
 #include <chrono>
 #include <memory>
@@ -14,17 +14,10 @@ enum class ProgressStyle { live, lines, json };
 /// live where standard error is a terminal that can move its cursor (TERM is not "dumb").
 ProgressStyle progress_style(bool json);
 
-/// From how much was done and how long it took in this session: a resumed run goes at this session's speed.
-struct Pace {
-  double photons_per_second = 0;
-  double seconds_left = -1; ///< -1: not known yet
-};
-Pace pace_between(const job::Progress& start, const job::Progress& now);
-
 /// "first-light  [#####-----]  51 %  pass 26 of 50  1.21 M photons/s  0:07 left", at most `columns` wide.
-std::string progress_line(const std::string& name, const job::Progress& now, const Pace& pace, int columns);
+std::string progress_line(const std::string& name, const job::Progress& now, const job::Pace& pace, int columns);
 /// {"type":"progress","name",...,"fraction","step","steps","photons","work_seconds","photons_per_second","seconds_left"}
-std::string progress_json(const std::string& name, const job::Progress& now, const Pace& pace);
+std::string progress_json(const std::string& name, const job::Progress& now, const job::Pace& pace);
 
 /// Shows a run's progress at the rhythm of its style. Call update as often as you like.
 class ProgressDisplay {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// How fast a run goes and how long it still takes: the one estimate that the command line and the window show.
+#pragma once
+#include "job/job.h"
+
+namespace nephroid::job {
+
+/// From how much was done and how long it took in this session: a resumed run goes at this session's speed.
+struct Pace {
+  double photons_per_second = 0;
+  double seconds_left = -1; ///< -1: not known yet
+};
+Pace pace_between(const Progress& start, const Progress& now);
+
+} // namespace nephroid::job
