@@ -121,7 +121,7 @@ void ErrorPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
     ImGui::EndCombo();
   }
   ImGui::SetItemTooltip(
-      "The error that is shown; docs/measuring.md defines each. Solid: against the reference; dashed: the run's own estimate.");
+      "The error that is shown; docs/comparing.md defines each. Solid: against the reference; dashed: the run's own estimate.");
   ImGui::SameLine();
   action_button("Pin this run", workbench, commands);
   ImGui::SameLine();

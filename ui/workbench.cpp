@@ -264,7 +264,7 @@ void Workbench::collect_background()
   for (std::future<Finished>& future : background_)
     if (future.wait_for(0s) == std::future_status::ready) {
       Finished done = future.get();
-      if (!done.message.line.empty()) say(done.message.error, done.message.line);
+      if (!done.message.line.empty()) say(done.message.error, done.message.line, done.message.kind);
       if (done.pin) pinned_.add(std::move(*done.pin));
     }
   std::erase_if(background_, [](const std::future<Finished>& f) { return !f.valid(); });

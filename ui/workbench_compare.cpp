@@ -38,6 +38,9 @@ void Workbench::carry_out(const command::PinFile& c)
     Finished done;
     try {
       done.pin = read_pin(path);
+    } catch (const Error& error) {
+      done.message.line = error.line();
+      done.message.kind = error.kind();
     } catch (const std::exception& error) {
       done.message.line = error.what();
     }

@@ -96,6 +96,7 @@ TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
   workbench.apply({command::Open{folder.file("cut.csv", "seconds,wall_seconds,step,work,lab_mean\n1,1,1,1")}});
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.messages().size() == 1; }));
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("cut.csv:2"));
+  EXPECT_EQ(workbench.messages()[0].kind, ErrorKind::bad_input);
   EXPECT_THAT(workbench.pinned().all(), SizeIs(1));
 }
 
