@@ -92,7 +92,7 @@ template <>
 struct Choices<Stop::Metric> {
   using Metric = Stop::Metric;
   static constexpr Choice<Metric> all[] = {
-      {Metric::lab_mean, "lab_mean", "Mean distance in CIELAB; about 1 is just visible."},
+      {Metric::lab_mean, "lab_mean", "Mean distance in CIELAB; about 2.3 is just noticeable."},
       {Metric::lab_rms, "lab_rms", "Root mean square of the distance in CIELAB."},
       {Metric::mse, "mse", "Mean square of the difference."},
       {Metric::rel_mse, "rel_mse", "Mean of the squared difference over the squared reference plus .01."},
