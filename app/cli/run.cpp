@@ -221,6 +221,12 @@ private:
     run::write_checkpoint(target_.folder, prepared, job);
     if (finished && snapshot.history) write_report();
     report_result(options_, target_, snapshot.progress, finished);
+    if (const std::uint64_t refused = snapshot.energy.refused_contributions; refused > 0)
+      fmt::print(
+          stderr,
+          "note: {}: {} samples were too bright for the film and are missing from the picture; move the camera or the light away from "
+          "the surface, or take fewer pixel_samples\n",
+          target_.label, refused);
     if (!finished)
       throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted in pass {}", snapshot.progress.step + 1),
                   "the image and a checkpoint are saved", "go on with --resume");
