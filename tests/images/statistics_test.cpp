@@ -130,7 +130,16 @@ struct Case {
 
 void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
 
-const std::vector<Case> cases{{"bunny", [] { return shipped("first-light"); }},
+/// Without the direct layer: the lamp is so close to a wall that what glass shows of the wall now and then is far brighter than all else,
+/// too seldom for its variance to be known from the stored renders.
+preset::Preset bunny()
+{
+  preset::Preset p = shipped("first-light");
+  p.spectral.direct = false;
+  return p;
+}
+
+const std::vector<Case> cases{{"bunny", bunny},
                               {"prism", [] { return shipped("spectral/prism"); }},
                               {"ball_lens", [] { return shipped("spectral/ball-lens"); }},
                               {"nested", nested},
