@@ -3,6 +3,7 @@
 #include "measure/measured_job.h"
 
 #include "base/error.h"
+#include "measure/error_estimate.h"
 #include "measure/history_record.h"
 #include "preset/choices.h"
 #include "preset/field.h"
@@ -176,7 +177,7 @@ private:
     if (!settings_.estimate) return errors;
     Metrics metrics;
     const bool has_draw = !picture.error_draw.empty();
-    if (has_draw) metrics = estimate(picture);
+    if (has_draw) metrics = estimate_error(picture);
     for (const auto& [name, value] : estimated(metrics)) errors.emplace_back(name, has_draw ? value : none);
     return errors;
   }
@@ -184,16 +185,6 @@ private:
   Metrics of_effort(const Pixels& pixels, Mask mask, const QuickComparison& quick) const
   {
     return settings_.perceptual ? compare(pixels, reference_->pixels(), mask) : quick.against(pixels);
-  }
-
-  /// The picture with another draw of its own error, against the picture: their distance has the distribution of the picture's distance
-  /// from the truth, as far as a metric does not care where between the two it is taken.
-  static Metrics estimate(const job::Picture& picture)
-  {
-    std::vector<float> other(picture.rgb.size());
-    for (std::size_t i = 0; i < other.size(); ++i) other[i] = picture.rgb[i] + picture.error_draw[i];
-    return compare({picture.width, picture.height, other, "the run"}, {picture.width, picture.height, picture.rgb, "the run"}, {},
-                   Effort::quick);
   }
 
   /// The newest value of the error column; NaN before the first row.

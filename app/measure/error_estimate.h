@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run's picture is off by, estimated from the picture and one draw of its error: no reference needed.
+#pragma once
+#include "job/job.h"
+#include "measure/metrics.h"
+
+namespace nephroid::measure {
+
+/// The quick metrics of the picture against the truth, as far as the picture itself tells. It needs picture.error_draw.
+///
+/// mse, rel_mse and rel_l2 are of the draw itself, which has the error's variance in every pixel. CIELAB is not linear, so there it matters
+/// where the truth lies: a pixel that no photon has reached yet has a picture and a draw of 0, and is wrong all the same. Where the
+/// noise hides the picture, its neighbourhood stands for the truth (error_estimate.cpp).
+Metrics estimate_error(const job::Picture& picture);
+
+} // namespace nephroid::measure
