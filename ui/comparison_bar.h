@@ -16,7 +16,7 @@ struct ShownDifference;
 const char* metric_name(measure::DifferenceMetric metric);
 /// "Reference", or the pinned run's name in quotes.
 std::string other_name(const Workbench& workbench);
-/// "CIELAB distance from the reference"
+/// "CIELAB distance to the reference"
 std::string difference_label(const Workbench& workbench);
 
 void draw_comparison_bar(const Workbench& workbench, Commands& commands);
