@@ -25,8 +25,11 @@ TEST(PresetVerbs, SchemaPrintsTheSchema) { EXPECT_EQ(output_of("schema"), preset
 TEST(PresetVerbs, PresetsListsNameAndDescription)
 {
   const std::string text = output_of("presets");
-  for (const preset::ShippedPreset& p : preset::shipped_presets())
-    EXPECT_THAT(text, testing::ContainsRegex(p.name + " +" + p.description.substr(0, 9)));
+  for (const preset::ShippedPreset& p : preset::shipped_presets()) {
+    const std::size_t line = text.find(p.name + " ");
+    ASSERT_NE(line, std::string::npos) << p.name;
+    EXPECT_THAT(text.substr(line, text.find('\n', line) - line), testing::HasSubstr(p.description.substr(0, 9)));
+  }
 }
 
 TEST(PresetVerbs, PresetsAsJson)

@@ -50,7 +50,8 @@ TEST(PresetWriting, IsCompleteAndInTheOrderOfTheDescription)
   const auto json = nlohmann::ordered_json::parse(preset::to_json(preset::read_preset("first-light")));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, testing::ElementsAre("name", "description", "engine", "unit", "seed", "white", "scene", "spectral", "stop"));
+  EXPECT_THAT(keys, testing::ElementsAre("name", "description", "engine", "unit", "seed", "white", "scene", "spectral", "stop", "reference",
+                                         "measure"));
   EXPECT_TRUE(json["scene"]["objects"][0]["shape"].is_null());
   EXPECT_EQ(json["scene"]["materials"]["glass"]["dispersion"]["outside"], "automatic");
 }

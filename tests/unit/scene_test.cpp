@@ -154,8 +154,8 @@ TEST(Scene, WarnsWherePrecisionIsLost)
 {
   preset::Preset preset = ball_over_floor();
   preset.scene.objects.push_back(shape_object("far", Shape::Type::box, "mirror"));
-  preset.scene.objects.back().transform.translate = {0, 0, 1e6};
-  EXPECT_THAT(load_scene(preset).warnings, Contains(HasSubstr("object 'far': is 1 units across but 500000 away")));
+  preset.scene.objects.back().transform.translate = {0, 0, 4e5};
+  EXPECT_THAT(load_scene(preset).warnings, Contains(HasSubstr("object 'far': is 1 units across but 200000 away")));
 }
 
 // Nested balls of glass: the light in the middle is inside both, the outer (larger) one first; the camera between them is in one.
