@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/render.h"
 
-#include "base/error.h"
-#include "optics/colour.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
@@ -36,19 +34,6 @@ job::Snapshot render(preset::Preset preset, const compute::Context& context)
   const auto job = spectral::make_job(preset, scene, bvh, plan, context);
   while (!job->finished()) job->step();
   return job->snapshot();
-}
-
-const job::Layer& layer(const job::Snapshot& snapshot, const std::string& name)
-{
-  for (const job::Layer& candidate : snapshot.picture->layers)
-    if (candidate.name == name) return candidate;
-  throw failed("check", "no layer " + name);
-}
-
-double luminance(const job::Layer& layer, int width, int row, int column)
-{
-  const std::size_t i = 3 * static_cast<std::size_t>(row * width + column);
-  return optics::linear_srgb_to_xyz({layer.rgb[i], layer.rgb[i + 1], layer.rgb[i + 2]})[1];
 }
 
 } // namespace nephroid::check

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures by the real engine, for checks.
+// Small pictures by the real engine, for checks, and what checks and tests read off a picture.
 #pragma once
+#include "base/error.h"
 #include "compute/compute.h"
 #include "job/job.h"
+#include "optics/colour.h"
 #include "preset/preset.h"
 
 #include <string>
@@ -13,10 +15,19 @@ namespace nephroid::check {
 /// programs, which is most of their time on a device whose compiler has not seen them. Tests compare the two kinds.
 job::Snapshot render(preset::Preset preset, const compute::Context& context);
 
-/// The layer of that name, which must be there.
-const job::Layer& layer(const job::Snapshot& snapshot, const std::string& name);
+/// The layer of that name, which must be there: throws failed else.
+inline const job::Layer& layer(const job::Snapshot& snapshot, const std::string& name)
+{
+  for (const job::Layer& candidate : snapshot.picture->layers)
+    if (candidate.name == name) return candidate;
+  throw failed("check", "no layer " + name);
+}
 
-/// The luminance Y of a pixel of a layer.
-double luminance(const job::Layer& layer, int width, int row, int column);
+/// The luminance Y of a pixel of a layer; width: of the picture.
+inline double luminance(const job::Layer& layer, int width, int row, int column)
+{
+  const std::size_t i = 3 * static_cast<std::size_t>(row * width + column);
+  return optics::linear_srgb_to_xyz({layer.rgb[i], layer.rgb[i + 1], layer.rgb[i + 2]})[1];
+}
 
 } // namespace nephroid::check

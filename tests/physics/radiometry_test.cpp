@@ -63,8 +63,7 @@ Ratio compare(const job::Snapshot& snapshot, const std::string& name, const Trut
   Ratio ratio;
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column) {
-      const std::size_t i = 3 * static_cast<std::size_t>(row * size + column);
-      const double y = optics::linear_srgb_to_xyz({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]})[1];
+      const double y = check::luminance(picture, size, row, column);
       // The mean over a pixel of a smooth function is its value at the centre up to second order, below 1e-4 here.
       const double x = (column + 0.5) / size - 0.5, z = (row + 0.5) / size - 0.5;
       const double r = y / (irradiance(x, z) / M_PI * y_of_light);

@@ -103,18 +103,6 @@ inline std::string write_constant_nk(const std::filesystem::path& file, double n
   return file.string();
 }
 
-/// A beam of a single wavelength into a cone.
-inline preset::Light pencil(const preset::Vec3& from, const preset::Vec3& direction, double half_angle_deg, double nm = 550)
-{
-  preset::Light light;
-  light.type = preset::Light::Type::spot;
-  light.position = from;
-  light.direction = direction;
-  light.half_angle_deg = half_angle_deg;
-  light.spectrum = line(nm);
-  return light;
-}
-
 /// Parallel light of 1 W/m^2 and 550 nm.
 inline preset::Light parallel_light(const preset::Vec3& direction)
 {

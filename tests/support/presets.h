@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Presets and their parts, built in tests without files.
+// Presets and their parts, built without files: those of the checks, by their names alone.
 #pragma once
 #include "check/scene_parts.h"
 
@@ -11,6 +11,7 @@ using check::empty_preset;
 using check::glass;
 using check::line;
 using check::object;
+using check::pencil;
 using check::quad;
 using check::white;
 

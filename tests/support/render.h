@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs engine 1 on a preset built in a test and hands back what it made.
 #pragma once
+#include "check/render.h"
 #include "compute/compute.h"
 #include "job/job.h"
 #include "plan/plan.h"
@@ -11,9 +12,9 @@
 #include "tests/support/presets.h"
 #include "tests/support/test_kernels.h"
 
-#include <stdexcept>
-
 namespace nephroid::test {
+
+using check::layer;
 
 /// One context for all tests of a program: opening a device takes a second.
 inline const compute::Context& shared_context()
@@ -30,13 +31,6 @@ inline job::Snapshot render(const preset::Preset& preset, const compute::Context
   const auto job = spectral::make_job(preset, scene, bvh, plan, context);
   while (!job->finished()) job->step();
   return job->snapshot();
-}
-
-inline const job::Layer& layer(const job::Snapshot& snapshot, const std::string& name)
-{
-  for (const job::Layer& candidate : snapshot.picture->layers)
-    if (candidate.name == name) return candidate;
-  throw std::runtime_error("no layer " + name);
 }
 
 } // namespace nephroid::test
