@@ -141,6 +141,12 @@ std::vector<fs::path> model_folders()
 
 } // namespace
 
+bool is_there(const fs::path& path)
+{
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
 std::string read_file(const fs::path& path)
 {
   const auto refuse = [&](const std::string& why) { return bad_input(path.string(), "cannot be read: " + why); };

@@ -8,6 +8,9 @@
 
 namespace nephroid {
 
+/// Whether a file or folder is there; false also where nobody can tell, as in a folder that may not be read.
+bool is_there(const std::filesystem::path& path);
+
 /// The file's bytes. Throws bad_input where it cannot be read (missing, a folder, a device or a pipe, no permission).
 std::string read_file(const std::filesystem::path& path);
 

@@ -71,12 +71,6 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error)
   return bad_input(where, text, {}, see);
 }
 
-bool is_there(const std::filesystem::path& path)
-{
-  std::error_code ignored;
-  return std::filesystem::exists(path, ignored);
-}
-
 /// `nephroid rum first-light`: a word that is no file, no shipped preset and nearly a verb was meant to be one.
 void refuse_mistyped_verb(const CLI::App& program, const std::string& word)
 {

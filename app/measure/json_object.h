@@ -20,8 +20,7 @@ using Json = nlohmann::ordered_json;
 /// Throws bad_input naming the file: missing, empty, cut, no JSON, nested deeper than anything a run writes.
 inline Json read_json(const std::filesystem::path& file)
 {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) throw bad_input(file.string(), "is missing", "expected the files of a finished run");
+  if (!is_there(file)) throw bad_input(file.string(), "is missing", "expected the files of a finished run");
   const std::string text = read_file(file);
   if (text.empty()) throw bad_input(file.string(), "is empty", {}, "run it again");
   const auto refuse_depth = [&](int depth, Json::parse_event_t, const Json&) {
@@ -60,8 +59,7 @@ public:
   Integer count(const char* key) const
   {
     const Json& value = at(key);
-    if (!value.is_number_unsigned())
-      throw bad_input(place_of(key), "is no whole number from 0");
+    if (!value.is_number_unsigned()) throw bad_input(place_of(key), "is no whole number from 0");
     return value.get<Integer>();
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/report_pictures.h"
 
+#include "base/files.h"
 #include "image/image.h"
 #include "measure/difference.h"
 #include "measure/read_picture.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <system_error>
 
 namespace nephroid::measure {
 namespace fs = std::filesystem;
@@ -19,12 +19,6 @@ namespace {
 using SharedPicture = std::shared_ptr<const LinearPicture>;
 
 bool have_one_size(const LinearPicture& a, const LinearPicture& b) { return a.width == b.width && a.height == b.height; }
-
-bool is_there(const fs::path& file)
-{
-  std::error_code ignored;
-  return fs::exists(file, ignored);
-}
 
 /// A difference before its colours, which depend on those of the whole group.
 struct Difference {

@@ -17,12 +17,6 @@ namespace nephroid::measure {
 namespace fs = std::filesystem;
 namespace {
 
-bool is_there(const fs::path& path)
-{
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 std::map<std::string, double> as_map(std::vector<std::pair<std::string, double>> values)
 {
   return {std::make_move_iterator(values.begin()), std::make_move_iterator(values.end())};

@@ -48,7 +48,7 @@ void write_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job
 bool load_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job& job)
 {
   const fs::path file = file_in(folder);
-  if (std::error_code ignored; !fs::exists(file, ignored)) return false;
+  if (!is_there(file)) return false;
   const std::string bytes = read_file(file);
   const auto refuse = [&](const char* what) { return bad_input(file.string(), what, {}, "run without --resume to start over"); };
   Header header;

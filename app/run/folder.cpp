@@ -17,12 +17,6 @@ namespace {
 
 constexpr std::array results{"image.exr", "image.png", "run.json", "history.csv", "report.html", "checkpoint.bin"};
 
-bool is_there(const fs::path& path)
-{
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 /// Ours are the folders with a plan and a preset, what begin_run writes first, and those with nothing but what a killed
 /// writer left.
 bool holds_a_run_or_nothing(const fs::path& folder)
