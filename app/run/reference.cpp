@@ -9,6 +9,7 @@
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "run/content_hash.h"
+#include "spectral/engine.h"
 
 #include <fmt/format.h>
 
@@ -60,7 +61,7 @@ fs::path cache_file(const Prepared& prepared, const compute::Context& context)
   const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
   std::uint64_t hash = content_hash(recipe, prepared.loaded->scene);
   hash = hash_of(fmt::format("{} passes {}", version(), recipe.stop.passes.value()), hash);
-  for (const char* kernels : {"direct.cl", "photons.cl"}) hash = hash_of(compute::kernel_source(context, kernels), hash);
+  hash = hash_of(spectral::kernel_sources(context), hash);
   return cache_folder() / fmt::format("{:016x}.exr", hash);
 }
 
@@ -186,8 +187,7 @@ std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepare
     return read_reference(finder.find(reference.file, pointer(prepared, "/file")), prepared);
   }
   const fs::path file = cache_file(prepared, context);
-  std::error_code ignored;
-  return fs::exists(file, ignored) ? read_reference(file, prepared) : nullptr;
+  return is_there(file) ? read_reference(file, prepared) : nullptr;
 }
 
 std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,

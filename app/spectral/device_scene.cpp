@@ -190,14 +190,7 @@ void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, int pixe
   tables.energy_scale = power_of_two_below(std::exp2(40) / tables.light_towards_targets_w);
 }
 
-} // namespace
-
-int device_light_type(preset::Light::Type type)
-{
-  using Type = preset::Light::Type;
-  return type == Type::point ? LIGHT_POINT : type == Type::spot ? LIGHT_SPOT : type == Type::directional ? LIGHT_DIRECTIONAL : LIGHT_AREA;
-}
-
+/// The clusters for all dielectrics that an object uses: of one curve its own, of several their common refinement, of none one group.
 std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
 {
   std::vector<optics::Spectrum> curves;
@@ -209,6 +202,14 @@ std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, c
   std::vector<Clustering> clusterings;
   for (const optics::Spectrum& curve : curves) clusterings.push_back(cluster_wavelengths(curve, settings.threshold_deg, settings.method));
   return common_refinement(clusterings);
+}
+
+} // namespace
+
+int device_light_type(preset::Light::Type type)
+{
+  using Type = preset::Light::Type;
+  return type == Type::point ? LIGHT_POINT : type == Type::spot ? LIGHT_SPOT : type == Type::directional ? LIGHT_DIRECTIONAL : LIGHT_AREA;
 }
 
 DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene)

@@ -38,8 +38,8 @@ struct DeviceTables {
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one pass, dealt out to lights and clusters
   unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each emitter
   WavelengthTables wavelengths;
-  double light_towards_targets_w = 0;         ///< power that the emitters send out in a pass, all wavelengths
-  double power_unit = 1;                      ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
+  double light_towards_targets_w = 0; ///< power that the emitters send out in a pass, all wavelengths
+  double power_unit = 1;              ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
   double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
   double direct_limit = 1;                    ///< quanta that one contribution to the direct film may have
   double energy_scale = 1;                    ///< energy quanta per watt, a power of two
@@ -47,9 +47,6 @@ struct DeviceTables {
 
 /// LIGHT_* of kernels/shared_types.h.
 int device_light_type(preset::Light::Type type);
-
-/// The clusters for all dielectrics that an object uses: of one curve its own, of several their common refinement, of none one group.
-std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene);
 
 /// Everything but DeviceScene::root, which is the tree's. Throws bad_input at FILE#/pointer where the camera or a light is inside more
 /// than MEDIA_DEPTH dielectrics, and for a threshold that cluster_wavelengths refuses.

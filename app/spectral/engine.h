@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 
 #include <memory>
+#include <string>
 
 namespace nephroid::spectral {
 
@@ -19,5 +20,8 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
 /// Throws failed where the device has not enough memory, BuildError for a kernel that does not compile.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
                                    const compute::Context& context);
+
+/// The text of every kernel that a job may run, as this context would build it: pictures are kept by it (run/reference.h).
+std::string kernel_sources(const compute::Context& context);
 
 } // namespace nephroid::spectral

@@ -88,6 +88,28 @@ std::optional<Plane> plane_of(const scene::Scene& scene, const scene::Object& ob
   return highest <= plane.tolerance ? std::optional(plane) : std::nullopt;
 }
 
+/// Whether the camera sees all that is in its view: flat objects only, with the camera and all the others on one side of each.
+bool nothing_blocks_the_view(const scene::Scene& scene)
+{
+  const glm::dvec3 eye = scene.camera.position;
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (may_be_in_view(scene, scene.objects[i])) seen.push_back(i);
+  for (const std::size_t i : seen) {
+    const std::optional<Plane> plane = plane_of(scene, scene.objects[i]);
+    if (!plane) return false;
+    const double side = plane->height(eye) > 0 ? 1 : -1;
+    if (side * plane->height(eye) <= plane->tolerance) return false;
+    for (const std::size_t j : seen) {
+      bool behind = false;
+      for_each_corner(scene, scene.objects[j],
+                      [&](const glm::dvec3& p) { behind = behind || side * plane->height(p) < -plane->tolerance; });
+      if (behind) return false;
+    }
+  }
+  return true;
+}
+
 /// NEPHROID_LIGHT_TYPES of kernels/light.h.
 unsigned light_type_bits(const scene::Scene& scene)
 {
@@ -121,27 +143,6 @@ std::vector<bool> lit_wavelengths(const scene::Scene& scene)
       if (has_power(light) && light.spectrum[w] > 0) lit[w] = true;
   if (std::none_of(lit.begin(), lit.end(), [](bool b) { return b; })) lit.assign(lit.size(), true);
   return lit;
-}
-
-bool nothing_blocks_the_view(const scene::Scene& scene)
-{
-  const glm::dvec3 eye = scene.camera.position;
-  std::vector<std::size_t> seen;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (may_be_in_view(scene, scene.objects[i])) seen.push_back(i);
-  for (const std::size_t i : seen) {
-    const std::optional<Plane> plane = plane_of(scene, scene.objects[i]);
-    if (!plane) return false;
-    const double side = plane->height(eye) > 0 ? 1 : -1;
-    if (side * plane->height(eye) <= plane->tolerance) return false;
-    for (const std::size_t j : seen) {
-      bool behind = false;
-      for_each_corner(scene, scene.objects[j],
-                      [&](const glm::dvec3& p) { behind = behind || side * plane->height(p) < -plane->tolerance; });
-      if (behind) return false;
-    }
-  }
-  return true;
 }
 
 ObjectCounts count_objects(const scene::Scene& scene)

@@ -18,8 +18,6 @@ std::string counted(std::int64_t count, const std::string& one, const std::strin
 bool has_power(const scene::Light& light);
 /// [401]: which wavelengths a light with power has; all of them where no light has power.
 std::vector<bool> lit_wavelengths(const scene::Scene& scene);
-/// Whether the camera sees all that is in its view: flat objects only, with the camera and all the others on one side of each.
-bool nothing_blocks_the_view(const scene::Scene& scene);
 
 /// How many objects there are of each kind.
 struct ObjectCounts {

@@ -22,14 +22,16 @@ using Clock = std::chrono::steady_clock;
 constexpr double step_seconds = 0.05;
 constexpr std::uint32_t checkpoint_version = 2;
 
+constexpr const char *direct_source = "direct.cl", *photon_source = "photons.cl"; // kernel_sources has all of them
+
 struct Uint2 {
   std::uint32_t x, y;
 };
 
 /// How much work fits into a step, learned from the steps before.
-class Pace {
+class StepSize {
 public:
-  explicit Pace(double start) : amount_(start) {}
+  explicit StepSize(double start) : amount_(start) {}
   double amount() const { return amount_; }
   /// By little at a time: the first step of a kernel also compiles it, and the rows of a picture differ.
   void learn(double done, double seconds)
@@ -76,11 +78,11 @@ public:
     energy_ = zeroed("energy", OUTCOME_COUNT);
     if (direct_) {
       direct_film_ = zeroed("film direct", sums);
-      direct_kernel_ = compute::Program(context, "direct.cl", plan.defines).kernel("direct");
+      direct_kernel_ = compute::Program(context, direct_source, plan.defines).kernel("direct");
     }
     if (photons_) {
       caustic_film_ = zeroed("film caustic", sums);
-      photon_kernel_ = compute::Program(context, "photons.cl", defines).kernel("photons");
+      photon_kernel_ = compute::Program(context, photon_source, defines).kernel("photons");
     }
   }
 
@@ -100,9 +102,9 @@ public:
     at_.work_seconds += seconds;
     (direct ? at_.direct_seconds : at_.photon_seconds) += seconds;
     if (direct)
-      row_pace_.learn(static_cast<double>(last_amount_), seconds);
+      rows_a_step_.learn(static_cast<double>(last_amount_), seconds);
     else
-      photon_pace_.learn(static_cast<double>(last_amount_), seconds);
+      photons_a_step_.learn(static_cast<double>(last_amount_), seconds);
     if (direct_left() == 0 && (!photons_ || at_.slice == at_.slices)) {
       ++at_.pass;
       at_.row = at_.slice = 0;
@@ -251,7 +253,7 @@ private:
 
   void step_direct()
   {
-    const auto rows = std::clamp<std::int64_t>(std::llround(row_pace_.amount()), 1, direct_left());
+    const auto rows = std::clamp<std::int64_t>(std::llround(rows_a_step_.amount()), 1, direct_left());
     const std::size_t items = static_cast<std::size_t>(rows) * static_cast<std::size_t>(tables_.camera.width);
     run_in_world(direct_kernel_, items, 64, buffers_.reflected_xyz_all, buffers_.cluster_cdf, direct_film_, energy_, tables_.camera, seed_,
                  static_cast<std::uint32_t>(at_.pass), static_cast<int>(at_.row), static_cast<int>(rows), on_device(tables_.direct_scale),
@@ -263,7 +265,7 @@ private:
   void step_photons()
   {
     const std::uint32_t all = tables_.photons_per_pass;
-    if (at_.slice == 0) at_.slices = std::clamp<std::int64_t>(std::llround(all / photon_pace_.amount()), 1, all);
+    if (at_.slice == 0) at_.slices = std::clamp<std::int64_t>(std::llround(all / photons_a_step_.amount()), 1, all);
     const auto slices = static_cast<std::uint32_t>(at_.slices), slice = static_cast<std::uint32_t>(at_.slice);
     const std::uint32_t count = (all - slice + slices - 1) / slices;
     run_in_world(photon_kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, buffers_.targets, buffers_.emitters,
@@ -305,7 +307,7 @@ private:
   compute::Buffer<std::int64_t> energy_, direct_film_, caustic_film_;
   compute::Kernel direct_kernel_, photon_kernel_;
   Position at_;
-  Pace row_pace_{16}, photon_pace_{8192};
+  StepSize rows_a_step_{16}, photons_a_step_{8192};
   std::int64_t last_amount_ = 0;
 };
 
@@ -315,6 +317,11 @@ std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Sc
                                    const compute::Context& context)
 {
   return std::make_unique<SpectralJob>(preset, scene, bvh, plan, context);
+}
+
+std::string kernel_sources(const compute::Context& context)
+{
+  return compute::kernel_source(context, direct_source) + compute::kernel_source(context, photon_source);
 }
 
 } // namespace nephroid::spectral
