@@ -43,14 +43,8 @@ measure::Curve thinned(const measure::Curve& curve)
 
 ErrorLine line_of(const job::History& history, std::size_t column)
 {
-  std::vector<double> seconds, errors;
-  for (const job::HistoryRow& row : history.rows) {
-    if (column >= row.errors.size()) continue;
-    seconds.push_back(row.seconds);
-    errors.push_back(row.errors[column]);
-  }
   ErrorLine line;
-  line.curve = measure::curve_of(seconds, errors);
+  line.curve = measure::column_curve(history, column);
   line.drawn = thinned(line.curve);
   return line;
 }
@@ -68,15 +62,6 @@ std::array<double, 2> axis_ends(const std::array<double, 2>& values, double room
 }
 
 } // namespace
-
-std::vector<std::string> metrics_of(const job::History& history)
-{
-  std::vector<std::string> metrics;
-  for (const std::string& column : history.columns)
-    if (std::string metric = measure::error_column_of(column).metric; std::find(metrics.begin(), metrics.end(), metric) == metrics.end())
-      metrics.push_back(std::move(metric));
-  return metrics;
-}
 
 RunLines lines_of(const job::History& history, const std::string& metric)
 {

@@ -31,8 +31,6 @@ struct RunLines {
   const ErrorLine& judged() const { return error.curve.seconds.empty() ? estimate : error; }
 };
 
-/// Every metric that a history has a column of, in their order, each once.
-std::vector<std::string> metrics_of(const job::History& history);
 RunLines lines_of(const job::History& history, const std::string& metric);
 
 /// How much faster `run` came to the lowest error that both came to, well above the noise floor; nothing where there is none. Estimates are

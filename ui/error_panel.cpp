@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/error_panel.h"
 
+#include "measure/report_curves.h"
 #include "measure/report_metrics.h"
 #include "ui/actions.h"
 #include "ui/theme.h"
@@ -22,7 +23,7 @@ std::vector<std::string> all_metrics(const Workbench& workbench)
 {
   std::vector<std::string> all;
   const auto add = [&](const job::History& history) {
-    for (std::string& metric : metrics_of(history))
+    for (std::string& metric : measure::metric_names(history))
       if (std::find(all.begin(), all.end(), metric) == all.end()) all.push_back(std::move(metric));
   };
   if (const auto history = workbench.error_history()) add(*history);

@@ -70,8 +70,7 @@ std::size_t index_of(const std::array<int, 2>& size, const std::array<int, 2>& p
 
 Rgb value_at(std::span<const float> rgb, const std::array<int, 2>& size, const std::array<int, 2>& pixel)
 {
-  const std::size_t index =
-      3 * (static_cast<std::size_t>(pixel[1]) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(pixel[0]));
+  const std::size_t index = 3 * index_of(size, pixel);
   return {rgb[index], rgb[index + 1], rgb[index + 2]};
 }
 

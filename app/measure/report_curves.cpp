@@ -14,19 +14,18 @@ namespace {
 /// k = 2 gives 13 % and k = 3 gives 6 %. Of mean squares k squared.
 double above_floor(const std::string& metric, double floor, double times)
 {
-  return floor * (metric_text(metric).law == -1.0 ? times * times : times);
+  return floor * (metric_text(metric).is_mean_square() ? times * times : times);
 }
 
-std::vector<std::string> metrics_of(std::span<const RunSummary> runs)
+std::vector<std::string> metric_names_of(std::span<const RunSummary> runs)
 {
-  std::vector<std::string> metrics;
+  std::vector<std::string> all;
   for (const RunSummary& run : runs) {
     if (!run.history) continue;
-    for (const std::string& column : run.history->columns)
-      if (std::string metric = error_column_of(column).metric; std::find(metrics.begin(), metrics.end(), metric) == metrics.end())
-        metrics.push_back(std::move(metric));
+    for (std::string& metric : metric_names(*run.history))
+      if (std::find(all.begin(), all.end(), metric) == all.end()) all.push_back(std::move(metric));
   }
-  return metrics;
+  return all;
 }
 
 /// The metric that most runs name as theirs, the first of equals; empty where none does.
@@ -39,16 +38,6 @@ std::string main_metric(std::span<const RunSummary> runs)
   for (const RunSummary& run : runs)
     if (const std::string metric = error_column_of(run.error_column).metric; !metric.empty() && votes[metric] > votes[most]) most = metric;
   return most;
-}
-
-Curve column_curve(const job::History& history, std::size_t column)
-{
-  std::vector<double> seconds, errors;
-  for (const job::HistoryRow& row : history.rows) {
-    seconds.push_back(row.seconds);
-    errors.push_back(row.errors[column]);
-  }
-  return curve_of(seconds, errors);
 }
 
 RunCurves run_curves(const RunSummary& run, const std::string& metric)
@@ -69,6 +58,26 @@ bool is_empty(const RunCurves& curves) { return curves.judged().errors.empty(); 
 
 } // namespace
 
+std::vector<std::string> metric_names(const job::History& history)
+{
+  std::vector<std::string> metrics;
+  for (const std::string& column : history.columns)
+    if (std::string metric = error_column_of(column).metric; std::find(metrics.begin(), metrics.end(), metric) == metrics.end())
+      metrics.push_back(std::move(metric));
+  return metrics;
+}
+
+Curve column_curve(const job::History& history, std::size_t column)
+{
+  std::vector<double> seconds, errors;
+  for (const job::HistoryRow& row : history.rows) {
+    if (column >= row.errors.size()) continue;
+    seconds.push_back(row.seconds);
+    errors.push_back(row.errors[column]);
+  }
+  return curve_of(seconds, errors);
+}
+
 double MetricCurves::lowest_meaningful(std::size_t run) const
 {
   return runs[run].is_judged_by_estimate() ? 0 : above_floor(metric, runs[run].noise_floor, 2);
@@ -83,7 +92,7 @@ std::optional<PowerLaw> MetricCurves::slope(std::size_t run) const
 std::vector<MetricCurves> curves_of(std::span<const RunSummary> runs)
 {
   std::vector<MetricCurves> all;
-  for (const std::string& metric : metrics_of(runs)) {
+  for (const std::string& metric : metric_names_of(runs)) {
     MetricCurves curves{metric, {}};
     for (const RunSummary& run : runs) curves.runs.push_back(run_curves(run, metric));
     if (!std::all_of(curves.runs.begin(), curves.runs.end(), is_empty)) all.push_back(std::move(curves));

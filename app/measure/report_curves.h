@@ -11,6 +11,11 @@
 
 namespace nephroid::measure {
 
+/// Every metric that a history has a column of, in their order, each once.
+std::vector<std::string> metric_names(const job::History& history);
+/// One column. Rows that have no such cell are left out.
+Curve column_curve(const job::History& history, std::size_t column);
+
 /// One run's curves of one metric. Either may be empty.
 struct RunCurves {
   Curve error;            ///< against the run's reference

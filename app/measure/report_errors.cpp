@@ -47,7 +47,7 @@ std::string caption(const Report& report, const MetricCurves& curves)
   if (floors) words += "Horizontal: what the reference itself is off by, below which a distance to it says nothing. ";
   if (fits)
     words += fmt::format("The slopes are least-squares fits in log-log, equal parts of the time axis counting equally{}. ",
-                         floors ? fmt::format(", over errors of at least {} times the floor", text.law == -1.0 ? 9 : 3) : "");
+                         floors ? fmt::format(", over errors of at least {} times the floor", text.is_mean_square() ? 9 : 3) : "");
   if (text.law) append(words, "Independent samples give {}.", signed_text(*text.law, 1));
   return words;
 }
@@ -215,8 +215,7 @@ bool looks_biased(const MetricCurves& curves, std::size_t run)
   const RunCurves& of_run = curves.runs[run];
   if (of_run.error.errors.empty() || of_run.estimate.errors.empty()) return false;
   const double error = of_run.error.errors.back(), noise = of_run.estimate.errors.back(), floor = of_run.noise_floor;
-  const bool is_square = metric_text(curves.metric).law == -1.0;
-  return is_square ? error > 4 * (noise + floor) : error > 2 * std::hypot(noise, floor);
+  return metric_text(curves.metric).is_mean_square() ? error > 4 * (noise + floor) : error > 2 * std::hypot(noise, floor);
 }
 
 std::string bias_note(const Report& report, const MetricCurves& curves)

@@ -21,6 +21,8 @@ struct MetricText {
   /// The error of n independent samples is in proportion to n to this power; none where there is no such law.
   std::optional<double> law;
   bool falls = true; ///< false: larger is better, and the axis is linear
+
+  bool is_mean_square() const { return law == -1.0; }
 };
 /// Of a metric by its name; of an unknown one the name itself, as an error without unit and law.
 MetricText metric_text(std::string_view metric);

@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "scene/isolated.h"
 #include "scene/mesh.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -129,8 +130,6 @@ std::vector<BadFile> bad_files()
 
 class HostileMesh : public testing::Test {
 protected:
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
   std::string refusal(const fs::path& file) const
   {
     try {
@@ -142,13 +141,13 @@ protected:
       return error.line();
     }
   }
-  fs::path folder = fs::temp_directory_path() / fmt::format("nephroid_hostile_mesh_{}", std::random_device{}());
+  test::TemporaryFolder folder;
 };
 
 TEST_F(HostileMesh, EachIsRefusedWithItsReason)
 {
   for (const BadFile& bad : bad_files()) {
-    const fs::path file = folder / bad.name;
+    const fs::path file = folder.path() / bad.name;
     write_file_whole(file, bad.bytes);
     const auto start = std::chrono::steady_clock::now();
     const std::string line = refusal(file);
@@ -160,16 +159,16 @@ TEST_F(HostileMesh, EachIsRefusedWithItsReason)
 
 TEST_F(HostileMesh, TheGoodFileOfTheFamilyIsRead)
 {
-  write_file_whole(folder / "good.gltf", gltf());
-  EXPECT_EQ(load_mesh(folder / "good.gltf").triangles.size(), 1u);
-  write_file_whole(folder / "good.ply", ply("3", "1", std::string(corners) + "3 0 1 2\n"));
-  EXPECT_EQ(load_mesh(folder / "good.ply").triangles.size(), 1u);
+  write_file_whole(folder.path() / "good.gltf", gltf());
+  EXPECT_EQ(load_mesh(folder.path() / "good.gltf").triangles.size(), 1u);
+  write_file_whole(folder.path() / "good.ply", ply("3", "1", std::string(corners) + "3 0 1 2\n"));
+  EXPECT_EQ(load_mesh(folder.path() / "good.ply").triangles.size(), 1u);
 }
 
 TEST_F(HostileMesh, MissingFilesAndFolders)
 {
-  EXPECT_THAT(refusal(folder / "nowhere.obj"), StartsWith((folder / "nowhere.obj").string() + ": "));
-  EXPECT_THAT(refusal(folder), HasSubstr("folder"));
+  EXPECT_THAT(refusal(folder.path() / "nowhere.obj"), StartsWith((folder.path() / "nowhere.obj").string() + ": "));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("folder"));
 }
 
 // Whatever is cut out of a good file's end, and whichever byte is changed, it is read or refused; this process stays.
@@ -182,7 +181,7 @@ TEST_F(HostileMesh, CutAndChangedFilesDoNotBringTheProgramDown)
     std::string bytes = good[i % 2];
     if (i % 3 == 0) bytes.resize(1 + random() % (bytes.size() - 1));
     if (i % 3 != 0) bytes[random() % bytes.size()] = "09-#\n\xff "[random() % 7];
-    const fs::path file = folder / names[i % 2];
+    const fs::path file = folder.path() / names[i % 2];
     write_file_whole(file, bytes);
     try {
       load_mesh(file);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A folder of a test's own, gone when the test ends.
 #pragma once
+#include "base/files.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <unistd.h>
 
 namespace nephroid::test {
@@ -25,6 +28,12 @@ public:
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
+  /// Writes a file into it and hands back the file's path.
+  std::string write(const std::string& name, std::string_view bytes) const
+  {
+    write_file_whole(path_ / name, bytes);
+    return (path_ / name).string();
+  }
 
 private:
   std::filesystem::path path_;

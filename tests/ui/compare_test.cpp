@@ -76,7 +76,7 @@ TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
   frame();
   EXPECT_EQ(workbench.comparison().pin, 0u);
   EXPECT_THAT(workbench.pinned().all(), SizeIs(1));
-  EXPECT_TRUE(workbench.open(folder.file("other.json")));
+  EXPECT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
   frames(2);
   EXPECT_THAT(workbench.pinned().all(), SizeIs(1)) << "another preset may be compared with it";
 }
@@ -86,14 +86,14 @@ TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
   measured();
   open();
   finish();
-  folder.file("history.csv", measure::to_csv(*falling_history(7)));
-  workbench.apply({command::Open{folder.path.string()}});
+  folder.write("history.csv", measure::to_csv(*falling_history(7)));
+  workbench.apply({command::Open{folder.path().string()}});
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.pinned().all().size() == 1; }));
   EXPECT_EQ(workbench.pinned().all()[0].history->rows.size(), 7u);
   EXPECT_EQ(workbench.preset()->name, "Test") << "the preset stays";
   frames(2);
   EXPECT_THAT(workspace.error().contents().runs, SizeIs(2));
-  workbench.apply({command::Open{folder.file("cut.csv", "seconds,wall_seconds,step,work,lab_mean\n1,1,1,1")}});
+  workbench.apply({command::Open{folder.write("cut.csv", "seconds,wall_seconds,step,work,lab_mean\n1,1,1,1")}});
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.messages().size() == 1; }));
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("cut.csv:2"));
   EXPECT_EQ(workbench.messages()[0].kind, ErrorKind::bad_input);
@@ -103,7 +103,7 @@ TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
 TEST_F(CompareTest, ADialogOpensAHistory)
 {
   open();
-  const std::string file = folder.file("old.csv", measure::to_csv(*falling_history(3)));
+  const std::string file = folder.write("old.csv", measure::to_csv(*falling_history(3)));
   imgui.key(ImGuiMod_Shift, true);
   press(ImGuiKey_O, ImGuiMod_Ctrl);
   imgui.key(ImGuiMod_Shift, false);

@@ -14,7 +14,7 @@ using ::testing::StartsWith;
 class EngineTest : public ::testing::Test {
 protected:
   test::TemporaryFolder folder;
-  const std::filesystem::path kernels = folder.path / "kernels";
+  const std::filesystem::path kernels = folder.path() / "kernels";
 
   EngineTest() { std::filesystem::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, std::filesystem::copy_options::recursive); }
   compute::DeviceOptions options() const { return {.selector = "", .kernels = kernels}; }
@@ -22,8 +22,8 @@ protected:
   /// In one step: a temporary file beside the kernels would be a change of its own.
   void write(const std::string& text) const
   {
-    write_file_whole(folder.path / "new.cl", text);
-    std::filesystem::rename(folder.path / "new.cl", kernels / "direct.cl");
+    write_file_whole(folder.path() / "new.cl", text);
+    std::filesystem::rename(folder.path() / "new.cl", kernels / "direct.cl");
   }
 };
 
@@ -41,7 +41,7 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
   Engine engine(options());
   Workbench workbench(engine);
   const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done, 60); };
-  ASSERT_TRUE(workbench.open(folder.file("test.json"), {"stop.passes=2"}));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2"}));
   ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
   const double bright = sum(workbench.snapshot());
   EXPECT_GT(bright, 0);
@@ -75,7 +75,7 @@ TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt)
   Engine engine(options());
   Workbench workbench(engine);
   const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done, 60); };
-  ASSERT_TRUE(workbench.open(folder.file("test.json"), {"stop.passes=null", "stop.seconds=3600"}));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=null", "stop.seconds=3600"}));
   ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
   write(source() + "\n");
   ASSERT_TRUE(until([&] { return workbench.status().generation == 2; }));

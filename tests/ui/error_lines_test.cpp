@@ -3,6 +3,7 @@
 #include "fake_job.h"
 #include "image/image.h"
 #include "measure/history_file.h"
+#include "measure/report_curves.h"
 #include "ui/error_lines.h"
 #include "ui/pinned_runs.h"
 
@@ -25,7 +26,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes)
 {
   const auto history = falling_history(100);
-  EXPECT_THAT(metrics_of(*history), ElementsAre("lab_mean", "rel_mse"));
+  EXPECT_THAT(measure::metric_names(*history), ElementsAre("lab_mean", "rel_mse"));
   const RunLines lab = lines_of(*history, "lab_mean");
   ASSERT_EQ(lab.error.curve.seconds.size(), 100u);
   EXPECT_DOUBLE_EQ(lab.estimate.curve.errors[0], 1.1 * lab.error.curve.errors[0]);
@@ -43,7 +44,7 @@ TEST(ErrorLines, AnEstimateAloneIsWhatARunIsJudgedBy)
   job::History history;
   history.columns = {"estimated_lab_mean"};
   history.rows = {{1, 1, 1, 10, {0.5}}};
-  EXPECT_THAT(metrics_of(history), ElementsAre("lab_mean"));
+  EXPECT_THAT(measure::metric_names(history), ElementsAre("lab_mean"));
   EXPECT_THAT(lines_of(history, "lab_mean").judged().curve.errors, ElementsAre(0.5));
 }
 
@@ -168,15 +169,15 @@ TEST(PinnedRuns, AreReadFromAFolderWithItsPicture)
 {
   test::TemporaryFolder folder;
   const auto history = falling_history(3);
-  folder.file("history.csv", measure::to_csv(*history));
-  EXPECT_TRUE(is_history(folder.path));
-  EXPECT_TRUE(is_history(folder.path / "history.csv"));
-  EXPECT_FALSE(is_history(folder.path / "preset.json"));
-  EXPECT_EQ(read_pin(folder.path).picture, nullptr) << "there is no image.exr";
-  image::write_exr(folder.path / "image.exr", {2, 1, {"R", "G", "B", "direct.R"}, {1, 2, 3, 9, 4, 5, 6, 9}, {}});
-  for (const auto& path : {folder.path, folder.path / "history.csv"}) {
+  folder.write("history.csv", measure::to_csv(*history));
+  EXPECT_TRUE(is_history(folder.path()));
+  EXPECT_TRUE(is_history(folder.path() / "history.csv"));
+  EXPECT_FALSE(is_history(folder.path() / "preset.json"));
+  EXPECT_EQ(read_pin(folder.path()).picture, nullptr) << "there is no image.exr";
+  image::write_exr(folder.path() / "image.exr", {2, 1, {"R", "G", "B", "direct.R"}, {1, 2, 3, 9, 4, 5, 6, 9}, {}});
+  for (const auto& path : {folder.path(), folder.path() / "history.csv"}) {
     const PinnedRun run = read_pin(path);
-    EXPECT_EQ(run.name, folder.path.filename().string());
+    EXPECT_EQ(run.name, folder.path().filename().string());
     EXPECT_EQ(run.history->rows, history->rows);
     ASSERT_NE(run.picture, nullptr);
     EXPECT_EQ(run.picture->width, 2);
@@ -196,10 +197,10 @@ TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
     }
     return std::string();
   };
-  EXPECT_THAT(refusal(folder.path), HasSubstr("history.csv"));
-  EXPECT_THAT(refusal(folder.file("times.csv", "frame,draw_ms\n1,2\n")), HasSubstr("times.csv"));
-  EXPECT_THAT(refusal(folder.file("empty.csv", "")), HasSubstr("empty.csv"));
-  EXPECT_THAT(refusal(folder.path / "none.csv"), HasSubstr("none.csv"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("history.csv"));
+  EXPECT_THAT(refusal(folder.write("times.csv", "frame,draw_ms\n1,2\n")), HasSubstr("times.csv"));
+  EXPECT_THAT(refusal(folder.write("empty.csv", "")), HasSubstr("empty.csv"));
+  EXPECT_THAT(refusal(folder.path() / "none.csv"), HasSubstr("none.csv"));
 }
 
 } // namespace

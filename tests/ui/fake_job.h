@@ -7,6 +7,7 @@
 #include "measure/reference.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
+#include "tests/support/temporary_folder.h"
 #include "ui/workbench.h"
 
 #include <gtest/gtest.h>
@@ -117,25 +118,6 @@ public:
   std::shared_ptr<const measure::Reference> reference; ///< this
   std::atomic<int> made{0};
   std::atomic<bool> changed{false}, broken{false}; ///< the kernels
-};
-
-/// A folder of this test's own, removed with it.
-class TemporaryFolder {
-public:
-  TemporaryFolder()
-  {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    path = std::filesystem::temp_directory_path() / ("nephroid-" + std::string(info->test_suite_name()) + "-" + info->name());
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  std::string file(const std::string& name, const std::string& content = preset_text) const
-  {
-    write_file_whole(path / name, content);
-    return (path / name).string();
-  }
-  std::filesystem::path path;
 };
 
 /// Calls step until done() or the time is over; says whether it was done.

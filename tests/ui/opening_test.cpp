@@ -18,8 +18,8 @@ protected:
   test::FakeRuns runs;
   test::TemporaryFolder folder;
   Workbench workbench{runs};
-  const std::string first = folder.file("first.json");
-  const std::string second = folder.file("second.json", R"({"name": "Second", "parent": "first.json"})");
+  const std::string first = folder.write("first.json", test::preset_text);
+  const std::string second = folder.write("second.json", R"({"name": "Second", "parent": "first.json"})");
 
   void open_and_edit()
   {
@@ -82,20 +82,20 @@ TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn)
 {
   open_and_edit();
   workbench.apply({command::Open{second}});
-  workbench.apply({command::SavePreset{folder.path / "missing" / "first.json"}});
+  workbench.apply({command::SavePreset{folder.path() / "missing" / "first.json"}});
   EXPECT_EQ(workbench.question(), Question::unsaved) << "saving failed: the question stays";
   EXPECT_EQ(workbench.preset()->name, "Test");
   workbench.apply({command::Ask{Question::save_preset}}); // "Save as..." in the dialog
-  workbench.apply({command::SavePreset{folder.path / "third.json"}});
+  workbench.apply({command::SavePreset{folder.path() / "third.json"}});
   EXPECT_EQ(workbench.preset()->name, "Second");
-  EXPECT_EQ(preset::read_preset((folder.path / "third.json").string()).scene.camera.position[2], 2);
+  EXPECT_EQ(preset::read_preset((folder.path() / "third.json").string()).scene.camera.position[2], 2);
   EXPECT_EQ(workbench.question(), Question::none);
 }
 
 TEST_F(OpeningTest, WhatCannotBeOpenedAsksNothing)
 {
   open_and_edit();
-  workbench.apply({command::Open{folder.file("broken.json", "{")}, command::Open{folder.file("ball.obj", "v 0 0 0\n")}});
+  workbench.apply({command::Open{folder.write("broken.json", "{")}, command::Open{folder.write("ball.obj", "v 0 0 0\n")}});
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_EQ(workbench.messages().size(), 2u);
   EXPECT_TRUE(workbench.history()->modified());
@@ -126,7 +126,7 @@ TEST_F(OpeningTest, TheDialogSavesAndOpens)
 
 TEST_F(OpeningTest, FilesDroppedTogetherKeepTheirMessages)
 {
-  workbench.apply({command::Open{folder.file("ball.obj", "v 0 0 0\n")}, command::Open{first}});
+  workbench.apply({command::Open{folder.write("ball.obj", "v 0 0 0\n")}, command::Open{first}});
   EXPECT_EQ(workbench.preset()->name, "Test");
   ASSERT_EQ(workbench.messages().size(), 1u);
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("is a mesh"));
@@ -139,23 +139,23 @@ TEST_F(OpeningTest, SaysWhatOtherFilesAreAndWhatCanBeDoneWithThem)
   const std::string glass = std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/N-BK7.yml";
   EXPECT_THAT(refusal(glass), StartsWith(glass + ": is dispersion data; the window opens presets; "));
   EXPECT_THAT(refusal(glass), HasSubstr("`nephroid dispersion " + glass + "`"));
-  EXPECT_THAT(refusal(folder.file("BALL.OBJ", "v 0 0 0\n")), HasSubstr("is a mesh; the window opens presets; name it"));
-  EXPECT_THAT(refusal(folder.file("scene.gltf", "{\"asset\": {}}")), HasSubstr("is a mesh"));
-  EXPECT_THAT(refusal(folder.file("sky.exr", "v/1")), HasSubstr("is a picture"));
-  EXPECT_THAT(refusal(folder.file("direct.cl", "__kernel")), HasSubstr("--kernels"));
-  EXPECT_THAT(refusal(folder.file("notes.txt", "hello")), HasSubstr("is no preset"));
-  EXPECT_THAT(refusal(folder.file("noise", std::string("\0\1\2", 3))), HasSubstr("is no preset"));
+  EXPECT_THAT(refusal(folder.write("BALL.OBJ", "v 0 0 0\n")), HasSubstr("is a mesh; the window opens presets; name it"));
+  EXPECT_THAT(refusal(folder.write("scene.gltf", "{\"asset\": {}}")), HasSubstr("is a mesh"));
+  EXPECT_THAT(refusal(folder.write("sky.exr", "v/1")), HasSubstr("is a picture"));
+  EXPECT_THAT(refusal(folder.write("direct.cl", "__kernel")), HasSubstr("--kernels"));
+  EXPECT_THAT(refusal(folder.write("notes.txt", "hello")), HasSubstr("is no preset"));
+  EXPECT_THAT(refusal(folder.write("noise", std::string("\0\1\2", 3))), HasSubstr("is no preset"));
 }
 
 TEST_F(OpeningTest, LeavesPresetsToTheReader)
 {
   EXPECT_EQ(refusal(first), "");
   EXPECT_EQ(refusal("first-light"), "");
-  EXPECT_EQ(refusal(folder.path.string()), "");
-  EXPECT_EQ(refusal((folder.path / "missing.obj").string()), "");
-  EXPECT_EQ(refusal(folder.file("broken.json", "]")), "") << "the reader names line and column";
-  EXPECT_EQ(refusal(folder.file("preset.txt", " \n{}")), "");
-  EXPECT_EQ(refusal(folder.file("empty", "")), "");
+  EXPECT_EQ(refusal(folder.path().string()), "");
+  EXPECT_EQ(refusal((folder.path() / "missing.obj").string()), "");
+  EXPECT_EQ(refusal(folder.write("broken.json", "]")), "") << "the reader names line and column";
+  EXPECT_EQ(refusal(folder.write("preset.txt", " \n{}")), "");
+  EXPECT_EQ(refusal(folder.write("empty", "")), "");
 }
 
 } // namespace

@@ -112,7 +112,7 @@ TEST_F(PanelsTest, WithCtrlThePictureMovesAndNotTheCamera)
 TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
 {
   runs.steps = 1;
-  ASSERT_TRUE(workbench.open(folder.file("test.json"), {"scene.camera.position=[0.1, 0.2, 0.4]"}));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"scene.camera.position=[0.1, 0.2, 0.4]"}));
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::finished; }));
   frame();
   const unsigned char before = workspace.view().texture().pixels()[1];
@@ -144,7 +144,7 @@ TEST_F(PanelsTest, AnErrorTakesAStripThatGoesWhenItIsDismissed)
   open();
   frames(2);
   const double height = workspace.view().canvas().size[1];
-  workbench.apply({command::Open{(folder.path / "missing.json").string()}});
+  workbench.apply({command::Open{(folder.path() / "missing.json").string()}});
   frames(2);
   ASSERT_EQ(workbench.messages().size(), 1u);
   EXPECT_LT(workspace.view().canvas().size[1], height - 20);
@@ -198,7 +198,7 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
 
 TEST_F(PanelsTest, ADialogOpensTheNameThatIsTyped)
 {
-  const std::string file = folder.file("typed.json");
+  const std::string file = folder.write("typed.json", test::preset_text);
   press(ImGuiKey_O, ImGuiMod_Ctrl);
   frames(3);
   ASSERT_EQ(workbench.question(), Question::open);

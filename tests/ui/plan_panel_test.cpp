@@ -98,7 +98,7 @@ TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
   open();
   EXPECT_NE(workbench.plan(), nullptr);
   runs.make_ms = 300;
-  ASSERT_TRUE(workbench.open(folder.file("other.json")));
+  ASSERT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
   frame();
   EXPECT_EQ(workbench.plan(), nullptr);
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.plan() != nullptr; }));

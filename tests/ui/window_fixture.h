@@ -25,7 +25,7 @@ protected:
   }
   void open()
   {
-    ASSERT_TRUE(workbench.open(folder.file("test.json")));
+    ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.view().texture().empty(); }));
     frames(3); // strips and docks take their final places
   }

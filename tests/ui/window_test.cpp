@@ -57,8 +57,8 @@ std::array<int, 3> bytes_at(const image::Image& picture, double x, double y)
 class WindowTest : public ::testing::Test {
 protected:
   test::TemporaryFolder folder;
-  std::filesystem::path log = folder.path / "log.txt";
-  std::string quoted(const std::string& name) const { return "'" + (folder.path / name).string() + "'"; }
+  std::filesystem::path log = folder.path() / "log.txt";
+  std::string quoted(const std::string& name) const { return "'" + (folder.path() / name).string() + "'"; }
 };
 
 TEST_F(WindowTest, WithoutADisplayItSaysWhatToDo)
@@ -84,13 +84,13 @@ TEST_F(WindowTest, ALayoutThatThereIsNotIsBadUsage)
 TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
 {
   if (!there_is("xvfb-run")) GTEST_SKIP() << "no xvfb-run";
-  const std::string file = folder.file("test.json");
+  const std::string file = folder.write("test.json", test::preset_text);
   ASSERT_EQ(shell(program + " run '" + file + "' -o " + quoted("out"), log), 0) << read_file(log);
   const std::string options =
       " --size 900x700 --frames 5 --until 1 --screenshot " + quoted("screen.png") + " --frame-times " + quoted("times.csv");
   ASSERT_EQ(shell(on_display + program + " '" + file + "'" + options, log), 0) << read_file(log);
-  const image::Image screen = image::read_image(folder.path / "screen.png");
-  const image::Image written = image::read_image(folder.path / "out/image.png");
+  const image::Image screen = image::read_image(folder.path() / "screen.png");
+  const image::Image written = image::read_image(folder.path() / "out/image.png");
   ASSERT_EQ(screen.width, 900);
   ASSERT_EQ(screen.height, 700);
   const Placement p = placement_in_window(900, 700, {written.width, written.height});
@@ -106,7 +106,7 @@ TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
     }
   EXPECT_GT(brightest, 50) << "the picture is not black";
   EXPECT_EQ(different, 0);
-  EXPECT_THAT(read_file(folder.path / "times.csv"), StartsWith("frame,draw_ms,period_ms,state,fraction\n0,"));
+  EXPECT_THAT(read_file(folder.path() / "times.csv"), StartsWith("frame,draw_ms,period_ms,state,fraction\n0,"));
 }
 
 TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
@@ -115,11 +115,11 @@ TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
   const std::string options = " --frames 3 --until 1 --screenshot " + quoted("screen.png");
   EXPECT_EQ(shell(on_display + program + " " + quoted("missing.json") + options, log), 2);
   EXPECT_THAT(read_file(log), HasSubstr("there is no preset"));
-  EXPECT_EQ(image::read_image(folder.path / "screen.png").width, 1280);
-  std::filesystem::remove(folder.path / "screen.png");
-  EXPECT_EQ(shell(on_display + program + " '" + folder.file("test.json") + "' --device abacus" + options, log), 3);
+  EXPECT_EQ(image::read_image(folder.path() / "screen.png").width, 1280);
+  std::filesystem::remove(folder.path() / "screen.png");
+  EXPECT_EQ(shell(on_display + program + " '" + folder.write("test.json", test::preset_text) + "' --device abacus" + options, log), 3);
   EXPECT_THAT(read_file(log), HasSubstr("abacus"));
-  EXPECT_EQ(image::read_image(folder.path / "screen.png").width, 1280);
+  EXPECT_EQ(image::read_image(folder.path() / "screen.png").width, 1280);
 }
 
 TEST_F(WindowTest, FollowsRealEvents)
@@ -137,10 +137,10 @@ TEST_F(WindowTest, FollowsRealEvents)
   endless.scene.objects.push_back(ball);
   endless.stop.passes.reset();
   endless.stop.seconds = 3600;
-  const std::string file = folder.file("test.json", preset::to_json(endless));
+  const std::string file = folder.write("test.json", preset::to_json(endless));
   const std::string options =
       " --size 900x700 --frames 100000 --screenshot " + quoted("screen.png") + " --frame-times " + quoted("times.csv");
-  write_file_whole(folder.path / "events.sh", fmt::format(R"(#!/bin/sh
+  write_file_whole(folder.path() / "events.sh", fmt::format(R"(#!/bin/sh
 # Slower than one frame: where Ctrl goes up before the key within a frame, Dear ImGui sees the key alone.
 chord() {{ xdotool keydown ctrl; sleep 0.4; xdotool keydown $1; sleep 0.4; xdotool keyup $1; sleep 0.4; xdotool keyup ctrl; sleep 0.4; }}
 {} '{}' {} &
@@ -159,15 +159,15 @@ sleep 1
 chord q
 wait
 )",
-                                                          program, file, options));
+                                                            program, file, options));
   ASSERT_EQ(shell(on_display + "timeout 60 sh " + quoted("events.sh"), log), 0) << read_file(log);
   const preset::Preset saved = preset::read_preset(file);
   EXPECT_LT(saved.scene.camera.position[0], -0.5) << "the scene was turned to the right, the camera to the left";
   EXPECT_NEAR(saved.scene.camera.position[1], 0, 0.05);
-  const image::Image screen = image::read_image(folder.path / "screen.png");
+  const image::Image screen = image::read_image(folder.path() / "screen.png");
   EXPECT_EQ(screen.width, 1000);
   EXPECT_EQ(screen.height, 800);
-  const std::string times = read_file(folder.path / "times.csv");
+  const std::string times = read_file(folder.path() / "times.csv");
   EXPECT_THAT(times, HasSubstr("running"));
   EXPECT_THAT(times.substr(times.rfind('\n', times.size() - 2) + 1), HasSubstr("cancelled"));
 }

@@ -41,7 +41,7 @@ protected:
 TEST_F(WorkbenchTest, OpensRunsAndFinishes)
 {
   EXPECT_EQ(workbench.preset(), nullptr);
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   EXPECT_EQ(workbench.preset()->name, "Test");
   ASSERT_TRUE(until(job::State::finished));
   EXPECT_EQ(workbench.status().progress.fraction, 1);
@@ -53,13 +53,13 @@ TEST_F(WorkbenchTest, OpensRunsAndFinishes)
 
 TEST_F(WorkbenchTest, OverridesApplyToWhatIsOpened)
 {
-  ASSERT_TRUE(workbench.open(folder.file("test.json"), {"seed=42"}));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"seed=42"}));
   EXPECT_EQ(workbench.preset()->seed, 42u);
 }
 
 TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
 {
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   ASSERT_TRUE(until(job::State::finished));
   runs.make_ms = 50;
   edit_z(2);
@@ -75,7 +75,7 @@ TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
 TEST_F(WorkbenchTest, AnEditReplacesARunningJobWithin100Milliseconds)
 {
   runs.steps = 100000;
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
   const auto before = std::chrono::steady_clock::now();
   edit_z(3);
@@ -86,7 +86,7 @@ TEST_F(WorkbenchTest, AnEditReplacesARunningJobWithin100Milliseconds)
 TEST_F(WorkbenchTest, DuringAGestureEveryRunShowsAPictureBeforeTheNextReplacesIt)
 {
   runs.steps = 100000;
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
   runs.make_ms = 20; // slower than the mouse moves
   int pictures = 0;
@@ -107,7 +107,7 @@ TEST_F(WorkbenchTest, DuringAGestureEveryRunShowsAPictureBeforeTheNextReplacesIt
 
 TEST_F(WorkbenchTest, UndoAndRedoRunAgain)
 {
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   edit_z(2);
   ASSERT_TRUE(until([&] { return picture_z() == 2; }));
   workbench.apply({command::Undo{}});
@@ -119,7 +119,7 @@ TEST_F(WorkbenchTest, UndoAndRedoRunAgain)
 TEST_F(WorkbenchTest, CancelAndPauseHoldTheRun)
 {
   runs.steps = 100000;
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   ASSERT_TRUE(until(job::State::running));
   workbench.apply({command::Pause{true}});
   ASSERT_TRUE(until(job::State::paused));
@@ -136,7 +136,7 @@ TEST_F(WorkbenchTest, CancelAndPauseHoldTheRun)
 TEST_F(WorkbenchTest, AFailureIsOneMessageUntilTheNextRun)
 {
   runs.fails = true;
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   ASSERT_TRUE(until(job::State::failed));
   for (int i = 0; i < 5; ++i) workbench.update();
   ASSERT_EQ(workbench.messages().size(), 1u);
@@ -150,7 +150,7 @@ TEST_F(WorkbenchTest, AFailureIsOneMessageUntilTheNextRun)
 
 TEST_F(WorkbenchTest, ChangedKernelsStartTheRunAgainAndKeepThePictureWhereTheyDoNotCompile)
 {
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   ASSERT_TRUE(until(job::State::finished));
   runs.broken = runs.changed = true;
   ASSERT_TRUE(until(job::State::failed));
@@ -172,7 +172,7 @@ TEST_F(WorkbenchTest, NotesAreTheProgramsAndThoseOfThePlan)
 {
   workbench.add_note("kernels are kept elsewhere");
   EXPECT_THAT(workbench.notes(), ElementsAre("kernels are kept elsewhere"));
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   ASSERT_TRUE(until(job::State::finished));
   EXPECT_THAT(workbench.notes(), ElementsAre("kernels are kept elsewhere", "Test: n is extrapolated below 390 nm"));
   edit_z(2);
@@ -183,8 +183,8 @@ TEST_F(WorkbenchTest, NotesAreTheProgramsAndThoseOfThePlan)
 
 TEST_F(WorkbenchTest, AFileThatCannotBeOpenedLeavesWhatIsThereAlone)
 {
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
-  const std::string broken = folder.file("broken.json", R"({"engine": "spectral", "sceen": {}})");
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  const std::string broken = folder.write("broken.json", R"({"engine": "spectral", "sceen": {}})");
   workbench.apply({command::Open{broken}});
   EXPECT_EQ(workbench.preset()->name, "Test");
   ASSERT_EQ(workbench.messages().size(), 1u);
@@ -195,23 +195,23 @@ TEST_F(WorkbenchTest, AFileThatCannotBeOpenedLeavesWhatIsThereAlone)
 
 TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen)
 {
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   edit_z(2.5);
   EXPECT_TRUE(workbench.history()->modified());
-  EXPECT_EQ(workbench.save_target(), folder.path / "test.json");
-  workbench.apply({command::SavePreset{folder.path / "other.json"}});
+  EXPECT_EQ(workbench.save_target(), folder.path() / "test.json");
+  workbench.apply({command::SavePreset{folder.path() / "other.json"}});
   EXPECT_FALSE(workbench.history()->modified());
-  const preset::Preset saved = preset::read_preset((folder.path / "other.json").string());
+  const preset::Preset saved = preset::read_preset((folder.path() / "other.json").string());
   EXPECT_EQ(preset::to_json(saved), preset::to_json(*workbench.preset()));
   EXPECT_EQ(saved.scene.camera.position[2], 2.5);
-  EXPECT_EQ(workbench.save_target(), folder.path / "other.json");
+  EXPECT_EQ(workbench.save_target(), folder.path() / "other.json");
 }
 
 TEST_F(WorkbenchTest, WhereAPresetCannotBeSavedItSaysSoAndStaysUnsaved)
 {
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   edit_z(2.5);
-  workbench.apply({command::SavePreset{folder.path / "missing" / "other.json"}});
+  workbench.apply({command::SavePreset{folder.path() / "missing" / "other.json"}});
   EXPECT_TRUE(workbench.history()->modified());
   ASSERT_EQ(workbench.messages().size(), 1u);
   EXPECT_TRUE(workbench.messages()[0].error);
@@ -219,12 +219,12 @@ TEST_F(WorkbenchTest, WhereAPresetCannotBeSavedItSaysSoAndStaysUnsaved)
 
 TEST_F(WorkbenchTest, ThePictureIsWrittenInTheBackground)
 {
-  ASSERT_TRUE(workbench.open(folder.file("test.json")));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   ASSERT_TRUE(until(job::State::finished));
-  workbench.apply({command::SavePicture{folder.path / "a.png"}, command::SavePicture{folder.path / "a.gif"}});
+  workbench.apply({command::SavePicture{folder.path() / "a.png"}, command::SavePicture{folder.path() / "a.gif"}});
   ASSERT_TRUE(until([&] { return workbench.messages().size() == 2; }));
-  EXPECT_TRUE(std::filesystem::file_size(folder.path / "a.png") > 0);
-  EXPECT_FALSE(std::filesystem::exists(folder.path / "a.gif"));
+  EXPECT_TRUE(std::filesystem::file_size(folder.path() / "a.png") > 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.gif"));
   int errors = 0;
   for (const Message& m : workbench.messages()) errors += m.error;
   EXPECT_EQ(errors, 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mesh files of every format written here, checks of meshes, smooth normals and winding numbers.
-#include "base/files.h"
 #include "scene/mesh.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <numbers>
-#include <random>
 #include <string>
 
 namespace nephroid::scene {
@@ -121,16 +120,10 @@ std::string cube_gltf()
 
 class MeshFiles : public testing::Test {
 protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path write(const std::string& name, const std::string& bytes) const
-  {
-    write_file_whole(folder_ / name, bytes);
-    return folder_ / name;
-  }
+  fs::path write(const std::string& name, const std::string& bytes) const { return folder_.write(name, bytes); }
 
 private:
-  fs::path folder_ = fs::temp_directory_path() / fmt::format("nephroid_mesh_test_{}", std::random_device{}());
+  test::TemporaryFolder folder_;
 };
 
 void expect_cube(const Mesh& mesh)
