@@ -275,7 +275,8 @@ void add_run(CLI::App& program, Session&)
   CLI::App* verb = program.add_subcommand("run", "Render a preset into a folder");
   verb->footer(
       "Ctrl-C saves the image and a checkpoint; `--resume` goes on from there with the same result as an uninterrupted run.\n"
-      "Files: image.exr (linear, with layers), image.png (as shown), preset.json (complete), plan.json, run.json, checkpoint.bin.");
+      "Files: image.exr (linear, with layers), image.png (as shown), preset.json (complete), plan.json, run.json, checkpoint.bin, and\n"
+      "where the run measures its error history.csv and, once it is finished, report.html.");
   verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset")->required();
   verb->add_option("-o,--output", options->folder, "Folder for the run's files (default out/NAME; a sweep's runs in 001, 002, ...)")
       ->type_name("DIR");
