@@ -22,6 +22,9 @@ using optics::wavelength_count;
 
 constexpr unsigned all_light_types = 15;
 
+/// The JSON pointer of a field of preset::LeaveOut.
+std::string field_of(const std::string& key) { return "/spectral/leave_out/" + key; }
+
 const scene::Material& material_of(const scene::Scene& scene, const scene::Object& object)
 {
   return scene.materials[static_cast<std::size_t>(object.material)];
@@ -160,7 +163,7 @@ ObjectCounts count_objects(const scene::Scene& scene)
 
 plan::Pass omission(const std::string& key, bool leave_out, bool needed, std::string reason)
 {
-  plan::Pass pass{key, needed || !leave_out, std::move(reason), "/spectral/leave_out/" + key, false};
+  plan::Pass pass{key, needed || !leave_out, std::move(reason), field_of(key), false};
   std::replace(pass.name.begin(), pass.name.end(), '_', ' ');
   if (!needed && !leave_out) pass.reason += fmt::format(", but spectral.leave_out.{} is false", key);
   return pass;
@@ -212,18 +215,20 @@ std::vector<plan::Pass> code_omissions(const preset::LeaveOut& leave_out, const 
 
 std::map<std::string, std::string> omission_defines(const std::vector<plan::Pass>& passes, const scene::Scene& scene, int attenuators)
 {
-  const auto runs = [&](const std::string& name) {
-    return std::any_of(passes.begin(), passes.end(), [&](const plan::Pass& pass) { return pass.name == name && pass.runs; });
+  // Code is left out only where a pass says so.
+  const auto runs = [&](const std::string& key) {
+    const auto left_out = [&](const plan::Pass& pass) { return pass.field == field_of(key) && !pass.runs; };
+    return std::none_of(passes.begin(), passes.end(), left_out);
   };
-  const auto flag = [&](const std::string& name) { return std::string(runs(name) ? "1" : "0"); };
-  const unsigned types = runs("light types") ? all_light_types : light_type_bits(scene);
+  const auto flag = [&](const std::string& key) { return std::string(runs(key) ? "1" : "0"); };
+  const unsigned types = runs("light_types") ? all_light_types : light_type_bits(scene);
   return {{"NEPHROID_OCCLUSION", flag("occlusion")},
           {"NEPHROID_LIGHT_TYPES", std::to_string(types)},
           {"NEPHROID_MIRRORS", flag("mirrors")},
           {"NEPHROID_BENDING", flag("bending")},
           // Without materials that attenuate, one place for none of them: the code is there and does nothing.
           {"NEPHROID_ATTENUATORS", std::to_string(runs("attenuation") ? std::max(attenuators, 1) : 0)},
-          {"NEPHROID_SMOOTH", flag("smooth normals")}};
+          {"NEPHROID_SMOOTH", flag("smooth_normals")}};
 }
 
 } // namespace nephroid::spectral
