@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/shown_picture.h"
 
+#include "measure/lab.h"
 #include "ui/comparison_bar.h"
 #include "ui/workbench.h"
 
@@ -59,9 +60,7 @@ void show_difference(const Workbench& workbench, const HeldPicture& other, Shown
   }
 }
 
-struct Rgb {
-  float r = 0, g = 0, b = 0;
-};
+using Rgb = std::array<float, 3>;
 
 std::size_t index_of(const std::array<int, 2>& size, const std::array<int, 2>& pixel)
 {
@@ -76,9 +75,7 @@ Rgb value_at(std::span<const float> rgb, const std::array<int, 2>& size, const s
 
 std::string text_of(const Rgb& value, double white, const char* format)
 {
-  // The Y row of linear sRGB to XYZ (IEC 61966-2-1).
-  const double luminance = white * (0.2126 * value.r + 0.7152 * value.g + 0.0722 * value.b);
-  return fmt::format(fmt::runtime(format), value.r, value.g, value.b, luminance);
+  return fmt::format(fmt::runtime(format), value[0], value[1], value[2], white * measure::luminance(value.data()));
 }
 
 } // namespace
@@ -125,7 +122,7 @@ std::string pixel_text(const Workbench& workbench, const std::array<int, 2>& pix
   const HeldPicture other = workbench.other_picture();
   if (!(comparison.flip || comparison.difference) || !other.owner) return text;
   const Rgb of_other = value_at(other.pixels.rgb, size, pixel);
-  const Rgb difference{of_run.r - of_other.r, of_run.g - of_other.g, of_run.b - of_other.b};
+  const Rgb difference{of_run[0] - of_other[0], of_run[1] - of_other[1], of_run[2] - of_other[2]};
   text += fmt::format("\n{}   {}\ndifference   {}", other_name(workbench), text_of(of_other, white, format),
                       text_of(difference, white, "R {:+.4g}   G {:+.4g}   B {:+.4g}   Y {:+.4g} W/m2/sr"));
   if (const auto map = fitting_map(workbench, other, size); comparison.difference && map && map->values)

@@ -17,8 +17,6 @@ namespace {
 
 constexpr std::size_t block_pixels = 8192;
 
-double luminance(const float* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
-
 double lab_distance(const float* a, const float* b)
 {
   const std::array<double, 3> la = lab_of(a), lb = lab_of(b);

@@ -30,6 +30,9 @@ inline double encode_clipped(double linear)
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::sqrt(std::sqrt(linear) * cube_root(linear)) - 0.055;
 }
 
+/// Y of a linear sRGB colour (IEC 61966-2-1).
+inline double luminance(const float* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
+
 /// CIELAB of a linear sRGB colour with 1 = white; neither clipped above nor below: the straight start goes on below 0.
 inline std::array<double, 3> lab_of(const float* rgb)
 {
@@ -37,7 +40,7 @@ inline std::array<double, 3> lab_of(const float* rgb)
   const auto root = [](double t) { return t > delta * delta * delta ? cube_root(t) : t / (3 * delta * delta) + 4.0 / 29; };
   const double r = rgb[0], g = rgb[1], b = rgb[2];
   const double x = root((0.4124 * r + 0.3576 * g + 0.1805 * b) / white_x);
-  const double y = root(0.2126 * r + 0.7152 * g + 0.0722 * b);
+  const double y = root(luminance(rgb));
   const double z = root((0.0193 * r + 0.1192 * g + 0.9505 * b) / white_z);
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }

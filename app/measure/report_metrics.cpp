@@ -34,6 +34,8 @@ ErrorColumn error_column_of(std::string_view column)
   return {std::string(column), false};
 }
 
+std::string column_name(const ErrorColumn& column) { return (column.is_estimate ? std::string(estimated) : "") + column.metric; }
+
 MetricText metric_text(std::string_view metric)
 {
   if (metric.starts_with(masked)) {

@@ -14,6 +14,8 @@ struct ErrorColumn {
   bool is_estimate = false;
 };
 ErrorColumn error_column_of(std::string_view column);
+/// And back.
+std::string column_name(const ErrorColumn& column);
 
 struct MetricText {
   std::string label; ///< "mean CIELAB distance"

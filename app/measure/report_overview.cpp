@@ -135,7 +135,7 @@ std::string final_errors_table(const Report& report)
       "<h3>Errors at the end</h3>\n<div class=\"table\"><table><thead><tr><th>Metric</th>{}</tr></thead><tbody>\n", run_headings(report));
   for (const bool is_estimate : {false, true})
     for (const MetricCurves& curves : report.metrics) {
-      const std::string column = (is_estimate ? "estimated_" : "") + curves.metric;
+      const std::string column = column_name({curves.metric, is_estimate});
       if (!present.contains(column)) continue;
       append(html, "<tr>{}", metric_cell(curves.metric, is_estimate));
       for (std::size_t i = 0; i < report.runs.size(); ++i) html += error_cell(report.runs[i], errors[i], column);
