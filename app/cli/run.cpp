@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "cli/verbs.h"
 #include "measure/measured_job.h"
+#include "preset/check.h"
 #include "preset/read.h"
 #include "run/reference.h"
 
@@ -77,7 +78,10 @@ std::vector<Target> targets_of(const RunOptions& options)
       preset.stop.passes = options.passes;
       preset.stop.error = options.until_error;
     }
-    if (options.seed) preset.seed = *options.seed;
+    if (options.seed) {
+      preset.seed = *options.seed;
+      preset::check(preset, [](const std::string&) { return std::string("--seed"); }); // against the reference's
+    }
     const std::string number = fmt::format("{:03}", targets.size() + 1);
     const bool sweep = presets.size() > 1;
     targets.push_back({std::move(preset), sweep ? folder / number : folder, sweep ? fmt::format("{}/{}", stem, number) : stem});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error that CIELAB is measured on, channel by channel, with the picture m, the draw d, and means over a square about a pixel (bars):
+// The error that CIELAB and rel_mse are measured on, for each of X, Y and Z, which light can only add to, with the picture m, the draw d,
+// and means over a square about a pixel (bars):
 //
 //   n = mean of d^2                      the noise's variance
 //   v = mean of (m - m_bar)^2            the picture's own and the noise's together
@@ -9,8 +10,11 @@
 //
 // With many photons a pixel, w is 1 and e is the draw. With less than about one, w is Wiener's share of the picture in what is seen, and e
 // takes in what m differs from its surroundings by; its variance is then w n + (1 - w)^2 v = w n + (1 - w) n = n, because d is
-// uncorrelated with m. The surroundings of a pixel with many photons must not count: beside a bright edge they would call black wrong.
+// uncorrelated with m. The surroundings of a pixel with many photons must not count: beside a bright edge they would call black wrong. What
+// would make the truth negative is left out: CIELAB is steep there.
 #include "measure/error_estimate.h"
+
+#include "optics/colour.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,46 +60,60 @@ private:
   std::vector<double> sums_;
 };
 
-/// The picture without e: a draw of the truth as CIELAB needs it.
-std::vector<float> likely_truth(const job::Picture& picture)
+/// XYZ, 3 a pixel.
+std::vector<double> to_xyz(const std::vector<float>& rgb)
 {
-  std::vector<float> truth(picture.rgb.size());
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    const auto m = [&](std::size_t pixel) { return static_cast<double>(picture.rgb[3 * pixel + channel]); };
-    const auto d = [&](std::size_t pixel) { return static_cast<double>(picture.error_draw[3 * pixel + channel]); };
-    const SummedArea sum(picture.width, picture.height, m);
-    const SummedArea squares(picture.width, picture.height, [&](std::size_t pixel) { return m(pixel) * m(pixel); });
-    const SummedArea noise(picture.width, picture.height, [&](std::size_t pixel) { return d(pixel) * d(pixel); });
-    for (int y = 0; y < picture.height; ++y)
-      for (int x = 0; x < picture.width; ++x) {
-        const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x);
-        const double mean = sum.mean(x, y), variance = squares.mean(x, y) - mean * mean, n = noise.mean(x, y);
-        const double p = n > 0 ? mean * mean / n : 0;
-        const double w = n > 0 ? 1 - std::min(n / variance, 1.0) / (1 + p * p) : 1;
-        const double e = std::sqrt(w) * d(pixel) + (1 - w) * (m(pixel) - mean);
-        truth[3 * pixel + channel] = static_cast<float>(m(pixel) - e);
-      }
-  }
-  return truth;
+  std::vector<double> xyz;
+  xyz.reserve(rgb.size());
+  for (std::size_t i = 0; i < rgb.size(); i += 3)
+    for (const double value : optics::linear_srgb_to_xyz({rgb[i], rgb[i + 1], rgb[i + 2]})) xyz.push_back(value);
+  return xyz;
 }
 
-Metrics quick(const job::Picture& picture, const std::vector<float>& other)
+/// Takes e from one of X, Y, Z of the picture m. d: the draw.
+void subtract_error(std::vector<double>& m, const std::vector<double>& d, std::size_t channel, int width, int height)
 {
-  return compare({picture.width, picture.height, other, "the run"}, {picture.width, picture.height, picture.rgb, "the run"}, {},
-                 Effort::quick);
+  const auto of = [&](const std::vector<double>& values) { return [&](std::size_t pixel) { return values[3 * pixel + channel]; }; };
+  const auto square = [&](const std::vector<double>& values) {
+    return [&](std::size_t pixel) { return values[3 * pixel + channel] * values[3 * pixel + channel]; };
+  };
+  const SummedArea sum(width, height, of(m)), squares(width, height, square(m)), noise(width, height, square(d));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) + channel;
+      const double mean = sum.mean(x, y), variance = squares.mean(x, y) - mean * mean, n = noise.mean(x, y);
+      const double p = n > 0 ? mean * mean / n : 0;
+      const double w = n > 0 ? 1 - std::min(n / variance, 1.0) / (1 + p * p) : 1;
+      m[i] = std::max(m[i] - std::sqrt(w) * d[i] - (1 - w) * (m[i] - mean), 0.0);
+    }
+}
+
+/// The picture without e: a draw of the truth.
+std::vector<float> likely_truth(const job::Picture& picture)
+{
+  std::vector<double> xyz = to_xyz(picture.rgb);
+  const std::vector<double> draw = to_xyz(picture.error_draw);
+  for (std::size_t channel = 0; channel < 3; ++channel) subtract_error(xyz, draw, channel, picture.width, picture.height);
+  std::vector<float> truth;
+  truth.reserve(xyz.size());
+  for (std::size_t i = 0; i < xyz.size(); i += 3)
+    for (const double value : optics::xyz_to_linear_srgb({xyz[i], xyz[i + 1], xyz[i + 2]})) truth.push_back(static_cast<float>(value));
+  return truth;
 }
 
 } // namespace
 
-Metrics estimate_error(const job::Picture& picture)
+Metrics estimate_error(const job::Picture& picture, Mask mask)
 {
+  const Pixels pixels{picture.width, picture.height, picture.rgb, "the run"};
   std::vector<float> drawn(picture.rgb.size());
   for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = picture.rgb[i] + picture.error_draw[i];
-  Metrics metrics = quick(picture, drawn);
-  const Metrics lab = quick(picture, likely_truth(picture));
-  metrics.lab_mean = lab.lab_mean;
-  metrics.lab_rms = lab.lab_rms;
-  metrics.lab_max = lab.lab_max;
+  const Metrics of_draw = compare({picture.width, picture.height, drawn, "the run"}, pixels, mask, Effort::quick);
+  const std::vector<float> truth = likely_truth(picture);
+  Metrics metrics = compare(pixels, {picture.width, picture.height, truth, "the run"}, mask, Effort::quick);
+  metrics.mse = of_draw.mse;
+  metrics.rel_l2 = of_draw.rel_l2;
+  metrics.psnr_db = of_draw.psnr_db;
   return metrics;
 }
 

@@ -28,17 +28,14 @@ constexpr double spacing = 1.2;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// The metrics that an estimate is made of: those that do not hang on a single pixel.
-std::vector<std::pair<std::string, double>> estimated(const Metrics& m)
-{
-  return {{"estimated_lab_mean", m.lab_mean},
-          {"estimated_lab_rms", m.lab_rms},
-          {"estimated_mse", m.mse},
-          {"estimated_rel_mse", m.rel_mse},
-          {"estimated_rel_l2", m.rel_l2}};
-}
-
 using Errors = std::vector<std::pair<std::string, double>>;
+
+/// The metrics that an estimate is made of: those that do not hang on few pixels, as lab_max does, nor on what is right in the darkest
+/// ones, as rel_mse does.
+Errors estimated(const Metrics& m)
+{
+  return {{"estimated_lab_mean", m.lab_mean}, {"estimated_lab_rms", m.lab_rms}, {"estimated_mse", m.mse}, {"estimated_rel_l2", m.rel_l2}};
+}
 
 void add(Errors& errors, const std::string& prefix, const Metrics& metrics, bool perceptual)
 {
@@ -50,21 +47,24 @@ class MeasuredJob final : public job::Job {
 public:
   MeasuredJob(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
               Clock::time_point began)
-      : job_(std::move(job)), settings_(preset.measure), size_(preset.scene.camera.resolution), reference_(std::move(reference)),
-        began_(began)
+      : job_(std::move(job)), settings_(preset.measure), reference_(std::move(reference)), began_(began)
   {
-    require_sizes(preset);
     if (reference_) {
       against_.emplace(reference_->pixels());
       if (!reference_->mask.empty()) masked_.emplace(reference_->pixels(), reference_->mask);
     }
     const std::string metric(preset::word(preset.stop.metric));
-    history_.error_column = reference_ ? metric : settings_.estimate ? "estimated_" + metric : "";
+    is_mean_square_ = preset.stop.metric == preset::Stop::Metric::mse || preset.stop.metric == preset::Stop::Metric::rel_mse;
     history_.target = preset.stop.error;
-    if (history_.target && history_.error_column.empty())
-      throw bad_input(preset.source + "#/stop/error", "nothing measures the error of this run",
-                      "a 'reference', or 'measure.estimate' true");
     name_columns();
+    for (const std::string& column : {metric, "estimated_" + metric, std::string("estimated_lab_mean")})
+      if (history_.error_column.empty() && std::count(history_.columns.begin(), history_.columns.end(), column) > 0)
+        history_.error_column = column;
+    if (history_.target && !history_.error_column.ends_with(metric))
+      throw bad_input(preset.source + "#/stop/error", "nothing measures the error of this run in " + metric,
+                      settings_.estimate
+                          ? "expected a 'reference', or a 'stop.metric' that can be estimated: lab_mean, lab_rms, mse, rel_l2"
+                          : "expected a 'reference', or 'measure.estimate' true");
   }
 
   bool finished() const override { return target_reached() || (job_->finished() && !is_due()); }
@@ -115,13 +115,6 @@ public:
   }
 
 private:
-  void require_sizes(const preset::Preset& preset) const
-  {
-    if (!reference_ || (reference_->width == size_[0] && reference_->height == size_[1])) return;
-    throw bad_input(reference_->origin, fmt::format("the reference has {} x {} pixels", reference_->width, reference_->height),
-                    fmt::format("{} x {}, as scene.camera.resolution of {} says", size_[0], size_[1], preset.source));
-  }
-
   void name_columns()
   {
     const auto take = [&](const std::string& prefix, const std::optional<Metrics>& floor) {
@@ -204,7 +197,7 @@ private:
     const double now = error();
     if (!history_.target || !(now > 0)) return std::nullopt;
     const double ratio = now / *history_.target;
-    return last_seconds_ * (history_.error_column.ends_with("mse") ? ratio : ratio * ratio);
+    return last_seconds_ * (is_mean_square_ ? ratio : ratio * ratio);
   }
 
   void plan_next()
@@ -218,9 +211,9 @@ private:
 
   std::unique_ptr<job::Job> job_;
   preset::Measure settings_;
-  std::array<int, 2> size_;
   std::shared_ptr<const Reference> reference_;
   std::optional<QuickComparison> against_, masked_;
+  bool is_mean_square_ = false; ///< the error that may stop the run
   job::History history_;
   Clock::time_point began_;
   double wall_before_ = 0;  ///< of a resumed run's earlier parts

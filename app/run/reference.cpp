@@ -6,6 +6,7 @@
 #include "base/build_info.h"
 #include "base/files.h"
 #include "image/image.h"
+#include "measure/error_estimate.h"
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "run/content_hash.h"
@@ -25,6 +26,18 @@ constexpr const char* first_channels[] = {"first_seed.R", "first_seed.G", "first
 
 std::string pointer(const Prepared& prepared, const char* field) { return prepared.preset.source + "#/reference" + field; }
 
+/// Every wavelength on its own. What changes no expected value (the threshold, photons a pass, what is left out) is the default's, so that
+/// runs that differ in it alone share a reference.
+preset::Spectral brute_force(const preset::Spectral& settings)
+{
+  preset::Spectral made;
+  made.method = preset::Spectral::Method::brute_force;
+  made.max_surfaces = settings.max_surfaces;
+  made.direct = settings.direct;
+  made.caustic = settings.caustic;
+  return made;
+}
+
 /// The preset of one seed of the recipe.
 preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
 {
@@ -36,10 +49,7 @@ preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
   made.measure.estimate = false;
   made.stop = {};
   made.stop.passes = recipe.passes;
-  if (recipe.spectral)
-    made.spectral = *recipe.spectral;
-  else
-    made.spectral.method = preset::Spectral::Method::brute_force;
+  made.spectral = recipe.spectral ? *recipe.spectral : brute_force(preset.spectral);
   made.spectral.pixel_samples = std::max(made.spectral.pixel_samples, recipe.passes); // the direct layer as well converged as the caustic
   return made;
 }
@@ -81,6 +91,24 @@ std::vector<float> first_seed_of(const image::Image& file)
   return rgb;
 }
 
+/// What a mean of two seeds is off by: half of their difference is a draw of its error, as halves of a film are. The perceptual metrics
+/// have no estimate: there it is the distance of one seed from the mean.
+measure::Metrics noise_floor(const measure::Reference& mean, const std::vector<float>& first, measure::Mask mask, bool perceptual)
+{
+  job::Picture picture;
+  picture.width = mean.width;
+  picture.height = mean.height;
+  picture.rgb = mean.rgb;
+  for (std::size_t i = 0; i < first.size(); ++i) picture.error_draw.push_back(first[i] - mean.rgb[i]);
+  measure::Metrics floor = measure::estimate_error(picture, mask);
+  if (!perceptual) return floor;
+  const measure::Metrics distance = compare({mean.width, mean.height, first, mean.origin + " (its first seed)"}, mean.pixels(), mask);
+  floor.iw_ssim = distance.iw_ssim;
+  floor.flip = distance.flip;
+  floor.hdr_flip = distance.hdr_flip;
+  return floor;
+}
+
 std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, const Prepared& prepared)
 {
   const measure::LinearPicture picture = measure::read_linear_rgb(file);
@@ -88,22 +116,21 @@ std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, c
   const auto [width, height] = prepared.preset.scene.camera.resolution;
   if (reference.width != width || reference.height != height)
     throw bad_input(file.string(), fmt::format("the reference has {} x {} pixels", reference.width, reference.height),
-                    fmt::format("{} x {}, as scene.camera.resolution of {} says", width, height, prepared.preset.source));
+                    fmt::format("expected {} x {}, as scene.camera.resolution of {} says", width, height, prepared.preset.source));
   // A run's picture has its seed: the same random numbers make the same noise, and comparing would call it right.
   const auto seed = picture.attributes.find("nephroid:seed");
   if (seed != picture.attributes.end() && seed->second == std::to_string(prepared.preset.seed))
-    throw bad_input(file.string(), fmt::format("the reference was rendered with seed {}, as this run is", seed->second), "another seed",
-                    "run with another --seed");
+    throw bad_input(file.string(), fmt::format("the reference was rendered with seed {}, as this run is", seed->second),
+                    "expected another seed", "run with another --seed");
   if (const auto& mask = prepared.preset.measure.mask) {
     const FileFinder finder(fs::path(prepared.preset.source).parent_path());
     reference.mask = measure::read_mask(finder.find(*mask, prepared.preset.source + "#/measure/mask"), width, height);
   }
-  const measure::Effort effort = prepared.preset.measure.perceptual ? measure::Effort::full : measure::Effort::quick;
-  const std::vector<float> first = first_seed_of(image::read_image(file));
-  const measure::Pixels first_pixels{width, height, first, file.string() + " (its first seed)"};
-  if (!first.empty()) reference.noise_floor = compare(first_pixels, reference.pixels(), {}, effort);
-  if (!first.empty() && !reference.mask.empty())
-    reference.masked_noise_floor = compare(first_pixels, reference.pixels(), reference.mask, effort);
+  if (const std::vector<float> first = first_seed_of(image::read_image(file)); !first.empty()) {
+    reference.noise_floor = noise_floor(reference, first, {}, prepared.preset.measure.perceptual);
+    if (!reference.mask.empty())
+      reference.masked_noise_floor = noise_floor(reference, first, reference.mask, prepared.preset.measure.perceptual);
+  }
   return std::make_shared<const measure::Reference>(std::move(reference));
 }
 
@@ -120,7 +147,7 @@ public:
   {
     while (!job_->finished()) {
       if (stop.stop_requested())
-        throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered");
+        throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered; nothing of it is kept");
       job_->step();
       const job::Progress now = job_->progress();
       if (done == 0) require_time(prepared, now);
@@ -178,7 +205,7 @@ std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepare
   if (!prepared.preset.reference) {
     if (prepared.preset.measure.mask)
       throw bad_input(prepared.preset.source + "#/measure/mask", "there is no reference to compare the mask's pixels with",
-                      "a 'reference'");
+                      "expected a 'reference'");
     return nullptr;
   }
   const preset::Reference& reference = *prepared.preset.reference;
@@ -187,7 +214,15 @@ std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepare
     return read_reference(finder.find(reference.file, pointer(prepared, "/file")), prepared);
   }
   const fs::path file = cache_file(prepared, context);
-  return is_there(file) ? read_reference(file, prepared) : nullptr;
+  if (!is_there(file)) return nullptr;
+  try {
+    image::read_image(file);
+  } catch (const Error&) {
+    std::error_code ignored;
+    fs::remove(file, ignored); // a damaged file of the cache is as good as none
+    return nullptr;
+  }
+  return read_reference(file, prepared);
 }
 
 std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,

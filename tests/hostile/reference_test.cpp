@@ -154,7 +154,7 @@ TEST_F(Measured, WhatCannotBeAReferenceIsSaidBeforeTheRun)
   const std::string good = picture("good.exr");
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(refused("#/reference/file: there is no file '/nowhere/r.exr'", {"reference=/nowhere/r.exr"}), 2);
-  EXPECT_EQ(refused("the reference has 47 x 40 pixels; 48 x 40, as scene.camera.resolution",
+  EXPECT_EQ(refused("the reference has 47 x 40 pixels; expected 48 x 40, as scene.camera.resolution",
                     {"reference=" + picture("small.exr", width - 1, height)}),
             2);
   EXPECT_EQ(refused("nan.exr", {"reference=" + picture("nan.exr", width, height, 0.5f, nan)}), 2);
@@ -164,7 +164,9 @@ TEST_F(Measured, WhatCannotBeAReferenceIsSaidBeforeTheRun)
   EXPECT_EQ(refused("1 and 2 are the reference's seeds, and 1 is the run's; expected other seeds than the run's",
                     {R"(reference={"type":"recipe","seed":1})"}),
             2);
-  EXPECT_EQ(refused("#/stop/error: nothing measures the error of this run", {"stop.error=1", "measure.estimate=false"}), 2);
+  EXPECT_THAT(run("refused", {"--seed", "1000000007", "--set", recipe}).err,
+              HasSubstr("--seed: 1000000007 and 1000000008 are the reference's seeds, and 1000000007 is the run's"));
+  EXPECT_EQ(refused("#/stop/error: nothing measures the error of this run in lab_mean", {"stop.error=1", "measure.estimate=false"}), 2);
   EXPECT_EQ(refused("#/reference/seconds: making the reference would take about",
                     {R"(reference={"type":"recipe","passes":1000000,"seconds":10})"}),
             1);
@@ -175,7 +177,7 @@ TEST_F(Measured, ARunIsNoReferenceForARunWithItsSeed)
   ASSERT_EQ(run("a", {"--passes", "2"}).exit_code, 0);
   const std::string reference = "reference=" + (file("a") / "image.exr").string();
   EXPECT_THAT(run("b", {"--passes", "1", "--set", reference}).err,
-              HasSubstr("the reference was rendered with seed 1, as this run is; another seed; run with another --seed"));
+              HasSubstr("the reference was rendered with seed 1, as this run is; expected another seed; run with another --seed"));
   EXPECT_EQ(run("b", {"--passes", "1", "--seed", "2", "--set", reference}).exit_code, 0);
 }
 

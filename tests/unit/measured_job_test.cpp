@@ -70,12 +70,11 @@ private:
   std::vector<double> sums_[2];
 };
 
-std::shared_ptr<const measure::Reference> truth(int width = size)
+std::shared_ptr<const measure::Reference> truth()
 {
   auto reference = std::make_shared<measure::Reference>();
-  reference->width = width;
-  reference->height = size;
-  reference->rgb.assign(static_cast<std::size_t>(3 * width * size), static_cast<float>(grey));
+  reference->width = reference->height = size;
+  reference->rgb.assign(static_cast<std::size_t>(3 * size * size), static_cast<float>(grey));
   reference->origin = "truth.exr";
   reference->noise_floor.emplace();
   reference->noise_floor->lab_mean = 0.125;
@@ -240,13 +239,17 @@ TEST(MeasuredJob, AMaskIsMeasuredOnItsOwn)
 
 TEST(MeasuredJob, RefusesWhatCannotBeMeasured)
 {
-  EXPECT_EQ(error_of([] { noisy(settings(), truth(size + 1)); }).line(),
-            "truth.exr: the reference has 65 x 64 pixels; 64 x 64, as scene.camera.resolution of p.json says");
   preset::Preset preset = settings();
   preset.stop.error = 1;
   preset.measure.estimate = false;
   EXPECT_EQ(error_of([&] { noisy(preset, nullptr); }).line(),
-            "p.json#/stop/error: nothing measures the error of this run; a 'reference', or 'measure.estimate' true");
+            "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or 'measure.estimate' true");
+  preset = settings();
+  preset.stop.error = 1;
+  preset.stop.metric = preset::Stop::Metric::rel_mse;
+  EXPECT_THAT(error_of([&] { noisy(preset, nullptr); }).line(), HasSubstr("in rel_mse; expected a 'reference', or a 'stop.metric'"));
+  preset.stop.error.reset();
+  EXPECT_EQ(noisy(preset, nullptr)->history()->error_column, "estimated_lab_mean");
 }
 
 } // namespace
