@@ -44,16 +44,32 @@ std::string quoted(const std::string& text)
 /// Room around the values: a logarithmic axis that begins and ends at a point hides it.
 Interval widened(Interval values, double factor) { return {values.low / factor, values.high * factor}; }
 
+/// Multiples of a round step, between three and seven of them: for the part of a decade that holds hardly a power of ten.
+std::vector<double> even_levels(const Interval& axis)
+{
+  const double span = axis.high - axis.low, step = round_levels(span / 7, span).back();
+  std::vector<double> levels;
+  for (double i = std::ceil(axis.low / step); i * step <= axis.high; ++i) levels.push_back(i * step);
+  return levels;
+}
+
 /// The labelled places of a logarithmic axis: powers of ten, with 2 and 5 between where there are few.
+std::vector<double> levels_of_axis(const Interval& axis)
+{
+  constexpr double many_decades = 1000;
+  constexpr std::size_t least = 3;
+  std::vector<double> levels = round_levels(axis.low, axis.high);
+  if (levels.size() < least) return even_levels(axis);
+  if (axis.high / axis.low >= many_decades)
+    std::erase_if(levels, [](double level) { return std::abs(std::log10(level) - std::round(std::log10(level))) > 1e-6; });
+  return levels;
+}
+
 std::string ticks(const Interval& axis)
 {
-  const bool few = axis.high / axis.low < 1000;
   std::string text;
-  for (const double level : round_levels(axis.low, axis.high)) {
-    const double power = std::log10(level);
-    if (!few && std::abs(power - std::round(power)) > 1e-6) continue;
+  for (const double level : levels_of_axis(axis))
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", quoted(fmt::format("{:g}", level)), level);
-  }
   return text;
 }
 

@@ -75,12 +75,10 @@ std::string time_cell(const MetricCurves& curves, std::size_t run, double level)
   return "<td class=\"number out\">–</td>";
 }
 
+double to_three_figures(double value) { return std::stod(three_figures(value)); }
+
 /// A round level as it is, another one with three figures.
-std::string level_text(double level)
-{
-  const std::string text = fmt::format("{:g}", level);
-  return text.size() <= 7 ? text : three_figures(level);
-}
+std::string level_text(double level) { return fmt::format("{:g}", to_three_figures(level)); }
 
 /// " (CIELAB units)", or nothing.
 std::string unit_of(const MetricCurves& curves)
@@ -114,15 +112,23 @@ std::string times_table(const Report& report, const MetricCurves& curves)
   return html + "</p>\n";
 }
 
-/// Whether both rendered one picture: an error of a simpler one is no speed-up.
-bool show_one_scene(const RunSummary& a, const RunSummary& b)
+/// The settings of a part of the preset ("scene.").
+std::map<std::string, std::string> settings_of(const RunSummary& run, std::string_view part)
 {
-  const auto scene = [](const RunSummary& run) {
-    std::map<std::string, std::string> settings = run.settings;
-    std::erase_if(settings, [](const auto& setting) { return !setting.first.starts_with("scene."); });
-    return settings;
-  };
-  return scene(a) == scene(b);
+  std::map<std::string, std::string> settings = run.settings;
+  std::erase_if(settings, [&](const auto& setting) { return !setting.first.starts_with(part); });
+  return settings;
+}
+
+/// Whether both rendered one picture: an error of a simpler one is no speed-up.
+bool show_one_scene(const RunSummary& a, const RunSummary& b) { return settings_of(a, "scene.") == settings_of(b, "scene."); }
+
+/// Whether both runs tend to one picture, but for noise: photons a pass change how often the film is looked at and nothing else.
+bool have_one_bias(const RunSummary& a, const RunSummary& b)
+{
+  auto of_a = settings_of(a, "spectral."), of_b = settings_of(b, "spectral.");
+  for (auto* settings : {&of_a, &of_b}) settings->erase("spectral.photons_per_pass");
+  return of_a == of_b;
 }
 
 /// Why times of two runs are to be read with care; empty where there is no reason.
@@ -138,17 +144,25 @@ std::string remarks(const Report& report, std::size_t a, std::size_t b, bool by_
   add(run_a.version != run_b.version || run_a.commit != run_b.commit || run_a.compiler != run_b.compiler,
       "different builds of the program");
   add(!by_estimate && report.pictures.reference_of_run[a] != report.pictures.reference_of_run[b], "different references");
+  add(by_estimate && !have_one_bias(run_a, run_b), "estimates do not see the bias of different settings: give both a reference");
   return words;
 }
 
-/// The lowest round errors that both runs came down to, at most `count`. Where none is round, the middle of what they have in common:
-/// at its end a flat curve's time says little.
+/// The lowest round errors that both runs came down to, at most `count`. Where none is round, the middle of what they have in common, to
+/// three figures: at its end a flat curve's time says little.
 std::vector<double> levels_for_pair(const ErrorRange& both, std::size_t count)
 {
   std::vector<double> levels = round_levels(both.lowest, both.highest);
-  if (levels.empty()) return {std::sqrt(both.lowest * both.highest)};
+  if (levels.empty()) return {std::clamp(to_three_figures(std::sqrt(both.lowest * both.highest)), both.lowest, both.highest)};
   if (levels.size() > count) levels.erase(levels.begin(), levels.end() - static_cast<std::ptrdiff_t>(count));
   return levels;
+}
+
+/// Of two curves without a common error: which of the two began below all that the other came to.
+std::string why_no_error_in_common(const Curve& curve_a, const Curve& curve_b, std::size_t a, std::size_t b)
+{
+  const bool a_is_better = curve_a.errors.front() < errors_reached(curve_b)->lowest;
+  return fmt::format("{} was better at its first measurement than {} ever was", (a_is_better ? a : b) + 1, (a_is_better ? b : a) + 1);
 }
 
 /// The rows of all pairs, and why some pairs have none.
@@ -163,7 +177,7 @@ void add_pair(Pairs& pairs, const Report& report, const MetricCurves& curves, st
   if (of_a.judged().errors.empty() || of_b.judged().errors.empty()) return;
   const bool both_have_references = !of_a.error.errors.empty() && !of_b.error.errors.empty();
   const bool both_have_estimates = !of_a.estimate.errors.empty() && !of_b.estimate.errors.empty();
-  const auto skip = [&](const char* reason) {
+  const auto skip = [&](const std::string& reason) {
     append(pairs.not_compared, "{}{} and {} ({})", pairs.not_compared.empty() ? "" : "; ", a + 1, b + 1, reason);
   };
   if (!both_have_references && !both_have_estimates) return skip("one is measured against a reference, the other only estimated");
@@ -172,7 +186,8 @@ void add_pair(Pairs& pairs, const Report& report, const MetricCurves& curves, st
   const double lowest = by_estimate ? 0 : std::max(curves.lowest_meaningful(a), curves.lowest_meaningful(b));
   const auto both = errors_both_reached(curve_a, curve_b, lowest);
   if (!both)
-    return skip(errors_both_reached(curve_a, curve_b) ? "nearer to the noise floor than a comparison needs" : "no error that both reached");
+    return skip(errors_both_reached(curve_a, curve_b) ? "nearer to the noise floor than a comparison needs"
+                                                      : why_no_error_in_common(curve_a, curve_b, a, b));
   const std::string care = remarks(report, a, b, by_estimate);
   pairs.with_care = pairs.with_care || !care.empty();
   const std::size_t levels = report.runs.size() <= 6 ? 3 : 1;

@@ -80,7 +80,7 @@ private:
     const auto picture = std::make_shared<const LinearPicture>(read_linear_rgb(file));
     Collected& collected = group_of(run, picture);
     collected.group.pictures.push_back(
-        {ReportPicture::Kind::run, run, std::nullopt, image::png(picture->width, picture->height, picture->rgb)});
+        {ReportPicture::Kind::run, run, std::nullopt, image::png(picture->width, picture->height, picture->rgb), {}});
     add_difference(collected, run, *picture);
   }
 
@@ -118,13 +118,21 @@ private:
   {
     PictureGroup group = std::move(collected.group);
     for (const std::size_t reference : collected.references)
-      group.pictures.push_back(
-          {ReportPicture::Kind::reference, std::nullopt, std::nullopt, image::png(group.width, group.height, references_[reference]->rgb)});
+      group.pictures.push_back({ReportPicture::Kind::reference, std::nullopt, std::nullopt,
+                                image::png(group.width, group.height, references_[reference]->rgb), runs_of(reference)});
     for (const Difference& difference : collected.differences)
       group.difference_scale = std::max(group.difference_scale, colour_scale(difference.map));
     for (const Difference& difference : collected.differences)
-      group.pictures.push_back({ReportPicture::Kind::difference, difference.run, difference.from, coloured(group, difference.map)});
+      group.pictures.push_back({ReportPicture::Kind::difference, difference.run, difference.from, coloured(group, difference.map), {}});
     return group;
+  }
+
+  std::vector<std::size_t> runs_of(std::size_t reference) const
+  {
+    std::vector<std::size_t> runs;
+    for (std::size_t run = 0; run < runs_.size(); ++run)
+      if (result_.reference_of_run[run] == reference) runs.push_back(run);
+    return runs;
   }
 
   static std::string coloured(const PictureGroup& group, const std::vector<float>& map)

@@ -16,6 +16,7 @@ struct ReportPicture {
   std::optional<std::size_t> run;  ///< whose picture or difference it is; none of a reference
   std::optional<std::size_t> from; ///< difference: the run it is a difference from; none: its reference
   std::string png;                 ///< full size, as shown() at exposure 0; differences in the colours of map_colour
+  std::vector<std::size_t> of;     ///< reference: the runs that are measured against it
 };
 
 struct PictureGroup {

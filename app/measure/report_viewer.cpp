@@ -27,9 +27,21 @@ const char* word(Kind kind)
   return "";
 }
 
-std::string caption(const Report& report, const ReportPicture& picture)
+std::string joined(const std::vector<std::size_t>& numbers, const char* between, std::size_t counted_from)
 {
-  if (picture.kind == Kind::reference) return "reference";
+  std::string text;
+  for (const std::size_t number : numbers) append(text, "{}{}", text.empty() ? "" : between, number + counted_from);
+  return text;
+}
+
+/// A reference says whose it is where there are several.
+std::string caption(const Report& report, const PictureGroup& group, const ReportPicture& picture)
+{
+  if (picture.kind == Kind::reference) {
+    const auto references =
+        std::count_if(group.pictures.begin(), group.pictures.end(), [](const auto& other) { return other.kind == Kind::reference; });
+    return references > 1 ? "reference of " + joined(picture.of, ", ", 1) : "reference";
+  }
   if (picture.kind == Kind::run) return report.labels[*picture.run];
   return picture.from ? fmt::format("{} − {}", *picture.run + 1, *picture.from + 1) : fmt::format("{} − reference", *picture.run + 1);
 }
@@ -56,6 +68,13 @@ std::string colour_bar(const PictureGroup& group)
       colours, group.difference_scale);
 }
 
+/// Which runs the picture belongs to, counted from 0, for the script.
+std::string runs_attribute(const ReportPicture& picture)
+{
+  if (picture.run) return fmt::format(" data-run=\"{}\"", *picture.run);
+  return fmt::format(" data-runs=\"{}\"", joined(picture.of, " ", 0));
+}
+
 std::string viewer(const Report& report, const PictureGroup& group)
 {
   std::string html =
@@ -63,9 +82,9 @@ std::string viewer(const Report& report, const PictureGroup& group)
                   static_cast<double>(group.width) / group.height, group.width * std::max(1, comfortable_width / group.width));
   std::string buttons;
   for (const ReportPicture& picture : group.pictures) {
-    const std::string name = escaped(caption(report, picture));
+    const std::string name = escaped(caption(report, group, picture));
     append(html, "<img width=\"{}\" height=\"{}\" alt=\"{}\" data-kind=\"{}\"{} src=\"data:image/png;base64,{}\">\n", group.width,
-           group.height, name, word(picture.kind), picture.run ? fmt::format(" data-run=\"{}\"", *picture.run) : "", base64(picture.png));
+           group.height, name, word(picture.kind), runs_attribute(picture), base64(picture.png));
     append(buttons, "<button type=\"button\">{} {}</button>\n", key(picture), name);
   }
   append(html, "</div>\n<div class=\"buttons\">\n{}</div>\n", buttons);

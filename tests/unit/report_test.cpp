@@ -171,6 +171,46 @@ TEST_F(ReportPage, never_compares_an_error_with_an_estimate)
               AllOf(HasSubstr("2 alone | 1 measured"), HasSubstr("estimate"), HasSubstr("4.00 ×")));
 }
 
+TEST_F(ReportPage, warns_of_estimates_with_other_settings)
+{
+  const auto write = [&](const char* name, double factor, const nlohmann::ordered_json& spectral) {
+    write_made_run(folder / name, made_run_json(name), {{"spectral", spectral}});
+    write_file_whole(folder / name / "history.csv", measure::to_csv(made_history({{"estimated_lab_mean", factor}})));
+  };
+  write("fine", 3, {{"threshold_deg", 0.05}, {"photons_per_pass", 1000}});
+  write("coarse", 2, {{"threshold_deg", 0.5}, {"photons_per_pass", 1000}});
+  const std::string remark = "estimates do not see the bias of different settings: give both a reference";
+  EXPECT_THAT(speed_ups(page({"fine", "coarse"})).at(0), AllOf(HasSubstr("2 coarse | 1 fine"), HasSubstr(remark)));
+  write("coarse", 2, {{"threshold_deg", 0.05}, {"photons_per_pass", 2000}}); // photons a pass are no bias
+  EXPECT_THAT(speed_ups(page({"fine", "coarse"})).at(0), Not(HasSubstr(remark)));
+  // Against references the bias is part of the error.
+  for (const char* name : {"fine", "coarse"}) write_measured_run(folder / name, name, 3);
+  write_file_whole(folder / "coarse" / "preset.json", R"({"spectral": {"threshold_deg": 0.5}})");
+  EXPECT_THAT(speed_ups(page({"fine", "coarse"})).at(0), Not(HasSubstr(remark)));
+}
+
+TEST_F(ReportPage, says_which_run_was_better_from_the_start)
+{
+  write_measured_run(folder / "a", "a", 100); // down to 100 / sqrt(323) = 5.6
+  write_measured_run(folder / "b", "b", 3);   // from 3 / sqrt(0.5) = 4.2
+  EXPECT_THAT(page({"a", "b"}), HasSubstr("Not compared: 1 and 2 (2 was better at its first measurement than 1 ever was)"));
+  EXPECT_THAT(page({"b", "a"}), HasSubstr("Not compared: 1 and 2 (1 was better at its first measurement than 2 ever was)"));
+}
+
+/// a goes from 7 to 5.90, b from 9 to 6.44: they have 6.44 .. 7 in common, whose middle is 6.71436.
+TEST_F(ReportPage, compares_at_three_figures_where_no_round_error_is_common)
+{
+  for (const auto& [name, begin] : {std::pair{"a", 7.0}, std::pair{"b", 9.0}}) {
+    write_measured_run(folder / name, name, 1);
+    const double exponent = name == std::string("a") ? -0.026426 : -0.051712; // over a factor of 1.25^29 in time
+    const MadeColumn column{"lab_mean", begin / std::pow(0.5, exponent), exponent};
+    write_file_whole(folder / name / "history.csv", measure::to_csv(made_history({column})));
+  }
+  const std::vector<std::string> rows = speed_ups(page({"a", "b"}));
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_THAT(rows[0], HasSubstr("1 a | 2 b | 6.71 | "));
+}
+
 /// error^2 = 2^2 / t + bias^2 against an estimate of 2 / sqrt(t): at the end, 323 s, noise is 0.11.
 TEST_F(ReportPage, says_where_noise_does_not_explain_the_error)
 {
@@ -208,6 +248,19 @@ TEST_F(ReportPage, knows_one_reference_by_its_picture)
   write_measured_run(folder / "a", "a", 3, 0, (folder / "one.exr").string());
   write_measured_run(folder / "b", "b", 2, 0, (folder / "copy.exr").string());
   EXPECT_THAT(speed_ups(page({"a", "b"})).at(0), Not(HasSubstr("different")));
+}
+
+TEST_F(ReportPage, says_whose_a_reference_is_where_there_are_several)
+{
+  float value = 0.4f;
+  for (const char* name : {"one.exr", "two.exr"})
+    image::write_exr(folder / name, {4, 3, {"R", "G", "B"}, std::vector<float>(36, value += 0.1f), {}});
+  write_measured_run(folder / "a", "a", 3, 0, (folder / "one.exr").string());
+  write_measured_run(folder / "b", "b", 2, 0, (folder / "two.exr").string());
+  write_measured_run(folder / "c", "c", 2, 0, (folder / "one.exr").string());
+  EXPECT_THAT(page({"a", "b", "c"}), AllOf(HasSubstr("</kbd> reference of 1, 3</button>"), HasSubstr("</kbd> reference of 2</button>"),
+                                           HasSubstr("data-kind=\"reference\" data-runs=\"0 2\"")));
+  EXPECT_THAT(page({"a", "c"}), HasSubstr("</kbd> reference</button>"));
 }
 
 TEST_F(ReportPage, takes_a_sweep_as_its_runs)
@@ -274,6 +327,14 @@ TEST(Charts, have_ids_of_their_own_and_the_colours_of_the_page)
   EXPECT_THAT(svgs[0], Not(HasSubstr("chart1-")));
   EXPECT_THAT(svgs[1], Not(HasSubstr("chart0-")));
   EXPECT_THAT(measure::draw_charts({}), ElementsAre());
+}
+
+/// Errors from 2.9 down to 2.2 have no power of ten among them, and of 1, 2 and 5 times one only 2.
+TEST(Charts, have_several_numbers_on_an_axis_within_a_decade)
+{
+  const measure::Chart chart{"narrow", "error", true, {{"a", 0, false, {{1, 10, 100}, {2.9, 2.5, 2.2}}}}, {}, {}};
+  const std::string svg = measure::draw_charts(std::vector{chart}).at(0);
+  for (const char* number : {"2", "2.5", "3", "3.5", "4"}) EXPECT_THAT(svg, HasSubstr(fmt::format(">{}</", number))) << number;
 }
 
 TEST(ReportText, reads_as_people_write)

@@ -6,7 +6,7 @@ function viewer(figure) {
   const stage = figure.querySelector(".stage");
   const pictures = [...stage.querySelectorAll("img")];
   const buttons = [...figure.querySelectorAll("button")];
-  let shown = 0, run = 0; // what is shown; the run that was shown last, whose difference `d` shows
+  let shown = 0, run = "0"; // what is shown; the run that was shown last, whose difference `d` shows and whose reference `r`
   let zoom = 1, x = 0, y = 0; // of the pictures, x and y in pixels of the page
 
   function show(index) {
@@ -34,12 +34,13 @@ function viewer(figure) {
     place();
   }
 
-  // Of the pictures of a kind the next one after the shown one, or the one of the run.
+  // Of the pictures of a kind the one of the run; where there is none, or it is a reference and shown already, the next one.
   function showKind(kind) {
     const matches = pictures.map((picture, i) => i).filter(i => pictures[i].dataset.kind === kind);
     if (!matches.length) return;
-    const ofRun = matches.find(i => pictures[i].dataset.run === run);
-    show(kind === "difference" && ofRun !== undefined ? ofRun : matches.find(i => i > shown) ?? matches[0]);
+    const ofRun = matches.find(i => (pictures[i].dataset.run ?? pictures[i].dataset.runs).split(" ").includes(run));
+    const isWanted = ofRun !== undefined && (kind === "difference" || ofRun !== shown);
+    show(isWanted ? ofRun : matches.find(i => i > shown) ?? matches[0]);
   }
 
   figure.keys = {
