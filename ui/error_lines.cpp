@@ -83,7 +83,7 @@ RunLines lines_of(const job::History& history, const std::string& metric)
   return lines;
 }
 
-std::optional<measure::EqualError> speed_up(const RunLines& pinned, const RunLines& run)
+std::optional<SpeedUp> speed_up(const RunLines& pinned, const RunLines& run)
 {
   if (!pinned.falls || !run.falls) return std::nullopt;
   const bool both_have_errors = !pinned.error.curve.seconds.empty() && !run.error.curve.seconds.empty();
@@ -92,7 +92,8 @@ std::optional<measure::EqualError> speed_up(const RunLines& pinned, const RunLin
   const double lowest = both_have_errors ? std::max(pinned.lowest_meaningful, run.lowest_meaningful) : 0;
   const auto both = measure::errors_both_reached(a, b, lowest);
   if (!both) return std::nullopt;
-  return measure::at_equal_error(a, b, both->lowest);
+  const auto equal = measure::at_equal_error(a, b, both->lowest);
+  return equal ? std::optional(SpeedUp{*equal, !both_have_errors}) : std::nullopt;
 }
 
 std::optional<CurvePoint> nearest_point(const measure::Curve& curve, double seconds)

@@ -33,9 +33,12 @@ struct RunLines {
 
 RunLines lines_of(const job::History& history, const std::string& metric);
 
+struct SpeedUp : measure::EqualError {
+  bool by_estimate = false;
+};
 /// How much faster `run` came to the lowest error that both came to, well above the noise floor; nothing where there is none. Estimates are
 /// held against estimates, errors against errors.
-std::optional<measure::EqualError> speed_up(const RunLines& pinned, const RunLines& run);
+std::optional<SpeedUp> speed_up(const RunLines& pinned, const RunLines& run);
 
 /// The point nearest in log time; nothing of an empty curve.
 struct CurvePoint {

@@ -17,6 +17,7 @@ namespace nephroid::ui {
 namespace {
 
 constexpr const char* this_run = "this run";
+constexpr const char* nothing_measured = "nothing measured"; ///< in the box of metrics, as wide as any name of one
 
 /// Every metric of the run in hand and of the pinned ones, each once.
 std::vector<std::string> all_metrics(const Workbench& workbench)
@@ -115,8 +116,8 @@ void ErrorPanel::draw(const Workbench& workbench, Commands& commands)
 
 void ErrorPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
 {
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
-  if (ImGui::BeginCombo("##metric", contents_.metric.empty() ? "nothing measured" : contents_.metric.c_str())) {
+  ImGui::SetNextItemWidth(ImGui::CalcTextSize(nothing_measured).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
+  if (ImGui::BeginCombo("##metric", contents_.metric.empty() ? nothing_measured : contents_.metric.c_str())) {
     for (const std::string& metric : all_metrics(workbench))
       if (ImGui::Selectable(metric.c_str(), metric == contents_.metric)) commands.push_back(command::ChooseMetric{metric});
     ImGui::EndCombo();
@@ -193,8 +194,8 @@ std::string ErrorPanel::findings(const Workbench& workbench, const PinnedRun& pi
   if (const auto& fit = of_pin.judged().fit) text = fmt::format("slope {:.2f}; ", fit->exponent);
   const auto equal = speed_up(of_pin, present);
   if (!equal) return text + "no error yet that both runs came to";
-  return text + fmt::format("at {} {:.3g}: {:.3g} s, this run {:.3g} s, {:.3g} times as fast", contents_.metric, equal->error,
-                            equal->seconds_a, equal->seconds_b, equal->speed_up());
+  return text + fmt::format("at {} {:.3g}{}: {:.3g} s, this run {:.3g} s, {:.3g} times as fast", contents_.metric, equal->error,
+                            equal->by_estimate ? " by both estimates" : "", equal->seconds_a, equal->seconds_b, equal->speed_up());
 }
 
 } // namespace nephroid::ui

@@ -157,10 +157,10 @@ void plot_runs(const PlotContents& contents)
   for (std::size_t i = 0; i < contents.runs.size(); ++i) {
     const PlottedRun& run = contents.runs[i];
     if (run.lines->noise_floor) noise_floor = run.lines->noise_floor; // of the one in front: another's reference is another
-    const bool both = !run.lines->error.drawn.seconds.empty();
+    const bool both = !run.lines->error.drawn.seconds.empty();        // the legend's swatches are squares: words say which line is dashed
     plot_line(label_of(run.name, run.lines->error, i, "e"), run.lines->error, run, false);
-    plot_line(label_of(both ? run.name + ", estimate" : run.name + " (estimate)", run.lines->estimate, i, "s"), run.lines->estimate, run,
-              true);
+    plot_line(label_of(run.name + (both ? ", estimate (dashed)" : " (estimate, dashed)"), run.lines->estimate, i, "s"), run.lines->estimate,
+              run, true);
   }
   if (noise_floor)
     plot_level(fmt::format("noise floor of the reference {:.3g}###floor", *noise_floor), *noise_floor, colour::quiet_text, true);

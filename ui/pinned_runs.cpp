@@ -4,11 +4,13 @@
 #include "base/error.h"
 #include "measure/history_file.h"
 #include "measure/read_picture.h"
+#include "measure/run_summary.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 namespace nephroid::ui {
@@ -18,6 +20,34 @@ namespace {
 constexpr std::array<std::uint32_t, 7> colours{0xff009fe6, 0xffe9b456, 0xff739e00, 0xff42e4f0, 0xffa779cc, 0xff005ed5, 0xffb27200};
 
 constexpr const char* history_name = "history.csv";
+
+/// The file of the history that a path means.
+std::filesystem::path history_file(const std::filesystem::path& path)
+{
+  constexpr const char* expected = "expected the folder of a run, or its history.csv";
+  constexpr const char* remedy = "give the folder of `nephroid run PRESET -o FOLDER`";
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) throw bad_input(path.string(), "there is no such run", expected, remedy);
+  if (!std::filesystem::is_directory(path, ignored)) {
+    if (!is_history(path)) throw bad_input(path.string(), "is no run's history", expected, remedy);
+    return path;
+  }
+  if (!std::filesystem::exists(path / history_name, ignored)) throw bad_input(path.string(), "has no history.csv", expected, remedy);
+  return path / history_name;
+}
+
+/// The history with what the run's folder knows of the reference: the table itself has no noise floor.
+std::shared_ptr<const job::History> history_with_floor(const std::filesystem::path& file, const std::filesystem::path& folder)
+{
+  auto history = std::make_shared<job::History>(measure::read_history(file));
+  const auto reference = file.filename() == history_name ? measure::read_run_reference(folder) : std::nullopt;
+  if (!reference) return history;
+  for (const std::string& column : history->columns) {
+    const auto floor = reference->noise_floor.find(column);
+    history->noise_floor.push_back(floor == reference->noise_floor.end() ? std::numeric_limits<double>::quiet_NaN() : floor->second);
+  }
+  return history;
+}
 
 } // namespace
 
@@ -77,16 +107,12 @@ bool is_history(const std::filesystem::path& path)
 
 PinnedRun read_pin(const std::filesystem::path& path)
 {
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(path, ignored);
-  const std::filesystem::path file = is_folder ? path / history_name : path;
-  if (is_folder && !std::filesystem::exists(file, ignored))
-    throw bad_input(path.string(), "has no history.csv", "expected the folder of a run",
-                    "give the folder of `nephroid run PRESET -o FOLDER`");
-  PinnedRun run;
-  run.history = std::make_shared<job::History>(measure::read_history(file));
+  const std::filesystem::path file = history_file(path);
   const std::filesystem::path folder = std::filesystem::absolute(file).lexically_normal().parent_path();
+  PinnedRun run;
+  run.history = history_with_floor(file, folder);
   run.name = file.filename() == history_name ? folder.filename().string() : file.stem().string();
+  std::error_code ignored;
   if (const std::filesystem::path image = folder / "image.exr";
       file.filename() == history_name && std::filesystem::exists(image, ignored)) {
     measure::LinearPicture read = measure::read_linear_rgb(image);

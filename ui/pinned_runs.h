@@ -44,8 +44,9 @@ private:
 
 /// Whether this names something that read_pin reads: a table (.csv), or a folder with a history.csv in it.
 bool is_history(const std::filesystem::path& path);
-/// An earlier run by its history.csv or its folder; named after the folder. Its image.exr is read where it lies beside. Throws
-/// bad_input as measure::read_history and measure::read_linear_rgb do, and for a folder without history.csv.
+/// An earlier run by its history.csv or its folder; named after the folder. Its image.exr and, for the noise floor, its run.json are read
+/// where they lie beside. Throws bad_input as measure::read_history, read_run_reference and read_linear_rgb do, and for what is_history
+/// says no to.
 PinnedRun read_pin(const std::filesystem::path& path);
 
 } // namespace nephroid::ui

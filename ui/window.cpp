@@ -40,14 +40,14 @@ bool is_over(job::State state)
   return state == job::State::finished || state == job::State::cancelled || state == job::State::failed || state == job::State::idle;
 }
 
-/// Pins the histories and opens the first preset that can be opened; the others leave their messages.
+/// Pins the histories and opens the first preset that can be opened. Behind it only runs are expected: what is none leaves its message.
 void open_first(Workbench& workbench, const Options& options)
 {
   bool opened = false;
   for (const std::string& file : options.files)
-    if (is_history(file))
+    if (opened || is_history(file))
       workbench.apply({command::PinFile{file}});
-    else if (!opened)
+    else
       opened = workbench.open(file, options.overrides);
   if (options.files.empty()) workbench.apply({command::Ask{Question::open}});
 }
@@ -105,6 +105,7 @@ private:
   bool is_last_frame() const
   {
     if (limit_ == 0 || clock_.frames() + 1 < static_cast<std::size_t>(limit_)) return false;
+    if (workbench_.works_on_files()) return false; // runs to pin, from the command line
     const job::Status& status = workbench_.status();
     if (options_.until <= 0) return true;
     return is_over(status.state) || (options_.until < 1 && status.progress.fraction >= options_.until);

@@ -63,6 +63,8 @@ public:
   /// What was chosen to be plotted; empty: the run's own. Not every run has it.
   const std::string& error_metric() const { return error_metric_; }
   const PinnedRuns& pinned() const { return pinned_; }
+  /// Whether a file is being read or written in the background: its pin or its message is to come.
+  bool works_on_files() const { return !background_.empty(); }
   const Comparison& comparison() const { return comparison_; }
   /// The reference, or the pinned run that comparison() names; its owner is null where why_not_comparable() is not empty.
   HeldPicture other_picture() const;

@@ -31,16 +31,22 @@ std::vector<std::pair<std::string, double>> powers(const JsonObject& energy)
   return all;
 }
 
+std::optional<RunReference> reference_of(const JsonObject& json)
+{
+  if (!json.has("reference")) return std::nullopt;
+  const JsonObject reference = json.object("reference");
+  RunReference result{reference.text("origin"), {}};
+  if (reference.has("noise_floor")) result.noise_floor = as_map(reference.object("noise_floor").numbers());
+  return result;
+}
+
 void read_optional(RunSummary& run, const JsonObject& json)
 {
   if (json.has("wall_seconds")) run.wall_seconds = json.number("wall_seconds");
   if (json.has("measuring_seconds")) run.measuring_seconds = json.number("measuring_seconds");
   if (json.has("error_column")) run.error_column = json.text("error_column");
   if (json.has("errors")) run.errors = as_map(json.object("errors").numbers());
-  if (!json.has("reference")) return;
-  const JsonObject reference = json.object("reference");
-  run.reference = RunReference{reference.text("origin"), {}};
-  if (reference.has("noise_floor")) run.reference->noise_floor = as_map(reference.object("noise_floor").numbers());
+  run.reference = reference_of(json);
 }
 
 void read_run_json(RunSummary& run)
@@ -145,6 +151,14 @@ RunSummary read_run(const fs::path& folder)
   read_plan(run);
   if (is_there(folder / "history.csv")) run.history = read_history(folder / "history.csv");
   return run;
+}
+
+std::optional<RunReference> read_run_reference(const fs::path& folder)
+{
+  const fs::path file = folder / "run.json";
+  if (!is_there(file)) return std::nullopt;
+  const Json document = read_json(file);
+  return reference_of(JsonObject(document, file.string()));
 }
 
 } // namespace nephroid::measure

@@ -50,4 +50,8 @@ inline constexpr std::size_t max_reported_runs = 64;
 /// history.csv may be missing, and of run.json what older versions did not write.
 RunSummary read_run(const std::filesystem::path& folder);
 
+/// What run.json says the run is measured against, of an unfinished run too; none where it says nothing or is not there. Throws bad_input
+/// for a damaged file.
+std::optional<RunReference> read_run_reference(const std::filesystem::path& folder);
+
 } // namespace nephroid::measure

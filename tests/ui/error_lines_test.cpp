@@ -91,10 +91,13 @@ TEST(ErrorLines, SpeedUpIsTheRatioOfTimesAtEqualError)
   ASSERT_TRUE(equal);
   EXPECT_NEAR(equal->speed_up(), 4, 1e-9);
   EXPECT_NEAR(equal->error, 0.02, 1e-12) << "the lowest that the slow one came to, at 1 s";
+  EXPECT_FALSE(equal->by_estimate);
   EXPECT_NEAR(speed_up(fast, slow)->speed_up(), 0.25, 1e-9);
   EXPECT_FALSE(speed_up(slow, RunLines{}));
   RunLines other = fast;
   other.error = {};
+  ASSERT_TRUE(speed_up(slow, other));
+  EXPECT_TRUE(speed_up(slow, other)->by_estimate);
   other.estimate = {};
   EXPECT_FALSE(speed_up(slow, other));
 }
@@ -185,6 +188,23 @@ TEST(PinnedRuns, AreReadFromAFolderWithItsPicture)
   }
 }
 
+TEST(PinnedRuns, TheNoiseFloorOfARunsFolderIsRead)
+{
+  test::TemporaryFolder folder;
+  auto history = falling_history(3000, 0.01);
+  for (job::HistoryRow& row : history->rows) row.errors[0] = std::hypot(row.errors[0], 0.004);
+  folder.write("history.csv", measure::to_csv(*history));
+  EXPECT_TRUE(read_pin(folder.path()).history->noise_floor.empty()) << "there is no run.json";
+  folder.write("run.json", R"({"finished": false, "reference": {"origin": "r.exr", "noise_floor": {"lab_mean": 0.004, "mse": 1}}})");
+  const PinnedRun run = read_pin(folder.path());
+  EXPECT_EQ(run.history->noise_floor.at(0), 0.004);
+  EXPECT_TRUE(std::isnan(run.history->noise_floor.at(1)) && std::isnan(run.history->noise_floor.at(2)));
+  EXPECT_NEAR(lines_of(*run.history, "lab_mean").error.fit->exponent, -0.5, 0.05);
+  EXPECT_GT(lines_of(*history, "lab_mean").error.fit->exponent, -0.43) << "without the floor the curve's bend is fitted";
+  folder.write("run.json", R"({"finished": true})");
+  EXPECT_TRUE(read_pin(folder.path()).history->noise_floor.empty()) << "a run without a reference";
+}
+
 TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
 {
   test::TemporaryFolder folder;
@@ -198,6 +218,9 @@ TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
     return std::string();
   };
   EXPECT_THAT(refusal(folder.path()), HasSubstr("history.csv"));
+  EXPECT_THAT(refusal(folder.path() / "none"), HasSubstr("none: there is no such run; expected the folder of a run"));
+  EXPECT_THAT(refusal(folder.write("a.png", "no picture")), HasSubstr("a.png: is no run's history; expected the folder of a run"));
+  EXPECT_THAT(refusal(folder.write("other.json", "{}")), HasSubstr("other.json: is no run's history"));
   EXPECT_THAT(refusal(folder.write("times.csv", "frame,draw_ms\n1,2\n")), HasSubstr("times.csv"));
   EXPECT_THAT(refusal(folder.write("empty.csv", "")), HasSubstr("empty.csv"));
   EXPECT_THAT(refusal(folder.path() / "none.csv"), HasSubstr("none.csv"));

@@ -122,6 +122,21 @@ TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
   EXPECT_EQ(image::read_image(folder.path() / "screen.png").width, 1280);
 }
 
+TEST_F(WindowTest, WhatCannotBePinnedIsSaid)
+{
+  if (!there_is("xvfb-run")) GTEST_SKIP() << "no xvfb-run";
+  const std::string preset = folder.write("test.json", test::preset_text);
+  std::filesystem::create_directory(folder.path() / "empty");
+  folder.write("a.png", "no picture");
+  const std::string options = " --frames 1 --screenshot " + quoted("screen.png");
+  for (const char* name : {"nosuchrun", "empty", "a.png", "test.json"}) {
+    EXPECT_EQ(shell(on_display + program + " '" + preset + "' " + quoted(name) + options, log), 2) << name;
+    const std::string said = read_file(log);
+    EXPECT_THAT(said, HasSubstr("\nnephroid: " + (folder.path() / name).string() + ": ")) << name;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << "the frames' times, then one line: " << said;
+  }
+}
+
 TEST_F(WindowTest, FollowsRealEvents)
 {
   if (!there_is("xvfb-run") || !there_is("xdotool")) GTEST_SKIP() << "no xvfb-run or no xdotool";
