@@ -61,7 +61,7 @@ constexpr std::array<const char*, 10> meanings{"distance in CIELAB, mean of the 
 
 void print_text(const std::vector<Metrics>& of)
 {
-  const auto cell = [](double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.6g}", value); };
+  const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string("-"); };
   const auto line = [&](const std::string& name, const std::string& all, const std::string& masked, const char* meaning) {
     fmt::print("{:<9} {:>11}{}  {}\n", name, all, of.size() > 1 ? fmt::format(" {:>11}", masked) : "", meaning);
   };

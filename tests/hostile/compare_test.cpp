@@ -84,6 +84,7 @@ TEST_F(Compare, WhatIsNotDefinedIsNull)
   const json on_black = compared({"white.exr", "black.exr"});
   EXPECT_TRUE(on_black["rel_l2"].is_null());
   EXPECT_NEAR(on_black["lab_mean"].get<double>(), 100, 1e-3);
+  EXPECT_THAT(run({"white.exr", "black.exr"}).out, HasSubstr("rel_l2              -"));
 }
 
 TEST_F(Compare, AMaskAddsItsPixels)
