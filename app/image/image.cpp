@@ -84,6 +84,9 @@ std::array<float, 255> code_thresholds()
   return thresholds;
 }
 
+/// A PNG without its last chunk. libpng prints a line of its own about that, so it is not asked.
+bool is_cut_png(const std::string& bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n") && bytes.find("IEND") == std::string::npos; }
+
 std::string png_picture(const std::string& name, int width, int height, int channels, const std::vector<unsigned char>& bytes)
 {
   check_size(name, width, height, static_cast<std::size_t>(channels), bytes.size());
@@ -103,7 +106,9 @@ std::vector<unsigned char> shown_bytes(const std::vector<float>& rgb, double exp
 
 Image read_image(const fs::path& file)
 {
-  read_file(file); // says what is wrong with the file itself; OpenImageIO what is wrong with the picture
+  constexpr const char* unreadable = "is no picture that can be read: {}";
+  // Reading it says what is wrong with the file itself, OpenImageIO what is wrong with the picture.
+  if (is_cut_png(read_file(file))) throw bad_input(file.string(), fmt::format(unreadable, "its end is missing"));
   Image image;
   const auto take = [](void* to, const NephroidPicture* picture) {
     Image& result = *static_cast<Image*>(to);
@@ -116,8 +121,7 @@ Image read_image(const fs::path& file)
     for (std::size_t i = 0; i < picture->attribute_count; ++i)
       result.attributes[picture->attributes[i].name] = picture->attributes[i].value;
   };
-  if (const char* reason = module().read(file.c_str(), take, &image))
-    throw bad_input(file.string(), fmt::format("is no picture that can be read: {}", reason));
+  if (const char* reason = module().read(file.c_str(), take, &image)) throw bad_input(file.string(), fmt::format(unreadable, reason));
   return image;
 }
 

@@ -168,6 +168,8 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
   image::write_exr(folder / "depth.exr", {6, 4, {"Z"}, std::vector<float>(24, 1), {}});
   write_file_whole(folder / "text.png", "no picture");
   write_file_whole(folder / "cut.exr", read_file(folder / "good.exr").substr(0, 200));
+  image::write_png(folder / "whole.png", 6, 4, good.rgb);
+  write_file_whole(folder / "cut.png", read_file(folder / "whole.png").substr(0, 60));
   const Wrong cases[] = {
       {{}, "IMAGE is required"},
       {{"good.exr"}, "REFERENCE is required"},
@@ -175,6 +177,7 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
       {{"good.exr", "."}, "it is a folder"},
       {{"text.png", "good.exr"}, "text.png: is no picture that can be read"},
       {{"good.exr", "cut.exr"}, "cut.exr: is no picture that can be read"},
+      {{"cut.png", "good.exr"}, "cut.png: is no picture that can be read: its end is missing"},
       {{"wide.exr", "good.exr"}, "wide.exr: is 7 x 4 pixels; expected 6 x 4, the size of good.exr"},
       {{"good.exr", "wide.exr"}, "good.exr: is 6 x 4 pixels; expected 7 x 4, the size of wide.exr"},
       {{"grey.exr", "good.exr"},
