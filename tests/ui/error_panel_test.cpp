@@ -87,7 +87,7 @@ TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-TEST_F(ErrorPanelTest, TenThousandRowsAreDrawnInAFewMilliseconds)
+TEST_F(ErrorPanelTest, TenThousandRowsAreDrawnWithFewPoints)
 {
   const auto history = falling_history(10000);
   runs.steps = 2;
@@ -105,9 +105,10 @@ TEST_F(ErrorPanelTest, TenThousandRowsAreDrawnInAFewMilliseconds)
   const double six = mean_ms();
   RecordProperty("frame_ms", std::to_string(one));
   RecordProperty("frame_ms_with_five_pinned", std::to_string(six));
-  // A bound for a machine that is busy with other things; alone it is a tenth of this.
-  EXPECT_LT(one, 15);
-  EXPECT_LT(six, 50);
+  // What a frame costs goes by what it draws: 60000 rows unthinned would be 480000 corners and more, not 29000.
+  ASSERT_NE(ImGui::GetDrawData(), nullptr);
+  RecordProperty("corners_with_five_pinned", ImGui::GetDrawData()->TotalVtxCount);
+  EXPECT_LT(ImGui::GetDrawData()->TotalVtxCount, 60000);
 }
 
 TEST_F(ErrorPanelTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
