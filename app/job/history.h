@@ -2,9 +2,12 @@
 // Error against run time: what a job noted about its own error while it worked, a row a measurement. The data only; who measures is
 // measure/measured_job.h, the file is measure/history_file.h.
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nephroid::job {
@@ -28,5 +31,13 @@ struct History {
   std::optional<double> target;    ///< of error_column: stop.error
   double measuring_seconds = 0;    ///< spent on measuring so far, which `seconds` does not contain
 };
+
+/// A row's error in a column by its name; NaN where the history has no such column.
+inline double error_in(const History& history, const HistoryRow& row, std::string_view column)
+{
+  for (std::size_t i = 0; i < history.columns.size(); ++i)
+    if (history.columns[i] == column) return row.errors.at(i);
+  return std::numeric_limits<double>::quiet_NaN();
+}
 
 } // namespace nephroid::job

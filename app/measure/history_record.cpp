@@ -4,10 +4,8 @@
 
 #include "base/error.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 namespace nephroid::measure {
 namespace {
@@ -111,11 +109,7 @@ std::vector<job::HistoryRow> rows_in_columns(const job::History& history, const 
   std::vector<job::HistoryRow> rows = history.rows;
   for (job::HistoryRow& row : rows) {
     std::vector<double> errors;
-    for (const std::string& column : columns) {
-      const auto found = std::find(history.columns.begin(), history.columns.end(), column);
-      errors.push_back(found == history.columns.end() ? std::numeric_limits<double>::quiet_NaN()
-                                                      : row.errors[static_cast<std::size_t>(found - history.columns.begin())]);
-    }
+    for (const std::string& column : columns) errors.push_back(job::error_in(history, row, column));
     row.errors = std::move(errors);
   }
   return rows;

@@ -184,9 +184,7 @@ private:
   double error() const
   {
     if (history_.rows.empty()) return none;
-    const auto column = std::find(history_.columns.begin(), history_.columns.end(), history_.error_column);
-    if (column == history_.columns.end()) return none;
-    return history_.rows.back().errors[static_cast<std::size_t>(column - history_.columns.begin())];
+    return job::error_in(history_, history_.rows.back(), history_.error_column);
   }
 
   bool target_reached() const { return history_.target && error() <= *history_.target; }

@@ -53,12 +53,6 @@ Ended run_measured(const preset::Preset& preset)
   return {snapshot.picture->rgb, *snapshot.history};
 }
 
-double last(const job::History& history, const std::string& column)
-{
-  const auto found = std::find(history.columns.begin(), history.columns.end(), column);
-  return history.rows.back().errors.at(static_cast<std::size_t>(found - history.columns.begin()));
-}
-
 std::vector<float> mean_but(const std::vector<Ended>& all, std::size_t left_out)
 {
   std::vector<float> mean(all[0].rgb.size(), 0.0f);
@@ -86,7 +80,7 @@ TEST_P(ErrorEstimate, IsTheTrueErrorWithinAQuarter)
       const auto errors = measure::named(against);
       const auto found = std::find_if(errors.begin(), errors.end(), [&](const auto& error) { return error.first == metric; });
       const double error = found->second / std::sqrt(1 + 1.0 / (runs - 1));
-      const double ratio = last(ended[run].history, "estimated_" + metric) / error;
+      const double ratio = job::error_in(ended[run].history, ended[run].history.rows.back(), "estimated_" + metric) / error;
       sum += ratio / runs;
       lowest = std::min(lowest, ratio);
       highest = std::max(highest, ratio);

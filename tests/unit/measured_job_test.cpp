@@ -101,12 +101,6 @@ job::History run(job::Job& job)
   return *job.snapshot().history;
 }
 
-double value(const job::History& history, const job::HistoryRow& row, const std::string& column)
-{
-  const auto found = std::find(history.columns.begin(), history.columns.end(), column);
-  return found == history.columns.end() ? NAN : row.errors.at(static_cast<std::size_t>(found - history.columns.begin()));
-}
-
 TEST(MeasuredJob, ErrorsFallAsTheNoiseDoes)
 {
   const auto job = noisy(settings(), truth());
@@ -115,7 +109,7 @@ TEST(MeasuredJob, ErrorsFallAsTheNoiseDoes)
   for (const job::HistoryRow& row : history.rows) {
     // mse is a mean over 12288 squares of normal deviates: its relative deviation is sqrt(2 / 12288) = 1.3 %; six of them.
     const double expected = sigma * sigma / static_cast<double>(row.step);
-    EXPECT_NEAR(value(history, row, "mse") / expected, 1, 0.077) << row.step;
+    EXPECT_NEAR(job::error_in(history, row, "mse") / expected, 1, 0.077) << row.step;
     EXPECT_EQ(row.work, static_cast<std::uint64_t>(row.step) * 1000);
     EXPECT_DOUBLE_EQ(row.seconds, 10.0 * static_cast<double>(row.step));
   }
@@ -132,7 +126,7 @@ TEST(MeasuredJob, TheEstimateIsTheErrorWithoutAReference)
     for (const std::string metric : {"mse", "rel_l2", "lab_mean", "lab_rms"}) {
       // Both are of 12288 normal deviates and independent: 1.9 % apart at most once in three, and Lab takes its small curvature at the
       // noisy picture instead of the truth.
-      const double ratio = value(history, row, "estimated_" + metric) / value(history, row, metric);
+      const double ratio = job::error_in(history, row, "estimated_" + metric) / job::error_in(history, row, metric);
       EXPECT_NEAR(ratio, 1, row.step < 20 ? 0.16 : 0.11) << metric << " after " << row.step;
     }
   }
@@ -167,8 +161,8 @@ TEST(MeasuredJob, StopsAtTheErrorItWasGiven)
     const auto job = noisy(preset, with_reference ? truth() : nullptr, 100000);
     const job::History history = run(*job);
     EXPECT_NEAR(static_cast<double>(history.rows.back().step), 50, 5) << with_reference;
-    EXPECT_LE(value(history, history.rows.back(), history.error_column), *preset.stop.error);
-    EXPECT_GT(value(history, history.rows[history.rows.size() - 2], history.error_column), *preset.stop.error);
+    EXPECT_LE(job::error_in(history, history.rows.back(), history.error_column), *preset.stop.error);
+    EXPECT_GT(job::error_in(history, history.rows[history.rows.size() - 2], history.error_column), *preset.stop.error);
     EXPECT_EQ(job->progress().fraction, 1);
     EXPECT_EQ(history.target, preset.stop.error);
   }
@@ -212,9 +206,9 @@ TEST(MeasuredJob, AResumedRunMayHaveGotAReference)
   with->load(without->save());
   const job::History& history = *with->history();
   ASSERT_FALSE(history.rows.empty());
-  EXPECT_TRUE(std::isnan(value(history, history.rows.front(), "lab_mean")));
-  EXPECT_EQ(value(history, history.rows.front(), "estimated_mse"),
-            value(*without->history(), without->history()->rows.front(), "estimated_mse"));
+  EXPECT_TRUE(std::isnan(job::error_in(history, history.rows.front(), "lab_mean")));
+  EXPECT_EQ(job::error_in(history, history.rows.front(), "estimated_mse"),
+            job::error_in(*without->history(), without->history()->rows.front(), "estimated_mse"));
 }
 
 TEST(MeasuredJob, TheReferencesOwnErrorIsBesideIt)
@@ -234,7 +228,7 @@ TEST(MeasuredJob, AMaskIsMeasuredOnItsOwn)
   const auto job = noisy(settings(), reference, 10);
   const job::History history = run(*job);
   EXPECT_THAT(history.columns, Contains("masked_lab_mean"));
-  EXPECT_NE(value(history, history.rows.back(), "masked_mse"), value(history, history.rows.back(), "mse"));
+  EXPECT_NE(job::error_in(history, history.rows.back(), "masked_mse"), job::error_in(history, history.rows.back(), "mse"));
 }
 
 TEST(MeasuredJob, RefusesWhatCannotBeMeasured)
