@@ -22,8 +22,6 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 const std::string program = "'" NEPHROID_PROGRAM "'";
-// The OpenGL driver unloads itself at the end, so LeakSanitizer cannot tell whose its memory was; the headless tests look for our leaks.
-const std::string on_display = "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" xvfb-run -a -s '-screen 0 1600x1000x24' ";
 
 bool there_is(const std::string& command) { return std::system(("command -v " + command + " > /dev/null 2>&1").c_str()) == 0; }
 
@@ -58,6 +56,13 @@ class WindowTest : public ::testing::Test {
 protected:
   test::TemporaryFolder folder;
   std::filesystem::path log = folder.path() / "log.txt";
+  /// What runs the rest of a command line on a display of its own. The X authority file is ours: xvfb-run's own temporary folder may still
+  /// be written to when xvfb-run removes it, and then it exits with 5.
+  /// The OpenGL driver unloads itself at the end, so LeakSanitizer cannot tell whose its memory was; the headless tests look for our leaks.
+  std::string on_display() const
+  {
+    return "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" xvfb-run -a -f " + quoted("authority") + " -s '-screen 0 1600x1000x24' ";
+  }
   std::string quoted(const std::string& name) const { return "'" + (folder.path() / name).string() + "'"; }
 };
 
@@ -88,7 +93,7 @@ TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
   ASSERT_EQ(shell(program + " run '" + file + "' -o " + quoted("out"), log), 0) << read_file(log);
   const std::string options =
       " --size 900x700 --frames 5 --until 1 --screenshot " + quoted("screen.png") + " --frame-times " + quoted("times.csv");
-  ASSERT_EQ(shell(on_display + program + " '" + file + "'" + options, log), 0) << read_file(log);
+  ASSERT_EQ(shell(on_display() + program + " '" + file + "'" + options, log), 0) << read_file(log);
   const image::Image screen = image::read_image(folder.path() / "screen.png");
   const image::Image written = image::read_image(folder.path() / "out/image.png");
   ASSERT_EQ(screen.width, 900);
@@ -113,11 +118,11 @@ TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
 {
   if (!there_is("xvfb-run")) GTEST_SKIP() << "no xvfb-run";
   const std::string options = " --frames 3 --until 1 --screenshot " + quoted("screen.png");
-  EXPECT_EQ(shell(on_display + program + " " + quoted("missing.json") + options, log), 2);
+  EXPECT_EQ(shell(on_display() + program + " " + quoted("missing.json") + options, log), 2);
   EXPECT_THAT(read_file(log), HasSubstr("there is no preset"));
   EXPECT_EQ(image::read_image(folder.path() / "screen.png").width, 1280);
   std::filesystem::remove(folder.path() / "screen.png");
-  EXPECT_EQ(shell(on_display + program + " '" + folder.write("test.json", test::preset_text) + "' --device abacus" + options, log), 3);
+  EXPECT_EQ(shell(on_display() + program + " '" + folder.write("test.json", test::preset_text) + "' --device abacus" + options, log), 3);
   EXPECT_THAT(read_file(log), HasSubstr("abacus"));
   EXPECT_EQ(image::read_image(folder.path() / "screen.png").width, 1280);
 }
@@ -130,7 +135,7 @@ TEST_F(WindowTest, WhatCannotBePinnedIsSaid)
   folder.write("a.png", "no picture");
   const std::string options = " --frames 1 --screenshot " + quoted("screen.png");
   for (const char* name : {"nosuchrun", "empty", "a.png", "test.json"}) {
-    EXPECT_EQ(shell(on_display + program + " '" + preset + "' " + quoted(name) + options, log), 2) << name;
+    EXPECT_EQ(shell(on_display() + program + " '" + preset + "' " + quoted(name) + options, log), 2) << name;
     const std::string said = read_file(log);
     EXPECT_THAT(said, HasSubstr("\nnephroid: " + (folder.path() / name).string() + ": ")) << name;
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << "the frames' times, then one line: " << said;
@@ -175,7 +180,7 @@ chord q
 wait
 )",
                                                             program, file, options));
-  ASSERT_EQ(shell(on_display + "timeout 60 sh " + quoted("events.sh"), log), 0) << read_file(log);
+  ASSERT_EQ(shell(on_display() + "timeout 60 sh " + quoted("events.sh"), log), 0) << read_file(log);
   const preset::Preset saved = preset::read_preset(file);
   EXPECT_LT(saved.scene.camera.position[0], -0.5) << "the scene was turned to the right, the camera to the left";
   EXPECT_NEAR(saved.scene.camera.position[1], 0, 0.05);
