@@ -11,8 +11,8 @@
 
 namespace nephroid::run {
 
-/// Null where the preset has none, and where it is a recipe that is not in the cache or damaged there. Reads the mask of preset.measure too. Throws
-/// bad_input where a file cannot be read or has another size than the run's picture.
+/// Null where the preset has none, and where it is a recipe that is not in the cache or damaged there. Reads the mask of preset.measure
+/// too. Throws bad_input where a file cannot be read or has another size than the run's picture.
 std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context);
 
 /// How making one goes on: 0..1, and the seconds of work so far.
