@@ -215,7 +215,8 @@ private:
     const bool direct = &film == &direct_film_;
     const auto samples = [&](int row) -> std::array<double, 2> {
       const std::int64_t passes = direct ? std::min(at_.pass, pixel_samples_) : at_.pass;
-      std::array<double, 2> both{static_cast<double>((passes + 1) / 2), static_cast<double>(passes / 2)};
+      const std::int64_t odd = passes / 2, even = passes - odd; // the first pass is number 0
+      std::array<double, 2> both{static_cast<double>(even), static_cast<double>(odd)};
       const double part = !direct ? static_cast<double>(at_.slice) / static_cast<double>(at_.slices) : row < at_.row ? 1 : 0;
       both[static_cast<std::size_t>(at_.pass % 2)] += part;
       return both;
