@@ -47,7 +47,8 @@ PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int 
   PixelTruth truth;
   double squares = 0;
   for (int i = 0; i < places * places; ++i) {
-    const double x = (column + (i % places + 0.5) / places) / resolution - 0.5, z = (row + (i / places + 0.5) / places) / resolution - 0.5;
+    const int place_x = i % places, place_z = i / places;
+    const double x = (column + (place_x + 0.5) / places) / resolution - 0.5, z = (row + (place_z + 0.5) / places) / resolution - 0.5;
     const double d = std::hypot(light.position[0] - x, light.position[1], light.position[2] - z);
     const double e = light.power_w / (4 * pi) * light.position[1] / (d * d * d);
     truth.irradiance += e / (places * places);

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <numeric>
 
@@ -93,7 +92,10 @@ void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& s
 {
   std::vector<shared::DeviceTarget> list;
   for (const scene::Sphere& sphere : spheres) list.push_back({to_float4(sphere.centre, sphere.radius)});
-  const auto same = [](const shared::DeviceTarget& a, const shared::DeviceTarget& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+  const auto same = [](const shared::DeviceTarget& a, const shared::DeviceTarget& b) {
+    const shared::float4 &p = a.centre_radius, &q = b.centre_radius;
+    return p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w;
+  };
   auto found = std::search(tables.targets.begin(), tables.targets.end(), list.begin(), list.end(), same);
   if (found == tables.targets.end()) found = tables.targets.insert(found, list.begin(), list.end());
   light.first_target = static_cast<int>(found - tables.targets.begin());

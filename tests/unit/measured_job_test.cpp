@@ -204,7 +204,7 @@ TEST(MeasuredJob, AResumedRunMayHaveGotAReference)
   while (without->progress().step < 100) without->step();
   const auto with = noisy(settings(), truth());
   with->load(without->save());
-  const job::History& history = *with->history();
+  const job::History history = *with->history();
   ASSERT_FALSE(history.rows.empty());
   EXPECT_TRUE(std::isnan(job::error_in(history, history.rows.front(), "lab_mean")));
   EXPECT_EQ(job::error_in(history, history.rows.front(), "estimated_mse"),
