@@ -116,8 +116,9 @@ void ErrorPanel::draw(const Workbench& workbench, Commands& commands)
 
 void ErrorPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
 {
-  ImGui::SetNextItemWidth(ImGui::CalcTextSize(nothing_measured).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
-  if (ImGui::BeginCombo("##metric", contents_.metric.empty() ? nothing_measured : contents_.metric.c_str())) {
+  const char* const shown = contents_.metric.empty() ? nothing_measured : contents_.metric.c_str();
+  ImGui::SetNextItemWidth(ImGui::CalcTextSize(shown).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
+  if (ImGui::BeginCombo("##metric", shown)) {
     for (const std::string& metric : all_metrics(workbench))
       if (ImGui::Selectable(metric.c_str(), metric == contents_.metric)) commands.push_back(command::ChooseMetric{metric});
     ImGui::EndCombo();
