@@ -119,7 +119,7 @@ Result through_nothing(const compute::Context& context, std::uint64_t seed)
 }
 
 /// A pencil on a mirror that is not grey, then onto a screen: of every wavelength its reflectance is left, and no chance is in it.
-Result mirror(const compute::Context& context, std::uint64_t seed)
+Result coloured_mirror(const compute::Context& context, std::uint64_t seed)
 {
   preset::Preset p = empty_preset(16);
   p.seed = seed;
@@ -214,7 +214,7 @@ Checks radiometry_checks()
 {
   return {{"picture: direct light of a point", direct_light},
           {"picture: photons through nothing", through_nothing},
-          {"picture: a coloured mirror", mirror},
+          {"picture: a coloured mirror", coloured_mirror},
           {"picture: energy balance", energy},
           {"picture: the same seed, the same bits", same_bits}};
 }

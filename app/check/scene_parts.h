@@ -20,6 +20,14 @@ inline preset::Preset empty_preset(int resolution = 64)
   return p;
 }
 
+inline preset::Material mirror(double reflectance)
+{
+  preset::Material m;
+  m.type = preset::Material::Type::mirror;
+  m.reflectance.value = reflectance;
+  return m;
+}
+
 inline preset::Material glass(double n)
 {
   preset::Material m;

@@ -8,8 +8,6 @@
 #include "preset/choices.h"
 #include "preset/field.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,6 +63,7 @@ public:
                       settings_.estimate
                           ? "expected a 'reference', or a 'stop.metric' that can be estimated: lab_mean, lab_rms, mse, rel_l2"
                           : "expected a 'reference', or 'measure.estimate' true");
+    show();
   }
 
   bool finished() const override { return target_reached() || (job_->finished() && !is_due()); }
@@ -95,10 +94,7 @@ public:
     return snapshot;
   }
 
-  std::shared_ptr<const job::History> history() const override
-  {
-    return history_.columns.empty() ? nullptr : std::make_shared<const job::History>(history_);
-  }
+  std::shared_ptr<const job::History> history() const override { return shown_; }
 
   std::vector<std::byte> save() override { return with_history(job_->save(), history_, wall_seconds()); }
 
@@ -112,6 +108,7 @@ public:
     history_.rows = rows_in_columns(saved.history, history_.columns);
     for (const job::HistoryRow& row : history_.rows) last_seconds_ = row.seconds;
     plan_next();
+    show();
   }
 
 private:
@@ -134,7 +131,6 @@ private:
     }
   }
 
-  double work_seconds() const { return job_->progress().work_seconds; }
   double wall_seconds() const { return wall_before_ + seconds_since(began_); }
 
   /// The first complete pass is the first that is worth a row; the end is always one.
@@ -159,6 +155,13 @@ private:
     last_seconds_ = progress.work_seconds;
     history_.measuring_seconds += seconds_since(begin);
     plan_next();
+    show();
+  }
+
+  /// What others see: a copy that is made when there is a new row, not at every step that asks.
+  void show()
+  {
+    if (!history_.columns.empty()) shown_ = std::make_shared<const job::History>(history_);
   }
 
   Errors errors_of(const job::Picture& picture) const
@@ -213,6 +216,7 @@ private:
   std::optional<QuickComparison> against_, masked_;
   bool is_mean_square_ = false; ///< the error that may stop the run
   job::History history_;
+  std::shared_ptr<const job::History> shown_;
   Clock::time_point began_;
   double wall_before_ = 0;  ///< of a resumed run's earlier parts
   double last_seconds_ = 0; ///< of work at the newest row

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/render.h"
+#include "tests/support/shipped_presets.h"
 
 #include <gtest/gtest.h>
 
@@ -107,21 +108,6 @@ TEST(Prism, ColoursComeInTheOrderOfTheirWavelengths)
   EXPECT_TRUE(rising || falling) << "red " << centre[0] << ", green " << centre[1] << ", blue " << centre[2];
 }
 
-std::vector<std::string> shipped_names()
-{
-  std::vector<std::string> names;
-  for (const preset::ShippedPreset& shipped : preset::shipped_presets()) names.push_back(shipped.name);
-  return names;
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& parameter)
-{
-  std::string name = parameter.param;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names()), shipped_test_name);
 
 } // namespace

@@ -5,11 +5,11 @@
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
+#include "tests/support/shipped_presets.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 using namespace nephroid;
@@ -94,21 +94,6 @@ TEST(Energy, WhatEscapesIsWhatARoomCatches)
   expect_truth("energy: passed by the glass, in a room / in the open", room.missed_w / open.missed_w, 1, few);
 }
 
-std::vector<std::string> shipped_names()
-{
-  std::vector<std::string> names;
-  for (const preset::ShippedPreset& shipped : preset::shipped_presets()) names.push_back(shipped.name);
-  return names;
-}
-
-std::string test_name(const testing::TestParamInfo<std::string>& parameter)
-{
-  std::string name = parameter.param;
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names()), shipped_test_name);
 
 } // namespace

@@ -118,14 +118,7 @@ inline double largest_difference(const std::vector<float>& a, const std::vector<
   return difference / largest;
 }
 
-inline preset::Shape sphere(double radius, int segments = 64)
-{
-  preset::Shape s;
-  s.type = preset::Shape::Type::sphere;
-  s.radius = radius;
-  s.segments = segments;
-  return s;
-}
+inline preset::Shape sphere(double radius, int segments = 64) { return check::ball(radius, segments); }
 
 /// A white floor under a lamp of 1 W, seen from above; the picture is 1 m of it.
 inline preset::Preset lit_floor(int pixels = 16)
@@ -184,13 +177,7 @@ inline double irradiance_of_point(const preset::Vec3& light, double intensity, d
 
 inline Outcome share_of_one(double gave, double right, double tolerance) { return near(gave / right, 1, tolerance); }
 
-inline preset::Material mirror(double reflectance)
-{
-  preset::Material m;
-  m.type = preset::Material::Type::mirror;
-  m.reflectance.value = reflectance;
-  return m;
-}
+using check::mirror;
 
 /// Loading warns with exactly this line.
 inline Outcome warns(const preset::Preset& p, const std::string& line)

@@ -44,13 +44,7 @@ inline preset::Preset ball_scene()
   return p;
 }
 
-inline preset::Material mirror(double reflectance)
-{
-  preset::Material m;
-  m.type = preset::Material::Type::mirror;
-  m.reflectance.value = reflectance;
-  return m;
-}
+using check::mirror;
 
 /// Seven lamps that are switched off before one, an area light, that is on.
 inline preset::Preset dark_lights_scene()

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every shipped preset as the parameter of a test.
+#pragma once
+#include "preset/read.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <vector>
+
+namespace nephroid::test {
+
+inline std::vector<std::string> shipped_names()
+{
+  std::vector<std::string> names;
+  for (const preset::ShippedPreset& shipped : preset::shipped_presets()) names.push_back(shipped.name);
+  return names;
+}
+
+/// The preset's name with what is no letter or digit as '_'.
+inline std::string shipped_test_name(const testing::TestParamInfo<std::string>& parameter)
+{
+  std::string name = parameter.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
+
+} // namespace nephroid::test
