@@ -89,6 +89,48 @@ struct Choices<Spectral::Method> {
 };
 
 template <>
+struct Choices<Spectral::Estimator> {
+  using Estimator = Spectral::Estimator;
+  static constexpr Choice<Estimator> all[] = {
+      {Estimator::automatic, "automatic", "Splats where the camera sees the receiver directly, photon maps elsewhere."},
+      {Estimator::splat, "splat", "Splats only: what is seen through glass or in a mirror has no caustics."},
+      {Estimator::sppm, "sppm", "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
+};
+
+template <>
+struct Choices<Spectral::Effort> {
+  using Effort = Spectral::Effort;
+  static constexpr Choice<Effort> all[] = {
+      {Effort::power, "power", "By what the eye makes of a cluster's light."},
+      {Effort::equal, "equal", "The same for each cluster."},
+      {Effort::importance, "importance", "By the importance of (4.15): light, luminosity, surroundings."},
+      {Effort::radziszewski, "radziszewski", "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
+      {Effort::variance, "variance", "By the variance that is measured while the run goes on; not with sppm."},
+      {Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
+};
+
+template <>
+struct Choices<Importance::Cluster> {
+  using Cluster = Importance::Cluster;
+  static constexpr Choice<Cluster> all[] = {{Cluster::maximum, "maximum", "The one that matters most."},
+                                            {Cluster::mean, "mean", "The mean of all."}};
+};
+
+template <>
+struct Choices<Environment::Type> {
+  using Type = Environment::Type;
+  static constexpr Choice<Type> all[] = {{Type::file, "file", "A latitude-longitude picture."},
+                                         {Type::constant, "constant", "One colour."}};
+};
+
+template <>
+struct Choices<Scene::DamagedMeshes> {
+  using DamagedMeshes = Scene::DamagedMeshes;
+  static constexpr Choice<DamagedMeshes> all[] = {{DamagedMeshes::report, "report", "Say which, mend what can be mended, and go on."},
+                                                  {DamagedMeshes::refuse, "refuse", "An error."}};
+};
+
+template <>
 struct Choices<Stop::Metric> {
   using Metric = Stop::Metric;
   static constexpr Choice<Metric> all[] = {
@@ -166,6 +208,20 @@ struct About<Camera> {
 template <>
 struct About<Scene> {
   static constexpr std::string_view name = "Scene", sentence = "What there is to see.";
+};
+template <>
+struct About<Environment> {
+  using Type = Environment::Type;
+  static constexpr std::string_view name = "Environment", sentence = "What is behind everything, infinitely far.";
+  static constexpr Shorthand<Type> shorthands[] = {{Bare::text, Type::file, "file"}};
+};
+template <>
+struct About<Importance> {
+  static constexpr std::string_view name = "Importance", sentence = "How much a wavelength matters.";
+};
+template <>
+struct About<Sppm> {
+  static constexpr std::string_view name = "Sppm", sentence = "Progressive photon mapping.";
 };
 template <>
 struct About<LeaveOut> {

@@ -14,20 +14,12 @@
 // cubes fit single precision; scales between 1e-6 and 1e6.
 #pragma once
 #include "preset/choices.h"
+#include "preset/describe_limits.h"
+#include "preset/describe_spectral.h"
 #include "preset/field.h"
 #include "preset/preset.h"
 
 namespace nephroid::preset {
-
-inline constexpr Bounds index_bounds = within(0.01, 100);
-inline constexpr Bounds wavelength_bounds = within(1, 1e6);
-inline constexpr Bounds coefficient_bounds = within(-1e6, 1e6);
-inline constexpr Bounds position_bounds = within(-1e7, 1e7);
-inline constexpr Bounds length_bounds = within(1e-6, 1e7);
-inline constexpr Bounds power_bounds = within(0, 1e9);
-inline constexpr Count term_count{1, 16};
-inline constexpr std::size_t max_rows = 100000;
-inline constexpr std::string_view length_unit = "length units";
 
 template <class V, Is<Dispersion> S>
 void describe(V& v, S& d)
@@ -246,6 +238,24 @@ void describe(V& v, S& c)
           c.resolution);
 }
 
+template <class V, Is<Environment> S>
+void describe(V& v, S& e)
+{
+  v.type({.name = "type", .sentence = "Where the surroundings come from."}, e.type);
+  if (e.type == Environment::Type::file)
+    v.field({.name = "file", .sentence = "A latitude-longitude picture.", .text = Text::file, .required = true}, e.file);
+  else
+    v.field({.name = "colour", .sentence = "Linear sRGB.", .bounds = within(0, 1e6), .required = true}, e.colour);
+  v.field({.name = "radiance", .sentence = "Luminance Y of the colour (1, 1, 1).", .unit = "W/(m^2 sr)", .bounds = within(0, 1e9)},
+          e.radiance);
+  if (e.type == Environment::Type::file)
+    v.field({.name = "rotate_deg",
+             .sentence = "Turns the surroundings about +y, counterclockwise as seen from above.",
+             .unit = "degrees",
+             .bounds = within(-3600, 3600)},
+            e.rotate_deg);
+}
+
 template <class V, Is<Scene> S>
 void describe(V& v, S& s)
 {
@@ -253,51 +263,8 @@ void describe(V& v, S& s)
   v.field({.name = "materials", .sentence = "Materials by name.", .count = {0, 1000}}, s.materials);
   v.field({.name = "objects", .sentence = "Everything that light can hit.", .count = {0, 10000}}, s.objects);
   v.field({.name = "lights", .sentence = "The lights.", .count = {0, 1000}}, s.lights);
-}
-
-template <class V, Is<LeaveOut> S>
-void describe(V& v, S& s)
-{
-  v.field({.name = "direct", .sentence = "Leave out the layer \"direct\" where no surface is diffuse."}, s.direct);
-  v.field({.name = "photons", .sentence = "Leave out photons where no object bends light or no surface is diffuse."}, s.photons);
-  v.field({.name = "stray_photons", .sentence = "Leave out photons that start towards anything but glass and mirrors."}, s.stray_photons);
-  v.field({.name = "unreached_targets",
-           .sentence = "Leave out, for each light, glass and mirrors that are outside a spot's cone or behind an area light."},
-          s.unreached_targets);
-  v.field({.name = "dark_lights", .sentence = "Leave out lights without power."}, s.dark_lights);
-  v.field({.name = "unlit_wavelengths", .sentence = "Leave out wavelengths that no light has."}, s.unlit_wavelengths);
-  v.field({.name = "occlusion", .sentence = "Leave out the look from a caustic back to the camera where nothing can stand between them."},
-          s.occlusion);
-  v.field({.name = "light_types", .sentence = "Leave out the code of types of light that the scene does not have."}, s.light_types);
-  v.field({.name = "mirrors", .sentence = "Leave out the code of mirrors where there is none."}, s.mirrors);
-  v.field({.name = "bending", .sentence = "Leave out the code of Snell and Fresnel where all glass has n = 1."}, s.bending);
-  v.field({.name = "attenuation", .sentence = "Leave out the code of absorption where no glass absorbs and no mirror is coloured."},
-          s.attenuation);
-  v.field({.name = "smooth_normals", .sentence = "Leave out the code of interpolated normals where every object is faceted."},
-          s.smooth_normals);
-}
-
-template <class V, Is<Spectral> S>
-void describe(V& v, S& s)
-{
-  v.field({.name = "method", .sentence = "How wavelengths are put into clusters that share a path."}, s.method);
-  v.field({.name = "threshold_deg",
-           .sentence = "Largest change of the refraction angle inside a cluster.",
-           .unit = "degrees",
-           .bounds = between(0, 90)},
-          s.threshold_deg);
-  v.field({.name = "photons_per_pass", .sentence = "Photons sent towards the caustic objects in one pass.", .bounds = within(1, 1 << 24)},
-          s.photons_per_pass);
-  v.field({.name = "pixel_samples",
-           .sentence = "Samples a pixel of the layer \"direct\", one a pass until there are so many.",
-           .bounds = within(1, 1 << 20)},
-          s.pixel_samples);
-  v.field({.name = "max_surfaces", .sentence = "Interfaces a path may meet before it counts as lost.", .bounds = within(1, 1024)},
-          s.max_surfaces);
-  v.field({.name = "direct", .sentence = "Compute the layer \"direct\": light that reaches a diffuse surface unbent."}, s.direct);
-  v.field({.name = "caustic", .sentence = "Compute the layer \"caustic\": light that met glass or a mirror, then one diffuse surface."},
-          s.caustic);
-  v.field({.name = "leave_out", .sentence = "What to leave out where the scene does not need it."}, s.leave_out);
+  v.field({.name = "environment", .sentence = "What is behind everything; seen, not shining."}, s.environment);
+  v.field({.name = "damaged_meshes", .sentence = "What is done about glass whose mesh has a hole or is inside out."}, s.damaged_meshes);
 }
 
 template <class V, Is<Stop> S>

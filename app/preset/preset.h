@@ -115,11 +115,27 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// What is behind everything, infinitely far: the camera sees it, directly and through glass; it lights nothing in engine 1.
+/// JSON: a string (a picture file) or an object with "type".
+struct Environment {
+  enum class Type { file, constant };
+  Type type = Type::file;
+  std::string file;      ///< file: a latitude-longitude picture, linear sRGB; its centre column looks along -z, its top row along +y
+  Vec3 colour{1, 1, 1};  ///< constant: linear sRGB
+  double radiance = 1;   ///< the luminance Y (W m^-2 sr^-1, no factor 683) of the colour (1, 1, 1)
+  double rotate_deg = 0; ///< file: turns the surroundings about +y, counterclockwise as seen from above
+  bool operator==(const Environment&) const = default;
+};
+
 struct Scene {
+  /// What is done about a dielectric's mesh that has a hole or is inside out. report: say which, and go on.
+  enum class DamagedMeshes { report, refuse };
   Camera camera;
   std::map<std::string, Material> materials;
   std::vector<Object> objects;
   std::vector<Light> lights;
+  std::optional<Environment> environment;
+  DamagedMeshes damaged_meshes = DamagedMeshes::report;
   bool operator==(const Scene&) const = default;
 };
 
@@ -128,6 +144,7 @@ struct Scene {
 struct LeaveOut {
   bool direct = true;            ///< the layer "direct" where no surface is diffuse
   bool photons = true;           ///< the layer "caustic" where no object bends light or no surface is diffuse
+  bool photon_maps = true;       ///< photon maps where the camera sees every diffuse surface directly
   bool stray_photons = true;     ///< photons that start towards anything but glass and mirrors
   bool unreached_targets = true; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
   bool dark_lights = true;       ///< lights without power
@@ -141,16 +158,49 @@ struct LeaveOut {
   bool operator==(const LeaveOut&) const = default;
 };
 
+/// How much a wavelength matters (4.15), where `Spectral::effort` asks for it.
+struct Importance {
+  enum class Cluster { maximum, mean };
+  Cluster cluster = Cluster::maximum; ///< which of its wavelengths speaks for a cluster (the thesis takes the maximum)
+  bool geometry = true;               ///< weigh materials by how much of them the caustic objects see
+  bool operator==(const Importance&) const = default;
+};
+
+/// Progressive photon mapping (Hachisuka and Jensen 2009).
+struct Sppm {
+  std::optional<double> radius; ///< of the first pass, in length units; without: what the camera's pixels suggest
+  double alpha = 2.0 / 3;       ///< part of each pass's photons that is kept; the radius shrinks the faster the smaller it is
+  bool operator==(const Sppm&) const = default;
+};
+
 /// Engine 1.
 struct Spectral {
   enum class Method { optimal, thesis, brute_force };
+  /// Where caustics are estimated. automatic: splats where the camera sees the receiver directly, photon maps elsewhere.
+  enum class Estimator { automatic, splat, sppm };
+  /// How the work is dealt to the clusters. power: by what the eye makes of their light; equal: the same for each; importance: u of
+  /// (4.15); radziszewski: that of Radziszewski et al. 2009; variance: by the variance that is measured; random: one cluster a
+  /// pass, drawn at random (sppm only).
+  enum class Effort { power, equal, importance, radziszewski, variance, random };
   Method method = Method::optimal;
-  double threshold_deg = 0.05;    ///< alpha: the largest change of the refraction angle inside a cluster
-  int photons_per_pass = 1 << 18; ///< photons sent towards the caustic objects in one pass
-  int pixel_samples = 64;         ///< samples a pixel of the direct layer, one a pass until there are so many
-  int max_surfaces = 32;          ///< interfaces a path may meet before it is counted as lost
-  bool direct = true;             ///< layer: light that reaches a diffuse surface unbent
-  bool caustic = true;            ///< layer: light that met glass or a mirror, then one diffuse surface
+  double threshold_deg = 0.05; ///< alpha: the largest change of the refraction angle inside a cluster
+  int step_nm = 1;             ///< brute_force: neighbouring wavelengths that share a path all the same
+  Estimator estimator = Estimator::automatic;
+  Effort effort = Effort::power;
+  Importance importance;
+  bool jitter = false;                     ///< each photon takes one wavelength of its cluster, so clusters leave no bias
+  bool low_discrepancy = false;            ///< photons leave the lights by a scrambled Sobol sequence
+  bool differentials = false;              ///< a splat is stretched along the way that it moves with wavelength
+  bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
+  int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
+  int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
+  int pixel_samples = 64;                  ///< samples a pixel of the direct layer, one a pass until there are so many
+  int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost
+  Sppm sppm;
+  bool direct = true;     ///< layer: light that reaches a diffuse surface unbent
+  bool caustic = true;    ///< layer: light that met glass or a mirror, then one diffuse surface
+  bool indirect = false;  ///< layer: light that met a diffuse surface before the last one
+  bool background = true; ///< layer: the environment
   LeaveOut leave_out;
   bool operator==(const Spectral&) const = default;
 };
