@@ -20,7 +20,8 @@ struct Layout {
   const char* in_front; ///< of the tabs at the right
 };
 
-constexpr Layout layouts[] = {{"default", ErrorPanel::title}, {"plan", PlanPanel::title}};
+constexpr Layout layouts[] = {
+    {"default", ErrorPanel::title}, {"dispersion", "Dispersion"}, {"spectra", "Spectra and importance"}, {"plan", PlanPanel::title}};
 
 const Layout* find(const std::string& name)
 {
@@ -50,7 +51,7 @@ void build_layout(const std::string& name, unsigned dock_space, float width, flo
   const ImGuiID right = ImGui::DockBuilderSplitNode(dock_space, ImGuiDir_Right, tabs / std::max(width, 1.0f), nullptr, &left);
   ImGui::DockBuilderDockWindow(ViewPanel::title, left);
   ImGui::DockBuilderDockWindow(ErrorPanel::title, right);
-  ImGui::DockBuilderDockWindow(PlanPanel::title, right);
+  for (const char* title : {"Dispersion", "Spectra and importance", PlanPanel::title}) ImGui::DockBuilderDockWindow(title, right);
   // A tab's identifier is that of its window's name in its window (ImGuiWindow::TabId).
   ImGui::DockBuilderGetNode(right)->SelectedTabId = ImHashStr("#TAB", 0, ImHashStr(find(name)->in_front));
   ImGui::DockBuilderFinish(dock_space);

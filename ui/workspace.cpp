@@ -48,10 +48,10 @@ void strip(const char* name, float height, Draw draw)
 
 } // namespace
 
-template <class P>
-P* Workspace::add_own()
+template <class P, class... Arguments>
+P* Workspace::add_own(Arguments&... arguments)
 {
-  auto panel = std::make_unique<P>();
+  auto panel = std::make_unique<P>(arguments...);
   P* added = panel.get();
   add(std::move(panel));
   return added;

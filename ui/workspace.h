@@ -7,6 +7,7 @@
 #include "ui/plan_panel.h"
 #include "ui/plots.h"
 #include "ui/view_panel.h"
+#include "ui/wavelength_axis.h"
 
 #include <memory>
 #include <string>
@@ -28,14 +29,15 @@ public:
   const PlanPanel& plan() const { return *plan_; }
 
 private:
-  template <class P>
-  P* add_own();
+  template <class P, class... Arguments>
+  P* add_own(Arguments&... arguments);
   void draw_dock_space(Workbench& workbench);
   void draw_panel(Panel& panel, const Workbench& workbench, Commands& commands) const;
 
   std::string layout_;
   bool laid_out_ = false;
-  PlotContext plots_; ///< before the panels, which plot with it
+  PlotContext plots_;          ///< before the panels, which plot with it
+  WavelengthAxis wavelengths_; ///< before the panels that share it
   std::vector<std::unique_ptr<Panel>> panels_;
   ViewPanel* view_ = nullptr;
   ErrorPanel* error_ = nullptr;
