@@ -3,6 +3,7 @@
 
 #include "optics/colour.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::spectral {
@@ -18,14 +19,16 @@ optics::Colour blend(const std::int64_t* a, double weight_a, const std::int64_t*
 
 } // namespace
 
-job::Layer develop(std::string name, const Film& film, std::vector<float>& error_draw)
+void add_layer(const std::string& name, const Film& film, job::Picture& picture)
 {
   const std::size_t row_length = 3 * static_cast<std::size_t>(film.width), size = row_length * static_cast<std::size_t>(film.height);
+  auto layer = std::find_if(picture.layers.begin(), picture.layers.end(), [&](const job::Layer& l) { return l.name == name; });
+  if (layer == picture.layers.end()) layer = picture.layers.insert(layer, {name, std::vector<float>(size, 0.0f)});
+  std::vector<float>& error_draw = picture.error_draw;
   const bool halves = film.sums.size() == 2 * size;
   const std::int64_t* first = film.sums.data();
   const std::int64_t* second = halves ? first + size : first; // where there is one image, its weight below is 0
   if (!halves) error_draw.clear();
-  job::Layer layer{std::move(name), std::vector<float>(size)};
   for (std::size_t row = 0; row < static_cast<std::size_t>(film.height); ++row) {
     const auto [a, b] = film.samples(static_cast<int>(row));
     const double mean = a + b > 0 ? 1 / ((a + b) * film.quanta_per_unit) : 0;
@@ -34,13 +37,20 @@ job::Layer develop(std::string name, const Film& film, std::vector<float>& error
     const double of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
     for (std::size_t i = row * row_length; i < (row + 1) * row_length; i += 3) {
       const optics::Colour value = blend(first + i, mean, second + i, halves ? mean : 0);
-      for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] = static_cast<float>(value[c]);
+      for (std::size_t c = 0; c < 3; ++c) layer->rgb[i + c] += static_cast<float>(value[c]);
       if (error_draw.empty()) continue;
       const optics::Colour error = blend(first + i, of_a, second + i, -of_b);
       for (std::size_t c = 0; c < 3; ++c) error_draw[i + c] += static_cast<float>(error[c]);
     }
   }
-  return layer;
+}
+
+std::array<double, 2> halves_of(std::int64_t passes, double part)
+{
+  const std::int64_t odd = passes / 2, even = passes - odd; // the first pass is number 0
+  std::array<double, 2> both{static_cast<double>(even), static_cast<double>(odd)};
+  both[static_cast<std::size_t>(passes % 2)] += part;
+  return both;
 }
 
 } // namespace nephroid::spectral

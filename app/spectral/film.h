@@ -22,8 +22,12 @@ struct Film {
   std::function<std::array<double, 2>(int row)> samples;
 };
 
-/// The mean of the samples, 0 where there is none. Where the film has two halves a and b, also adds their
-/// (a - b) sqrt(n_a n_b) / (n_a + n_b) to error_draw (job::Picture), 3 a pixel, or clears it where a row lacks one of them.
-job::Layer develop(std::string name, const Film& film, std::vector<float>& error_draw);
+/// Adds the mean of the samples, 0 where there is none, to the picture's layer of that name, which is made where there is none yet. Where
+/// the film has two halves a and b, also adds their (a - b) sqrt(n_a n_b) / (n_a + n_b) to Picture::error_draw, or clears it where a row
+/// lacks one of them; one that is clear already stays so.
+void add_layer(const std::string& name, const Film& film, job::Picture& picture);
+
+/// Even and odd passes of `passes` complete ones, and `part` of the next: what the halves of a film have had.
+std::array<double, 2> halves_of(std::int64_t passes, double part);
 
 } // namespace nephroid::spectral

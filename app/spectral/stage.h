@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// One kind of work that every pass of engine 1 has: the direct layer, photons that are splatted, photon maps, ... A stage owns its
+// kernels and films; the job gives each its turn. Sums are exact, so how a stage cuts its pass into steps changes no bit.
+#pragma once
+#include "job/job.h"
+#include "preset/preset.h"
+#include "spectral/state_bytes.h"
+
+#include <cstdint>
+
+namespace nephroid::spectral {
+
+class Stage {
+public:
+  virtual ~Stage() = default;
+  /// Of its phase in run.json.
+  virtual const char* name() const = 0;
+  /// How many passes it takes part in: what has had enough samples takes no more.
+  virtual std::int64_t passes() const { return preset::max_passes; }
+  /// One step of about 50 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
+  virtual bool step(std::int64_t pass) = 0;
+  /// How much of the pass in hand is done, 0..1, 0 before its first step and after its last.
+  virtual double part() const = 0;
+  /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes
+  /// and what is done of the one in hand, which has the number `passes`; done: whether it has had its turn in that pass already.
+  virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
+  /// Photons sent in one pass towards glass and mirrors; 0 where it sends none.
+  virtual std::uint64_t photons_per_pass() const { return 0; }
+  /// Everything that it needs to go on with the same bits. load() gets what save() wrote.
+  virtual void save(StateWriter& to) const = 0;
+  virtual void load(StateReader& from) = 0;
+};
+
+} // namespace nephroid::spectral
