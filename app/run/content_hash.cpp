@@ -33,6 +33,7 @@ preset::Preset settings_only(preset::Preset preset)
     if (object.mesh) object.mesh = "mesh";
   for (auto& [name, material] : preset.scene.materials)
     if (material.dispersion.type == preset::Dispersion::Type::file) material.dispersion.file = "dispersion";
+  if (preset.scene.environment) preset.scene.environment->file = "environment";
   return preset;
 }
 
@@ -53,6 +54,7 @@ std::uint64_t content_hash(const preset::Preset& preset, const scene::Scene& sce
   for (const scene::Material& material : scene.materials)
     for (const optics::Spectrum* spectrum : {&material.n, &material.k, &material.reflectance}) hash = hash_of(bytes_of(*spectrum), hash);
   for (const scene::Light& light : scene.lights) hash = hash_of(bytes_of(light.spectrum), hash);
+  if (scene.environment) hash = hash_of(bytes_of(scene.environment->rgb), hash);
   return hash;
 }
 

@@ -233,6 +233,8 @@ Scene load_scene(const preset::Preset& preset)
     warn_if_wide(scene, scene.lights.back(), i);
   }
   warn_of_faint_lights(scene);
+  if (preset.scene.environment)
+    scene.environment = make_environment(*preset.scene.environment, finder, where + "/environment", scene.warnings);
   scene.camera = make_camera(preset.scene.camera, scene);
   return scene;
 }

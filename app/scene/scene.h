@@ -5,11 +5,13 @@
 #pragma once
 #include "optics/wavelength.h"
 #include "preset/preset.h"
+#include "scene/environment.h"
 #include "scene/mesh.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +66,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Object> objects;
   std::vector<Light> lights;
+  std::optional<Environment> environment;
   Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex
   std::vector<std::uint32_t> object_of_triangle;
   std::vector<std::string> warnings; ///< one line each: open meshes, dropped triangles, extrapolated dispersion

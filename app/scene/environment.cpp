@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/environment.h"
+
+#include "base/error.h"
+#include "image/rgb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace nephroid::scene {
+namespace {
+
+/// Textures are held in memory three times while they are read, and once on the device: 2 GiB of floats there.
+constexpr std::size_t most_texels = std::size_t{1} << 27;
+
+const char* fault_of(float value) { return std::isnan(value) ? "is not a number" : std::isinf(value) ? "is infinite" : "is negative"; }
+
+void check_texels(const std::vector<float>& rgb, int width, const std::string& file)
+{
+  const auto bad = std::find_if(rgb.begin(), rgb.end(), [](float value) { return !(value >= 0 && std::isfinite(value)); });
+  if (bad == rgb.end()) return;
+  const auto index = static_cast<std::size_t>(bad - rgb.begin()), texel = index / 3;
+  const char* const channels[] = {"red", "green", "blue"};
+  throw bad_input(file,
+                  fmt::format("{} of the texel in row {}, column {} (from 0) {}", channels[index % 3],
+                              texel / static_cast<std::size_t>(width), texel % static_cast<std::size_t>(width), fault_of(*bad)),
+                  "expected radiances of 0 or more", "mend the picture");
+}
+
+/// The picture alone, without how bright it is and how it is turned.
+Environment read_environment(const std::filesystem::path& file, std::vector<std::string>& warnings)
+{
+  const image::Image picture = image::read_image(file);
+  if (picture.data.size() / picture.channels.size() > most_texels)
+    throw bad_input(file.string(), fmt::format("has {} x {} texels", picture.width, picture.height),
+                    fmt::format("expected at most {} in all", most_texels), "make it smaller");
+  Environment result;
+  result.width = picture.width;
+  result.height = picture.height;
+  result.rgb = image::rgb_of(picture, file.string()).values;
+  check_texels(result.rgb, result.width, file.string());
+  if (picture.integers)
+    for (float& value : result.rgb) value = static_cast<float>(image::decoded_srgb(value));
+  if (result.width != 2 * result.height)
+    warnings.push_back(fmt::format("environment {}: has {} x {} texels; a latitude-longitude picture is twice as wide as high, "
+                                   "so it is stretched to that",
+                                   file.filename().string(), result.width, result.height));
+  return result;
+}
+
+} // namespace
+
+bool Environment::is_black() const
+{
+  return !(radiance > 0) || std::all_of(rgb.begin(), rgb.end(), [](float value) { return value == 0; });
+}
+
+Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const std::string& where,
+                             std::vector<std::string>& warnings)
+{
+  Environment result;
+  if (environment.type == preset::Environment::Type::file) {
+    result = read_environment(finder.find(environment.file, where + "/file"), warnings);
+    result.rotate_deg = environment.rotate_deg;
+  } else {
+    result.width = result.height = 1;
+    for (const double value : environment.colour) result.rgb.push_back(static_cast<float>(value));
+    check_texels(result.rgb, 1, where + "/colour");
+  }
+  result.radiance = environment.radiance;
+  if (!(result.radiance >= 0 && std::isfinite(result.radiance)))
+    throw bad_input(where + "/radiance", fmt::format("the radiance is {}", result.radiance), "0 or more");
+  return result;
+}
+
+} // namespace nephroid::scene
