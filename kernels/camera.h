@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where paths from the eye begin: their direction, and the wavelength cluster of one that meets glass.
+#ifndef NEPHROID_CAMERA_H
+#define NEPHROID_CAMERA_H
+
+#include "shared_types.h"
+#include "random.h"
+
+// jitter: the place in the pixel's square, [0, 1) each way.
+static inline float3 primary_direction(const DeviceCamera* camera, int column, int row, float2 jitter)
+{
+  const float x = 2.0f * ((float)column + jitter.x) / (float)camera->width - 1.0f;
+  const float y = 1.0f - 2.0f * ((float)row + jitter.y) / (float)camera->height;
+  return normalize(camera->forward.xyz + (x * camera->tan_x) * camera->right.xyz + (y * camera->tan_y) * camera->up.xyz);
+}
+
+// Which cluster path `path` of `paths` in a frame takes: steps of the golden ratio, so that those of a pixel spread over the clusters
+// evenly. Even and odd frames each have a start of their own and count by themselves: they are independent, as the film's two halves have
+// to be. cdf: [cluster + 1].
+static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream)
+{
+  const uint half_of_frames = frame & 1u, step = (frame >> 1) * paths + path;
+  const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, stream), seed).x;
+  const float place = (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
+  int cluster = 0;
+  while (cluster + 1 < count && place >= cdf[cluster + 1]) ++cluster;
+  return cluster;
+}
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sorts photons into the buckets of photon_map.h by counting: count_photons, sum_blocks, scan_blocks, scatter_photons, in this order.
+#include "photon_map.h"
+
+// The buckets are added up in this many blocks, one a work item.
+#ifndef NEPHROID_SCAN_BLOCKS
+#define NEPHROID_SCAN_BLOCKS 256
+#endif
+
+static inline uint photon_bucket(const StoredPhoton* photon, int3 cell, uint mask)
+{
+  return (grid_row_bucket(photon->group, cell.y, cell.z) + (uint)cell.x) & mask;
+}
+
+static inline int3 cell_of_photon(const StoredPhoton* photon, float inverse_cell)
+{
+  return grid_cell((float3)(photon->position[0], photon->position[1], photon->position[2]), inverse_cell);
+}
+
+// counts: [bucket + 1], zero before.
+kernel void count_photons(global const StoredPhoton* stored, volatile global uint* counts, PhotonGrid grid, uint slots)
+{
+  const uint i = get_global_id(0);
+  if (i >= slots) return;
+  const StoredPhoton photon = stored[i];
+  if (photon.group == NO_PHOTON) return;
+  atomic_inc(counts + photon_bucket(&photon, cell_of_photon(&photon, grid.inverse_cell), grid.bucket_mask));
+}
+
+kernel void sum_blocks(global const uint* counts, global uint* sums, PhotonGrid grid)
+{
+  const uint block = get_global_id(0), length = (grid.bucket_mask + NEPHROID_SCAN_BLOCKS) / NEPHROID_SCAN_BLOCKS;
+  if (block >= NEPHROID_SCAN_BLOCKS) return;
+  const uint first = min(block * length, grid.bucket_mask + 1u), last = min(first + length, grid.bucket_mask + 1u);
+  uint sum = 0;
+  for (uint i = first; i < last; ++i) sum += counts[i];
+  sums[block] = sum;
+}
+
+// Turns counts into the places where buckets end.
+kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid grid)
+{
+  const uint block = get_global_id(0), length = (grid.bucket_mask + NEPHROID_SCAN_BLOCKS) / NEPHROID_SCAN_BLOCKS;
+  if (block >= NEPHROID_SCAN_BLOCKS) return;
+  const uint first = min(block * length, grid.bucket_mask + 1u), last = min(first + length, grid.bucket_mask + 1u);
+  uint sum = 0;
+  for (uint b = 0; b < block; ++b) sum += sums[b];
+  for (uint i = first; i < last; ++i) {
+    sum += counts[i];
+    counts[i] = sum;
+  }
+  if (block == NEPHROID_SCAN_BLOCKS - 1) counts[grid.bucket_mask + 1u] = sum;
+}
+
+// ends: of the buckets; turns them into where they start.
+kernel void scatter_photons(global const StoredPhoton* stored, volatile global uint* ends, global float* positions, global int* values,
+                            PhotonGrid grid, uint slots)
+{
+  const uint i = get_global_id(0);
+  if (i >= slots) return;
+  const StoredPhoton photon = stored[i];
+  if (photon.group == NO_PHOTON) return;
+  const int3 cell = cell_of_photon(&photon, grid.inverse_cell);
+  const uint j = atomic_dec(ends + photon_bucket(&photon, cell, grid.bucket_mask)) - 1u;
+  positions[j] = photon.position[0];
+  positions[grid.stride + j] = photon.position[1];
+  positions[2 * grid.stride + j] = photon.position[2];
+  values[j] = grid_key(photon.group, cell.y, cell.z);
+  values[grid.stride + j] = photon.xyz[0];
+  values[2 * grid.stride + j] = photon.xyz[1];
+  values[3 * grid.stride + j] = photon.xyz[2];
+}
