@@ -2,9 +2,9 @@
 // kernels/emission.h: what the photons of a light carry towards spheres adds up to the power that the light sends there, where the
 // spheres overlap, too. In standard deviations of the photons' own spread.
 #include "check/device_arrays.h"
+#include "check/render.h"
 #include "check/scene_parts.h"
 #include "check/subjects.h"
-#include "scene/scene.h"
 #include "spectral/device_scene.h"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   p.scene.materials["white"] = white();
   p.scene.objects = {object("ball", ball(1, 16), "glass", at({0, 0, 0})), object("wall", quad(20, 20), "white", at({0, -2, 0}))};
   p.scene.lights = {light};
-  spectral::DeviceTables tables = spectral::make_device_tables(p, scene::load_scene(p));
+  spectral::DeviceTables tables = device_tables(p);
   shared::DeviceLight& on_host = tables.lights.at(0);
   std::vector<shared::DeviceTarget> targets;
   for (const float4& s : spheres) targets.push_back({{s.x + on_host.position.x, s.y + on_host.position.y, s.z + on_host.position.z, s.w}});

@@ -22,6 +22,12 @@ void share_programs(compute::Defines& defines)
 
 } // namespace
 
+spectral::DeviceTables device_tables(const preset::Preset& preset)
+{
+  const scene::Scene scene = scene::load_scene(preset);
+  return spectral::make_device_tables(preset, scene, scene::build_bvh(scene.geometry));
+}
+
 job::Snapshot render(preset::Preset preset, const compute::Context& context)
 {
   preset.spectral.max_surfaces = 64;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures by the real engine, for checks, and what checks and tests read off a picture.
+// Small pictures by the real engine and its tables, for checks, and what checks and tests read off a picture.
 #pragma once
 #include "base/error.h"
 #include "compute/compute.h"
 #include "job/job.h"
 #include "optics/colour.h"
 #include "preset/preset.h"
+#include "spectral/device_scene.h"
 
 #include <string>
 
@@ -14,6 +15,9 @@ namespace nephroid::check {
 /// Runs engine 1 to the preset's end, with the general kernels rather than those made for the scene: so all checks together build two
 /// programs, which is most of their time on a device whose compiler has not seen them. Tests compare the two kinds.
 job::Snapshot render(preset::Preset preset, const compute::Context& context);
+
+/// The tables that the engine would render the preset with.
+spectral::DeviceTables device_tables(const preset::Preset& preset);
 
 /// The layer of that name, which must be there: throws failed else.
 inline const job::Layer& layer(const job::Snapshot& snapshot, const std::string& name)

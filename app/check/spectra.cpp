@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums over wavelengths (kernels/attenuation.h) over the engine's own tables, against double precision.
 #include "check/device_arrays.h"
+#include "check/render.h"
 #include "check/scene_parts.h"
 #include "check/subjects.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/scene.h"
 #include "spectral/device_scene.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ spectral::WavelengthTables tables()
   p.scene.objects = {object("ball", ball(1, 16), "glass", at({0, 2, 0})), object("floor", quad(4, 4), "patch")};
   p.scene.lights.resize(1);
   p.scene.lights[0].position = {0, 5, 0};
-  return spectral::make_device_tables(p, scene::load_scene(p)).wavelengths;
+  return device_tables(p).wavelengths;
 }
 
 /// What attenuated_sum gives for every cluster at every length of glass with absorption `coefficient` in 1/m.

@@ -116,6 +116,18 @@ void check_camera(const Camera& c, const Where& where)
   check_up(c.up, forward, "/scene/camera/up", where);
 }
 
+/// A cluster drawn at random needs a pass of its own, which sppm gives it; a variance is measured where all clusters share a film.
+void check_effort(const Spectral& s, const std::string& pointer, const Where& where)
+{
+  const bool sppm = s.estimator == Spectral::Estimator::sppm;
+  if (s.effort == Spectral::Effort::random && !sppm)
+    throw bad_input(where(child(pointer, "effort")), "random needs the estimator sppm", "expected spectral.estimator to be sppm",
+                    "choose that, or another effort");
+  if (s.effort == Spectral::Effort::variance && sppm)
+    throw bad_input(where(child(pointer, "effort")), "variance is not measured by the estimator sppm",
+                    "expected another effort or estimator", "choose effort importance, or estimator automatic");
+}
+
 /// A reference that shares a seed with the run would share its noise, and call it right.
 void check_reference(const Preset& preset, const Where& where)
 {
@@ -136,6 +148,8 @@ void check(const Preset& preset, const Where& where)
   for (const auto& [name, material] : scene.materials) check_material(material, child("/scene/materials", name), where);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) check_object(scene.objects[i], scene, child("/scene/objects", i), where);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
+  check_effort(preset.spectral, "/spectral", where);
+  if (preset.reference && preset.reference->spectral) check_effort(*preset.reference->spectral, "/reference/spectral", where);
   check_reference(preset, where);
 }
 

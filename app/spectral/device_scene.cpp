@@ -2,7 +2,9 @@
 #include "spectral/device_scene.h"
 
 #include "base/error.h"
+#include "spectral/effort.h"
 #include "spectral/omissions.h"
+#include "spectral/scene_clusters.h"
 #include "spectral/targets.h"
 #include "spectral/wavelength_tables.h"
 
@@ -63,30 +65,6 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const std::strin
   return out;
 }
 
-/// Watts of the light that start towards the targets; targets that overlap count twice, which is good enough for dealing out photons.
-double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit)
-{
-  double steradians = 0, square_metres = 0;
-  for (const scene::Sphere& target : targets) {
-    const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
-    const double radius2 = double(target.radius) * target.radius;
-    const double sine2 = radius2 / distance2; // 1 - cos = sin^2 / (1 + cos), which does not vanish for a far target
-    steradians += sine2 >= 1 ? 4 * pi : 2 * pi * sine2 / (1 + std::sqrt(1 - sine2));
-    square_metres += pi * radius2 * metres_per_unit * metres_per_unit;
-  }
-  switch (light.type) {
-  case preset::Light::Type::directional:
-    return light.irradiance_w_m2 * square_metres;
-  case preset::Light::Type::spot:
-    return light.power_w * std::min(1.0, steradians / (2 * pi * (1 - light.cos_half_angle)));
-  case preset::Light::Type::area:
-    return light.power_w * std::min(1.0, steradians / pi);
-  case preset::Light::Type::point:
-    break;
-  }
-  return light.power_w * std::min(1.0, steradians / (4 * pi));
-}
-
 /// Appends the spheres to the table of targets, unless an earlier light has the very same ones.
 void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& spheres, DeviceTables& tables)
 {
@@ -125,13 +103,9 @@ void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, co
   watts.push_back(towards_targets_w(light, targets, scene.metres_per_unit));
 }
 
-/// watts: of each light towards its targets.
-std::vector<shared::DeviceEmitter> make_emitters(const std::vector<double>& watts, const WavelengthTables& tables, unsigned photons)
+/// weights: Effort::photons.
+std::vector<shared::DeviceEmitter> make_emitters(const std::vector<double>& weights, const WavelengthTables& tables, unsigned photons)
 {
-  std::vector<double> weights;
-  for (std::size_t l = 0; l < watts.size(); ++l)
-    for (std::size_t c = 0; c < tables.clusters.size(); ++c)
-      weights.push_back(watts[l] * (tables.weight[l][c] + 0.05 * tables.share[l][c]));
   const std::vector<unsigned> counts = deal_out(weights, photons);
   std::vector<shared::DeviceEmitter> emitters;
   unsigned first = 0;
@@ -192,20 +166,6 @@ void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, int pixe
   tables.energy_scale = power_of_two_below(std::exp2(40) / tables.light_towards_targets_w);
 }
 
-/// The clusters for all dielectrics that an object uses: of one curve its own, of several their common refinement, of none one group.
-std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
-{
-  std::vector<optics::Spectrum> curves;
-  for (const scene::Object& object : scene.objects) {
-    const scene::Material& material = scene.materials[static_cast<std::size_t>(object.material)];
-    if (material.type != scene::Material::Type::dielectric) continue;
-    if (std::find(curves.begin(), curves.end(), material.n) == curves.end()) curves.push_back(material.n);
-  }
-  std::vector<Clustering> clusterings;
-  for (const optics::Spectrum& curve : curves) clusterings.push_back(cluster_wavelengths(curve, settings.threshold_deg, settings.method));
-  return common_refinement(clusterings);
-}
-
 } // namespace
 
 int device_light_type(preset::Light::Type type)
@@ -214,7 +174,7 @@ int device_light_type(preset::Light::Type type)
   return type == Type::point ? LIGHT_POINT : type == Type::spot ? LIGHT_SPOT : type == Type::directional ? LIGHT_DIRECTIONAL : LIGHT_AREA;
 }
 
-DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene)
+DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   DeviceTables tables;
   tables.power_unit = choose_power_unit(scene);
@@ -228,7 +188,9 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
   tables.spheres = scene_targets(leave_out, scene);
   std::vector<double> watts;
   for (const scene::Light* light : lights) add_light(*light, tables.spheres, scene, leave_out, tables, watts);
-  tables.emitters = make_emitters(watts, tables.wavelengths, static_cast<unsigned>(preset.spectral.photons_per_pass));
+  Effort effort = make_effort(preset.spectral, scene, bvh, watts, tables.wavelengths);
+  tables.emitters = make_emitters(effort.photons, tables.wavelengths, static_cast<unsigned>(preset.spectral.photons_per_pass));
+  tables.importance = std::move(effort.importance);
   for (const shared::DeviceEmitter& emitter : tables.emitters) tables.photons_per_pass += emitter.photon_count;
   tables.light_towards_targets_w = std::accumulate(watts.begin(), watts.end(), 0.0);
   tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");

@@ -3,6 +3,7 @@
 #pragma once
 #include "kernels/shared_types.h"
 #include "preset/preset.h"
+#include "scene/bvh.h"
 #include "scene/scene.h"
 #include "spectral/clusters.h"
 
@@ -37,6 +38,7 @@ struct DeviceTables {
   std::vector<shared::DeviceTarget> targets;   ///< lists, see DeviceLight::first_target
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one pass, dealt out to lights and clusters
   unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each emitter
+  std::vector<double> importance;              ///< [cluster] 0..1, the largest 1: see Effort
   WavelengthTables wavelengths;
   double light_towards_targets_w = 0; ///< power that the emitters send out in a pass, all wavelengths
   double power_unit = 1;              ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
@@ -49,7 +51,7 @@ struct DeviceTables {
 int device_light_type(preset::Light::Type type);
 
 /// Everything but DeviceScene::root, which is the tree's. Throws bad_input at FILE#/pointer where the camera or a light is inside more
-/// than MEDIA_DEPTH dielectrics, and for a threshold that cluster_wavelengths refuses.
-DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene);
+/// than MEDIA_DEPTH dielectrics, for a threshold that cluster_wavelengths refuses, and as make_effort does.
+DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 
 } // namespace nephroid::spectral

@@ -15,26 +15,29 @@ namespace nephroid::spectral {
 /// A material that the caustic objects see around them.
 struct Surrounding {
   int material = 0;     ///< index into Scene::materials
-  double share = 0;     ///< ghat_i: part of the rays that hit it, of those that hit anything; all sum to 1
+  double share = 0;     ///< ghat_i: part of the rays that hit it, of those that hit anything, all sum to 1; without geometry 1 each
   double lightness = 0; ///< L_i: CIE L*, 0..100, of a surface of its reflectance under the lights
 };
 
 struct WavelengthImportance {
   optics::Spectrum u{};                  ///< 0..1, the largest 1
-  std::vector<Surrounding> surroundings; ///< empty where u does not depend on them
+  std::vector<Surrounding> surroundings; ///< by index of the material; empty where u does not depend on them
 };
 
-/// u(lambda) of (4.15) for effort `importance`, of Radziszewski et al. for `radziszewski`, of the light alone for `power` (what the eye
-/// makes of it, (X + Y + Z) / 3), 1 everywhere else. Throws bad_input at FILE#/spectral/effort where (4.15) is 0 at every wavelength,
-/// and says why.
+/// The objects that throw the caustics: the dielectrics; where there is none, the mirrors. Indices into Scene::objects.
+std::vector<int> caustic_objects(const scene::Scene& scene);
+
+/// u(lambda) of (4.15) for effort `importance`, of Radziszewski et al. for `radziszewski`, of the light alone for `power` and
+/// `variance` (what the eye makes of it, (X + Y + Z) / 3; 0 where no light has power), 1 everywhere for `equal` and `random`.
+/// Throws bad_input at FILE#/spectral/effort where (4.15) is 0 at every wavelength, and says why.
 WavelengthImportance wavelength_importance(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh);
 
-/// Of each cluster (indices of wavelengths): the largest u in it or the mean.
+/// Of each cluster (indices of wavelengths, none empty): the largest u in it or the mean.
 std::vector<double> cluster_importance(const optics::Spectrum& u, std::span<const std::vector<int>> clusters,
                                        preset::Importance::Cluster which);
 
 /// Iterations of a cluster after `passes` passes: ceil(u passes). It grows with passes by 0 or 1 at a time, so a cluster has its turn in
-/// pass p (from 0) when iterations(u, p + 1) > iterations(u, p).
+/// pass p (from 0) when iterations(u, p + 1) > iterations(u, p). importance: 0..1.
 std::int64_t iterations(double importance, std::int64_t passes);
 
 } // namespace nephroid::spectral

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 1 runs for a preset and what it leaves out.
 #include "spectral/device_scene.h"
+#include "spectral/effort.h"
 #include "spectral/engine.h"
 #include "spectral/omissions.h"
 
@@ -81,7 +82,7 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
 
 plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
-  const DeviceTables tables = make_device_tables(preset, scene);
+  const DeviceTables tables = make_device_tables(preset, scene, bvh);
   const ObjectCounts objects = count_objects(scene);
   const int attenuators = tables.wavelengths.attenuator_count;
   const preset::LeaveOut& leave_out = preset.spectral.leave_out;
@@ -89,7 +90,10 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   plan.engine = "spectral";
   const plan::Pass direct = direct_pass(preset.spectral, scene, objects), photons = photon_pass(preset.spectral, scene, objects, tables);
   plan.passes = {direct, photons};
-  if (photons.runs) plan.passes.push_back(stray_photons_pass(leave_out, tables));
+  if (photons.runs) {
+    plan.passes.push_back(effort_pass(preset.spectral, tables.importance));
+    plan.passes.push_back(stray_photons_pass(leave_out, tables));
+  }
   const std::vector<plan::Pass> code = code_omissions(leave_out, scene, attenuators);
   for (const std::vector<plan::Pass>& passes : {data_omissions(leave_out, scene, tables.spheres), code})
     plan.passes.insert(plan.passes.end(), passes.begin(), passes.end());

@@ -34,7 +34,7 @@ class SpectralJob final : public job::Job {
 public:
   SpectralJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
               const compute::Context& context)
-      : world_{context, make_device_tables(preset, scene), {}, plan.defines, {}, preset.white, preset.measure.estimate ? 2u : 1u, {}},
+      : world_{context, make_device_tables(preset, scene, bvh), {}, plan.defines, {}, preset.white, preset.measure.estimate ? 2u : 1u, {}},
         stop_seconds_(preset.stop.seconds)
   {
     world_.buffers = upload(context, scene, bvh, world_.tables);

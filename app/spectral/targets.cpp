@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/targets.h"
 
+#include "scene/ray.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -91,8 +93,32 @@ bool reaches(const scene::Light& light, const scene::Sphere& sphere)
   return off_axis - std::asin(sphere.radius / distance) <= std::acos(std::clamp(light.cos_half_angle, -1.0, 1.0)) + angle_margin;
 }
 
+double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit)
+{
+  using std::numbers::pi;
+  double steradians = 0, square_metres = 0;
+  for (const scene::Sphere& target : targets) {
+    const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
+    const double radius2 = double(target.radius) * target.radius;
+    const double sine2 = radius2 / distance2; // 1 - cos = sin^2 / (1 + cos), which does not vanish for a far target
+    steradians += sine2 >= 1 ? 4 * pi : 2 * pi * sine2 / (1 + std::sqrt(1 - sine2));
+    square_metres += pi * radius2 * metres_per_unit * metres_per_unit;
+  }
+  switch (light.type) {
+  case preset::Light::Type::directional:
+    return light.irradiance_w_m2 * square_metres;
+  case preset::Light::Type::spot:
+    return light.power_w * std::min(1.0, steradians / (2 * pi * (1 - light.cos_half_angle)));
+  case preset::Light::Type::area:
+    return light.power_w * std::min(1.0, steradians / pi);
+  case preset::Light::Type::point:
+    break;
+  }
+  return light.power_w * std::min(1.0, steradians / (4 * pi));
+}
+
 // The mean over directions of the area that the spheres' shadows cover together. Each shadow is a disc; points spread evenly over it
-// count by 1 / (number of discs over the point), so the union is measured once. Directions are Fibonacci's, points Vogel's sunflower.
+// count by 1 / (number of discs over the point), so the union is measured once. Points are Vogel's sunflower.
 double mean_shadow(const std::vector<scene::Sphere>& spheres)
 {
   constexpr int directions = 32, points = 64;
@@ -107,9 +133,8 @@ double mean_shadow(const std::vector<scene::Sphere>& spheres)
   std::vector<glm::dvec2> centres(spheres.size());
   double sum = 0;
   for (int d = 0; d < directions; ++d) {
-    const double z = 1 - (2 * d + 1.0) / directions, phi = d * golden_angle, r = std::sqrt(1 - z * z);
-    const glm::dvec3 direction(r * std::cos(phi), r * std::sin(phi), z);
-    const glm::dvec3 x = glm::normalize(glm::cross(direction, std::abs(z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+    const glm::dvec3 direction = scene::even_direction(d, directions);
+    const glm::dvec3 x = glm::normalize(glm::cross(direction, std::abs(direction.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
     const glm::dvec3 y = glm::cross(direction, x);
     for (std::size_t i = 0; i < spheres.size(); ++i)
       centres[i] = {glm::dot(glm::dvec3(spheres[i].centre), x), glm::dot(glm::dvec3(spheres[i].centre), y)};

@@ -111,7 +111,7 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
   for (Moments& m : kernel) m.variance_of_mean = std::max(m.variance_of_mean - m.mean * m.mean, 0.0) / (runs - 1);
 
   const scene::Scene scene = scene::load_scene(p);
-  const spectral::DeviceTables tables = spectral::make_device_tables(p, scene);
+  const spectral::DeviceTables tables = spectral::make_device_tables(p, scene, scene::build_bvh(scene.geometry));
   constexpr int photons = 1'500'000;
   const ReferenceFilm film = ReferencePhotons(scene, tables, 99).trace(photons);
 

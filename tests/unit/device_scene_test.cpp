@@ -97,6 +97,12 @@ TEST(Targets, TheShadowOfSpheresInAClosedForm)
   EXPECT_NEAR(spectral::mean_shadow({{{0, 0, -1}, 1}, {{0, 0, 1}, 1}}) / mean, 1, 0.02);
 }
 
+spectral::DeviceTables tables_of(const preset::Preset& p)
+{
+  const scene::Scene scene = scene::load_scene(p);
+  return spectral::make_device_tables(p, scene, scene::build_bvh(scene.geometry));
+}
+
 TEST(WavelengthTables, AddUpToTheWholeSpectrum)
 {
   preset::Material coloured = glass(1.5);
@@ -104,7 +110,7 @@ TEST(WavelengthTables, AddUpToTheWholeSpectrum)
   coloured.dispersion.coefficients = {1.5, 0.01};
   const preset::Preset p = scene_with({}, coloured);
   const scene::Scene scene = scene::load_scene(p);
-  const spectral::DeviceTables tables = spectral::make_device_tables(p, scene);
+  const spectral::DeviceTables tables = tables_of(p);
   const spectral::WavelengthTables& w = tables.wavelengths;
   EXPECT_GT(w.clusters.size(), 3u);
   EXPECT_EQ(w.cluster_wavelengths.size(), 401u);
@@ -132,9 +138,9 @@ TEST(WavelengthTables, AMirrorOfOneIsNoAttenuatorAndABlackOneIs)
   mirror.type = preset::Material::Type::mirror;
   mirror.reflectance.value = 1;
   preset::Preset p = scene_with({}, mirror);
-  EXPECT_EQ(spectral::make_device_tables(p, scene::load_scene(p)).wavelengths.attenuator_count, 0);
+  EXPECT_EQ(tables_of(p).wavelengths.attenuator_count, 0);
   p.scene.materials["thing"].reflectance.value = 0;
-  const spectral::WavelengthTables w = spectral::make_device_tables(p, scene::load_scene(p)).wavelengths;
+  const spectral::WavelengthTables w = tables_of(p).wavelengths;
   EXPECT_EQ(w.attenuator_count, 1);
   EXPECT_EQ(w.coefficient[0], 200); // exp(-200) is 0 in single precision
 }
@@ -150,9 +156,9 @@ TEST(DeviceTables, RefuseMoreMediaThanAPathCanCarry)
     p.scene.objects.push_back(object("", preset::Shape{}, "thing"));
     p.scene.objects.back().transform.scale = {1.0 + i, 1.0 + i, 1.0 + i};
   }
-  EXPECT_EQ(spectral::make_device_tables(p, scene::load_scene(p)).camera.inside.count, MEDIA_DEPTH);
+  EXPECT_EQ(tables_of(p).camera.inside.count, MEDIA_DEPTH);
   p.scene.objects.push_back(object("", preset::Shape{}, "thing"));
-  const auto refusal = [&p] { return refusal_of([&p] { spectral::make_device_tables(p, scene::load_scene(p)); }); };
+  const auto refusal = [&p] { return refusal_of([&p] { tables_of(p); }); };
   EXPECT_THAT(refusal(), testing::StartsWith("p.json#/scene/camera/position: is inside 9 dielectric objects; expected at most 8"));
   p.scene.camera.position = {0, 0, 20};
   p.scene.lights[0].position = {0, 0, 0.1};

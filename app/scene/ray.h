@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// One ray at a time through the tree of bvh.h, on the host and in double precision: for a few thousand rays before a run.
+// Pictures are traced by kernels/bvh.h.
+#pragma once
+#include "scene/bvh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace nephroid::scene {
+
+struct RayHit {
+  double t = 0;               ///< distance in lengths of the direction
+  std::uint32_t triangle = 0; ///< index into Mesh::triangles
+};
+
+/// Which triangles a ray can hit; the others it passes as if they were not there.
+using CountsTriangle = std::function<bool(std::uint32_t triangle)>;
+
+/// The closest hit with 0 < t <= t_max, of equals the lowest triangle. direction: of any length but 0. A ray cannot pass between two
+/// triangles that share an edge. counts: empty for all.
+std::optional<RayHit> closest_hit(const Bvh& bvh, const glm::dvec3& origin, const glm::dvec3& direction, const CountsTriangle& counts = {},
+                                  double t_max = std::numeric_limits<double>::infinity());
+
+/// Direction i of `count` that lie evenly on the sphere (Fibonacci's lattice: equal steps along z, golden angles about it), all of
+/// them turned by `turns` about z.
+glm::dvec3 even_direction(int i, int count, double turns = 0);
+
+} // namespace nephroid::scene
