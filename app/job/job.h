@@ -2,10 +2,12 @@
 // The one interface of all engines: a job advances in short steps and shows itself as immutable snapshots.
 #pragma once
 #include "job/history.h"
+#include "preset/preset.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -44,12 +46,19 @@ struct EnergyBalance {
   std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run
 };
 
+/// The same of the photons of a layer of interreflection: emitted = absorbed (by any surface, or inside glass) + escaped + lost.
+struct IndirectBalance {
+  double emitted_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
+};
+
 struct Snapshot {
   std::shared_ptr<const Picture> picture;
   Progress progress;
   EnergyBalance energy;
+  std::optional<IndirectBalance> indirect_energy; ///< where there is such a layer
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
   std::shared_ptr<const History> history;             ///< of its error so far; null where nothing is measured
+  std::uint64_t adoption = 0;                         ///< the newest Worker::adopt() that it knows of; the worker's to set
 };
 
 class Job {
@@ -67,6 +76,10 @@ public:
   virtual std::vector<std::byte> save() = 0;
   /// Throws bad_input where the checkpoint is of another version or preset, or is cut.
   virtual void load(std::span<const std::byte> checkpoint) = 0;
+  /// Takes on another preset without starting again, where it can: where only the light differs (preset::only_relit) and the job keeps
+  /// what it needs to weigh it anew. What was computed so far stays. False, and nothing has changed, where it cannot. Throws bad_input at
+  /// FILE#/scene/lights/... for a spectrum that cannot be used; nothing has changed then either.
+  virtual bool adopt(const preset::Preset&) { return false; }
 };
 
 } // namespace nephroid::job

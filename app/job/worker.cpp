@@ -19,6 +19,9 @@ namespace {
 using Make = std::function<std::unique_ptr<Job>()>;
 using Clock = std::chrono::steady_clock;
 
+/// Longer than a frame of the window.
+constexpr std::chrono::milliseconds adoption_linger{25};
+
 bool is_over(State state)
 {
   return state == State::idle || state == State::finished || state == State::cancelled || state == State::failed;
@@ -46,15 +49,38 @@ struct Worker::Impl {
   std::condition_variable changed; ///< a command came or the state changed
   // Commands
   Make next; ///< the newest start() that the thread has not taken yet
+  struct Adoption {
+    std::shared_ptr<const preset::Preset> preset;
+    Make otherwise;
+  };
+  std::optional<Adoption> adoption; ///< the newest adopt() that the thread has not taken yet
+  std::uint64_t adoptions = 0;      ///< its number
   bool cancelled = false, paused = false, ending = false;
   std::chrono::milliseconds interval{100};
+  bool has_job = false; ///< one that could adopt: in hand, or to come from `next`
   // What readers see. status.generation is also a command: a job of another generation stops and says nothing more.
   Status status;
   std::shared_ptr<const Snapshot> snapshot;
 
+  std::uint64_t adopted = 0; ///< the newest adoption that the job in hand knows of; the thread's own
   std::thread thread;
 
   bool must_stop(std::uint64_t generation) const { return cancelled || ending || status.generation != generation; }
+
+  /// start() with the mutex held.
+  void begin(Make make)
+  {
+    next = std::move(make);
+    adoption.reset();
+    cancelled = paused = false;
+    has_job = true;
+    Status preparing;
+    preparing.state = State::preparing;
+    preparing.generation = status.generation + 1;
+    preparing.failures = status.failures;
+    status = preparing;
+    changed.notify_all();
+  }
 
   /// Calls change() with the mutex held, unless the job in hand was replaced: then the status is no longer about it.
   template <class Change>
@@ -68,7 +94,10 @@ struct Worker::Impl {
 
   void set_state(std::uint64_t generation, State state)
   {
-    update(generation, [&] { status.state = state; });
+    update(generation, [&] {
+      status.state = state;
+      status.message.clear();
+    });
   }
 
   void set_failed(std::uint64_t generation, const Error& error)
@@ -77,11 +106,13 @@ struct Worker::Impl {
       status.state = State::failed;
       status.message = error.line();
       status.error_kind = error.kind();
+      ++status.failures;
     });
   }
 
   void publish(std::uint64_t generation, Snapshot&& made)
   {
+    made.adoption = adopted;
     auto shared = std::make_shared<const Snapshot>(std::move(made)); // the old one is freed after the lock: pictures are megabytes
     update(generation, [&] {
       std::swap(snapshot, shared);
@@ -89,22 +120,64 @@ struct Worker::Impl {
     });
   }
 
-  /// Waits while paused. False when the job has to stop.
-  bool may_step(std::uint64_t generation)
+  enum class Move { step, adopt, stop };
+
+  /// What an unfinished job does next. Waits while paused and, after an adoption, a moment for the next: while somebody drags a spectrum
+  /// every step would only delay the picture.
+  Move next_move(std::uint64_t generation, std::optional<Clock::time_point> adopted_at)
   {
     std::unique_lock lock(mutex);
-    for (; paused && !must_stop(generation); changed.wait(lock))
+    const auto commanded = [&] { return must_stop(generation) || adoption; };
+    if (adopted_at) changed.wait_until(lock, *adopted_at + adoption_linger, commanded);
+    for (; paused && !commanded(); changed.wait(lock))
       if (std::exchange(status.state, State::paused) != State::paused) changed.notify_all();
-    if (must_stop(generation)) return false;
+    if (must_stop(generation)) return Move::stop;
+    if (adoption) return Move::adopt;
     status.state = State::running;
-    return true;
+    return Move::step;
   }
 
-  /// Steps the job until it is finished or has to stop; its last state is shown either way.
-  void advance(std::uint64_t generation, Job& job)
+  bool adoption_waits() const
   {
-    std::optional<Clock::time_point> shown;
-    while (!job.finished() && may_step(generation)) {
+    const std::lock_guard lock(mutex);
+    return adoption.has_value();
+  }
+
+  /// Lets the job take on the newest preset, or makes a new one begin where it cannot. False where it threw, which is the state then.
+  bool adopt_newest(std::uint64_t generation, Job& job)
+  {
+    std::unique_lock lock(mutex);
+    const Adoption newest = *std::exchange(adoption, std::nullopt);
+    const std::uint64_t number = adoptions;
+    lock.unlock();
+    try {
+      if (!job.adopt(*newest.preset)) {
+        update(generation, [&] { begin(newest.otherwise); });
+        return true;
+      }
+      adopted = number;
+      publish(generation, job.snapshot());
+      update(generation, [&] { status.message.clear(); });
+      return true;
+    } catch (...) {
+      set_failed(generation, error_of(std::current_exception()));
+      return false;
+    }
+  }
+
+  /// Steps the job until it is finished, has to stop or could not adopt; its last state is shown either way. Returns the state then.
+  State advance(std::uint64_t generation, Job& job)
+  {
+    std::optional<Clock::time_point> shown, adopted_at;
+    while (true) {
+      Move move = adoption_waits() ? Move::adopt : Move::stop;
+      if (!job.finished()) move = next_move(generation, std::exchange(adopted_at, std::nullopt));
+      if (move == Move::stop) break;
+      if (move == Move::adopt) {
+        if (!adopt_newest(generation, job)) return State::failed;
+        shown = adopted_at = Clock::now();
+        continue;
+      }
       job.step();
       std::chrono::milliseconds wait{};
       update(generation, [&, progress = job.progress()] {
@@ -117,6 +190,7 @@ struct Worker::Impl {
       }
     }
     if (is_wanted(generation)) publish(generation, job.snapshot());
+    return job.finished() ? State::finished : State::cancelled;
   }
 
   /// False where nobody will look at the job again.
@@ -124,6 +198,14 @@ struct Worker::Impl {
   {
     const std::lock_guard lock(mutex);
     return !ending && status.generation == generation;
+  }
+
+  /// A job that is finished, or could not adopt, waits for the next adoption. False where it has to go.
+  bool wait_for_adoption(std::uint64_t generation)
+  {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return must_stop(generation) || adoption; });
+    return !must_stop(generation);
   }
 
   void run_one(std::uint64_t generation, const Make& make)
@@ -134,11 +216,20 @@ struct Worker::Impl {
     };
     try {
       const std::unique_ptr<Job> job = stopped() ? nullptr : make();
-      if (job && !stopped()) advance(generation, *job);
-      set_state(generation, job && job->finished() ? State::finished : State::cancelled);
+      if (!job || stopped())
+        set_state(generation, State::cancelled);
+      else
+        do {
+          const State state = advance(generation, *job);
+          if (state != State::failed) set_state(generation, state);
+        } while (wait_for_adoption(generation));
     } catch (...) {
       set_failed(generation, error_of(std::current_exception()));
     }
+    update(generation, [&] {
+      has_job = false;
+      if (const auto left = std::exchange(adoption, std::nullopt)) begin(left->otherwise);
+    });
   }
 
   void loop()
@@ -149,6 +240,7 @@ struct Worker::Impl {
       if (ending) return;
       const Make make = std::exchange(next, nullptr);
       const std::uint64_t generation = status.generation;
+      adopted = adoptions; // what is made now is made of the newest preset
       lock.unlock();
       run_one(generation, make);
       lock.lock();
@@ -174,13 +266,19 @@ Worker::~Worker()
 void Worker::start(std::function<std::unique_ptr<Job>()> make)
 {
   const std::lock_guard lock(impl_->mutex);
-  impl_->next = std::move(make);
-  impl_->cancelled = impl_->paused = false;
-  Status preparing;
-  preparing.state = State::preparing;
-  preparing.generation = impl_->status.generation + 1;
-  impl_->status = preparing;
-  impl_->changed.notify_all();
+  impl_->begin(std::move(make));
+}
+
+std::uint64_t Worker::adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise)
+{
+  const std::lock_guard lock(impl_->mutex);
+  const std::uint64_t number = ++impl_->adoptions;
+  if (impl_->has_job && !impl_->cancelled) {
+    impl_->adoption = Impl::Adoption{std::move(preset), std::move(otherwise)};
+    impl_->changed.notify_all();
+  } else
+    impl_->begin(std::move(otherwise));
+  return number;
 }
 
 void Worker::cancel()

@@ -5,6 +5,7 @@
 #include "job/job.h"
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,6 +21,7 @@ struct Status {
   std::string message;                      ///< the error line where state is failed, else empty
   std::uint64_t generation = 0;             ///< counts start() calls: which job this is about
   ErrorKind error_kind = ErrorKind::failed; ///< of the message
+  std::uint64_t failures = 0;               ///< how often the state became failed: which failure the message is about
 };
 
 class Worker {
@@ -29,6 +31,11 @@ public:
   /// Cancels what runs and starts over: make() runs on the worker thread (loading, kernels) and gives the job. Returns at once.
   /// An exception from make() or from a step becomes State::failed with its line. A pause ends.
   void start(std::function<std::unique_ptr<Job>()> make);
+  /// Lets the job in hand take on a preset (Job::adopt) and shows its picture at once. One that is paused or finished does so too: a
+  /// finished job stays until the next start() or cancel(). One that is being made does so when it is ready. Where there is no job, or it
+  /// cannot, this is start(otherwise). What Job::adopt throws becomes State::failed, but the job stays for the next adopt().
+  /// Returns at once, with this adoption's number (Snapshot::adoption); of several that wait only the newest is taken on.
+  std::uint64_t adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise);
   void cancel(); ///< after the step in hand, or after make() where that is still running
   void pause(bool paused);
   Status status() const;

@@ -98,6 +98,30 @@ public:
 
   std::vector<std::byte> save() override { return with_history(job_->save(), history_, wall_seconds()); }
 
+  /// The history starts anew: its rows are of the old light's picture, and so is the reference. Where stop.error hangs on the reference,
+  /// the run has to start again to get another one.
+  bool adopt(const preset::Preset& preset) override
+  {
+    const bool stops_by_reference = history_.target && !history_.error_column.starts_with("estimated_");
+    if (stops_by_reference || !job_->adopt(preset)) return false;
+    if (reference_) {
+      reference_.reset();
+      against_.reset();
+      masked_.reset();
+      history_.columns.clear();
+      history_.noise_floor.clear();
+      name_columns();
+      if (!history_.error_column.starts_with("estimated_")) history_.error_column = history_.columns.empty() ? "" : "estimated_lab_mean";
+    }
+    history_.rows.clear();
+    history_.measuring_seconds = 0;
+    next_ = 0;
+    last_seconds_ = 0;
+    shown_.reset();
+    show();
+    return true;
+  }
+
   void load(std::span<const std::byte> checkpoint) override
   {
     const SavedHistory saved = split_history(checkpoint);

@@ -38,7 +38,10 @@ public:
     auto picture = std::make_shared<Picture>();
     picture->width = picture->height = 1;
     picture->rgb = {float(count_), 0, 0};
-    return {.picture = std::move(picture), .progress = progress(), .energy = {}, .phases = {}, .history = {}};
+    Snapshot snapshot;
+    snapshot.picture = std::move(picture);
+    snapshot.progress = progress();
+    return snapshot;
   }
   std::vector<std::byte> save() override { return {}; }
   void load(std::span<const std::byte>) override {}
