@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hash grid over photons on surfaces, and the sum over those within a radius of a point.
+// A hash grid over photons on surfaces, and the sum over those near a point.
 //
-// The grid has no bounds. Space is cut into cubic cells; cell (ix, iy, iz) of a group has the bucket hash(group, iy, iz) + ix, modulo the
-// number of buckets, so the cells of a row along x are neighbours in memory too, and a row is read as one run of sorted photons.
-// What shares a bucket by accident is told apart by a photon's key, its group and the low bits of its row (iy, iz): as
-// long as a search spans fewer rows than those bits count, no photon is met twice with a key that fits. Photons with the same
-// key from elsewhere are too far away.
+// The grid has no bounds. Space is cut into cubic cells, and a row of cells along x into blocks of 32. The bucket of cell (ix, iy, iz) of a
+// group is hash(group, ix / 32, iy, iz) + ix % 32: the cells of a block are neighbours in memory too, so a search reads a row as one run of
+// sorted photons, or as two. What shares buckets by accident is told apart by a photon's key: its group and the low bits of its block and
+// row. As long as a search spans fewer blocks and rows than those bits count, no two of its runs look for the same key, so no photon
+// counts twice, and a run may read beyond its end. Photons with the same key from elsewhere are too far away.
 //
 // Powers are whole numbers of quanta, so a sum does not depend on the order in which photons of a bucket were sorted, which is that of
 // atomic operations.
@@ -16,7 +16,7 @@
 
 // A search may span this many rows each way: the radius may be up to 3 cells.
 #define GRID_ROWS 8
-#define GRID_ROW_BITS 3
+#define GRID_KEY_BITS 7 // one of the block, three of each coordinate of the row
 
 // The side of an object's surface that light in `cluster` arrives at: light does not leak to other objects or through a sheet.
 static inline int photon_group(int object, bool front, int cluster, int object_count)
@@ -26,18 +26,18 @@ static inline int photon_group(int object, bool front, int cluster, int object_c
 
 static inline int3 grid_cell(float3 position, float inverse_cell) { return convert_int3_sat_rtn(position * inverse_cell); }
 
-// The bucket of ix = 0 of a row, before the modulus. The finalizer of MurmurHash3 (Appleby 2011) mixes three odd multiples.
-static inline uint grid_row_bucket(int group, int iy, int iz)
+// The first bucket of a block of cells, ix from a multiple of GRID_BLOCK on. The finalizer of MurmurHash3 (Appleby 2011) mixes odd multiples.
+static inline uint grid_block_bucket(int group, int block, int iy, int iz, uint mask)
 {
-  uint h = (uint)group * 0x9E3779B1u ^ (uint)iy * 0x85EBCA77u ^ (uint)iz * 0xC2B2AE3Du;
+  uint h = (uint)group * 0x9E3779B1u ^ (uint)block * 0x27D4EB2Fu ^ (uint)iy * 0x85EBCA77u ^ (uint)iz * 0xC2B2AE3Du;
   h = (h ^ h >> 16) * 0x85EBCA6Bu;
   h = (h ^ h >> 13) * 0xC2B2AE35u;
-  return h ^ h >> 16;
+  return (h ^ h >> 16) & mask;
 }
 
-static inline int grid_key(int group, int iy, int iz)
+static inline int grid_key(int group, int block, int iy, int iz)
 {
-  return group << 2 * GRID_ROW_BITS | (iy & (GRID_ROWS - 1)) << GRID_ROW_BITS | (iz & (GRID_ROWS - 1));
+  return group << GRID_KEY_BITS | (block & 1) << 6 | (iy & (GRID_ROWS - 1)) << 3 | (iz & (GRID_ROWS - 1));
 }
 
 // Sorted photons: x, y, z one array after the other, and so key, X, Y, Z. starts[b] is the first photon of bucket b; one more at the end.
@@ -48,31 +48,39 @@ typedef struct {
   PhotonGrid grid;
 } PhotonMap;
 
+// The buffers that a PhotonMap is made of, as kernel arguments.
+#define PHOTON_MAP_ARGUMENTS                                                                                                             \
+  __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values, PhotonGrid grid
+#define PHOTON_MAP {starts, sorted_positions, sorted_values, grid}
+
 typedef struct {
   long3 xyz; // quanta
   uint count;
 } Gathered;
 
-// What is looked for, and the sums so far: of each lane of 8, over at most 64 steps in int, then in long.
+// What is looked for, and the sums so far: those of each of 8 lanes in int, for as many steps as fit, then in long.
 typedef struct {
-  float3 position, normal;
-  float radius2, height; // of the flat cylinder about the point that counts
+  float3 position, tilt; // tilt: the normal times 4
+  float radius2;
   int8 x, y, z, count;
-  int steps;
+  uint steps;
   Gathered sum;
 } Gathering;
 
+// 127 steps of PHOTON_LIMIT quanta stay below 2^31.
+#define GATHER_STEPS 127u
+
 static inline int sum_of_lanes(int8 v)
 {
-  const int4 half = v.lo + v.hi;
-  return half.x + half.y + half.z + half.w;
+  const int4 sum = v.lo + v.hi;
+  return sum.x + sum.y + sum.z + sum.w;
 }
 
 static inline long long_sum_of_lanes(int8 v)
 {
   const long8 wide = convert_long8(v);
-  const long4 half = wide.lo + wide.hi;
-  return half.x + half.y + half.z + half.w;
+  const long4 sum = wide.lo + wide.hi;
+  return sum.x + sum.y + sum.z + sum.w;
 }
 
 static inline void settle(Gathering* g)
@@ -83,50 +91,60 @@ static inline void settle(Gathering* g)
   g->steps = 0;
 }
 
-// Adds the photons begin .. end - 1 that have the key and lie in the cylinder.
+// Adds the photons from `begin` on, up to `end` or a few more, that have the key and lie near the point.
 static inline void gather_run(const PhotonMap* map, uint begin, uint end, int key, Gathering* g)
 {
-  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
   const uint stride = map->grid.stride;
-  for (uint j = begin; j < end; j += 8) {
-    const float8 dx = vload8(0, map->positions + j) - g->position.x;
-    const float8 dy = vload8(0, map->positions + stride + j) - g->position.y;
-    const float8 dz = vload8(0, map->positions + 2 * stride + j) - g->position.z;
-    const float8 height = fabs(dx * g->normal.x + dy * g->normal.y + dz * g->normal.z);
-    const int8 inside = (dx * dx + dy * dy + dz * dz < g->radius2) & (height < g->height) & (vload8(0, map->values + j) == key) &
-                        (lane < (int)(end - j));
-    g->x += vload8(0, map->values + stride + j) & inside;
-    g->y += vload8(0, map->values + 2 * stride + j) & inside;
-    g->z += vload8(0, map->values + 3 * stride + j) & inside;
-    g->count += inside;
-    if (++g->steps == 64) settle(g);
+  while (begin < end) {
+    const uint stop = min(end, begin + 8 * (GATHER_STEPS - g->steps));
+    g->steps += (stop - begin + 7) / 8;
+    int8 sum_x = g->x, sum_y = g->y, sum_z = g->z, count = g->count;
+    for (; begin < stop; begin += 8) {
+      const float8 dx = vload8(0, map->positions + begin) - g->position.x;
+      const float8 dy = vload8(0, map->positions + stride + begin) - g->position.y;
+      const float8 dz = vload8(0, map->positions + 2 * stride + begin) - g->position.z;
+      const float8 tilted = dx * g->tilt.x + dy * g->tilt.y + dz * g->tilt.z;
+      const int8 near = (dx * dx + dy * dy + dz * dz + tilted * tilted < g->radius2) & (vload8(0, map->values + begin) == key);
+      sum_x += vload8(0, map->values + stride + begin) & near;
+      sum_y += vload8(0, map->values + 2 * stride + begin) & near;
+      sum_z += vload8(0, map->values + 3 * stride + begin) & near;
+      count += near;
+    }
+    g->x = sum_x;
+    g->y = sum_y;
+    g->z = sum_z;
+    g->count = count;
+    if (g->steps == GATHER_STEPS) settle(g);
   }
 }
 
-// The photons of a group within a radius of a point of a surface, and within a quarter of that of its tangent plane, so that what
-// lies around an object's corner does not count. radius: at most 3 cells. The kernel is constant: photons count in full.
+// The photons of a group in a flat spheroid about a point of a surface, d^2 + 16 (d . n)^2 < r^2: as wide as the radius in the tangent
+// plane, a quarter of that along the normal, so that what lies around an object's corner does not count. radius: at most 3 cells. The
+// kernel is constant: photons count in full.
 static inline Gathered gather_photons(const PhotonMap* map, float3 position, float3 normal, int group, float radius)
 {
   Gathering g;
   g.position = position;
-  g.normal = normal;
+  g.tilt = 4.0f * normal;
   g.radius2 = radius * radius;
-  g.height = 0.25f * radius;
   g.x = g.y = g.z = g.count = (int8)(0);
   g.steps = 0;
   g.sum.xyz = (long3)(0);
   g.sum.count = 0;
-  const int3 low = grid_cell(position - radius, map->grid.inverse_cell), high = grid_cell(position + radius, map->grid.inverse_cell);
-  const uint buckets = map->grid.bucket_mask + 1u;
-  const uint cells = min((uint)(high.x - low.x) + 1u, buckets);
+  // The spheroid's bounding box: with M = 1 + 16 n n^T it is d^T M d < r^2, and reaches r sqrt((M^-1)_aa) along axis a. A little is added, so that
+  // it holds every photon that passes the test, however that is rounded: what a run reads beyond its cells never counts.
+  const float3 reach = radius * 1.000001f * sqrt(1.0f - 16.0f / 17.0f * normal * normal) + fabs(position) * 0x1p-22f;
+  const int3 low = grid_cell(position - reach, map->grid.inverse_cell), high = grid_cell(position + reach, map->grid.inverse_cell);
   const int rows_y = min(high.y - low.y, GRID_ROWS - 1), rows_z = min(high.z - low.z, GRID_ROWS - 1);
+  const int first_block = low.x >> GRID_BLOCK_BITS, blocks = min((high.x >> GRID_BLOCK_BITS) - first_block, 1);
   for (int k = 0; k <= rows_z; ++k)
-    for (int j = 0; j <= rows_y; ++j) {
-      const int iy = low.y + j, iz = low.z + k, key = grid_key(group, iy, iz);
-      const uint first = (grid_row_bucket(group, iy, iz) + (uint)low.x) & map->grid.bucket_mask, last = first + cells;
-      gather_run(map, map->starts[first], map->starts[min(last, buckets)], key, &g);
-      if (last > buckets) gather_run(map, map->starts[0], map->starts[last - buckets], key, &g);
-    }
+    for (int j = 0; j <= rows_y; ++j)
+      for (int b = 0; b <= blocks; ++b) {
+        const int block = first_block + b, iy = low.y + j, iz = low.z + k;
+        const uint bucket = grid_block_bucket(group, block, iy, iz, map->grid.bucket_mask);
+        const uint first = b == 0 ? low.x & (GRID_BLOCK - 1) : 0, last = b == blocks ? high.x & (GRID_BLOCK - 1) : GRID_BLOCK - 1;
+        gather_run(map, map->starts[bucket + first], map->starts[bucket + last + 1], grid_key(group, block, iy, iz), &g);
+      }
   settle(&g);
   return g.sum;
 }

@@ -9,9 +9,9 @@
 namespace nephroid::shared {
 #endif
 
-// The side of an object's surface, and the cluster of what arrives there: photon_group in photon_map.h. Below 2^25.
+// The side of an object's surface, and the cluster of what arrives there: photon_group in photon_map.h. Below 2^24.
 #define NO_PHOTON (-1)
-#define MAX_PHOTON_GROUPS (1 << 25)
+#define MAX_PHOTON_GROUPS (1 << 24)
 
 // A photon on a diffuse surface, in the slot that has its number.
 typedef struct {
@@ -21,14 +21,17 @@ typedef struct {
   int padding;
 } StoredPhoton;
 
-// Quanta that a photon may carry. 128 of them still fit into an int.
+// Quanta that a photon may carry. 127 of them still fit into an int.
 #define PHOTON_LIMIT 0x1p24f
 
-// The hash grid over photons: photon_map.h says how.
+// Cells in a block of the hash grid: photon_map.h says what blocks are.
+#define GRID_BLOCK_BITS 5
+#define GRID_BLOCK (1 << GRID_BLOCK_BITS)
+
 typedef struct {
   float inverse_cell; // 1 / edge of a cell
-  uint bucket_mask;   // number of buckets - 1; that number is a power of two
-  uint stride;        // between the arrays of sorted photons: at least their number + 7
+  uint bucket_mask;   // 2^k - 1; buckets go GRID_BLOCK - 1 beyond it
+  uint stride;        // between the arrays of sorted photons: at least their number + 8
 } PhotonGrid;
 
 // Where a path from the eye meets a diffuse surface.
