@@ -39,7 +39,7 @@ enum class Question { none, open, open_history, save_preset, save_picture, unsav
 namespace command {
 
 /// A preset file, or the name of a shipped preset: asks first where there are unsaved changes, unless sure. A run's folder or a table
-/// (.csv) is pinned as PinFile does.
+/// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does.
 struct Open {
   std::string name;
   bool sure = false;
@@ -95,6 +95,14 @@ struct Unpin {
 struct ChooseMetric {
   std::string metric;
 };
+/// Which dielectric of the preset the panel "Dispersion" shows; its name among the materials.
+struct ChooseMaterial {
+  std::string material;
+};
+/// Loads a refractiveindex.info file (a path, or the name of a shipped material) into the dielectric that is shown: one edit.
+struct LoadDispersion {
+  std::string file;
+};
 struct Ask {
   Question question = Question::none;
 };
@@ -127,8 +135,9 @@ struct Quit {
 using Command =
     std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
                  command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::PinRun,
-                 command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::Ask, command::SavePreset,
-                 command::SavePicture, command::Dismiss, command::ShowHelp, command::ResetLayout, command::Report, command::Quit>;
+                 command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
+                 command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::Dismiss, command::ShowHelp,
+                 command::ResetLayout, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -21,7 +21,7 @@ struct Kind {
 
 constexpr std::array kinds{
     Kind{".yml .yaml ", "is dispersion data",
-         "print it with `nephroid dispersion FILE`, or name it in a preset as a material's \"dispersion\""},
+         "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion FILE`"},
     Kind{".obj .ply .stl .gltf .glb .3ds ", "is a mesh", "name it in a preset as an object's \"mesh\""},
     Kind{".exr .hdr .pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
          "a run's pictures lie beside its preset.json: open that; pictures as environments are not rendered yet"},

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "ui/dispersion_edits.h"
 #include "ui/file_kind.h"
 #include "ui/save.h"
 
@@ -89,6 +90,10 @@ void Workbench::carry_out(const command::Open& c)
 {
   if (is_history(c.name)) {
     carry_out(command::PinFile{c.name});
+    return;
+  }
+  if (history_ && is_dispersion_file(c.name)) {
+    carry_out(command::LoadDispersion{c.name});
     return;
   }
   if (c.sure || !unsaved()) {

@@ -62,6 +62,8 @@ public:
   const std::shared_ptr<const plan::Plan>& plan() const { return plan_; }
   /// What was chosen to be plotted; empty: the run's own. Not every run has it.
   const std::string& error_metric() const { return error_metric_; }
+  /// The dielectric that was chosen to be shown; empty or none of the preset's: the first (shown_dielectric).
+  const std::string& material() const { return material_; }
   const PinnedRuns& pinned() const { return pinned_; }
   /// Whether a file is being read or written in the background: its pin or its message is to come.
   bool works_on_files() const { return !background_.empty(); }
@@ -106,6 +108,8 @@ private:
   void carry_out(const command::ChangePin& c);
   void carry_out(const command::Unpin& c);
   void carry_out(const command::ChooseMetric& c);
+  void carry_out(const command::ChooseMaterial& c);
+  void carry_out(const command::LoadDispersion& c);
   void carry_out(const command::Ask& c);
   void carry_out(const command::SavePreset& c);
   void carry_out(const command::SavePicture& c);
@@ -154,7 +158,7 @@ private:
   std::shared_ptr<const plan::Plan> plan_;
   std::shared_ptr<const measure::Reference> reference_;
   std::string run_name_, snapshot_name_; ///< of the run in hand, and of the one that snapshot_ is of
-  std::string error_metric_;
+  std::string error_metric_, material_;
   PinnedRuns pinned_;
   Comparison comparison_;
   DifferenceMaker difference_;

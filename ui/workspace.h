@@ -2,6 +2,7 @@
 // One frame of the whole window, from menu bar to status line, without a back end: the window and the tests draw the same thing.
 #pragma once
 #include "ui/dialogs.h"
+#include "ui/dispersion_panel.h"
 #include "ui/error_panel.h"
 #include "ui/panel.h"
 #include "ui/plan_panel.h"
@@ -26,6 +27,7 @@ public:
   void add(std::unique_ptr<Panel> panel) { panels_.push_back(std::move(panel)); }
   const ViewPanel& view() const { return *view_; }
   const ErrorPanel& error() const { return *error_; }
+  const DispersionPanel& dispersion() const { return *dispersion_; }
   const PlanPanel& plan() const { return *plan_; }
 
 private:
@@ -41,6 +43,7 @@ private:
   std::vector<std::unique_ptr<Panel>> panels_;
   ViewPanel* view_ = nullptr;
   ErrorPanel* error_ = nullptr;
+  DispersionPanel* dispersion_ = nullptr;
   PlanPanel* plan_ = nullptr;
   Dialogs dialogs_;
 };

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/dispersion_panel.h"
+
+#include "base/files.h"
+#include "preset/choices.h"
+#include "ui/theme.h"
+#include "ui/wavelength_axis.h"
+#include "ui/widgets.h"
+#include "ui/workbench.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace nephroid::ui {
+namespace {
+
+using Type = preset::Dispersion::Type;
+
+constexpr double least_threshold_deg = 0.001, greatest_threshold_deg = 10; ///< of the slider
+constexpr double far_nm = 200; ///< control points farther beyond the 401 wavelengths do not widen the axis
+
+double three_digits(double value)
+{
+  const double decimal = std::pow(10, 2 - std::floor(std::log10(value)));
+  return std::round(value * decimal) / decimal;
+}
+
+/// Where n comes from, in a few words.
+std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& curve)
+{
+  const std::string range = fmt::format("{:.6g}..{:.6g} nm", curve.data_nm[0], curve.data_nm[1]);
+  switch (dispersion.type) {
+  case Type::constant:
+    return fmt::format("constant: n = {:.6g} at every wavelength", dispersion.n);
+  case Type::file:
+    return fmt::format("file {}{}", std::filesystem::path(dispersion.file).filename().string(), curve.data_nm[1] > 0 ? ": " + range : "");
+  case Type::sellmeier:
+    return fmt::format("formula: Sellmeier with {} terms", dispersion.b.size());
+  case Type::cauchy:
+    return fmt::format("formula: Cauchy with {} coefficients", dispersion.coefficients.size());
+  case Type::table:
+    return fmt::format("table of {} rows, {}", dispersion.table.size(), range);
+  case Type::points:
+    break;
+  }
+  return fmt::format("{} control points, {}", dispersion.table.size(), range);
+}
+
+std::vector<std::string> shipped_materials()
+{
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(presets_folder() / "materials", ignored))
+    if (is_dispersion_file(entry.path().string())) names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void wrapped(ImU32 colour, const std::string& text)
+{
+  ImGui::PushTextWrapPos(0);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+}
+
+std::string spread_text(const Spread& spread) { return fmt::format("{:.3f} / {:.3f}", spread.mean_deg, spread.greatest_deg); }
+
+void heading(const char* text, const char* help)
+{
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", text);
+  ImGui::SetItemTooltip("%s", help);
+}
+
+void cell(const std::string& text)
+{
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(text.c_str());
+}
+
+} // namespace
+
+void DispersionPanel::draw(const Workbench& workbench, Commands& commands)
+{
+  const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+  if (!workbench.preset()) return draw_hint(corner, size, "Open a preset: the dispersion of its glass, and the wavelength clusters");
+  const std::vector<std::string> names = dielectrics(*workbench.preset());
+  if (names.empty()) return draw_hint(corner, size, "No material of this preset is a dielectric");
+  follow(workbench);
+  const Frame frame{workbench, *workbench.preset(), workbench.preset()->scene.materials.at(shown_), commands};
+  draw_toolbar(frame, names);
+  draw_source(frame);
+  draw_points_row(frame);
+  draw_plot(frame);
+  const float top = ImGui::GetCursorPosY();
+  if (model_.error().empty()) {
+    draw_threshold(frame);
+    draw_methods(frame);
+    draw_bias(frame);
+  } else
+    wrapped(colour::error, model_.error());
+  below_plot_ = ImGui::GetCursorPosY() - top;
+}
+
+/// Takes over what the preset says now. Another material, or another number of points, leaves no point selected that was not meant.
+void DispersionPanel::follow(const Workbench& workbench)
+{
+  const preset::Preset& preset = *workbench.preset();
+  const std::string material = shown_dielectric(preset, workbench.material());
+  model_.update(preset, material);
+  const std::size_t before = points_.size();
+  points_ = sorted_points(preset.scene.materials.at(material).dispersion);
+  const bool another = material != shown_;
+  shown_ = material;
+  if (another || (points_.size() != before && selected_ && *selected_ >= points_.size())) selected_.reset();
+  if (!another) return;
+  fitted_text_.clear();
+  dragging_ = false;
+}
+
+void DispersionPanel::remember(const char* widget)
+{
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  widgets_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
+}
+
+void DispersionPanel::draw_toolbar(const Frame& frame, const std::vector<std::string>& names)
+{
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+  if (ImGui::BeginCombo("##material", shown_.c_str())) {
+    for (const std::string& name : names)
+      if (ImGui::Selectable(name.c_str(), name == shown_)) frame.commands.push_back(command::ChooseMaterial{name});
+    ImGui::EndCombo();
+  }
+  ImGui::SetItemTooltip("The dielectric that is shown; files that are dropped on the window are loaded into it");
+  ImGui::SameLine();
+  draw_load(frame);
+  ImGui::SameLine();
+  const bool editable = frame.material.dispersion.type == Type::points;
+  ImGui::BeginDisabled(editable || !model_.curve().error.empty());
+  if (ImGui::Button("Make editable")) make_editable(frame);
+  remember("Make editable");
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled | ImGuiHoveredFlags_DelayNormal))
+    ImGui::SetTooltip("%s", editable ? "It is made of control points: drag them"
+                            : model_.curve().has_k
+                                ? "Control points that reproduce n at 380..780 nm. They have no k: the glass will not absorb"
+                                : "Control points that reproduce n at 380..780 nm");
+}
+
+void DispersionPanel::draw_load(const Frame& frame)
+{
+  if (ImGui::Button("Load...")) {
+    shipped_ = shipped_materials();
+    ImGui::OpenPopup("load");
+  }
+  remember("Load...");
+  ImGui::SetItemTooltip("Any file of refractiveindex.info; dropping it on the window does the same");
+  if (!ImGui::BeginPopup("load")) return;
+  const auto load = [&](const std::string& file) {
+    frame.commands.push_back(command::LoadDispersion{file});
+    ImGui::CloseCurrentPopup();
+  };
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextItemWidth(em * 24);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  const bool entered = input_text("##file", "path of a refractiveindex.info file (.yml)", file_, ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::SameLine();
+  ImGui::BeginDisabled(file_.empty());
+  if (ImGui::Button("Load") || (entered && !file_.empty())) load(file_);
+  ImGui::EndDisabled();
+  ImGui::SeparatorText("Shipped materials");
+  if (ImGui::BeginChild("shipped", {em * 28, em * 12}))
+    for (const std::string& name : shipped_)
+      if (ImGui::Selectable(name.c_str())) load(name);
+  ImGui::EndChild();
+  ImGui::EndPopup();
+}
+
+void DispersionPanel::draw_source(const Frame& frame) const
+{
+  const preset::Dispersion& dispersion = frame.material.dispersion;
+  std::string text = source_text(dispersion, model_.curve());
+  if (!fitted_text_.empty() && dispersion == fitted_) text += "; " + fitted_text_;
+  wrapped(colour::quiet_text, text);
+  if (!model_.curve().note.empty()) wrapped(colour::note, model_.curve().note);
+}
+
+void DispersionPanel::draw_points_row(const Frame& frame)
+{
+  if (ImGui::Button("All")) {
+    const bool has = !points_.empty();
+    axis_.show_all(std::max(has ? points_.front()[0] : optics::first_nm, optics::first_nm - far_nm),
+                   std::min(has ? points_.back()[0] : optics::last_nm, optics::last_nm + far_nm));
+  }
+  ImGui::SetItemTooltip("The whole range; the wheel zooms, a drag moves. The wavelengths are shared with the other plots.");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!model_.error().empty());
+  ImGui::Checkbox("Sorted", &sorted_);
+  remember("Sorted");
+  ImGui::EndDisabled();
+  ImGui::SetItemTooltip("Wavelengths in the order in which they are clustered: by falling n");
+  if (points_.empty() || sorted_) return;
+  ImGui::SameLine();
+  ImGui::Checkbox("Snap", &snap_);
+  remember("Snap");
+  ImGui::SetItemTooltip("%s", fmt::format("Dragged points keep to a grid: 1 nm, and {:.6g} of n at this zoom", plot_.grid()[1]).c_str());
+  ImGui::SameLine();
+  if (ImGui::Button("Add")) {
+    const double nm = middle_of_widest_gap(points_);
+    const auto index = static_cast<std::size_t>(std::clamp(std::lround(nm) - optics::first_nm, 0L, optics::wavelength_count - 1L));
+    add(frame, {nm, model_.curve().error.empty() ? model_.curve().n[index] : points_.front()[1]});
+  }
+  remember("Add");
+  ImGui::SetItemTooltip("A control point on the curve in the widest gap; a double click on the plot adds one at the mouse");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!selected_);
+  const bool key = selected_ && ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::GetIO().WantTextInput &&
+                   ImGui::IsKeyPressed(ImGuiKey_Delete, false);
+  if (ImGui::Button("Remove") || key) remove(frame, *selected_);
+  remember("Remove");
+  ImGui::EndDisabled();
+  ImGui::SetItemTooltip("The selected point; Delete, or a right click on a point, does the same");
+  if (selected_ && *selected_ < points_.size()) draw_place(frame);
+}
+
+/// The selected point in figures.
+void DispersionPanel::draw_place(const Frame& frame)
+{
+  ControlPoint place = points_[*selected_];
+  const char* const names[] = {"nm", "n"};
+  const char* const formats[] = {"%.6g", "%.7g"};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (i > 0) ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
+    ImGui::InputDouble(names[i], &place[i], 0, 0, formats[i]);
+    remember(names[i]);
+    if (!ImGui::IsItemDeactivatedAfterEdit()) continue;
+    std::vector<ControlPoint> points = points_;
+    move_point(points, *selected_, place);
+    edit_points(frame, "place a control point", std::move(points));
+  }
+}
+
+void DispersionPanel::draw_plot(const Frame& frame)
+{
+  const float em = ImGui::GetFontSize(), free = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
+  const float below = below_plot_ > 0 ? below_plot_ : 11 * em;
+  const DispersionContents contents{&model_, points_, selected_, sorted_, frame.material.absorption};
+  use_gesture(frame, plot_.draw(contents, axis_, std::max(free - below, 10 * em)));
+}
+
+void DispersionPanel::use_gesture(const Frame& frame, const PointGesture& gesture)
+{
+  using Kind = PointGesture::Kind;
+  switch (gesture.kind) {
+  case Kind::none:
+    return;
+  case Kind::select:
+    selected_ = gesture.point;
+    return;
+  case Kind::move: {
+    if (gesture.point >= points_.size()) return; // undone meanwhile
+    if (!std::exchange(dragging_, true)) gestures_.begin();
+    selected_ = gesture.point;
+    std::vector<ControlPoint> points = points_;
+    move_point(points, gesture.point, snap_ ? snapped(gesture.to, plot_.grid()) : gesture.to);
+    if (points != points_) edit_points(frame, "move a control point", std::move(points), gestures_.number(), true);
+    return;
+  }
+  case Kind::release:
+    if (std::exchange(dragging_, false)) frame.commands.push_back(command::EndGesture{});
+    return;
+  case Kind::add:
+    add(frame, snap_ ? snapped(gesture.to, plot_.grid()) : gesture.to);
+    return;
+  case Kind::remove:
+    remove(frame, gesture.point);
+    return;
+  }
+}
+
+void DispersionPanel::add(const Frame& frame, const ControlPoint& at)
+{
+  std::vector<ControlPoint> points = points_;
+  const auto index = add_point(points, at);
+  if (!index) {
+    frame.commands.push_back(
+        command::Report{fmt::format("no control point was added: another is less than {} nm from {:.6g} nm", least_gap_nm, at[0]), false});
+    return;
+  }
+  edit_points(frame, "add a control point", std::move(points));
+  selected_ = index;
+}
+
+void DispersionPanel::remove(const Frame& frame, std::size_t point)
+{
+  std::vector<ControlPoint> points = points_;
+  if (!remove_point(points, point)) {
+    frame.commands.push_back(command::Report{"the last two control points stay: a curve needs as many", false});
+    return;
+  }
+  edit_points(frame, "remove a control point", std::move(points));
+  selected_.reset();
+}
+
+void DispersionPanel::edit_points(const Frame& frame, const char* what, std::vector<ControlPoint> points, std::uint64_t gesture, bool live)
+{
+  preset::Preset edited = with_dispersion(frame.preset, shown_, with_points(frame.material.dispersion, std::move(points)));
+  frame.commands.push_back(command::Edit{fmt::format("{} of {}", what, shown_), std::move(edited), gesture, live});
+}
+
+void DispersionPanel::make_editable(const Frame& frame)
+{
+  FittedPoints fitted = fit_points(model_.curve().n);
+  fitted_text_ = fmt::format("they reproduce {} within {:.1g} of n", model_.curve().name, fitted.greatest_deviation);
+  const std::string note = fmt::format("{} is made of {} control points now: {}", shown_, fitted.points.size(), fitted_text_);
+  edit_points(frame, "make control points", std::move(fitted.points));
+  fitted_ = std::get<command::Edit>(frame.commands.back()).preset.scene.materials.at(shown_).dispersion;
+  frame.commands.push_back(command::Report{note, false});
+  selected_.reset();
+}
+
+void DispersionPanel::edit_spectral(const Frame& frame, const std::string& label, const preset::Spectral& spectral, std::uint64_t gesture,
+                                    bool live)
+{
+  preset::Preset edited = frame.preset;
+  edited.spectral = spectral;
+  frame.commands.push_back(command::Edit{label, std::move(edited), gesture, live});
+}
+
+void DispersionPanel::draw_threshold(const Frame& frame)
+{
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Threshold");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  preset::Spectral spectral = frame.preset.spectral;
+  const bool changed =
+      ImGui::SliderScalar("##threshold", ImGuiDataType_Double, &spectral.threshold_deg, &least_threshold_deg, &greatest_threshold_deg,
+                          "%.3g degrees", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  remember("Threshold");
+  if (ImGui::IsItemActivated()) gestures_.begin();
+  spectral.threshold_deg = std::clamp(three_digits(spectral.threshold_deg), least_threshold_deg, greatest_threshold_deg);
+  if (changed && spectral != frame.preset.spectral) edit_spectral(frame, "threshold of the clusters", spectral, gestures_.number(), true);
+  if (ImGui::IsItemDeactivated()) frame.commands.push_back(command::EndGesture{});
+  ImGui::SetItemTooltip(
+      "Largest change of the refraction angle inside a cluster, as the mean over 0..89 degrees of incidence. Ctrl+click: type it");
+}
+
+void DispersionPanel::draw_methods(const Frame& frame)
+{
+  if (!ImGui::BeginTable("methods", 5, ImGuiTableFlags_SizingStretchProp)) return;
+  heading("Method", "How wavelengths are grouped; what is checked is what the run uses");
+  heading("Clusters", "Groups of wavelengths that share one path each");
+  heading("Saving", "401 wavelengths / clusters: so many times fewer paths than one for each wavelength");
+  heading("At 45 deg",
+          "By how many degrees the refraction angle differs inside a cluster at 45 degrees of incidence: mean over the wavelengths / "
+          "greatest");
+  heading("0..89 deg", "The same as the mean over 0 to 89 degrees of incidence, which the threshold is about");
+  for (const auto& choice : preset::Choices<spectral::ClusterMethod>::all) {
+    const ClusterFigures& figures = model_.figures(choice.value);
+    const std::string name(choice.name == "brute_force" ? "brute force" : choice.name);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    if (ImGui::RadioButton(name.c_str(), frame.preset.spectral.method == choice.value)) {
+      preset::Spectral spectral = frame.preset.spectral;
+      spectral.method = choice.value;
+      edit_spectral(frame, "method of the clusters: " + name, spectral);
+    }
+    remember(name.c_str());
+    ImGui::SetItemTooltip("%s", std::string(choice.sentence).c_str());
+    cell(fmt::format("{}", figures.clustering.clusters.size()));
+    cell(fmt::format("{:.3g}", figures.saving));
+    cell(spread_text(figures.at_45));
+    cell(spread_text(figures.over_angles));
+  }
+  ImGui::EndTable();
+}
+
+void DispersionPanel::draw_bias(const Frame& frame)
+{
+  preset::Spectral spectral = frame.preset.spectral;
+  if (ImGui::Checkbox("Jitter", &spectral.jitter))
+    edit_spectral(frame, spectral.jitter ? "jitter wavelengths" : "do not jitter wavelengths", spectral);
+  remember("Jitter");
+  ImGui::SetItemTooltip("Each photon takes one wavelength of its cluster (spectral.jitter)");
+  ImGui::SameLine();
+  const Spread& spread = model_.chosen().at_45;
+  std::string text;
+  if (spectral.jitter)
+    text = "Bias 0: each photon takes one wavelength of its cluster";
+  else if (spread.greatest_deg == 0)
+    text = "Bias 0: no cluster bends two rays alike that differ";
+  else
+    text = fmt::format("Bias: rays of a cluster go one way that differ by up to {:.2g} degrees", spread.greatest_deg);
+  wrapped(colour::quiet_text, text);
+  if (const auto clusters = model_.clusters_of_scene())
+    wrapped(colour::quiet_text, fmt::format("With the other glasses of the scene: {} clusters", *clusters));
+}
+
+} // namespace nephroid::ui

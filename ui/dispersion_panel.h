@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Dispersion": a dielectric's n(lambda) with control points to drag, its wavelength clusters, how many each method needs and
+// how far they may bend light wrong. Everything follows the mouse.
+#pragma once
+#include "ui/dispersion_model.h"
+#include "ui/dispersion_plot.h"
+#include "ui/gestures.h"
+#include "ui/panel.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+class WavelengthAxis;
+
+class DispersionPanel : public Panel {
+public:
+  static constexpr const char* title = "Dispersion";
+  /// axis outlives the panel.
+  explicit DispersionPanel(WavelengthAxis& axis) : axis_(axis) {}
+  const char* name() const override { return title; }
+  void draw(const Workbench& workbench, Commands& commands) override;
+
+  /// For tests: what was drawn last, and where (the middle on the screen) a widget of this name was.
+  const DispersionModel& model() const { return model_; }
+  const DispersionPlot& plot() const { return plot_; }
+  std::array<double, 2> widget(const std::string& name) const { return widgets_.at(name); }
+
+private:
+  /// What one frame's parts read: the preset, the material, and where edits go.
+  struct Frame {
+    const Workbench& workbench;
+    const preset::Preset& preset;
+    const preset::Material& material;
+    Commands& commands;
+  };
+
+  void follow(const Workbench& workbench);
+  void draw_toolbar(const Frame& frame, const std::vector<std::string>& names);
+  void draw_load(const Frame& frame);
+  void draw_source(const Frame& frame) const;
+  void draw_points_row(const Frame& frame);
+  void draw_place(const Frame& frame);
+  void draw_plot(const Frame& frame);
+  void use_gesture(const Frame& frame, const PointGesture& gesture);
+  void draw_threshold(const Frame& frame);
+  void draw_methods(const Frame& frame);
+  void draw_bias(const Frame& frame);
+
+  void make_editable(const Frame& frame);
+  void add(const Frame& frame, const ControlPoint& at);
+  void remove(const Frame& frame, std::size_t point);
+  /// The control points as they shall be: one edit, of a gesture (number not 0) that may go on.
+  void edit_points(const Frame& frame, const char* what, std::vector<ControlPoint> points, std::uint64_t gesture = 0, bool live = false);
+  void edit_spectral(const Frame& frame, const std::string& label, const preset::Spectral& spectral, std::uint64_t gesture = 0,
+                     bool live = false);
+  void remember(const char* widget);
+
+  WavelengthAxis& axis_;
+  Gestures gestures_{title};
+  DispersionModel model_;
+  DispersionPlot plot_;
+  std::string shown_;                   ///< the material
+  std::vector<ControlPoint> points_;    ///< of this frame, by rising wavelength
+  std::optional<std::size_t> selected_; ///< one of them
+  bool sorted_ = false, snap_ = false;
+  bool dragging_ = false;            ///< the gesture that is under way has begun its entry
+  std::string file_;                 ///< in the popup "load"
+  std::vector<std::string> shipped_; ///< the names of materials in it
+  preset::Dispersion fitted_;        ///< what "Make editable" made,
+  std::string fitted_text_;          ///< and what it said about it
+  float below_plot_ = 0;             ///< height of what was drawn there last
+  std::map<std::string, std::array<double, 2>> widgets_;
+};
+
+} // namespace nephroid::ui

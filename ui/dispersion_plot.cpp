@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/dispersion_plot.h"
+
+#include "ui/theme.h"
+#include "ui/wavelength_axis.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <implot.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr ImU32 outline = IM_COL32(20, 20, 20, 255); ///< about lines and points, which lie on bands of any colour
+constexpr ImU32 beyond = IM_COL32(0, 0, 0, 70);      ///< over wavelengths that are not rendered
+constexpr float point_radius = 5;                    ///< pixels at scale 1
+constexpr double least_span = 1e-4;                  ///< of the axis of n
+constexpr double ranks_margin = 6;
+
+float scale() { return ImGui::GetStyle().FontScaleDpi; }
+
+/// What is drawn at one place of the x axis: a wavelength where it stands, or in its rank.
+struct Columns {
+  std::array<double, optics::wavelength_count> x{}, n{};
+  std::array<int, optics::wavelength_count> wavelength{}; ///< indices 0..400
+};
+
+Columns columns_of(const DispersionModel& model, bool sorted)
+{
+  Columns columns;
+  std::size_t at = 0;
+  const auto add = [&](int wavelength) {
+    columns.x[at] = sorted ? static_cast<double>(at) : optics::wavelength_nm(wavelength);
+    columns.n[at] = model.curve().n[static_cast<std::size_t>(wavelength)];
+    columns.wavelength[at++] = wavelength;
+  };
+  if (sorted) {
+    for (const spectral::Cluster& cluster : model.chosen().clustering.clusters)
+      for (const int wavelength : cluster.wavelengths) add(wavelength);
+  } else
+    for (int wavelength = 0; wavelength < optics::wavelength_count; ++wavelength) add(wavelength);
+  return columns;
+}
+
+/// The ends of what is shown of n between two ends of the x axis, with a margin.
+std::array<double, 2> ends_of_n(const DispersionContents& contents, const std::vector<double>& x, const std::vector<double>& n,
+                                const std::array<double, 2>& x_ends)
+{
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto take = [&](double at, double value) {
+    if (at < x_ends[0] || at > x_ends[1] || !std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
+  for (std::size_t i = 0; i < x.size(); ++i) take(x[i], n[i]);
+  if (!contents.sorted)
+    for (const ControlPoint& point : contents.points) take(point[0], point[1]);
+  if (!(low <= high)) return {1, 2};
+  const double margin = std::max(0.1 * (high - low), least_span);
+  return {low - 1.5 * margin, high + margin}; // more room below, where the bands are
+}
+
+ImPlotSpec line_spec(ImU32 colour, float weight)
+{
+  ImPlotSpec spec;
+  spec.LineColor = ImGui::ColorConvertU32ToFloat4(colour);
+  spec.LineWeight = weight * scale();
+  spec.Flags = ImPlotItemFlags_NoFit | ImPlotItemFlags_NoLegend | ImPlotLineFlags_SkipNaN;
+  return spec;
+}
+
+void plot_line(const char* label, const std::vector<double>& x, const std::vector<double>& y, ImU32 colour, std::size_t first,
+               std::size_t count)
+{
+  const std::string under = std::string(label) + " outline";
+  ImPlot::PlotLine(under.c_str(), x.data() + first, y.data() + first, static_cast<int>(count), line_spec(outline, 4));
+  ImPlot::PlotLine(label, x.data() + first, y.data() + first, static_cast<int>(count), line_spec(colour, 2));
+}
+
+/// The line in full colour where there is data and a quiet one where it is extrapolated or held.
+void plot_curve(const char* label, const GlassCurve& curve, const std::vector<double>& y, ImU32 colour)
+{
+  const auto& x = curve.line_nm;
+  plot_line(label, x, y, colour::quiet_text, 0, x.size());
+  const auto first = std::lower_bound(x.begin(), x.end(), curve.data_nm[0]), last = std::upper_bound(first, x.end(), curve.data_nm[1]);
+  const std::string inside = std::string(label) + " data";
+  if (last - first > 1)
+    plot_line(inside.c_str(), x, y, colour, static_cast<std::size_t>(first - x.begin()), static_cast<std::size_t>(last - first));
+}
+
+ImU32 with_alpha(ImU32 colour, float alpha) { return (colour & ~IM_COL32_A_MASK) | (static_cast<ImU32>(255 * alpha) << IM_COL32_A_SHIFT); }
+
+/// Below the curve in each cluster's colour, and an opaque strip at the foot. Where the mouse is at a wavelength (not -1), the other
+/// clusters are pale.
+void draw_bands(const DispersionModel& model, const Columns& columns, int under_mouse)
+{
+  ImDrawList& list = *ImPlot::GetPlotDrawList();
+  const float foot = ImPlot::GetPlotPos().y + ImPlot::GetPlotSize().y, strip = foot - 10 * scale();
+  const std::size_t highlighted = under_mouse < 0 ? 0 : model.cluster_of()[static_cast<std::size_t>(under_mouse)];
+  ImPlot::PushPlotClipRect();
+  for (std::size_t i = 0; i < columns.x.size(); ++i) {
+    const std::size_t cluster = model.cluster_of()[static_cast<std::size_t>(columns.wavelength[i])];
+    const ImU32 colour = cluster_colour(cluster);
+    const float alpha = under_mouse < 0 ? 0.45f : highlighted == cluster ? 0.85f : 0.15f;
+    const ImVec2 top = ImPlot::PlotToPixels(columns.x[i] - 0.5, columns.n[i]);
+    const float right = ImPlot::PlotToPixels(columns.x[i] + 0.5, columns.n[i]).x;
+    list.AddRectFilled(top, {right, strip}, with_alpha(colour, alpha));
+    list.AddRectFilled({top.x, strip}, {right, foot}, with_alpha(colour, std::min(1.0f, alpha + 0.55f)));
+  }
+  ImPlot::PopPlotClipRect();
+}
+
+/// Where nothing is rendered.
+void shade_beyond()
+{
+  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
+  const float left = ImPlot::PlotToPixels(optics::first_nm - 0.5, 0).x, right = ImPlot::PlotToPixels(optics::last_nm + 0.5, 0).x;
+  ImDrawList& list = *ImPlot::GetPlotDrawList();
+  if (left > corner.x) list.AddRectFilled(corner, {std::min(left, corner.x + size.x), corner.y + size.y}, beyond);
+  if (right < corner.x + size.x) list.AddRectFilled({std::max(right, corner.x), corner.y}, {corner.x + size.x, corner.y + size.y}, beyond);
+}
+
+/// "400..412, 430..431 nm" of a cluster; the first few where it is in many pieces.
+std::string stretches(const DispersionModel& model, std::size_t cluster)
+{
+  constexpr int shown = 4;
+  std::string text;
+  int count = 0;
+  for (const Band& band : model.bands()) {
+    if (band.cluster != cluster || ++count > shown) continue;
+    const int first = optics::wavelength_nm(band.first), last = optics::wavelength_nm(band.last);
+    text += (text.empty() ? "" : ", ") + (first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last));
+  }
+  if (count > shown) text += fmt::format(" and {} more", count - shown);
+  return text + " nm";
+}
+
+void draw_values(const DispersionModel& model, int wavelength)
+{
+  if (!ImGui::BeginTooltip()) return;
+  const auto index = static_cast<std::size_t>(wavelength);
+  const GlassCurve& curve = model.curve();
+  std::string values = fmt::format("{} nm: n = {:.6g}", optics::wavelength_nm(wavelength), curve.n[index]);
+  if (curve.has_k) values += fmt::format(", k = {:.3g}", curve.k[index]);
+  ImGui::TextUnformatted(values.c_str());
+  const std::size_t c = model.cluster_of()[index];
+  const spectral::Clustering& clustering = model.chosen().clustering;
+  const spectral::Cluster& cluster = clustering.clusters[c];
+  ImGui::PushStyleColor(ImGuiCol_Text, cluster_colour(c));
+  ImGui::TextUnformatted(fmt::format("cluster {} of {}: {} nm wide, mean n {:.6g}", c + 1, clustering.clusters.size(),
+                                     cluster.wavelengths.size(), cluster.n_mean)
+                             .c_str());
+  ImGui::PopStyleColor();
+  ImGui::TextDisabled("%s", stretches(model, c).c_str());
+  ImGui::EndTooltip();
+}
+
+/// Its index, or -1.
+int wavelength_under_mouse(const Columns& columns)
+{
+  const double column = ImPlot::IsPlotHovered() ? std::round(ImPlot::GetPlotMousePos().x) - columns.x.front() : -1;
+  return column >= 0 && column < optics::wavelength_count ? columns.wavelength[static_cast<std::size_t>(column)] : -1;
+}
+
+/// The axis of k, at the right.
+void set_up_k(const DispersionContents& contents)
+{
+  const std::vector<double>& k = contents.model->curve().line_k;
+  double most = 0;
+  for (const double value : k)
+    if (std::isfinite(value)) most = std::max(most, value);
+  ImPlot::SetupAxis(ImAxis_Y2, contents.absorbs ? "k" : "k (not used)", ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_NoMenus);
+  ImPlot::SetupAxisLimits(ImAxis_Y2, -0.15 * std::max(most, 1e-12), 1.1 * std::max(most, 1e-12), ImPlotCond_Always);
+  ImPlot::SetupAxisFormat(ImAxis_Y2, "%.2g");
+}
+
+} // namespace
+
+std::uint32_t cluster_colour(std::size_t cluster)
+{
+  // Steps of the golden ratio round the circle of hues keep any few successive ones far apart; the brightness tells those that come
+  // near to each other again, after 8 and 13 steps.
+  constexpr double golden = 0.6180339887498949;
+  const double hue = std::fmod(0.58 + golden * static_cast<double>(cluster), 1.0);
+  constexpr float brightness[] = {0.95f, 0.68f, 0.82f}, saturation[] = {0.62f, 0.75f, 0.45f};
+  float r = 0, g = 0, b = 0;
+  ImGui::ColorConvertHSVtoRGB(static_cast<float>(hue), saturation[cluster % 3], brightness[cluster % 3], r, g, b);
+  return ImGui::ColorConvertFloat4ToU32({r, g, b, 1});
+}
+
+PointGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAxis& axis, float height)
+{
+  const DispersionModel& model = *contents.model;
+  const GlassCurve& curve = model.curve();
+  const bool clustered = model.error().empty(), sorted = contents.sorted && clustered;
+  const bool has_k = curve.has_k && !sorted && !curve.line_k.empty();
+  const std::optional<Columns> columns = clustered ? std::optional(columns_of(model, sorted)) : std::nullopt;
+  std::vector<double> x = curve.line_nm, n = curve.line_n;
+  if (sorted) {
+    x.assign(columns->x.begin(), columns->x.end());
+    n.assign(columns->n.begin(), columns->n.end());
+  }
+
+  constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText | ImPlotFlags_NoLegend;
+  if (!ImPlot::BeginPlot(sorted ? "##sorted" : "##dispersion", {-1, height}, flags)) return {};
+  if (sorted) {
+    x_ends_ = {-ranks_margin, optics::wavelength_count - 1 + ranks_margin};
+    ImPlot::SetupAxis(ImAxis_X1, "rank by falling n", ImPlotAxisFlags_Lock);
+    ImPlot::SetupAxisLimits(ImAxis_X1, x_ends_[0], x_ends_[1], ImPlotCond_Always);
+  } else {
+    x_ends_ = {axis.low_nm(), axis.high_nm()};
+    axis.set_up();
+  }
+  if (!held_) n_ends_ = ends_of_n(contents, x, n, x_ends_); // else the axis would run away below the mouse
+  ImPlot::SetupAxis(ImAxis_Y1, "n", ImPlotAxisFlags_NoMenus);
+  ImPlot::SetupAxisLimits(ImAxis_Y1, n_ends_[0], n_ends_[1], ImPlotCond_Always);
+  if (has_k) set_up_k(contents);
+  ImPlot::SetupFinish();
+  keep_area();
+
+  if (!sorted) shade_beyond();
+  const int under_mouse = columns && !held_ ? wavelength_under_mouse(*columns) : -1;
+  if (columns) draw_bands(model, *columns, under_mouse);
+  if (has_k) {
+    ImPlot::SetAxes(ImAxis_X1, ImAxis_Y2);
+    plot_curve("k", curve, curve.line_k, contents.absorbs ? colour::note : colour::quiet_text);
+    ImPlot::SetAxes(ImAxis_X1, ImAxis_Y1);
+  }
+  PointGesture gesture;
+  if (sorted)
+    plot_line("n", x, n, colour::text, 0, x.size());
+  else {
+    plot_curve("n", curve, curve.line_n, colour::text);
+    gesture = draw_points(contents);
+  }
+  if (under_mouse >= 0 && gesture.kind == PointGesture::Kind::none) draw_values(model, under_mouse);
+  const bool hovered = ImPlot::IsPlotHovered();
+  ImPlot::EndPlot();
+  if (hovered && !sorted && contents.points.empty() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) axis.show_all();
+  return gesture;
+}
+
+/// The points as far as they are in sight; the mouse on them, or twice beside them.
+PointGesture DispersionPlot::draw_points(const DispersionContents& contents)
+{
+  PointGesture gesture;
+  bool any_held = false, any_hovered = false;
+  ImDrawList& list = *ImPlot::GetPlotDrawList();
+  for (std::size_t i = 0; i < contents.points.size(); ++i) {
+    const ControlPoint& point = contents.points[i];
+    if (!held_ && (point[0] < x_ends_[0] || point[0] > x_ends_[1])) continue;
+    ControlPoint to = point;
+    bool clicked = false, hovered = false, held = false;
+    const bool is_selected = contents.selected == i;
+    ImPlot::PushPlotClipRect();
+    list.AddCircleFilled(ImPlot::PlotToPixels(point[0], point[1]), (point_radius + 2) * scale(), outline);
+    ImPlot::PopPlotClipRect();
+    const bool moved =
+        ImPlot::DragPoint(static_cast<int>(i), &to[0], &to[1], ImGui::ColorConvertU32ToFloat4(is_selected ? colour::note : colour::text),
+                          point_radius * scale(), ImPlotDragToolFlags_NoFit | ImPlotDragToolFlags_Delayed, &clicked, &hovered, &held);
+    any_held |= held;
+    any_hovered |= hovered;
+    if (moved)
+      gesture = {PointGesture::Kind::move, i, to};
+    else if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
+      gesture = {PointGesture::Kind::remove, i, to};
+    else if (held && !is_selected)
+      gesture = {PointGesture::Kind::select, i, to};
+    if (hovered || held) ImGui::SetTooltip("%s", fmt::format("{:.6g} nm, n = {:.6g}", point[0], point[1]).c_str());
+  }
+  if (held_ && !any_held) gesture.kind = PointGesture::Kind::release;
+  held_ = any_held;
+  const bool beside = ImPlot::IsPlotHovered() && !any_hovered && !any_held && !contents.points.empty();
+  if (beside && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    const ImPlotPoint mouse = ImPlot::GetPlotMousePos();
+    gesture = {PointGesture::Kind::add, 0, {mouse.x, mouse.y}};
+  }
+  return gesture;
+}
+
+void DispersionPlot::keep_area()
+{
+  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
+  area_ = {corner.x, corner.y, size.x, size.y};
+  const ImPlotRect limits = ImPlot::GetPlotLimits();
+  x_ends_ = {limits.X.Min, limits.X.Max};
+  n_ends_ = {limits.Y.Min, limits.Y.Max};
+}
+
+ControlPoint DispersionPlot::grid() const
+{
+  const double wanted = (n_ends_[1] - n_ends_[0]) / 40, decimal = std::pow(10, std::floor(std::log10(wanted)));
+  const double steps = wanted / decimal; // 1 .. 10
+  return {1, decimal * (steps <= 1 ? 1 : steps <= 2 ? 2 : steps <= 5 ? 5 : 10)};
+}
+
+std::array<double, 2> DispersionPlot::to_screen(const ControlPoint& point) const
+{
+  return {area_[0] + area_[2] * (point[0] - x_ends_[0]) / (x_ends_[1] - x_ends_[0]),
+          area_[1] + area_[3] * (n_ends_[1] - point[1]) / (n_ends_[1] - n_ends_[0])};
+}
+
+} // namespace nephroid::ui
