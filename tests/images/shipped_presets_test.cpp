@@ -19,12 +19,12 @@ using namespace nephroid::test;
 
 namespace {
 
-/// The preset small and short, so that all of them take seconds.
+/// The preset small and short, so that all of them take seconds; of a sweep its first run.
 preset::Preset small(const std::string& name)
 {
-  preset::Preset p = preset::read_preset(name);
+  preset::Preset p = preset::read_presets(name).front();
   p.scene.camera.resolution = {64, 64};
-  p.spectral.photons_per_pass = 1 << 15;
+  send_few_photons(p, 1 << 15);
   p.stop.seconds.reset();
   p.stop.passes = 2;
   return p;

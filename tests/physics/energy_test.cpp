@@ -24,7 +24,7 @@ std::vector<preset::Preset> small_runs(const std::string& name)
   for (preset::Preset& p : runs) {
     p.scene.camera.resolution = {16, 16};
     p.spectral.direct = false;
-    p.spectral.photons_per_pass = 1 << 16;
+    send_few_photons(p, 1 << 16);
     p.stop = {};
     p.stop.passes = 1;
     p.reference.reset();

@@ -19,6 +19,13 @@ inline std::vector<std::string> shipped_names()
   return names;
 }
 
+/// Cuts the photons of a pass down to about `count`, which progressive photon maps send for each of up to 401 clusters.
+inline void send_few_photons(preset::Preset& preset, int count)
+{
+  const bool each = preset.spectral.estimator == preset::Spectral::Estimator::sppm;
+  preset.spectral.photons_per_pass = each ? std::max(1, count / 128) : count;
+}
+
 /// The preset's name with what is no letter or digit as '_'.
 inline std::string shipped_test_name(const testing::TestParamInfo<std::string>& parameter)
 {
