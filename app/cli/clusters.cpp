@@ -7,6 +7,7 @@
 #include "base/json_pointer.h"
 #include "cli/dispersion_input.h"
 #include "cli/verbs.h"
+#include "cli/wavelength_runs.h"
 #include "preset/choices.h"
 #include "preset/read.h"
 #include "scene/materials.h"
@@ -88,19 +89,12 @@ Task make_task(const ClusterOptions& options)
   return task;
 }
 
-std::vector<int> wavelengths_nm(const spectral::Cluster& cluster)
-{
-  std::vector<int> result;
-  for (int index : cluster.wavelengths) result.push_back(optics::wavelength_nm(index));
-  return result;
-}
-
 void print_json(const Clustering& clustering)
 {
   using Json = nlohmann::ordered_json;
   Json clusters = Json::array();
   for (const spectral::Cluster& c : clustering.clusters)
-    clusters.push_back({{"wavelengths_nm", wavelengths_nm(c)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});
+    clusters.push_back({{"wavelengths_nm", wavelengths_nm(c.wavelengths)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});
   const Json all{{"method", preset::word(clustering.method)},
                  {"threshold_deg", clustering.threshold_deg},
                  {"total_theta_deg2", clustering.total_theta_deg2},
@@ -109,29 +103,13 @@ void print_json(const Clustering& clustering)
   fmt::print("{}\n", json_text(all));
 }
 
-/// "380-384,390 nm": runs of neighbouring wavelengths, by rising wavelength.
-std::string runs(const spectral::Cluster& cluster)
-{
-  const std::vector<int> members = wavelengths_nm(cluster);
-  const std::set<int> sorted(members.begin(), members.end());
-  std::string text;
-  for (auto i = sorted.begin(); i != sorted.end();) {
-    const int first = *i;
-    int last = first;
-    while (++i != sorted.end() && *i == last + 1) last = *i;
-    if (!text.empty()) text += ',';
-    text += first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last);
-  }
-  return text + " nm";
-}
-
 void print_text(const std::string& name, const Clustering& clustering)
 {
   fmt::print("{}: {} clusters by the method {} at {} degrees; the angle changes by {:.3f} square degrees in all\n", name,
              clustering.clusters.size(), preset::word(clustering.method), clustering.threshold_deg, clustering.total_theta_deg2);
   fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "mean n", "deg^2", "wavelengths");
   for (const spectral::Cluster& c : clustering.clusters)
-    fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2, runs(c));
+    fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2, wavelength_runs(c.wavelengths));
 }
 
 void print_clusters(const ClusterOptions& options)

@@ -62,7 +62,7 @@ bool caustics_are_possible(const scene::Scene& scene, const std::vector<double>&
 std::string work_left(const std::vector<double>& importance)
 {
   const double sum = std::accumulate(importance.begin(), importance.end(), 0.0);
-  return fmt::format("clusters have {:.0f} % of the turns that they would have alike",
+  return fmt::format("{:.0f} % of the iterations of clusters that all matter alike",
                      100 * sum / static_cast<double>(std::max<std::size_t>(importance.size(), 1)));
 }
 
