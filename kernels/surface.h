@@ -61,6 +61,7 @@ static inline float3 start_on_side(const Surface* surface, float side) { return 
 // What a mirror or dielectric does to a ray: the new direction, and whether the ray went through.
 typedef struct {
   float3 direction;
+  float3 normal; // unit, on the side that the ray came from: what it was bent about; not set where nothing bends it
   bool transmitted;
 } Bend;
 
@@ -68,6 +69,7 @@ typedef struct {
 static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, float choice)
 {
   Bend bend;
+  bend.normal = normal;
   const float cos_i = clamp(-dot(direction, normal), 0.0f, 1.0f);
   const float eta = n_i / n_t;
   const float cos_t = refracted_cosine(cos_i, eta);
