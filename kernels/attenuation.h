@@ -46,6 +46,19 @@ static inline void lose(Losses* losses, int attenuator, float length)
 #endif
 }
 
+// What is left of one wavelength: exp(-a s).
+static inline float wavelength_left(const SpectralTables* tables, const Losses* losses, int wavelength)
+{
+#if NEPHROID_ATTENUATORS > 0
+  if (!losses->any) return 1.0f;
+  float exponent = 0.0f;
+  for (int a = 0; a < NEPHROID_ATTENUATORS; ++a) exponent += tables->coefficient[a * WAVELENGTH_COUNT + wavelength] * losses->lengths[a];
+  return exp(-exponent);
+#else
+  return 1.0f;
+#endif
+}
+
 // Sum over the cluster's wavelengths of light * what is left * reflectance (reflector -1: 1): xyz; w: without (xbar, ybar, zbar)
 // and reflectance, so the share of the light's power that is left.
 static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* losses, int light, int cluster, int reflector)
@@ -53,13 +66,9 @@ static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* 
   float4 sum = (float4)(0.0f);
   for (int i = tables->first[cluster]; i < tables->first[cluster + 1]; ++i) {
     const int wavelength = tables->wavelengths[i];
-    float exponent = 0.0f;
-#if NEPHROID_ATTENUATORS > 0
-    for (int a = 0; a < NEPHROID_ATTENUATORS; ++a) exponent += tables->coefficient[a * WAVELENGTH_COUNT + wavelength] * losses->lengths[a];
-#endif
     const float4 light_xyz = tables->light_xyz[light * WAVELENGTH_COUNT + wavelength];
     const float reflectance = reflector < 0 ? 1.0f : tables->reflectance[reflector * WAVELENGTH_COUNT + wavelength];
-    sum += exp(-exponent) * (float4)(light_xyz.xyz * reflectance, light_xyz.w);
+    sum += wavelength_left(tables, losses, wavelength) * (float4)(light_xyz.xyz * reflectance, light_xyz.w);
   }
   return sum;
 }

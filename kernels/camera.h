@@ -14,14 +14,19 @@ static inline float3 primary_direction(const DeviceCamera* camera, int column, i
   return normalize(camera->forward.xyz + (x * camera->tan_x) * camera->right.xyz + (y * camera->tan_y) * camera->up.xyz);
 }
 
-// Which cluster path `path` of `paths` in a frame takes: steps of the golden ratio, so that those of a pixel spread over the clusters
-// evenly. Even and odd frames each have a start of their own and count by themselves: they are independent, as the film's two halves have
-// to be. cdf: [cluster + 1].
-static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream)
+// A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that those of a pixel spread evenly. Even and odd
+// frames each have a start of their own and count by themselves: they are independent, as the film's two halves have to be.
+static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream)
 {
   const uint half_of_frames = frame & 1u, step = (frame >> 1) * paths + path;
   const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, stream), seed).x;
-  const float place = (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
+  return (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
+}
+
+// Which cluster a path takes. cdf: [cluster + 1].
+static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream)
+{
+  const float place = golden_place(seed, frame, path, paths, pixel, stream);
   int cluster = 0;
   while (cluster + 1 < count && place >= cdf[cluster + 1]) ++cluster;
   return cluster;

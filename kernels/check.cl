@@ -119,7 +119,7 @@ kernel void emissions(global const DeviceLight* lights, int light, global const 
   const uint i = get_global_id(0);
   if (i >= count) return;
   const DeviceLight from = lights[light];
-  const Emission e = emit(&from, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS));
+  const Emission e = emit(&from, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
   out[2 * i] = (float4)(e.origin, e.watts);
   out[2 * i + 1] = (float4)(e.direction, 0.0f);
 }

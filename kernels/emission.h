@@ -118,10 +118,10 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
 }
 
 // Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per steradian.
-static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random, float4 place)
+static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random, float2 place)
 {
   Emission emission;
-  const float steradians = sample_targets(targets, light->target_count, area_point(light, place.xy), random, &emission);
+  const float steradians = sample_targets(targets, light->target_count, area_point(light, place), random, &emission);
   const float cosine = dot(emission.direction, light->direction.xyz);
   emission.watts = cosine > 0.0f ? light->radiometric * cosine / PI_F * steradians : 0.0f;
   return emission;
@@ -159,7 +159,7 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
 }
 
 // targets: the whole table, of which a light has its own list.
-static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random, float4 place)
+static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random, float2 place)
 {
   targets += light->first_target;
   if (is_light(light, LIGHT_DIRECTIONAL)) return emit_directional(light, targets, scene, random);

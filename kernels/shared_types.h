@@ -90,7 +90,8 @@ typedef struct {
   int light;
   int cluster;
   float share;         // the cluster's share of the light's power, 0..1
-  int padding[3];
+  uint sequence_start; // photons that earlier passes took of each half's low-discrepancy sequence
+  int padding[2];
 } DeviceEmitter;
 
 typedef struct {
@@ -100,6 +101,13 @@ typedef struct {
   int width, height;         // pixels
   Media inside;
 } DeviceCamera;
+
+// The environment's picture: see background.h.
+typedef struct {
+  int width, height; // texels
+  float turns;       // that the surroundings are turned about +y, counterclockwise as seen from above
+  int padding;
+} DeviceBackground;
 
 // What every kernel needs of the scene as a whole.
 typedef struct {
@@ -116,7 +124,7 @@ typedef struct {
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 16 && sizeof(Media) == 48);
 static_assert(sizeof(DeviceLight) == 144 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 32);
-static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 32);
+static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 32 && sizeof(DeviceBackground) == 16);
 } // namespace nephroid::shared
 #endif
 

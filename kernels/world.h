@@ -6,6 +6,7 @@
 #include "shared_types.h"
 #include "bvh.h"
 #include "attenuation.h"
+#include "band.h"
 #include "interface.h"
 #include "media.h"
 #include "surface.h"
@@ -22,8 +23,10 @@ typedef struct {
   __global const DeviceObject* objects;
   __global const DeviceMaterial* materials;
   __global const DeviceLight* lights;
-  __global const float* index_of_refraction; // [cluster][material]
-  __global const float4* reflected_xyz;      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar)
+  __global const float* index_of_cluster;    // [cluster][material]: of refraction, the mean
+  __global const float* index_of_wavelength; // [401][material]
+  __global const float* wavelength_cdf;      // [light, or all of them at the end][member of cluster]: see band.h
+  __global const float4* reflected_xyz;      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar); w: of light
   SpectralTables tables;
   int reflector_count;
   DeviceScene scene;
@@ -33,13 +36,14 @@ typedef struct {
 #define WORLD_ARGUMENTS                                                                                                                  \
   __global const float *nodes, __global const float *blocks, __global const uint *corners, __global const float *positions,             \
       __global const float *normals, __global const uint *object_of_triangle, __global const DeviceObject *objects,                      \
-      __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_refraction,           \
+      __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_cluster,             \
+      __global const float *index_of_wavelength, __global const float *wavelength_cdf,           \
       __global const float4 *reflected_xyz, __global const int *cluster_first, __global const int *cluster_wavelengths,                  \
       __global const float *coefficient, __global const float4 *light_xyz, __global const float *reflectance, int reflector_count,       \
       DeviceScene scene
 #define WORLD                                                                                                                            \
   {                                                                                                                                      \
-    {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root}, objects, materials, lights, index_of_refraction,      \
+    {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root}, objects, materials, lights, index_of_cluster, index_of_wavelength, wavelength_cdf, \
         reflected_xyz, {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, reflector_count, scene                 \
   }
 
@@ -73,10 +77,32 @@ static inline void lose_in_medium(const World* world, Path* path, float distance
 #endif
 }
 
+// The index of refraction of each material.
+static inline __global const float* index_of_band(const World* world, const Band* band)
+{
+#if NEPHROID_JITTER
+  if (band->wavelength >= 0) return world->index_of_wavelength + band->wavelength * world->scene.material_count;
+#endif
+  return world->index_of_cluster + band->cluster * world->scene.material_count;
+}
+
+// The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light may end at;
+// u in [0, 1) picks a wavelength by what the eye makes of the light's power.
+static inline Band choose_band(const World* world, int light, int cluster, float u)
+{
+#if NEPHROID_JITTER
+  const int first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
+  const int members = world->tables.first[world->scene.cluster_count];
+  return wavelength_of_cluster(cluster, world->tables.wavelengths + first, world->wavelength_cdf + light * members + first, count, u);
+#else
+  return whole_cluster(cluster);
+#endif
+}
+
 // Takes the path on from a mirror or dielectric that it hit. choice: uniform in [0, 1).
 // *n_ratio: n before over n after. False where the path is inside too many media.
 static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface, const DeviceMaterial* material,
-                             int cluster, float choice, float* n_ratio)
+                             const Band* band, float choice, float* n_ratio)
 {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   Bend bend;
@@ -88,8 +114,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   } else
 #endif
   {
-    __global const float* n_of = world->index_of_refraction + cluster * world->scene.material_count;
-    if (!cross_interface(&path->media, surface, world->objects, n_of, path->direction, choice, &bend, n_ratio)) return false;
+    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice, &bend, n_ratio)) return false;
   }
   path->direction = bend.direction;
   path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
@@ -98,17 +123,31 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return true;
 }
 
-// Light of `light` in `cluster` that a diffuse surface reflects after the path's losses: xyz; *left: the share of the light's power.
-static inline float3 reflected_light(const World* world, const Losses* losses, int light, int cluster, int reflector, float* left)
+// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a reflector sends
+// back of it (-1: a white one).
+static inline float4 carried_light(const World* world, const Losses* losses, int light, const Band* band, int reflector)
 {
-#if NEPHROID_ATTENUATORS > 0
-  if (losses->any) {
-    const float4 sum = attenuated_sum(&world->tables, losses, light, cluster, reflector);
-    *left = sum.w;
-    return sum.xyz;
+#if NEPHROID_JITTER
+  if (band->wavelength >= 0) {
+    const float left = wavelength_left(&world->tables, losses, band->wavelength) * band->weight;
+    const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + band->wavelength];
+    const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength];
+    return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
   }
 #endif
-  return world->reflected_xyz[(light * world->scene.cluster_count + cluster) * world->reflector_count + reflector].xyz;
+#if NEPHROID_ATTENUATORS > 0
+  if (losses->any || reflector < 0) return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
+#endif
+  return world->reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->reflector_count + reflector];
+}
+
+// The share of a light's power that a band begins with; cluster_share: of its whole cluster.
+static inline float band_share(const World* world, int light, const Band* band, float cluster_share)
+{
+#if NEPHROID_JITTER
+  if (band->wavelength >= 0) return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
+#endif
+  return cluster_share;
 }
 
 #endif

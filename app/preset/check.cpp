@@ -139,6 +139,23 @@ void check_reference(const Preset& preset, const Where& where)
                     "expected other seeds than the run's");
 }
 
+/// Layers hold what splats of whole clusters add up to.
+void check_relight(const Spectral& spectral, const Where& where)
+{
+  if (!spectral.relight) return;
+  const auto refuse = [&](bool contradicts, const char* key, const char* reason) {
+    if (contradicts)
+      throw bad_input(where(child("/spectral", key)), fmt::format("cannot be kept in layers: {}", reason),
+                      "expected 'spectral.relight' false, or this as it is by default");
+  };
+  refuse(spectral.estimator == Spectral::Estimator::sppm, "estimator", "photon maps add up colours, not layers");
+  refuse(spectral.effort != Spectral::Effort::power, "effort",
+         "half of the photons go by the present light's power, and half to every cluster alike for lights to come");
+  refuse(spectral.jitter, "jitter", "a layer is a whole cluster's");
+  refuse(spectral.differentials, "differentials", "a layer is a whole cluster's");
+  refuse(spectral.indirect, "indirect", "its light met several reflectors");
+}
+
 } // namespace
 
 void check(const Preset& preset, const Where& where)
@@ -151,6 +168,7 @@ void check(const Preset& preset, const Where& where)
   check_effort(preset.spectral, "/spectral", where);
   if (preset.reference && preset.reference->spectral) check_effort(*preset.reference->spectral, "/reference/spectral", where);
   check_reference(preset, where);
+  check_relight(preset.spectral, where);
 }
 
 } // namespace nephroid::preset

@@ -87,6 +87,20 @@ void check_thickness(const Mesh& mesh, double volume, const std::string& where)
 
 const char* plural(std::uint32_t count) { return count == 1 ? "" : "s"; }
 
+/// Do a file's normals point to the back of most triangles? Light would be bent about the triangles' own normals there, as if the
+/// surface had facets. A few are no sign of it: at a spike a vertex normal may oppose a triangle.
+bool normals_oppose_triangles(const Mesh& mesh)
+{
+  if (mesh.normals.empty()) return false;
+  std::size_t opposed = 0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::vec3 a = mesh.positions[t.x];
+    const glm::vec3 across = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    if (glm::dot(across, mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]) < 0) ++opposed;
+  }
+  return 2 * opposed > mesh.triangles.size();
+}
+
 void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
 {
   if (report.degenerate > 0)
@@ -96,16 +110,22 @@ void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
   placed.closed = report.closed();
   if (!dielectric) return;
   if (report.open_edges > 0)
-    placed.warnings.push_back(fmt::format("dielectric, but not closed: {} edge{} with one triangle; light that enters may never leave",
-                                          report.open_edges, plural(report.open_edges)));
+    placed.damages.push_back(
+        {fmt::format("dielectric, but not closed: {} edge{} with one triangle", report.open_edges, plural(report.open_edges)),
+         "light that enters may never leave"});
   if (report.crowded_edges > 0)
-    placed.warnings.push_back(
-        fmt::format("dielectric, but its inside is not clear: {} edge{} with more than two triangles, or with two that "
-                    "face opposite ways",
-                    report.crowded_edges, plural(report.crowded_edges)));
+    placed.damages.push_back(
+        {fmt::format("dielectric, but its inside is not clear: {} edge{} with more than two triangles, or with two that "
+                     "face opposite ways",
+                     report.crowded_edges, plural(report.crowded_edges)),
+         {}});
   if (report.closed() && report.signed_volume < 0) {
     turn_round(placed.mesh);
-    placed.warnings.emplace_back("was inside out; its triangles are turned round");
+    placed.damages.push_back({"is inside out", "its triangles are turned round"});
+  }
+  if (normals_oppose_triangles(placed.mesh)) {
+    for (glm::vec3& normal : placed.mesh.normals) normal = -normal;
+    placed.damages.push_back({"its vertex normals look to the wrong side", "they are turned round"});
   }
 }
 

@@ -21,11 +21,18 @@ struct Bounds {
   glm::dvec3 low{0}, high{0};
 };
 
+/// What is wrong with a dielectric's mesh, so that inside and outside are not clear; without the object's name.
+struct Damage {
+  std::string what;
+  std::string done; ///< what is done about it where the scene is rendered all the same; may be empty
+};
+
 struct Placed {
   Mesh mesh; ///< with normals, without degenerate or duplicated triangles
   Sphere bounds;
   bool closed = true;
   std::vector<std::string> warnings; ///< without the object's name
+  std::vector<Damage> damages;
 };
 
 /// Throws bad_input at where/scale for a factor of 0, and where a number is not finite.

@@ -105,12 +105,25 @@ void append(Scene& scene, const Mesh& mesh)
   scene.object_of_triangle.resize(all.triangles.size(), static_cast<std::uint32_t>(scene.objects.size()));
 }
 
-void add_object(Scene& scene, const preset::Object& object, const Pending& pending)
+/// damaged: what the preset wants done about it. Throws bad_input at the object where that is `refuse`.
+void tell_damages(Scene& scene, const std::vector<Damage>& damages, preset::Scene::DamagedMeshes damaged, const std::string& label,
+                  const std::string& where)
+{
+  for (const Damage& damage : damages) {
+    const std::string what = fmt::format("{}: {}", label, damage.what);
+    if (damaged == preset::Scene::DamagedMeshes::refuse)
+      throw bad_input(where, what, "expected a closed mesh that faces outwards", "mend it, or set scene.damaged_meshes to \"report\"");
+    scene.warnings.push_back(damage.done.empty() ? what : what + "; " + damage.done);
+  }
+}
+
+void add_object(Scene& scene, const preset::Object& object, const Pending& pending, preset::Scene::DamagedMeshes damaged)
 {
   const std::string label = object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
   const bool dielectric = scene.materials[static_cast<std::size_t>(pending.material)].type == Material::Type::dielectric;
   Placed placed = place(pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
+  tell_damages(scene, placed.damages, damaged, label, pending.where);
   if (scene.geometry.triangles.size() + placed.mesh.triangles.size() > max_triangles)
     throw bad_input(pending.where, fmt::format("the scene has more than {} triangles", max_triangles));
 
@@ -223,7 +236,7 @@ Scene load_scene(const preset::Preset& preset)
   }
   scene.origin = choose_origin(pending, scene, preset.scene.camera);
   for (std::size_t i = 0; i < pending.size(); ++i) {
-    add_object(scene, preset.scene.objects[i], pending[i]);
+    add_object(scene, preset.scene.objects[i], pending[i], preset.scene.damaged_meshes);
     pending[i].mesh = {}; // a large scene is not held twice
   }
   part_touching(scene);

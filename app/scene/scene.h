@@ -73,8 +73,9 @@ struct Scene {
 };
 
 /// Reads every file and checks every reference. A scene without lights or objects is legal: the plan says what is left out then.
-/// Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; a closed dielectric that is inside
-/// out is turned round with a warning; triangles without area and duplicates are dropped with a warning.
+/// Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; triangles without
+/// area and duplicates are dropped with a warning. A dielectric that is inside out, or has holes, is told of in a warning (the former
+/// is turned round) or refused, as Scene::damaged_meshes of the preset says.
 /// Throws bad_input at FILE#/pointer or at the mesh file.
 Scene load_scene(const preset::Preset& preset);
 

@@ -35,7 +35,9 @@ DeviceBuffers upload(const compute::Context& context, const scene::Scene& scene,
   b.lights = upload_vector(context, "lights", tables.lights);
   b.targets = upload_vector(context, "targets", tables.targets);
   b.emitters = upload_vector(context, "emitters", tables.emitters);
-  b.index_of_refraction = upload_vector(context, "index of refraction", w.index_of_refraction);
+  b.index_of_cluster = upload_vector(context, "index of refraction of each cluster", w.index_of_cluster);
+  b.index_of_wavelength = upload_vector(context, "index of refraction of each wavelength", w.index_of_wavelength);
+  b.wavelength_cdf = upload_vector(context, "choice of a wavelength", w.wavelength_cdf);
   b.coefficient = upload_vector(context, "attenuation", w.coefficient);
   b.reflectance = upload_vector(context, "reflectance", w.reflectance);
   b.cluster_cdf = upload_vector(context, "cluster choice", w.cluster_cdf);

@@ -15,7 +15,7 @@ struct DeviceBuffers {
   compute::Buffer<shared::DeviceLight> lights;
   compute::Buffer<shared::DeviceTarget> targets;
   compute::Buffer<shared::DeviceEmitter> emitters;
-  compute::Buffer<float> index_of_refraction, coefficient, reflectance, cluster_cdf;
+  compute::Buffer<float> index_of_cluster, index_of_wavelength, wavelength_cdf, coefficient, reflectance, cluster_cdf;
   compute::Buffer<int> cluster_first, cluster_wavelengths;
   compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all;
 };

@@ -193,6 +193,7 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
   tables.importance = std::move(effort.importance);
   for (const shared::DeviceEmitter& emitter : tables.emitters) tables.photons_per_pass += emitter.photon_count;
   tables.light_towards_targets_w = std::accumulate(watts.begin(), watts.end(), 0.0);
+  tables.towards_targets_w = std::move(watts);
   tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");
 
   const scene::Sphere bounds = scene_bounds(scene);

@@ -16,11 +16,14 @@ struct WavelengthTables {
   std::vector<std::vector<int>> clusters;        ///< wavelength indices of each, without those that are left out
   std::vector<int> cluster_first;                ///< cluster_count + 1
   std::vector<int> cluster_wavelengths;          ///< cluster after cluster
-  std::vector<float> index_of_refraction;        ///< [cluster][material]: mean over the cluster; 1 for what is no dielectric
+  std::vector<float> index_of_cluster;           ///< [cluster][material]: of refraction, mean over the cluster; 1 for what is no dielectric
+  std::vector<float> index_of_wavelength;        ///< [401][material]
+  std::vector<float> wavelength_cdf;             ///< [light, then all together][member of cluster_wavelengths]: see kernels/band.h
+  bool clusters_spread = false;                  ///< whether n differs inside any cluster
   std::vector<float> coefficient;                ///< [attenuator][401]: 1/m, or -ln(reflectance) of a mirror
   std::vector<float> reflectance;                ///< [reflector][401]
   std::vector<shared::float4> light_xyz;         ///< [light][401]: share times (xbar, ybar, zbar), share
-  std::vector<shared::float4> reflected_xyz;     ///< [light][cluster][reflector]
+  std::vector<shared::float4> reflected_xyz;     ///< [light][cluster][reflector]; w: the share, as of a white one
   std::vector<shared::float4> reflected_xyz_all; ///< [light][reflector]
   std::vector<float> cluster_cdf;                ///< cluster_count + 1, from 0 to 1
   std::vector<std::vector<double>> share;        ///< [light][cluster]: of the light's power
@@ -41,6 +44,7 @@ struct DeviceTables {
   std::vector<double> importance;              ///< [cluster] 0..1, the largest 1: see Effort
   WavelengthTables wavelengths;
   double light_towards_targets_w = 0; ///< power that the emitters send out in a pass, all wavelengths
+  std::vector<double> towards_targets_w; ///< [light]: its part of it
   double power_unit = 1;              ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
   double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
   double direct_limit = 1;                    ///< quanta that one contribution to the direct film may have

@@ -19,11 +19,18 @@ optics::Colour blend(const std::int64_t* a, double weight_a, const std::int64_t*
 
 } // namespace
 
+job::Layer& layer_of(job::Picture& picture, const std::string& name)
+{
+  for (job::Layer& layer : picture.layers)
+    if (layer.name == name) return layer;
+  const std::size_t size = 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  return picture.layers.emplace_back(job::Layer{name, std::vector<float>(size, 0.0f)});
+}
+
 void add_layer(const std::string& name, const Film& film, job::Picture& picture)
 {
   const std::size_t row_length = 3 * static_cast<std::size_t>(film.width), size = row_length * static_cast<std::size_t>(film.height);
-  auto layer = std::find_if(picture.layers.begin(), picture.layers.end(), [&](const job::Layer& l) { return l.name == name; });
-  if (layer == picture.layers.end()) layer = picture.layers.insert(layer, {name, std::vector<float>(size, 0.0f)});
+  job::Layer& layer = layer_of(picture, name);
   std::vector<float>& error_draw = picture.error_draw;
   const bool halves = film.sums.size() == 2 * size;
   const std::int64_t* first = film.sums.data();
@@ -37,7 +44,7 @@ void add_layer(const std::string& name, const Film& film, job::Picture& picture)
     const double of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
     for (std::size_t i = row * row_length; i < (row + 1) * row_length; i += 3) {
       const optics::Colour value = blend(first + i, mean, second + i, halves ? mean : 0);
-      for (std::size_t c = 0; c < 3; ++c) layer->rgb[i + c] += static_cast<float>(value[c]);
+      for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] += static_cast<float>(value[c]);
       if (error_draw.empty()) continue;
       const optics::Colour error = blend(first + i, of_a, second + i, -of_b);
       for (std::size_t c = 0; c < 3; ++c) error_draw[i + c] += static_cast<float>(error[c]);

@@ -22,7 +22,10 @@ struct Film {
   std::function<std::array<double, 2>(int row)> samples;
 };
 
-/// Adds the mean of the samples, 0 where there is none, to the picture's layer of that name, which is made where there is none yet. Where
+/// The picture's layer of that name, which is made, black, where there is none yet.
+job::Layer& layer_of(job::Picture& picture, const std::string& name);
+
+/// Adds the mean of the samples, 0 where there is none, to layer_of(picture, name). Where
 /// the film has two halves a and b, also adds their (a - b) sqrt(n_a n_b) / (n_a + n_b) to Picture::error_draw, or clears it where a row
 /// lacks one of them; one that is clear already stays so.
 void add_layer(const std::string& name, const Film& film, job::Picture& picture);

@@ -95,26 +95,28 @@ std::vector<double> used_materials(const scene::Scene& scene)
   return used;
 }
 
-/// l: the spectra of the lights, each by the watts that it sends towards `receivers`.
-Spectrum light_towards(const scene::Scene& scene, const std::vector<scene::Sphere>& receivers)
+/// Of each W of each light, towards those of `receivers` that it can reach.
+std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<scene::Sphere>& receivers)
 {
-  Spectrum sum{};
-  for (const scene::Light& light : scene.lights) {
-    if (!has_power(light)) continue;
+  std::vector<double> parts;
+  for (scene::Light light : scene.lights) {
+    light.power_w = light.irradiance_w_m2 = 1;
     std::vector<scene::Sphere> reached;
     std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(reached),
                  [&](const scene::Sphere& sphere) { return reaches(light, sphere); });
-    const double watts = towards_targets_w(light, reached, scene.metres_per_unit);
-    for (std::size_t w = 0; w < sum.size(); ++w) sum[w] += watts * light.spectrum[w];
+    parts.push_back(towards_targets_w(light, reached, scene.metres_per_unit));
   }
-  return sum;
+  return parts;
 }
 
-Spectrum light_towards(const scene::Scene& scene, const std::vector<int>& throwers)
+/// l: the spectra of the lights, each by its watts.
+Spectrum sum_of(std::span<const scene::Light> lights, const std::vector<double>& parts)
 {
-  std::vector<scene::Sphere> receivers;
-  for (const int i : throwers) receivers.push_back(scene.objects[static_cast<std::size_t>(i)].bounds);
-  return light_towards(scene, receivers);
+  const std::vector<double> power = watts(lights, parts);
+  Spectrum sum{};
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    for (std::size_t w = 0; w < sum.size(); ++w) sum[w] += power[i] * lights[i].spectrum[w];
+  return sum;
 }
 
 double luminance(const Spectrum& light, const Spectrum& reflectance)
@@ -134,9 +136,9 @@ bool normalise(Spectrum& u)
   return true;
 }
 
-Error nothing_matters(const scene::Scene& scene, const std::string& reason)
+Error nothing_matters(const std::string& file, const std::string& reason)
 {
-  return bad_input(scene.source + "#/spectral/effort", "the importance (4.15) is 0 at every wavelength: " + reason,
+  return bad_input(file + "#/spectral/effort", "the importance (4.15) is 0 at every wavelength: " + reason,
                    "expected a light on the caustic objects and something around them that reflects it",
                    "change the scene, or choose another effort");
 }
@@ -149,28 +151,27 @@ std::string reason_for_nothing(bool lit, const std::vector<Surrounding>& surroun
   return geometry ? "the caustic objects see nothing that diffuses or mirrors light" : "no object diffuses or mirrors light";
 }
 
-WavelengthImportance importance_of_surroundings(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh)
+WavelengthImportance importance_of_surroundings(bool geometry, const Whereabouts& where, std::span<const scene::Light> lights,
+                                                std::span<const scene::Material> materials, const std::string& file)
 {
-  const std::vector<int> throwers = caustic_objects(scene);
-  if (throwers.empty()) throw nothing_matters(scene, "no object is of glass or a mirror");
-  const Spectrum light = light_towards(scene, throwers);
+  if (!where.caustics) throw nothing_matters(file, "no object is of glass or a mirror");
+  const Spectrum light = sum_of(lights, where.towards);
   Spectrum perfect;
   perfect.fill(1);
   const double white = luminance(light, perfect);
 
   WavelengthImportance result;
-  const bool geometry = settings.importance.geometry;
-  const std::vector<double> shares = geometry ? seen_materials(scene, bvh, throwers) : used_materials(scene);
+  const std::vector<double>& shares = geometry ? where.seen : where.used;
   Spectrum reflected{}; // the sum over i
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (!(shares[i] > 0)) continue;
-    const Spectrum m = reflectance_of(scene.materials[i]);
+    const Spectrum m = reflectance_of(materials[i]);
     const double lightness = white > 0 ? optics::lightness(luminance(light, m) / white) : 0;
     result.surroundings.push_back({static_cast<int>(i), shares[i], lightness});
     for (std::size_t w = 0; w < m.size(); ++w) reflected[w] += m[w] * lightness * shares[i];
   }
   for (std::size_t w = 0; w < light.size(); ++w) result.u[w] = light[w] * optics::cie_1931().y[w] * reflected[w];
-  if (!normalise(result.u)) throw nothing_matters(scene, reason_for_nothing(white > 0, result.surroundings, geometry));
+  if (!normalise(result.u)) throw nothing_matters(file, reason_for_nothing(white > 0, result.surroundings, geometry));
   return result;
 }
 
@@ -184,10 +185,10 @@ Spectrum importance_of_radziszewski()
 }
 
 /// What the eye makes of the light alone, wherever it goes.
-Spectrum importance_of_light(const scene::Scene& scene)
+Spectrum importance_of_light(const Whereabouts& where, std::span<const scene::Light> lights)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
-  Spectrum u = light_towards(scene, {everything(scene)});
+  Spectrum u = sum_of(lights, where.anywhere);
   for (std::size_t w = 0; w < u.size(); ++w) u[w] *= (eye.x[w] + eye.y[w] + eye.z[w]) / 3;
   normalise(u);
   return u;
@@ -206,19 +207,48 @@ std::vector<int> caustic_objects(const scene::Scene& scene)
   return objects;
 }
 
+std::vector<double> watts(std::span<const scene::Light> lights, const std::vector<double>& parts)
+{
+  std::vector<double> result;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    result.push_back(parts[i] * (lights[i].type == preset::Light::Type::directional ? lights[i].irradiance_w_m2 : lights[i].power_w));
+  return result;
+}
+
+Whereabouts whereabouts(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh)
+{
+  const std::vector<int> throwers = caustic_objects(scene);
+  std::vector<scene::Sphere> receivers;
+  for (const int i : throwers) receivers.push_back(scene.objects[static_cast<std::size_t>(i)].bounds);
+  Whereabouts where;
+  where.caustics = !throwers.empty();
+  where.used = used_materials(scene);
+  where.towards = parts_towards(scene, receivers);
+  where.anywhere = parts_towards(scene, {everything(scene)});
+  if (settings.effort == preset::Spectral::Effort::importance && settings.importance.geometry && where.caustics)
+    where.seen = seen_materials(scene, bvh, throwers);
+  return where;
+}
+
 WavelengthImportance wavelength_importance(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh)
+{
+  return wavelength_importance(settings, whereabouts(settings, scene, bvh), scene.lights, scene.materials, scene.source);
+}
+
+WavelengthImportance wavelength_importance(const preset::Spectral& settings, const Whereabouts& where, std::span<const scene::Light> lights,
+                                           std::span<const scene::Material> materials, const std::string& file)
 {
   using Effort = preset::Spectral::Effort;
   WavelengthImportance result;
   switch (settings.effort) {
   case Effort::importance:
-    return importance_of_surroundings(settings, scene, bvh);
+    return importance_of_surroundings(settings.importance.geometry, where, lights, materials, file);
   case Effort::radziszewski:
     result.u = importance_of_radziszewski();
     break;
   case Effort::power:
   case Effort::variance:
-    result.u = importance_of_light(scene);
+    result.u = importance_of_light(where, lights);
     break;
   case Effort::equal:
   case Effort::random:

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace nephroid::spectral {
@@ -27,10 +28,28 @@ struct WavelengthImportance {
 /// The objects that throw the caustics: the dielectrics; where there is none, the mirrors. Indices into Scene::objects.
 std::vector<int> caustic_objects(const scene::Scene& scene);
 
+/// What u hangs on of where things are: neither a light's spectrum or power nor the colour of a material changes it.
+struct Whereabouts {
+  bool caustics = false;        ///< whether an object throws them
+  std::vector<double> seen;     ///< [material]: ghat_i, by rays; empty where the settings ask for none
+  std::vector<double> used;     ///< [material]: ghat_i without geometry: 1 where an object is of it and it diffuses or mirrors, else 0
+  std::vector<double> towards;  ///< [light]: W towards the caustic objects of each W, or W m^-2, that it has
+  std::vector<double> anywhere; ///< [light]: the same towards anything
+  bool operator==(const Whereabouts&) const = default;
+};
+/// W of each light by one of the two vectors above.
+std::vector<double> watts(std::span<const scene::Light> lights, const std::vector<double>& parts);
+/// Traces rays for effort `importance` with geometry only; some milliseconds.
+Whereabouts whereabouts(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh);
+
 /// u(lambda) of (4.15) for effort `importance`, of Radziszewski et al. for `radziszewski`, of the light alone for `power` and
 /// `variance` (what the eye makes of it, (X + Y + Z) / 3; 0 where no light has power), 1 everywhere for `equal` and `random`.
 /// Throws bad_input at FILE#/spectral/effort where (4.15) is 0 at every wavelength, and says why.
 WavelengthImportance wavelength_importance(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh);
+/// The same in a fraction of a millisecond, for lights and materials as they are now; of the lights only the spectra count. file: for
+/// messages.
+WavelengthImportance wavelength_importance(const preset::Spectral& settings, const Whereabouts& where, std::span<const scene::Light> lights,
+                                           std::span<const scene::Material> materials, const std::string& file);
 
 /// Of each cluster (indices of wavelengths, none empty): the largest u in it or the mean.
 std::vector<double> cluster_importance(const optics::Spectrum& u, std::span<const std::vector<int>> clusters,

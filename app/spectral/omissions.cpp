@@ -161,6 +161,13 @@ ObjectCounts count_objects(const scene::Scene& scene)
   return counts;
 }
 
+bool may_see_glass_or_mirror(const scene::Scene& scene)
+{
+  return !scene.camera.inside.empty() || std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+    return material_of(scene, object).type != scene::Material::Type::diffuse && may_be_in_view(scene, object);
+  });
+}
+
 plan::Pass omission(const std::string& key, bool leave_out, bool needed, std::string reason)
 {
   plan::Pass pass{key, needed || !leave_out, std::move(reason), field_of(key), false};

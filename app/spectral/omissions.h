@@ -25,6 +25,9 @@ struct ObjectCounts {
 };
 ObjectCounts count_objects(const scene::Scene& scene);
 
+/// False only where no object of glass and no mirror is in the camera's view, and none encloses the camera.
+bool may_see_glass_or_mirror(const scene::Scene& scene);
+
 /// A pass of the plan for one field of preset::LeaveOut, `key`: it runs where the scene needs it or the field is false.
 /// reason: why the scene needs it or not.
 plan::Pass omission(const std::string& key, bool leave_out, bool needed, std::string reason);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/photon_map.h"
 
+#include "spectral/scales.h"
+
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace nephroid::spectral {
 namespace {
@@ -17,6 +20,8 @@ std::uint32_t bucket_mask(std::uint32_t slots) { return std::bit_ceil(std::max(s
 std::uint32_t stride(std::uint32_t slots) { return (slots + 15) / 8 * 8; }
 
 } // namespace
+
+double photon_scale(std::uint32_t photons, double watts) { return power_of_two_below(std::exp2(12) * photons / watts); }
 
 PhotonMap::PhotonMap(const compute::Context& context, std::uint32_t slots, const compute::Defines& defines)
     : stored_(context, "photons", slots), starts_(context, "photon grid", bucket_mask(slots) + GRID_BLOCK + 1),

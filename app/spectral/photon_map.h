@@ -8,6 +8,9 @@
 
 namespace nephroid::spectral {
 
+/// Quanta per W of a stored photon: 2^12 for one of `photons` that share `watts`; a photon may carry 4096 times as much.
+double photon_scale(std::uint32_t photons, double watts);
+
 class PhotonMap {
 public:
   /// Room for `slots` photons, 1 <= slots < 2^30. defines: of every kernel. Throws failed where the device has not enough memory.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons that are splatted into the pixel that sees them: kernels/photons.cl.
 #include "spectral/film.h"
+#include "spectral/photon_map.h"
 #include "spectral/stages.h"
+#include "spectral/variance_deal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +13,16 @@ namespace {
 
 class PhotonStage final : public Stage {
 public:
-  explicit PhotonStage(DeviceWorld& world)
-      : world_(world), film_(world.zeroed("film caustic", world.film_size())),
-        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
+  PhotonStage(DeviceWorld& world, const preset::Spectral& settings, PhotonMap* map)
+      : world_(world), by_variance_(settings.effort == preset::Spectral::Effort::variance), deal_(world.tables.emitters),
+        moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
+        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0), photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
   {
     compute::Defines defines = world.defines;
     defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
+    defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
+    defines["NEPHROID_STORE"] = std::to_string(int(map != nullptr));
+    if (map) stored_ = map->stored();
     kernel_ = compute::Program(world.context, "photons.cl", defines).kernel("photons");
   }
 
@@ -26,14 +32,18 @@ public:
 
   bool step(std::int64_t pass) override
   {
-    const std::uint32_t all = world_.tables.photons_per_pass;
+    if (by_variance_ && at_.slice == 0 && deal_.is_due(pass)) deal(pass);
+    const DeviceTables& t = world_.tables;
+    const std::uint32_t all = t.photons_per_pass;
     if (at_.slice == 0)
       at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(all / photons_a_step_.amount()), 1, all));
     const std::uint32_t count = (all - at_.slice + at_.slices - 1) / at_.slices;
     photons_a_step_.timed(count, [&] {
       world_.run(kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, world_.buffers.emitters, film_,
-                 world_.energy, world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), at_.slice, at_.slices, count,
-                 world_.on_device(world_.tables.caustic_scale), world_.on_device(world_.tables.energy_scale));
+                 world_.energy, moments_, stored_, t.scene.emitter_count, static_cast<int>(t.objects.size()), t.camera, world_.seed, static_cast<std::uint32_t>(pass),
+                 static_cast<std::uint32_t>(deal_.first_pass()), at_.slice, at_.slices, count,
+                 world_.on_device(t.caustic_scale), world_.on_device(t.energy_scale),
+                 world_.on_device(photon_scale(all, t.light_towards_targets_w)));
     });
     if (++at_.slice < at_.slices) return false;
     at_ = {};
@@ -52,11 +62,16 @@ public:
   {
     to.value(at_);
     to.buffer(film_);
+    deal_.save(to);
+    to.buffer(moments_);
   }
   void load(StateReader& from) override
   {
     from.value(at_);
     from.buffer(film_);
+    deal_.load(from);
+    from.buffer(moments_);
+    world_.buffers.emitters.write(deal_.emitters());
   }
 
 private:
@@ -65,8 +80,19 @@ private:
     std::uint32_t slice = 0, slices = 1;
   };
 
+  void deal(std::int64_t pass)
+  {
+    deal_.deal(pass, moments_.read(), world_.halves);
+    moments_.fill_zero();
+    world_.buffers.emitters.write(deal_.emitters());
+  }
+
   DeviceWorld& world_;
+  bool by_variance_;
+  VarianceDeal deal_;
+  compute::Buffer<std::int64_t> moments_; ///< [emitter], see VarianceDeal::deal
   compute::Buffer<std::int64_t> film_;
+  compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   unsigned photons_per_item_;
   compute::Kernel kernel_;
   Position at_;
@@ -75,6 +101,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<Stage> make_photon_stage(DeviceWorld& world) { return std::make_unique<PhotonStage>(world); }
+std::unique_ptr<Stage> make_photon_stage(DeviceWorld& world, const preset::Spectral& settings, PhotonMap* map)
+{
+  return std::make_unique<PhotonStage>(world, settings, map);
+}
 
 } // namespace nephroid::spectral

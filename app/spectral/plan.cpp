@@ -3,6 +3,9 @@
 #include "spectral/device_scene.h"
 #include "spectral/effort.h"
 #include "spectral/engine.h"
+#include "spectral/layer_plan.h"
+#include "spectral/layer_light.h"
+#include "spectral/map_plan.h"
 #include "spectral/omissions.h"
 
 #include <fmt/format.h>
@@ -51,6 +54,30 @@ plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& sce
                               counted(std::ssize(tables.wavelengths.clusters), "wavelength cluster", "wavelength clusters")));
 }
 
+plan::Pass indirect_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects)
+{
+  if (!settings.indirect) return not_asked_for("indirect", "indirect");
+  const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(scene);
+  if (!none.empty()) return {"indirect", false, none, "", false};
+  std::string reason = counted(settings.indirect_photons_per_pass, "photon a pass", "photons a pass");
+  if (objects.dielectrics + objects.mirrors > 0)
+    reason += ", shown where the camera sees a surface directly; through glass and in mirrors it is left out";
+  return {"indirect", true, reason, "/spectral/indirect", true};
+}
+
+plan::Pass background_pass(const preset::Spectral& settings, const scene::Scene& scene)
+{
+  if (!settings.background) return not_asked_for("background", "background");
+  if (!scene.environment) return {"background", false, "there is no environment: what meets nothing is black", "", false};
+  if (scene.environment->is_black()) return {"background", false, "the environment is black", "", false};
+  const int width = scene.environment->width, height = scene.environment->height;
+  return {"background", true,
+          (width * height == 1 ? "one colour all around" : fmt::format("a picture of {} x {} texels", width, height)) +
+              fmt::format(", seen directly, through glass and in mirrors; {} a pixel",
+                          counted(settings.pixel_samples, "sample", "samples")),
+          "/spectral/background", true};
+}
+
 plan::Pass stray_photons_pass(const preset::LeaveOut& leave_out, const DeviceTables& tables)
 {
   return omission("stray_photons", leave_out.stray_photons, false,
@@ -59,22 +86,35 @@ plan::Pass stray_photons_pass(const preset::LeaveOut& leave_out, const DeviceTab
                                           : "photons need not start where there is no glass and no mirror");
 }
 
+/// caustics: whether there are any.
+plan::Pass estimate_pass(const preset::Preset& preset, bool caustics)
+{
+  if (preset.measure.estimate && caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
+    return {"error estimate", false, "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves", "",
+            false};
+  return {"error estimate", preset.measure.estimate,
+          preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false", "/measure/estimate", true};
+}
+
+std::uint64_t film_bytes(const scene::Scene& scene, int halves)
+{
+  return static_cast<std::uint64_t>(halves) * 3 * sizeof(std::int64_t) * static_cast<std::uint64_t>(scene.camera.width) * scene.camera.height;
+}
+
 std::uint64_t bytes_of(const auto& items) { return items.size() * sizeof(items[0]); }
 
 std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene::Bvh& bvh, const DeviceTables& tables, bool direct,
                                          bool photons, int halves)
 {
-  const std::uint64_t film_bytes =
-      static_cast<std::uint64_t>(halves) * 3 * sizeof(std::int64_t) * static_cast<std::uint64_t>(scene.camera.width) * scene.camera.height;
   const WavelengthTables& w = tables.wavelengths;
   std::vector<plan::PlannedBuffer> list{
       {"tree", bytes_of(bvh.nodes) + bytes_of(bvh.blocks)},
       {"triangles", bytes_of(scene.geometry.triangles) + bytes_of(scene.geometry.positions) + bytes_of(scene.geometry.normals) +
                         bytes_of(scene.object_of_triangle)},
-      {"wavelength tables", bytes_of(w.index_of_refraction) + bytes_of(w.coefficient) + bytes_of(w.reflectance) + bytes_of(w.light_xyz) +
+      {"wavelength tables", bytes_of(w.index_of_cluster) + bytes_of(w.index_of_wavelength) + bytes_of(w.wavelength_cdf) + bytes_of(w.coefficient) + bytes_of(w.reflectance) + bytes_of(w.light_xyz) +
                                 bytes_of(w.reflected_xyz) + bytes_of(w.reflected_xyz_all) + bytes_of(w.cluster_wavelengths)}};
-  if (direct) list.push_back({"film direct", film_bytes});
-  if (photons) list.push_back({"film caustic", film_bytes});
+  if (direct) list.push_back({"film direct", film_bytes(scene, halves)});
+  if (photons) list.push_back({"film caustic", film_bytes(scene, halves)});
   return list;
 }
 
@@ -82,32 +122,41 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
 
 plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
-  const DeviceTables tables = make_device_tables(preset, scene, bvh);
+  const DeviceTables tables = make_run_tables(preset, scene, bvh);
   const ObjectCounts objects = count_objects(scene);
   const int attenuators = tables.wavelengths.attenuator_count;
   const preset::LeaveOut& leave_out = preset.spectral.leave_out;
   plan::Plan plan;
   plan.engine = "spectral";
-  const plan::Pass direct = direct_pass(preset.spectral, scene, objects), photons = photon_pass(preset.spectral, scene, objects, tables);
+  const plan::Pass direct = direct_pass(preset.spectral, scene, objects);
+  plan::Pass photons = photon_pass(preset.spectral, scene, objects, tables);
+  const plan::Pass estimate = estimate_pass(preset, photons.runs);
+  const int halves = estimate.runs ? 2 : 1;
+  const bool relight = preset.spectral.relight;
+  const MapPlan maps = relight ? MapPlan{no_maps_of_layers(), {}}
+                               : plan_maps(preset.spectral, scene, tables, photons.runs, film_bytes(scene, halves));
+  const bool caustics = photons.runs;
+  if (caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
+    photons = {"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false};
   plan.passes = {direct, photons};
-  if (photons.runs) {
+  if (caustics) {
     plan.passes.push_back(effort_pass(preset.spectral, tables.importance));
     plan.passes.push_back(stray_photons_pass(leave_out, tables));
   }
   const std::vector<plan::Pass> code = code_omissions(leave_out, scene, attenuators);
   for (const std::vector<plan::Pass>& passes : {data_omissions(leave_out, scene, tables.spheres), code})
     plan.passes.insert(plan.passes.end(), passes.begin(), passes.end());
-  plan.passes.push_back(
-      {"photon maps", false,
-       "caustics are splatted where the camera sees the surface directly; those seen through glass or in a mirror are not rendered yet"});
-  plan.passes.push_back({"indirect", false, "diffuse interreflection is not rendered yet"});
-  plan.passes.push_back({"background", false, "there is no environment: what meets nothing is black"});
-  const int halves = preset.measure.estimate ? 2 : 1;
-  plan.passes.push_back({"error estimate", preset.measure.estimate,
-                         preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false",
-                         "/measure/estimate", true});
+  plan.passes.push_back(maps.pass);
+  const plan::Pass indirect = indirect_pass(preset.spectral, scene, objects), background = background_pass(preset.spectral, scene);
+  plan.passes.push_back(indirect);
+  plan.passes.push_back(background);
+  plan.passes.push_back(estimate);
   plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs, halves);
+  if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
+  plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);
+  plan.defines["NEPHROID_JITTER"] = std::to_string(int(preset.spectral.jitter && tables.wavelengths.clusters_spread));
+  plan.defines["NEPHROID_LOW_DISCREPANCY"] = std::to_string(int(preset.spectral.low_discrepancy));
   plan.defines["NEPHROID_FILM_HALVES"] = std::to_string(halves);
   plan.defines["NEPHROID_MAX_SURFACES"] = std::to_string(preset.spectral.max_surfaces);
   plan.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(bvh.stack, 1));

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The job of engine 1: passes, in each of which every stage has its turn, step by step.
 #include "base/error.h"
+#include "preset/relight.h"
 #include "spectral/engine.h"
+#include "spectral/layer_light.h"
+#include "spectral/relighting.h"
 #include "spectral/stages.h"
 
 #include <fmt/format.h>
@@ -34,15 +37,26 @@ class SpectralJob final : public job::Job {
 public:
   SpectralJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
               const compute::Context& context)
-      : world_{context, make_device_tables(preset, scene, bvh), {}, plan.defines, {}, preset.white, preset.measure.estimate ? 2u : 1u, {}},
+      : world_{context, make_run_tables(preset, scene, bvh), {}, plan.defines, {}, preset.white, runs(plan, "error estimate") ? 2u : 1u, {}},
         stop_seconds_(preset.stop.seconds)
   {
     world_.buffers = upload(context, scene, bvh, world_.tables);
     world_.tables.scene.root = bvh.root;
     world_.seed = {static_cast<std::uint32_t>(preset.seed), static_cast<std::uint32_t>(preset.seed >> 32)};
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
-    if (runs(plan, "direct")) stages_.push_back({make_direct_stage(world_, preset.spectral)});
-    if (runs(plan, "photons")) stages_.push_back({make_photon_stage(world_)});
+    if (preset.spectral.relight && (runs(plan, "direct") || runs(plan, "photons"))) {
+      preset_ = preset;
+      relighting_ = make_relighting(world_, layer_light(scene, preset.white));
+    }
+    if (runs(plan, "direct"))
+      stages_.push_back({relighting_ ? make_layered_direct_stage(world_, *relighting_, preset.spectral) : make_direct_stage(world_, preset.spectral)});
+    const bool sppm = preset.spectral.estimator == preset::Spectral::Estimator::sppm, maps = runs(plan, "photon maps");
+    if (maps && !sppm) map_ = std::make_unique<PhotonMap>(context, world_.tables.photons_per_pass, world_.defines);
+    if (runs(plan, "photons"))
+      stages_.push_back({relighting_ ? make_layered_photon_stage(world_, *relighting_) : make_photon_stage(world_, preset.spectral, map_.get())});
+    if (maps) stages_.push_back({sppm ? make_sppm_stage(world_, scene, preset.spectral) : make_map_stage(world_, scene, preset.spectral, *map_)});
+    if (runs(plan, "indirect")) stages_.push_back({make_indirect_stage(world_, scene, preset.spectral)});
+    if (runs(plan, "background")) stages_.push_back({make_background_stage(world_, scene, preset.spectral)});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
     // A run is over when no stage takes part any more.
     std::int64_t most = 0;
@@ -101,6 +115,7 @@ public:
     snapshot.picture = std::move(picture);
     snapshot.progress = progress();
     snapshot.energy = energy_balance();
+    for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, snapshot);
     return snapshot;
   }
 
@@ -135,12 +150,23 @@ public:
     world_.context.finish();
   }
 
+  bool adopt(const preset::Preset& preset) override
+  {
+    if (!relighting_ || !preset::only_relit(preset_, preset)) return false;
+    change_light(*relighting_, world_, layer_light(preset));
+    preset_ = preset;
+    world_.white = preset.white;
+    at_.energy_from = photon_passes();
+    return true;
+  }
+
 private:
   /// Where a run is.
   struct Position {
     std::int64_t pass = 0; ///< passes completed
     std::size_t stage = 0; ///< whose turn it is
     double work_seconds = 0;
+    double energy_from = 0; ///< passes of photons when the energy counters began
   };
 
   /// How much of the pass in hand a stage has done.
@@ -155,12 +181,18 @@ private:
     return static_cast<double>(at_.pass) + (count > 0 ? part / count : 0);
   }
 
+  /// With the part of the one in hand.
+  double photon_passes() const
+  {
+    for (std::size_t s = 0; s < stages_.size(); ++s)
+      if (stages_[s].stage->photons_per_pass() > 0) return static_cast<double>(at_.pass) + part_of(s);
+    return 0;
+  }
+
   job::EnergyBalance energy_balance()
   {
     const std::vector<std::int64_t> sums = world_.energy.read();
-    double passes = 0; // of photons, with the part of the one in hand
-    for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (stages_[s].stage->photons_per_pass() > 0) passes = static_cast<double>(at_.pass) + part_of(s);
+    const double passes = photon_passes() - at_.energy_from;
     const auto watts = [&](int outcome) {
       return passes > 0 ? static_cast<double>(sums[static_cast<std::size_t>(outcome)]) / (world_.tables.energy_scale * passes) : 0;
     };
@@ -176,6 +208,9 @@ private:
   }
 
   DeviceWorld world_; ///< the stages use it
+  preset::Preset preset_; ///< where layers are kept: what the light is of
+  std::unique_ptr<Relighting> relighting_;
+  std::unique_ptr<PhotonMap> map_;
   std::optional<double> stop_seconds_;
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
   std::vector<TimedStage> stages_;
@@ -192,7 +227,9 @@ std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Sc
 
 std::string kernel_sources(const compute::Context& context)
 {
-  return compute::kernel_source(context, "direct.cl") + compute::kernel_source(context, "photons.cl");
+  return compute::kernel_source(context, "direct.cl") + compute::kernel_source(context, "photons.cl") +
+         compute::kernel_source(context, "indirect.cl") + compute::kernel_source(context, "background.cl") +
+         compute::kernel_source(context, "grid.cl") + compute::kernel_source(context, "view.cl") + compute::kernel_source(context, "gather.cl");
 }
 
 } // namespace nephroid::spectral

@@ -24,6 +24,8 @@ public:
   /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes
   /// and what is done of the one in hand, which has the number `passes`; done: whether it has had its turn in that pass already.
   virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
+  /// Adds to the snapshot what else there is to say of the same passes: an energy balance of its own, refused contributions.
+  virtual void report(std::int64_t /*passes*/, bool /*done*/, job::Snapshot& /*snapshot*/) {}
   /// Photons sent in one pass towards glass and mirrors; 0 where it sends none.
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Everything that it needs to go on with the same bits. load() gets what save() wrote.

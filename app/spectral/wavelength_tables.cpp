@@ -62,6 +62,8 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std:
   }
 }
 
+bool bends(const scene::Material& material) { return material.type == scene::Material::Type::dielectric; }
+
 /// The clusters with the wavelengths that are lit, and their indices of refraction.
 void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
                       WavelengthTables& tables)
@@ -77,24 +79,39 @@ void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<i
     for (const scene::Material& material : scene.materials) {
       double sum = 0;
       for (const int w : cluster) sum += material.n[static_cast<std::size_t>(w)];
-      const bool bends = material.type == scene::Material::Type::dielectric;
-      tables.index_of_refraction.push_back(bends ? static_cast<float>(sum / static_cast<double>(cluster.size())) : 1.0f);
+      tables.index_of_cluster.push_back(bends(material) ? static_cast<float>(sum / static_cast<double>(cluster.size())) : 1.0f);
     }
   }
 }
 
-/// Sum over wavelengths of light share times reflectance times (xbar, ybar, zbar).
+/// The index of refraction of each wavelength, and whether any cluster has more than one.
+void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables)
+{
+  for (std::size_t w = 0; w < wavelength_count; ++w)
+    for (const scene::Material& material : scene.materials)
+      tables.index_of_wavelength.push_back(bends(material) ? static_cast<float>(material.n[w]) : 1.0f);
+  const std::vector<bool> used = used_materials(scene);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    if (!used[m] || !bends(scene.materials[m])) continue;
+    const Spectrum& n = scene.materials[m].n;
+    for (const std::vector<int>& cluster : tables.clusters)
+      for (const int w : cluster)
+        tables.clusters_spread = tables.clusters_spread || n[static_cast<std::size_t>(w)] != n[static_cast<std::size_t>(cluster.front())];
+  }
+}
+
+/// Sum over wavelengths of light share times reflectance times (xbar, ybar, zbar), and of the light share.
 std::array<double, 4> reflected(const Spectrum& light, const float* reflectance, const std::vector<int>& wavelengths)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
   std::array<double, 4> sum{};
   for (const int index : wavelengths) {
     const auto w = static_cast<std::size_t>(index);
-    const double power = light[w] * (reflectance ? reflectance[w] : 1.0);
-    sum[0] += power * eye.x[w];
-    sum[1] += power * eye.y[w];
-    sum[2] += power * eye.z[w];
-    sum[3] += power;
+    const double reflected = light[w] * (reflectance ? reflectance[w] : 1.0);
+    sum[0] += reflected * eye.x[w];
+    sum[1] += reflected * eye.y[w];
+    sum[2] += reflected * eye.z[w];
+    sum[3] += light[w];
   }
   return sum;
 }
@@ -125,20 +142,43 @@ void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTa
   }
 }
 
-/// A twentieth of the choice goes by plain share, so that a cluster the eye hardly sees is still seen. Clusters without light get none.
+/// What light of one wavelength is worth sending a path for: what the eye makes of it, and a twentieth of its plain power, so that what
+/// the eye hardly sees is still seen.
+double worth(const std::array<double, 4>& xyz_power) { return (xyz_power[0] + xyz_power[1] + xyz_power[2]) / 3 + 0.05 * xyz_power[3]; }
+
+double radiometric(const scene::Light& light) { return light.power_w + light.irradiance_w_m2; }
+
+/// From 0 to 1. Clusters without light get none.
 void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
   std::vector<double> weights(tables.clusters.size(), 0);
-  for (std::size_t l = 0; l < lights.size(); ++l) {
-    const double radiometric = lights[l]->power_w + lights[l]->irradiance_w_m2;
-    for (std::size_t c = 0; c < weights.size(); ++c) weights[c] += radiometric * (tables.weight[l][c] + 0.05 * tables.share[l][c]);
-  }
+  for (std::size_t l = 0; l < lights.size(); ++l)
+    for (std::size_t c = 0; c < weights.size(); ++c)
+      weights[c] += radiometric(*lights[l]) * (tables.weight[l][c] + 0.05 * tables.share[l][c]);
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   double sum = 0;
   tables.cluster_cdf.push_back(0);
   for (const double weight : weights) {
     sum += weight;
     tables.cluster_cdf.push_back(total > 0 ? static_cast<float>(sum / total) : 1.0f);
+  }
+}
+
+/// Within each cluster from above 0 to 1, by the worth of the members' light; all alike where there is none.
+void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
+{
+  for (const std::vector<int>& cluster : tables.clusters) {
+    double total = 0, sum = 0;
+    const auto weight = [&](int w) {
+      double all = 0;
+      for (const scene::Light* light : lights) all += radiometric(*light) * worth(reflected(light->spectrum, nullptr, {w}));
+      return all;
+    };
+    for (const int w : cluster) total += weight(w);
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+      sum += total > 0 ? weight(cluster[i]) / total : 1.0 / static_cast<double>(cluster.size());
+      tables.wavelength_cdf.push_back(i + 1 == cluster.size() ? 1.0f : std::min(static_cast<float>(sum), 1.0f));
+    }
   }
 }
 
@@ -151,8 +191,11 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
   WavelengthTables tables;
   add_material_rows(scene, tables, materials);
   add_cluster_rows(scene, clusters, lit, tables);
+  add_wavelength_rows(scene, tables);
   add_light_rows(lights, tables);
   add_cluster_cdf(lights, tables);
+  for (const scene::Light* light : lights) add_wavelength_cdf({light}, tables);
+  add_wavelength_cdf(lights, tables);
   return tables;
 }
 

@@ -31,7 +31,7 @@ kernel void emissions(DeviceLight light, global const DeviceTarget* targets, Dev
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
-  const Emission sent = emit(&light, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS));
+  const Emission sent = emit(&light, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
   out[i].origin_watts = (float4)(sent.origin, sent.watts);
   out[i].direction = (float4)(sent.direction, 0.0f);
 }

@@ -166,7 +166,7 @@ private:
     const int medium = medium_of(objects);
     return medium < 0 ? 1
                       : tables_.wavelengths
-                            .index_of_refraction[static_cast<std::size_t>(cluster) * scene_.materials.size() + material_number(medium)];
+                            .index_of_cluster[static_cast<std::size_t>(cluster) * scene_.materials.size() + material_number(medium)];
   }
 
   /// The objects around what has crossed a surface of one of them.

@@ -128,7 +128,7 @@ TEST(WavelengthTables, AddUpToTheWholeSpectrum)
   for (std::size_t c = 0; c < w.clusters.size(); ++c) {
     double mean = 0;
     for (const int i : w.clusters[c]) mean += scene.materials[0].n[static_cast<std::size_t>(i)] / static_cast<double>(w.clusters[c].size());
-    EXPECT_NEAR(w.index_of_refraction[c * scene.materials.size()], mean, 1e-6);
+    EXPECT_NEAR(w.index_of_cluster[c * scene.materials.size()], mean, 1e-6);
   }
 }
 

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer "background": kernels/background.cl.
+#include "spectral/background_tables.h"
+#include "spectral/film.h"
+#include "spectral/pixel_rows.h"
+#include "spectral/stages.h"
+
+#include <numeric>
+#include <span>
+
+namespace nephroid::spectral {
+namespace {
+
+std::vector<int> all_wavelengths()
+{
+  std::vector<int> all(WAVELENGTH_COUNT);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+template <class T>
+compute::Buffer<T> upload_vector(const DeviceWorld& world, const char* name, const std::vector<T>& items)
+{
+  return compute::Buffer<T>(world.context, name, std::span<const T>(items));
+}
+
+class BackgroundStage final : public Stage {
+public:
+  BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+      : world_(world), pixel_samples_(settings.pixel_samples), radiance_(scene.environment->radiance),
+        tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
+        texels_(upload_vector(world, "environment", scene.environment->rgb)),
+        primary_xyz_(upload_vector(world, "colours of the primaries", tables_.primary_xyz)),
+        wavelengths_(upload_vector(world, "wavelengths", all_wavelengths())),
+        spectrum_cdf_(upload_vector(world, "wavelengths of the environment", tables_.spectrum_cdf)),
+        film_(world.zeroed("film background", world.film_size())), rows_(world.tables.camera.height)
+  {
+    compute::Defines defines = world.defines;
+    defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
+    defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(goes_one_way(scene) ? 1 : 0));
+    kernel_ = compute::Program(world.context, "background.cl", defines).kernel("background");
+  }
+
+  const char* name() const override { return "background"; }
+  std::int64_t passes() const override { return pixel_samples_; }
+  double part() const override { return rows_.part(); }
+
+  bool step(std::int64_t pass) override
+  {
+    return rows_.step([&](int first_row, int rows) {
+      const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
+      world_.run(kernel_, pixels, 64, texels_, primary_xyz_, tables_.size, wavelengths_, spectrum_cdf_, film_, world_.energy,
+                 world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), first_row, rows,
+                 static_cast<float>(tables_.film_scale), static_cast<float>(tables_.limit));
+    });
+  }
+
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override
+  {
+    const auto samples = [&](int row) {
+      if (passes >= pixel_samples_) return halves_of(pixel_samples_, 0);
+      return halves_of(passes, done || rows_.is_done(row) ? 1 : 0);
+    };
+    const std::vector<std::int64_t> sums = film_.read();
+    const shared::DeviceCamera& camera = world_.tables.camera;
+    add_layer("background", {sums, camera.width, camera.height, tables_.film_scale * world_.white / radiance_, samples}, picture);
+  }
+
+  void save(StateWriter& to) const override
+  {
+    rows_.save(to);
+    to.buffer(film_);
+  }
+  void load(StateReader& from) override
+  {
+    rows_.load(from);
+    from.buffer(film_);
+  }
+
+private:
+  DeviceWorld& world_;
+  std::int64_t pixel_samples_;
+  double radiance_; ///< of the texel (1, 1, 1)
+  BackgroundTables tables_;
+  compute::Buffer<float> texels_;
+  compute::Buffer<shared::float4> primary_xyz_;
+  compute::Buffer<int> wavelengths_;
+  compute::Buffer<float> spectrum_cdf_;
+  compute::Buffer<std::int64_t> film_;
+  compute::Kernel kernel_;
+  PixelRows rows_;
+};
+
+} // namespace
+
+std::unique_ptr<Stage> make_background_stage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+{
+  return std::make_unique<BackgroundStage>(world, scene, settings);
+}
+
+} // namespace nephroid::spectral

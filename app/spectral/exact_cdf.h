@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Choosing among a few hundred things by one random number of a device.
+#pragma once
+#include <vector>
+
+namespace nephroid::spectral {
+
+/// Running sums of weights (at least one of them positive) as whole numbers of 2^-24, from the first weight's own to 1. A random number
+/// of the device is such a number, so the difference of two is the chance itself; none that has a weight has none.
+std::vector<float> exact_cdf(const std::vector<double>& weights);
+
+} // namespace nephroid::spectral

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer "indirect": kernels/indirect.cl.
+#include "spectral/film.h"
+#include "spectral/indirect_tables.h"
+#include "spectral/photon_slices.h"
+#include "spectral/stages.h"
+
+#include <span>
+
+namespace nephroid::spectral {
+namespace {
+
+class IndirectStage final : public Stage {
+public:
+  IndirectStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+      : world_(world), tables_(make_indirect_tables(scene, world.tables, static_cast<unsigned>(settings.indirect_photons_per_pass))),
+        everything_(world.context, "target of indirect light", std::span<const shared::DeviceTarget>(&tables_.everything, 1)),
+        emitters_(world.context, "emitters of indirect light", std::span<const shared::DeviceEmitter>(tables_.emitters)),
+        spectrum_cdf_(world.context, "wavelengths of indirect light", std::span<const float>(tables_.spectrum_cdf)),
+        film_(world.zeroed("film indirect", world.film_size())), energy_(world.zeroed("energy of indirect light", OUTCOME_COUNT)),
+        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
+  {
+    compute::Defines defines = world.defines;
+    defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
+    defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every photon has a wavelength of its own
+    kernel_ = compute::Program(world.context, "indirect.cl", defines).kernel("indirect");
+  }
+
+  const char* name() const override { return "indirect"; }
+  double part() const override { return slices_.part(); }
+
+  bool step(std::int64_t pass) override
+  {
+    return slices_.step(tables_.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
+      world_.run(kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, everything_, emitters_,
+                 static_cast<int>(tables_.emitters.size()), spectrum_cdf_, film_, energy_, world_.tables.camera, world_.seed,
+                 static_cast<std::uint32_t>(pass), offset, stride, count, tables_.outside_distance, world_.on_device(tables_.film_scale),
+                 world_.on_device(tables_.energy_scale));
+    });
+  }
+
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override
+  {
+    const auto samples = [&](int) { return halves_of(passes, done ? 1 : part()); };
+    const std::vector<std::int64_t> sums = film_.read();
+    const DeviceTables& t = world_.tables;
+    add_layer("indirect", {sums, t.camera.width, t.camera.height, tables_.film_scale * world_.white, samples}, picture);
+  }
+
+  void report(std::int64_t passes, bool done, job::Snapshot& snapshot) override
+  {
+    const std::vector<std::int64_t> sums = energy_.read();
+    const double all = static_cast<double>(passes) + (done ? 1 : part());
+    const auto watts = [&](int outcome) {
+      return all > 0 ? static_cast<double>(sums[static_cast<std::size_t>(outcome)]) / (tables_.energy_scale * all) : 0;
+    };
+    snapshot.indirect_energy = {watts(OUTCOME_EMITTED), watts(OUTCOME_ABSORBED), watts(OUTCOME_ESCAPED), watts(OUTCOME_LOST)};
+    snapshot.energy.refused_contributions += static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
+  }
+
+  void save(StateWriter& to) const override
+  {
+    slices_.save(to);
+    to.buffer(film_);
+    to.buffer(energy_);
+  }
+  void load(StateReader& from) override
+  {
+    slices_.load(from);
+    from.buffer(film_);
+    from.buffer(energy_);
+  }
+
+private:
+  DeviceWorld& world_;
+  IndirectTables tables_;
+  compute::Buffer<shared::DeviceTarget> everything_;
+  compute::Buffer<shared::DeviceEmitter> emitters_;
+  compute::Buffer<float> spectrum_cdf_;
+  compute::Buffer<std::int64_t> film_, energy_;
+  unsigned photons_per_item_;
+  compute::Kernel kernel_;
+  PhotonSlices slices_;
+};
+
+} // namespace
+
+std::unique_ptr<Stage> make_indirect_stage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+{
+  return std::make_unique<IndirectStage>(world, scene, settings);
+}
+
+} // namespace nephroid::spectral

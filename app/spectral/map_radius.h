@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far around a visible point photons are gathered: the first radius, and how it shrinks from pass to pass.
+#pragma once
+#include "preset/preset.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+
+namespace nephroid::spectral {
+
+/// spectral.sppm.radius; without, twice what a pixel covers at the distance of the scene's middle (a quarter of the scene's
+/// radius for a camera that is nearer). In scene units.
+double first_map_radius(const preset::Spectral& settings, const scene::Scene& scene);
+
+/// What the first radius is multiplied with in pass p (from 0): r_(p+1)^2 = r_p^2 (p + alpha) / (p + 1), counted from 1 (Knaus and Zwicker
+/// 2011, "Progressive photon mapping: a probabilistic approach", (15)). Squares of radii then fall as p^(alpha - 1): the bias, which is
+/// in proportion, vanishes, and so does the variance of the mean of all passes, as p^-alpha. alpha in (0, 1).
+double map_radius_factor(std::int64_t pass, double alpha);
+
+} // namespace nephroid::spectral

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pixels of a pass in steps of about 50 ms, some rows at a time from the top.
+#pragma once
+#include "spectral/device_world.h"
+#include "spectral/state_bytes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace nephroid::spectral {
+
+class PixelRows {
+public:
+  explicit PixelRows(std::int64_t height) : height_(height) {}
+  double part() const { return static_cast<double>(row_) / static_cast<double>(height_); }
+  /// Rows of the pass in hand that are done.
+  std::int64_t done() const { return row_; }
+  /// Whether a row of the pass in hand is done.
+  bool is_done(std::int64_t row) const { return row < row_; }
+
+  /// Calls work(first_row, rows) for the next rows. True when the pass is complete.
+  template <class Work>
+  bool step(const Work& work)
+  {
+    return step(height_, work);
+  }
+  /// The same for at most so many rows.
+  template <class Work>
+  bool step(std::int64_t most, const Work& work)
+  {
+    const auto rows = std::clamp<std::int64_t>(std::llround(rows_a_step_.amount()), 1, std::min(most, height_ - row_));
+    rows_a_step_.timed(static_cast<double>(rows), [&] { work(static_cast<int>(row_), static_cast<int>(rows)); });
+    row_ += rows;
+    if (row_ < height_) return false;
+    row_ = 0;
+    return true;
+  }
+
+  void save(StateWriter& to) const { to.value(row_); }
+  void load(StateReader& from) { from.value(row_); }
+
+private:
+  std::int64_t height_;
+  std::int64_t row_ = 0;
+  StepSize rows_a_step_{16};
+};
+
+} // namespace nephroid::spectral

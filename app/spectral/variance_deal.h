@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Deals the photons of a pass to the emitters by the variance that they had in earlier passes: among all ways to deal n photons, n_e in
+// proportion to sqrt(V_e) gives the sum of the emitters' variances V_e / n_e its smallest value, where V_e is the variance of one photon
+// that carries all of the emitter's power. No OpenCL here.
+#pragma once
+#include "kernels/shared_types.h"
+#include "spectral/state_bytes.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nephroid::spectral {
+
+class VarianceDeal {
+public:
+  /// emitters: as dealt for the first passes, each with at least one photon.
+  explicit VarianceDeal(std::vector<shared::DeviceEmitter> emitters);
+
+  const std::vector<shared::DeviceEmitter>& emitters() const { return emitters_; }
+  /// The pass from which on emitters() are dealt so.
+  std::int64_t first_pass() const { return first_pass_; }
+  /// Whether photons are dealt anew before a pass: before passes 2, 4, 8, 16, ...
+  bool is_due(std::int64_t pass) const;
+  /// moments: [emitter], summed since first_pass() over its photons: the square of what each added to the picture, in any unit; they are
+  /// taken for the variance, which is right where a pixel gets few photons a pass. halves: of the film, each with its own low-discrepancy
+  /// sequence. A tenth of the photons stays as it was dealt first, and every emitter keeps at least one.
+  void deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
+
+  void save(StateWriter& to) const;
+  void load(StateReader& from);
+
+private:
+  std::vector<shared::DeviceEmitter> emitters_;
+  std::vector<double> first_deal_;        ///< [emitter] share of the photons at the start
+  std::vector<double> squares_, photons_; ///< [emitter] sum over deals of n^2 moments and of n passes: their ratio estimates V_e
+  std::int64_t first_pass_ = 0;
+};
+
+} // namespace nephroid::spectral

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// A photon's way from a light through glass and mirrors to where it ends: which emitter it is of, which numbers it starts with, what it
+// meets.
+#ifndef NEPHROID_PHOTON_PATH_H
+#define NEPHROID_PHOTON_PATH_H
+
+#include "shared_types.h"
+#include "emission.h"
+#include "low_discrepancy.h"
+#include "random.h"
+#include "world.h"
+
+// The last emitter that begins at this photon or before it, by bisection.
+static inline int emitter_of(__global const DeviceEmitter* emitters, int count, uint photon)
+{
+  int low = 0, high = count - 1;
+  while (low < high) {
+    const int middle = (low + high + 1) >> 1;
+    if (emitters[middle].first_photon <= photon)
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  return low;
+}
+
+// The numbers in [0, 1) that a photon starts with.
+typedef struct {
+  float4 emission; // target, direction (2); w: the film's dither
+  float2 place;    // on an area light
+  float wavelength;
+} PhotonNumbers;
+
+// first_pass: from which on `emitter` has its photons (DeviceEmitter::sequence_start is for it). Low discrepancy: the photons of an emitter
+// that go to one half of the film follow one sequence, pass after pass; the halves have sequences of their own, as they must be
+// independent.
+static inline PhotonNumbers photon_numbers(const DeviceEmitter* emitter, const DeviceLight* light, uint2 seed, uint pass, uint first_pass,
+                                           uint photon)
+{
+  PhotonNumbers numbers;
+  numbers.emission = random4(seed, pass, photon, 0u, STREAM_PHOTONS);
+#if NEPHROID_LOW_DISCREPANCY
+  const uint index = emitter->sequence_start + (pass - first_pass) / NEPHROID_FILM_HALVES * emitter->photon_count + (photon - emitter->first_photon);
+  const uint3 sequence = (uint3)((uint)emitter->cluster, (uint)light->number, pass % NEPHROID_FILM_HALVES);
+  const float4 first = sobol4(seed, sequence, 0u, index);
+  numbers.emission.xyz = first.xyz;
+  numbers.wavelength = first.w;
+  numbers.place = is_light(light, LIGHT_AREA) ? sobol4(seed, sequence, 1u, index).xy : (float2)(0.0f);
+#else
+  numbers.wavelength = 0.0f;
+  numbers.place = (float2)(0.0f);
+  if (NEPHROID_JITTER || is_light(light, LIGHT_AREA)) {
+    const float4 more = random4(seed, pass, photon, 1u, STREAM_PHOTONS);
+    numbers.place = more.xy;
+    numbers.wavelength = more.z;
+  }
+#endif
+  return numbers;
+}
+
+// Where a photon ended, and what is left of its power there.
+typedef struct {
+  int outcome; // OUTCOME_*
+  float left;  // 0..1
+  Surface surface; // of a deposit
+  uint triangle;
+  float3 xyz; // of a deposit: reflected light, as if the photon carried the light's whole power
+} PhotonEnd;
+
+// Follows a photon of a light to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on its last way.
+// share: of the light's power, that the photon's band began with.
+static inline PhotonEnd trace_photon(const World* world, int light, const Band* band, float share, Path* path, uint2 seed, uint pass,
+                                     uint photon)
+{
+  PhotonEnd end;
+  end.outcome = OUTCOME_LOST;
+  end.left = 1.0f;
+  bool met_caustic_object = false;
+  float4 choices = (float4)(0.0f);
+  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+    const Hit hit = next_hit(world, path);
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
+      end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
+      break;
+    }
+    end.surface = surface_at(&world->geometry, world->objects, hit);
+    end.triangle = hit.primitive;
+    const DeviceMaterial material = material_of(world, end.surface.object);
+    lose_in_medium(world, path, hit.t);
+    if (material.type == MATERIAL_DIFFUSE) {
+      end.outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
+      if (!met_caustic_object) return end;
+      const float4 carried = carried_light(world, &path->losses, light, band, material.reflector);
+      end.xyz = carried.xyz;
+      if (path->losses.any) end.left = carried.w / share;
+      return end;
+    }
+    if (surface_number == NEPHROID_MAX_SURFACES) break;
+    met_caustic_object = true;
+    if ((surface_number & 3) == 0) choices = random4(seed, pass, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
+    float n_ratio;
+    if (!bend_path(world, path, hit.primitive, &end.surface, &material, band, choices.x, &n_ratio)) break;
+    choices = choices.yzwx;
+  }
+  if (path->losses.any) end.left = carried_light(world, &path->losses, light, band, -1).w / share;
+  return end;
+}
+
+#endif

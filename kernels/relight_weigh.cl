@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. Costs one reading of the film.
+#include "layer_types.h"
+
+// One work item: eight cells of one reflector. rows: halves times layers.
+__kernel void weigh(__global const long* sums, int block_count, int rows, __global const int* reflector_of_block,
+                    __global const float* weights,     // [reflector][row][6]: RGB of the one, RGB of the other
+                    __global float* weighed)           // [6][cell]
+{
+  const int item = (int)get_global_id(0), block = item / (LAYER_BLOCK / 8), eighth = item % (LAYER_BLOCK / 8);
+  if (block >= block_count) return;
+  __global const long* from = sums + (size_t)block * (size_t)rows * LAYER_BLOCK;
+  __global const float* weight = weights + (size_t)reflector_of_block[block] * (size_t)rows * 6;
+  float8 a = (float8)(0.0f), b = a, c = a, d = a, e = a, f = a;
+  for (int row = 0; row < rows; ++row) {
+    const float8 value = convert_float8(vload8((size_t)row * (LAYER_BLOCK / 8) + (size_t)eighth, from));
+    a += weight[0] * value;
+    b += weight[1] * value;
+    c += weight[2] * value;
+    d += weight[3] * value;
+    e += weight[4] * value;
+    f += weight[5] * value;
+    weight += 6;
+  }
+  const size_t cells = (size_t)block_count * (LAYER_BLOCK / 8);
+  vstore8(a, (size_t)item, weighed);
+  vstore8(b, cells + (size_t)item, weighed);
+  vstore8(c, 2 * cells + (size_t)item, weighed);
+  vstore8(d, 3 * cells + (size_t)item, weighed);
+  vstore8(e, 4 * cells + (size_t)item, weighed);
+  vstore8(f, 5 * cells + (size_t)item, weighed);
+}
