@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid importance` as scripts use it, and one line for whatever is wrong, here and with spectral.effort elsewhere.
+#include "tests/support/child.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid::test;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class ImportanceVerb : public testing::Test {
+protected:
+  TemporaryFolder scratch;
+  fs::path folder = scratch.path() / "here", logs = scratch.path();
+  void SetUp() override
+  {
+    fs::create_directory(folder);
+    std::ofstream(folder / "ball.json") << R"({
+      "engine": "spectral", "unit": "m",
+      "scene": {
+        "materials": {"glass": {"type": "dielectric", "dispersion": "materials/N-SF66.yml"}, "the \"floor\"": {"type": "diffuse"}},
+        "objects": [{"name": "ball", "shape": {"type": "sphere", "segments": 32}, "material": "glass"},
+                    {"name": "floor", "shape": {"type": "quad", "size": [9, 1, 9]}, "material": "the \"floor\"",
+                     "transform": {"translate": [0, -1, 0]}}],
+        "lights": [{"type": "point", "spectrum": "D65", "position": [0, 3, 0]}]},
+      "stop": {"passes": 200}})";
+  }
+  Ended run(const std::vector<std::string>& arguments) const { return nephroid::test::nephroid(arguments, folder, logs); }
+};
+
+TEST_F(ImportanceVerb, AnswersInTheContractsShape)
+{
+  const Ended ended = run({"importance", "ball.json", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const json answer = json::parse(ended.out);
+  ASSERT_EQ(answer["wavelengths_nm"].size(), 401u);
+  EXPECT_EQ(answer["wavelengths_nm"][0], 380);
+  EXPECT_EQ(answer["wavelengths_nm"][400], 780);
+  const auto u = answer["importance"].get<std::vector<double>>();
+  ASSERT_EQ(u.size(), 401u);
+  EXPECT_EQ(*std::max_element(u.begin(), u.end()), 1);
+  EXPECT_EQ(answer["surroundings"].size(), 1u);
+  EXPECT_EQ(answer["surroundings"][0]["material"], "the \"floor\"");
+  EXPECT_EQ(answer["surroundings"][0]["share"], 1);
+  EXPECT_NEAR(answer["surroundings"][0]["lightness"].get<double>(), 116 * std::cbrt(0.8) - 16, 1e-9); // a reflectance of 0.8
+
+  std::set<int> wavelengths;
+  for (const json& cluster : answer["iterations"]) {
+    double largest = 0;
+    for (const int nm : cluster["wavelengths_nm"]) {
+      wavelengths.insert(nm);
+      largest = std::max(largest, u[static_cast<std::size_t>(nm - 380)]);
+    }
+    EXPECT_EQ(cluster["importance"], largest);
+    EXPECT_EQ(cluster["iterations"], std::ceil(200 * largest));
+  }
+  EXPECT_EQ(wavelengths.size(), 401u);
+  EXPECT_EQ(answer["iterations"].size(), 32u); // of N-SF66 at 0.05 degrees
+}
+
+TEST_F(ImportanceVerb, TakesTheMethodFromTheOptionElseFromThePreset)
+{
+  const auto method_of = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"importance", "ball.json", "--json"});
+    const json answer = json::parse(run(arguments).out);
+    const bool fixed = answer["surroundings"].empty() && std::abs(answer["importance"][0].get<double>() - 0.338048) < 1e-6;
+    EXPECT_EQ(fixed, answer["method"] == "radziszewski");
+    return answer["method"].get<std::string>();
+  };
+  EXPECT_EQ(method_of({}), "thesis");
+  EXPECT_EQ(method_of({"--set", "spectral.effort=equal"}), "thesis");
+  EXPECT_EQ(method_of({"--set", "spectral.effort=radziszewski"}), "radziszewski");
+  EXPECT_EQ(method_of({"--set", "spectral.effort=radziszewski", "--method", "thesis"}), "thesis");
+  EXPECT_EQ(method_of({"--method", "radziszewski"}), "radziszewski");
+}
+
+TEST_F(ImportanceVerb, PrintsTablesForPeople)
+{
+  const Ended ended = run({"importance", "ball.json", "--set", "stop.passes=1000"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.out, testing::AllOf(HasSubstr("1.0000   91.7  the \"floor\"\n"), HasSubstr(" 1000  "),
+                                        HasSubstr("32 clusters alike: 32000"), HasSubstr("401 wavelengths one by one: 401000")));
+}
+
+struct Wrong {
+  std::vector<std::string> arguments;
+  std::string says;
+};
+
+TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine)
+{
+  const std::string zero = "ball.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: ";
+  const std::vector<std::string> black{"--set", "scene.materials.the \"floor\".reflectance=0"};
+  const Wrong cases[] = {
+      {{"importance"}, "PRESET is required"},
+      {{"importance", "no-such-preset"}, "no-such-preset"},
+      {{"importance", "ball.json", "--method", "best"}, "best not in"},
+      {{"importance", "ball.json", "--set", "scene.lights.0.power_w=0"}, zero + "no light sends power towards the caustic objects"},
+      {{"importance", "ball.json", black[0], black[1]}, zero + "nothing around the caustic objects reflects"},
+      {{"importance", "spectral/plate", "--set", "scene.objects=[]"}, "no object is of glass or a mirror"},
+      {{"plan", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"}, zero},
+      {{"run", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"}, zero},
+      {{"plan", "ball.json", "--set", "spectral.effort=random"}, "random needs the estimator sppm"},
+      {{"plan", "ball.json", "--set", "spectral.effort=variance", "--set", "spectral.estimator=sppm"},
+       "variance is not measured by the estimator sppm"},
+      {{"plan", "ball.json", "--set", R"(reference={"type": "recipe", "spectral": {"effort": "random"}})"},
+       "random needs the estimator sppm"},
+  };
+  for (const Wrong& wrong : cases) {
+    SCOPED_TRACE(wrong.says);
+    const Ended ended = run(wrong.arguments);
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err, testing::AllOf(StartsWith("nephroid: "), HasSubstr(wrong.says)));
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
+}
+
+} // namespace
