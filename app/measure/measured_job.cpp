@@ -47,6 +47,8 @@ public:
               Clock::time_point began)
       : job_(std::move(job)), settings_(preset.measure), reference_(std::move(reference)), began_(began)
   {
+    // Its radii hang on all photons: there are no independent halves.
+    if (preset.spectral.estimator == preset::Spectral::Estimator::sppm) settings_.estimate = false;
     if (reference_) {
       against_.emplace(reference_->pixels());
       if (!reference_->mask.empty()) masked_.emplace(reference_->pixels(), reference_->mask);
@@ -62,7 +64,7 @@ public:
       throw bad_input(preset.source + "#/stop/error", "nothing measures the error of this run in " + metric,
                       settings_.estimate
                           ? "expected a 'reference', or a 'stop.metric' that can be estimated: lab_mean, lab_rms, mse, rel_l2"
-                          : "expected a 'reference', or 'measure.estimate' true");
+                          : "expected a 'reference', or 'measure.estimate' true and another 'spectral.estimator' than sppm");
     show();
   }
 

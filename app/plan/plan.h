@@ -20,6 +20,7 @@ struct Pass {
 struct PlannedBuffer {
   std::string name;
   std::uint64_t bytes = 0;
+  bool saved = false; ///< whether checkpoints hold it, other than films, which they always hold
 };
 
 struct Plan {

@@ -16,15 +16,15 @@ namespace {
 
 constexpr const char* remedy = "choose a smaller scene.camera.resolution";
 
-/// What saving a picture takes at its peak, in bytes, for `layers` layers of 3 channels whose films have film_bytes together:
+/// What saving a picture takes at its peak, in bytes, for `layers` films of 3 channels where a checkpoint holds saved_bytes:
 /// the snapshot's floats, 12 a pixel for each layer, for their sum and for the draw of its error, are held throughout; beside them come
 ///  - the EXR writer's interleaved copy, its encoded file and the copy of that which is written, each at most about as large, or
-///  - the checkpoint, which holds the films: once as the job's bytes and once as the file's.
+///  - the checkpoint: once as the job's bytes and once as the file's.
 /// Reading a film back for a snapshot, one at a time, is less than either, and so is measuring: 24 a pixel for CIELAB.
-std::uint64_t peak_bytes(std::uint64_t layers, std::uint64_t pixels, std::uint64_t film_bytes)
+std::uint64_t peak_bytes(std::uint64_t layers, std::uint64_t pixels, std::uint64_t saved_bytes)
 {
   const std::uint64_t floats = 12 * (layers + 2) * pixels;
-  return floats + std::max(3 * floats, 2 * film_bytes);
+  return floats + std::max(3 * floats, 2 * saved_bytes);
 }
 
 std::uint64_t total_bytes(const plan::Plan& plan)
@@ -39,13 +39,13 @@ Error does_not_fit(const std::string& what, const std::string& there_is) { retur
 
 std::uint64_t host_bytes(const plan::Plan& plan, int width, int height)
 {
-  std::uint64_t layers = 0, film_bytes = 0;
+  std::uint64_t layers = 0, saved_bytes = 0;
   for (const plan::PlannedBuffer& buffer : plan.buffers)
-    if (buffer.name.starts_with("film ")) {
-      ++layers;
-      film_bytes += buffer.bytes;
+    if (const bool film = buffer.name.starts_with("film "); film || buffer.saved) {
+      layers += film;
+      saved_bytes += buffer.bytes;
     }
-  return peak_bytes(layers, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height), film_bytes);
+  return peak_bytes(layers, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height), saved_bytes);
 }
 
 std::optional<std::uint64_t> available_memory_bytes()
