@@ -47,7 +47,7 @@ struct FittedPoints {
 };
 /// Few control points whose monotone cubic comes to within `tolerance` of n, at most `most` (>= 2): from both ends on, one more where
 /// the deviation is greatest.
-FittedPoints fit_points(const optics::Spectrum& n, double tolerance = 1e-5, std::size_t most = 40);
+FittedPoints fit_points(const optics::Spectrum& n, double tolerance = 1e-4, std::size_t most = 40);
 
 /// A dispersion of a refractiveindex.info file: a path, or the name of a shipped material ("N-SF66"), for a preset from `preset_source`.
 /// Throws bad_input where it cannot be read or has no n at one of the 401 wavelengths.

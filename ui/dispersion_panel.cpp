@@ -108,17 +108,16 @@ void DispersionPanel::draw(const Workbench& workbench, Commands& commands)
   below_plot_ = ImGui::GetCursorPosY() - top;
 }
 
-/// Takes over what the preset says now. Another material, or another number of points, leaves no point selected that was not meant.
+/// Takes over what the preset says now. Another material leaves no point selected.
 void DispersionPanel::follow(const Workbench& workbench)
 {
   const preset::Preset& preset = *workbench.preset();
   const std::string material = shown_dielectric(preset, workbench.material());
   model_.update(preset, material);
-  const std::size_t before = points_.size();
   points_ = sorted_points(preset.scene.materials.at(material).dispersion);
   const bool another = material != shown_;
   shown_ = material;
-  if (another || (points_.size() != before && selected_ && *selected_ >= points_.size())) selected_.reset();
+  if (another || (selected_ && *selected_ >= points_.size())) selected_.reset();
   if (!another) return;
   fitted_text_.clear();
   dragging_ = false;
@@ -227,25 +226,29 @@ void DispersionPanel::draw_points_row(const Frame& frame)
   remember("Remove");
   ImGui::EndDisabled();
   ImGui::SetItemTooltip("The selected point; Delete, or a right click on a point, does the same");
-  if (selected_ && *selected_ < points_.size()) draw_place(frame);
+  draw_place(frame);
 }
 
-/// The selected point in figures.
+/// The selected point in figures. Without one the row stays all the same, or the plot would move while a point is grabbed.
 void DispersionPanel::draw_place(const Frame& frame)
 {
-  ControlPoint place = points_[*selected_];
+  ControlPoint place = selected_ ? points_[*selected_] : ControlPoint{0, 0};
+  ImGui::BeginDisabled(!selected_);
   const char* const names[] = {"nm", "n"};
   const char* const formats[] = {"%.6g", "%.7g"};
   for (std::size_t i = 0; i < 2; ++i) {
     if (i > 0) ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
-    ImGui::InputDouble(names[i], &place[i], 0, 0, formats[i]);
+    ImGui::InputDouble(names[i], &place[i], 0, 0, selected_ ? formats[i] : "");
     remember(names[i]);
-    if (!ImGui::IsItemDeactivatedAfterEdit()) continue;
+    if (!ImGui::IsItemDeactivatedAfterEdit() || !selected_) continue;
     std::vector<ControlPoint> points = points_;
     move_point(points, *selected_, place);
     edit_points(frame, "place a control point", std::move(points));
   }
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", selected_ ? "selected point" : "no point is selected");
 }
 
 void DispersionPanel::draw_plot(const Frame& frame)
@@ -266,7 +269,9 @@ void DispersionPanel::use_gesture(const Frame& frame, const PointGesture& gestur
     selected_ = gesture.point;
     return;
   case Kind::move: {
-    if (gesture.point >= points_.size()) return; // undone meanwhile
+    if (gesture.point >= points_.size()) return;
+    // Where the mouse rests, what was undone meanwhile stays undone.
+    if (const ImVec2 step = ImGui::GetIO().MouseDelta; step.x == 0 && step.y == 0) return;
     if (!std::exchange(dragging_, true)) gestures_.begin();
     selected_ = gesture.point;
     std::vector<ControlPoint> points = points_;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -100,17 +101,18 @@ ImU32 with_alpha(ImU32 colour, float alpha) { return (colour & ~IM_COL32_A_MASK)
 void draw_bands(const DispersionModel& model, const Columns& columns, int under_mouse)
 {
   ImDrawList& list = *ImPlot::GetPlotDrawList();
-  const float foot = ImPlot::GetPlotPos().y + ImPlot::GetPlotSize().y, strip = foot - 10 * scale();
+  const float foot = ImPlot::GetPlotPos().y + ImPlot::GetPlotSize().y, strip = std::round(foot - 10 * scale());
   const std::size_t highlighted = under_mouse < 0 ? 0 : model.cluster_of()[static_cast<std::size_t>(under_mouse)];
   ImPlot::PushPlotClipRect();
   for (std::size_t i = 0; i < columns.x.size(); ++i) {
     const std::size_t cluster = model.cluster_of()[static_cast<std::size_t>(columns.wavelength[i])];
     const ImU32 colour = cluster_colour(cluster);
-    const float alpha = under_mouse < 0 ? 0.45f : highlighted == cluster ? 0.85f : 0.15f;
-    const ImVec2 top = ImPlot::PlotToPixels(columns.x[i] - 0.5, columns.n[i]);
-    const float right = ImPlot::PlotToPixels(columns.x[i] + 0.5, columns.n[i]).x;
-    list.AddRectFilled(top, {right, strip}, with_alpha(colour, alpha));
-    list.AddRectFilled({top.x, strip}, {right, foot}, with_alpha(colour, std::min(1.0f, alpha + 0.55f)));
+    const float alpha = under_mouse < 0 ? 0.5f : highlighted == cluster ? 0.85f : 0.15f;
+    // Whole pixels: neighbours neither overlap nor leave a gap.
+    const ImVec2 at = ImPlot::PlotToPixels(columns.x[i] - 0.5, columns.n[i]);
+    const float left = std::round(at.x), right = std::round(ImPlot::PlotToPixels(columns.x[i] + 0.5, columns.n[i]).x);
+    list.AddRectFilled({left, at.y}, {right, strip}, with_alpha(colour, alpha));
+    list.AddRectFilled({left, strip}, {right, foot}, with_alpha(colour, std::min(1.0f, alpha + 0.5f)));
   }
   ImPlot::PopPlotClipRect();
 }
@@ -167,6 +169,13 @@ int wavelength_under_mouse(const Columns& columns)
   return column >= 0 && column < optics::wavelength_count ? columns.wavelength[static_cast<std::size_t>(column)] : -1;
 }
 
+/// k is not negative; the axis goes on below 0 to keep its line off the bands' strip.
+int write_k(double value, char* text, int size, void*)
+{
+  return value < 0 ? std::snprintf(text, static_cast<std::size_t>(size), "%s", "")
+                   : std::snprintf(text, static_cast<std::size_t>(size), "%.2g", value);
+}
+
 /// The axis of k, at the right.
 void set_up_k(const DispersionContents& contents)
 {
@@ -174,9 +183,10 @@ void set_up_k(const DispersionContents& contents)
   double most = 0;
   for (const double value : k)
     if (std::isfinite(value)) most = std::max(most, value);
-  ImPlot::SetupAxis(ImAxis_Y2, contents.absorbs ? "k" : "k (not used)", ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_NoMenus);
+  ImPlot::SetupAxis(ImAxis_Y2, contents.absorbs ? "extinction coefficient k" : "extinction coefficient k (not used)",
+                    ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_NoMenus);
   ImPlot::SetupAxisLimits(ImAxis_Y2, -0.15 * std::max(most, 1e-12), 1.1 * std::max(most, 1e-12), ImPlotCond_Always);
-  ImPlot::SetupAxisFormat(ImAxis_Y2, "%.2g");
+  ImPlot::SetupAxisFormat(ImAxis_Y2, write_k);
 }
 
 } // namespace
@@ -217,7 +227,7 @@ PointGesture DispersionPlot::draw(const DispersionContents& contents, Wavelength
     axis.set_up();
   }
   if (!held_) n_ends_ = ends_of_n(contents, x, n, x_ends_); // else the axis would run away below the mouse
-  ImPlot::SetupAxis(ImAxis_Y1, "n", ImPlotAxisFlags_NoMenus);
+  ImPlot::SetupAxis(ImAxis_Y1, "index of refraction n", ImPlotAxisFlags_NoMenus);
   ImPlot::SetupAxisLimits(ImAxis_Y1, n_ends_[0], n_ends_[1], ImPlotCond_Always);
   if (has_k) set_up_k(contents);
   ImPlot::SetupFinish();

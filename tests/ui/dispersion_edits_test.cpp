@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be done to a dispersion without a window: control points keep apart and inside what a preset may have, a glass becomes
+// control points, files are loaded or refused.
+#include "optics/dispersion.h"
+#include "preset/read.h"
+#include "spectral/clusters.h"
+#include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/dispersion_edits.h"
+#include "ui/dispersion_figures.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace nephroid::ui {
+namespace {
+
+using spectral::ClusterMethod;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::vector<ControlPoint> three{{400, 1.6}, {500, 1.55}, {700, 1.5}};
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+
+std::string shipped(const std::string& name) { return std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"; }
+
+optics::Spectrum glass(const std::string& name)
+{
+  return optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic);
+}
+
+TEST(DispersionEdits, PointsKeepApart)
+{
+  std::vector<ControlPoint> points = three;
+  move_point(points, 1, {300, 1.7});
+  EXPECT_EQ(points[1], (ControlPoint{400 + least_gap_nm, 1.7})) << "not over its neighbour, nor to its wavelength";
+  move_point(points, 1, {1e9, 1.4});
+  EXPECT_EQ(points[1], (ControlPoint{700 - least_gap_nm, 1.4}));
+  move_point(points, 0, {400, -5});
+  move_point(points, 2, {2000, 1e6});
+  EXPECT_EQ(points[0], (ControlPoint{400, 0.01})) << "what a preset may have at least";
+  EXPECT_EQ(points[2], (ControlPoint{2000, 100}));
+  EXPECT_NO_THROW(optics::control_points(points));
+}
+
+TEST(DispersionEdits, PlacesThatAreNoneChangeNothing)
+{
+  std::vector<ControlPoint> points = three;
+  for (const ControlPoint& to :
+       {ControlPoint{nan, 1.5}, ControlPoint{500, nan}, ControlPoint{infinity, 1.5}, ControlPoint{500, -infinity}}) {
+    move_point(points, 1, to);
+    EXPECT_FALSE(add_point(points, to));
+  }
+  move_point(points, 3, {600, 1.5});
+  EXPECT_EQ(points, three);
+}
+
+TEST(DispersionEdits, NeighboursOfAFileMayBeNearerThanADragCanBringThem)
+{
+  std::vector<ControlPoint> points{{400, 1.6}, {400.2, 1.5}, {400.4, 1.4}};
+  move_point(points, 1, {410, 1.55});
+  EXPECT_EQ(points[1], (ControlPoint{400.2, 1.55})) << "it stays between them";
+}
+
+TEST(DispersionEdits, AddsInOrderAndNotTwiceAtAWavelength)
+{
+  std::vector<ControlPoint> points = three;
+  EXPECT_EQ(add_point(points, {600, 1.52}), 2u);
+  EXPECT_EQ(add_point(points, {390, 1.52}), 0u);
+  EXPECT_EQ(add_point(points, {800, 1.52}), 5u);
+  const std::vector<ControlPoint> before = points;
+  for (const double nm : {600.0, 600.4, 599.6}) EXPECT_FALSE(add_point(points, {nm, 1.7})) << nm;
+  EXPECT_EQ(points, before);
+}
+
+TEST(DispersionEdits, TwoPointsStay)
+{
+  std::vector<ControlPoint> points = three;
+  EXPECT_FALSE(remove_point(points, 3));
+  EXPECT_TRUE(remove_point(points, 1));
+  EXPECT_FALSE(remove_point(points, 0));
+  EXPECT_EQ(points, (std::vector<ControlPoint>{three[0], three[2]}));
+}
+
+TEST(DispersionEdits, TheWidestGapIsWithinTheVisible)
+{
+  EXPECT_EQ(middle_of_widest_gap({{200, 1.6}, {300, 1.5}}), 580);
+  EXPECT_EQ(middle_of_widest_gap({{400, 1.6}, {500, 1.5}, {700, 1.5}}), 600);
+  EXPECT_EQ(middle_of_widest_gap({{500, 1.6}, {2000, 1.5}}), 640) << "from 500 to 780 nm";
+}
+
+TEST(DispersionEdits, SnapsToAGrid)
+{
+  const ControlPoint point = snapped({512.4, 1.5231}, {1, 0.005});
+  EXPECT_EQ(point[0], 512);
+  EXPECT_NEAR(point[1], 1.525, 1e-12);
+  EXPECT_EQ(snapped({512.4, 1.5231}, {0, 0}), (ControlPoint{512.4, 1.5231}));
+}
+
+TEST(DispersionEdits, AGlassBecomesControlPointsThatReproduceIt)
+{
+  for (const char* name : {"N-BK7", "N-SF66", "water-20C-Daimon", "diamond-Peter"}) {
+    const optics::Spectrum n = glass(name);
+    const FittedPoints fitted = fit_points(n);
+    EXPECT_LE(fitted.greatest_deviation, 1e-4) << name;
+    EXPECT_LE(fitted.points.size(), 20u) << name;
+    const optics::Spectrum again = optics::sample_n(optics::control_points(fitted.points), optics::Outside::refuse);
+    double worst = 0;
+    for (std::size_t i = 0; i < n.size(); ++i) worst = std::max(worst, std::fabs(again[i] - n[i]));
+    EXPECT_DOUBLE_EQ(worst, fitted.greatest_deviation) << name << ": it says what it is off by";
+    RecordProperty(name, static_cast<int>(fitted.points.size()));
+  }
+}
+
+TEST(DispersionEdits, AWildCurveTakesAllThePointsItMayHave)
+{
+  const optics::Spectrum n = glass("rhodamine-6G-Seckin");
+  const FittedPoints few = fit_points(n, 1e-5, 10), many = fit_points(n, 1e-5, 40);
+  EXPECT_EQ(few.points.size(), 10u);
+  EXPECT_LT(many.greatest_deviation, few.greatest_deviation);
+  optics::Spectrum flat{};
+  flat.fill(1.5);
+  EXPECT_EQ(fit_points(flat).points.size(), 2u);
+}
+
+TEST(DispersionEdits, LoadsFilesAndSaysWhatIsWrongWithThem)
+{
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(load_file(shipped("N-BK7"), "").file, shipped("N-BK7"));
+  EXPECT_EQ(load_file("N-BK7", "").file, "N-BK7") << "a shipped material's name means the same from every folder";
+  const auto refusal = [](const std::string& file) { return test::refusal_of([&] { load_file(file, ""); }); };
+  EXPECT_THAT(refusal((folder.path() / "missing.yml").string()), HasSubstr("missing.yml"));
+  EXPECT_THAT(refusal(folder.write("broken.yml", "DATA: [")), HasSubstr("broken.yml"));
+  EXPECT_THAT(refusal(folder.write("only-k.yml", "DATA:\n  - type: tabulated k\n    data: |\n      0.3 0.1\n      0.9 0.1\n")),
+              HasSubstr("no index of refraction"));
+  EXPECT_THAT(refusal(folder.write("below.yml", "DATA:\n  - type: tabulated n\n    data: |\n      0.3 1.5\n      0.9 -1\n")),
+              HasSubstr("expected n above 0"));
+  EXPECT_NE(refusal(""), "");
+}
+
+TEST(DispersionEdits, DielectricsThatObjectsUseComeFirst)
+{
+  preset::Preset preset;
+  for (const char* name : {"air", "glass", "water"}) preset.scene.materials[name].type = preset::Material::Type::dielectric;
+  preset.scene.materials["wall"];
+  for (const char* name : {"wall", "water", "nowhere", "glass", "water"}) preset.scene.objects.emplace_back().material = name;
+  EXPECT_THAT(dielectrics(preset), ElementsAre("water", "glass", "air"));
+  EXPECT_EQ(shown_dielectric(preset, "air"), "air");
+  EXPECT_EQ(shown_dielectric(preset, "wall"), "water");
+  EXPECT_EQ(shown_dielectric(preset::Preset{}, "glass"), "");
+}
+
+// ------------------------------------------------------------------------------------------------ what clusters mean
+
+/// The mean of asin(sin theta / n) over 0..89 degrees, in degrees, by the midpoint rule; n > 1.
+double mean_angle(double n)
+{
+  constexpr int steps = 20000;
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) sum += std::asin(std::sin((i + 0.5) / steps * 89 * std::numbers::pi / 180) / n);
+  return sum / steps * 180 / std::numbers::pi;
+}
+
+// n = 1.6 below 480 nm and 1.5 beyond, one cluster: both rays of 45 degrees go as one.
+TEST(DispersionFigures, TheSpreadIsTheDifferenceOfTheAngles)
+{
+  optics::Spectrum n{};
+  for (std::size_t i = 0; i < n.size(); ++i) n[i] = i < 100 ? 1.6 : 1.5;
+  const ClusterFigures figures = figures_of(spectral::cluster_wavelengths(n, 45, ClusterMethod::optimal), n);
+  ASSERT_EQ(figures.clustering.clusters.size(), 1u);
+  const double at_45 = (std::asin(std::sqrt(0.5) / 1.5) - std::asin(std::sqrt(0.5) / 1.6)) * 180 / std::numbers::pi;
+  EXPECT_NEAR(figures.at_45.greatest_deg, at_45, 1e-12);
+  EXPECT_NEAR(figures.at_45.mean_deg, at_45, 1e-12);
+  EXPECT_NEAR(figures.over_angles.greatest_deg, mean_angle(1.5) - mean_angle(1.6), 1e-6);
+  EXPECT_EQ(figures.saving, 401);
+}
+
+TEST(DispersionFigures, InsideAClusterTheMeanSpreadIsBelowTheThreshold)
+{
+  for (const char* name : {"N-SF66", "arbitrary-1", "rhodamine-6G-Seckin"}) {
+    const optics::Spectrum n = glass(name);
+    for (const double threshold : {0.01, 0.05, 0.5}) {
+      const ClusterFigures optimal = figures_of(spectral::cluster_wavelengths(n, threshold, ClusterMethod::optimal), n);
+      EXPECT_LE(optimal.over_angles.greatest_deg, threshold) << name;
+      EXPECT_LE(optimal.over_angles.mean_deg, optimal.over_angles.greatest_deg) << name;
+      EXPECT_GT(optimal.over_angles.mean_deg, 0) << name;
+    }
+    const ClusterFigures each = figures_of(spectral::cluster_wavelengths(n, 0.05, ClusterMethod::brute_force), n);
+    EXPECT_EQ(each.at_45.greatest_deg, 0);
+    EXPECT_EQ(each.over_angles.mean_deg, 0);
+    EXPECT_EQ(each.saving, 1);
+  }
+}
+
+TEST(DispersionFigures, BandsCoverEveryWavelengthOnceAndKeepTheirCluster)
+{
+  const optics::Spectrum n = glass("arbitrary-1");
+  const spectral::Clustering clustering = spectral::cluster_wavelengths(n, 0.5, ClusterMethod::optimal);
+  const auto cluster_of = cluster_of_wavelengths(clustering);
+  const std::vector<Band> bands = bands_of(clustering);
+  EXPECT_GT(bands.size(), clustering.clusters.size()) << "the curve meets n = 2 five times";
+  int next = 0;
+  for (const Band& band : bands) {
+    EXPECT_EQ(band.first, next);
+    for (int i = band.first; i <= band.last; ++i) EXPECT_EQ(cluster_of[static_cast<std::size_t>(i)], band.cluster);
+    next = band.last + 1;
+  }
+  EXPECT_EQ(next, optics::wavelength_count);
+}
+
+} // namespace
+} // namespace nephroid::ui

@@ -1,0 +1,460 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, files are loaded, what is
+// wrong becomes a message.
+#include "optics/dispersion.h"
+#include "preset/read.h"
+#include "spectral/clusters.h"
+#include "ui/actions.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <ctime>
+
+namespace nephroid::ui {
+namespace {
+
+using spectral::ClusterMethod;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+std::string shipped(const std::string& name) { return std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"; }
+
+preset::Dispersion from_file(const std::string& file)
+{
+  preset::Dispersion dispersion;
+  dispersion.type = preset::Dispersion::Type::file;
+  dispersion.file = file;
+  return dispersion;
+}
+
+preset::Dispersion from_points(std::vector<ControlPoint> points) { return with_points({}, std::move(points)); }
+
+const std::vector<ControlPoint> five{{380, 1.62}, {450, 1.58}, {550, 1.55}, {650, 1.53}, {780, 1.52}};
+
+class DispersionPanelTest : public test::WindowFixture {
+protected:
+  DispersionPanelTest() : test::WindowFixture("dispersion") {}
+
+  /// A preset of these dielectrics, with a ball of each.
+  void open_glass(const std::map<std::string, preset::Dispersion>& glasses)
+  {
+    preset::Preset made = preset::parse_preset(test::preset_text, "test");
+    for (const auto& [name, dispersion] : glasses) {
+      preset::Material& material = made.scene.materials[name];
+      material.type = preset::Material::Type::dielectric;
+      material.dispersion = dispersion;
+      preset::Object& ball = made.scene.objects.emplace_back();
+      ball.name = ball.material = name;
+      ball.shape = preset::Shape{};
+    }
+    ASSERT_TRUE(workbench.open(folder.write("glass.json", preset::to_json(made))));
+    frames(4);
+  }
+  const DispersionPanel& panel() const { return workspace.dispersion(); }
+  const preset::Dispersion& dispersion(const std::string& material = "glass") const
+  {
+    return workbench.preset()->scene.materials.at(material).dispersion;
+  }
+  std::vector<ControlPoint> points() const { return sorted_points(dispersion()); }
+  std::size_t shown_count(ClusterMethod method) const { return panel().model().figures(method).clustering.clusters.size(); }
+  /// What the clusters of the preset's curve are, without the panel.
+  std::size_t true_count(ClusterMethod method) const
+  {
+    return spectral::cluster_wavelengths(optics::sample_n(optics::control_points(dispersion().table), optics::Outside::automatic),
+                                         workbench.preset()->spectral.threshold_deg, method)
+        .clusters.size();
+  }
+  void expect_true_counts() const
+  {
+    ASSERT_EQ(panel().model().error(), "");
+    for (const ClusterMethod method : {ClusterMethod::optimal, ClusterMethod::thesis, ClusterMethod::brute_force})
+      EXPECT_EQ(shown_count(method), true_count(method));
+  }
+
+  void move(const std::array<double, 2>& at)
+  {
+    imgui.move(at[0], at[1]);
+    frame();
+  }
+  void press_at(const std::array<double, 2>& at, int button = 0)
+  {
+    move(at);
+    frame(); // a point is known to be under the mouse from the second frame on
+    imgui.button(button, true);
+    frame();
+  }
+  void let_go(int button = 0)
+  {
+    imgui.button(button, false);
+    frame();
+  }
+  void click(const std::array<double, 2>& at, int button = 0)
+  {
+    press_at(at, button);
+    let_go(button);
+    frame();
+  }
+  void click(const std::string& widget) { click(panel().widget(widget)); }
+  /// In the plot, as wavelength and n.
+  void drag_point(const ControlPoint& from, const ControlPoint& to, int steps = 5)
+  {
+    const auto begin = panel().plot().to_screen(from), end = panel().plot().to_screen(to);
+    press_at(begin);
+    for (int i = 1; i <= steps; ++i) move({begin[0] + (end[0] - begin[0]) * i / steps, begin[1] + (end[1] - begin[1]) * i / steps});
+    let_go();
+    frame();
+  }
+};
+
+TEST_F(DispersionPanelTest, WithoutGlassItSaysSo)
+{
+  frames(3);
+  open();
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(DispersionPanelTest, ADragIsOneEntryAndClustersFollow)
+{
+  open_glass({{"glass", from_points(five)}});
+  expect_true_counts();
+  const std::size_t before = shown_count(ClusterMethod::optimal);
+  const auto begin = panel().plot().to_screen(five[2]), end = panel().plot().to_screen({570, 1.6});
+  press_at(begin);
+  for (int step = 1; step <= 8; ++step) {
+    move({begin[0] + (end[0] - begin[0]) * step / 8, begin[1] + (end[1] - begin[1]) * step / 8});
+    if (const auto* edit = imgui.pushed<command::Edit>()) {
+      EXPECT_TRUE(edit->live);
+    }
+    frame();
+    expect_true_counts();
+  }
+  let_go();
+  EXPECT_NE(imgui.pushed<command::EndGesture>(), nullptr);
+  ASSERT_THAT(points(), SizeIs(5));
+  EXPECT_NEAR(points()[2][0], 570, 2);
+  EXPECT_NEAR(points()[2][1], 1.6, 0.001);
+  EXPECT_EQ(points()[1], five[1]);
+  EXPECT_NE(shown_count(ClusterMethod::optimal), before);
+  EXPECT_EQ(workbench.history()->undo_label(), "move a control point of glass");
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(points(), five);
+  EXPECT_EQ(workbench.history()->undo_label(), "");
+  expect_true_counts();
+}
+
+TEST_F(DispersionPanelTest, TwoDragsAreTwoEntries)
+{
+  open_glass({{"glass", from_points(five)}});
+  drag_point(five[2], {560, 1.57});
+  const auto first = points();
+  drag_point(first[2], {570, 1.58});
+  EXPECT_NE(points(), first);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(points(), first);
+}
+
+TEST_F(DispersionPanelTest, APointDraggedOverItsNeighbourStaysBeforeIt)
+{
+  open_glass({{"glass", from_points(five)}});
+  drag_point(five[2], {760, 1.56});
+  EXPECT_EQ(points()[2][0], 650 - least_gap_nm);
+  EXPECT_EQ(points()[3], five[3]);
+  expect_true_counts();
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved)
+{
+  open_glass({{"glass", from_points(five)}});
+  const auto place = panel().plot().to_screen({500, 1.6});
+  for (int i = 0; i < 2; ++i) press_at(place), let_go();
+  frame();
+  ASSERT_THAT(points(), SizeIs(6)) << "a double click";
+  EXPECT_NEAR(points()[2][0], 500, 2);
+  EXPECT_NEAR(points()[2][1], 1.6, 0.002);
+  click("Add");
+  ASSERT_THAT(points(), SizeIs(7)) << "in the widest gap";
+  EXPECT_EQ(points()[5][0], 715);
+  press(ImGuiKey_Delete);
+  EXPECT_THAT(points(), SizeIs(6)) << "the one that was added last";
+  click(panel().plot().to_screen(points()[2]), 1);
+  EXPECT_EQ(points(), five) << "a right click";
+  for (int i = 0; i < 5; ++i) {
+    click(panel().plot().to_screen(points()[1]), 1);
+    expect_true_counts();
+  }
+  EXPECT_THAT(points(), SizeIs(2)) << "as many as a curve needs";
+  ASSERT_FALSE(workbench.messages().empty());
+  EXPECT_THAT(workbench.messages().back().line, HasSubstr("the last two control points stay"));
+  EXPECT_FALSE(workbench.messages().back().error);
+}
+
+TEST_F(DispersionPanelTest, TheSelectedPointIsPlacedByItsFigures)
+{
+  open_glass({{"glass", from_points(five)}});
+  click(panel().plot().to_screen(five[2]));
+  EXPECT_EQ(points(), five) << "a click moves nothing";
+  frame();
+  for (int i = 0; i < 2; ++i) press_at(panel().widget("nm")), let_go();
+  frame();
+  press(ImGuiKey_A, ImGuiMod_Ctrl);
+  ImGui::GetIO().AddInputCharactersUTF8("450");
+  frame();
+  press(ImGuiKey_Enter);
+  frames(2);
+  EXPECT_EQ(points()[2], (ControlPoint{450 + least_gap_nm, 1.55})) << "there is a point at 450 nm";
+}
+
+TEST_F(DispersionPanelTest, SnappedPointsLieOnTheGrid)
+{
+  open_glass({{"glass", from_points(five)}});
+  click("Snap");
+  const double step = panel().plot().grid()[1];
+  drag_point(five[2], {560.3, 1.5731});
+  EXPECT_NE(points(), five);
+  EXPECT_EQ(points()[2][0], std::round(points()[2][0]));
+  EXPECT_NEAR(points()[2][1] / step, std::round(points()[2][1] / step), 1e-6);
+}
+
+TEST_F(DispersionPanelTest, TheThresholdSliderIsOneEntryAndClustersFollow)
+{
+  open_glass({{"glass", from_points(five)}});
+  const auto middle = panel().widget("Threshold");
+  press_at({middle[0] - 60, middle[1]});
+  for (int i = 0; i <= 6; ++i) {
+    move({middle[0] + 20 * i, middle[1]});
+    frame();
+    expect_true_counts();
+  }
+  let_go();
+  EXPECT_NE(imgui.pushed<command::EndGesture>(), nullptr);
+  EXPECT_GT(workbench.preset()->spectral.threshold_deg, 0.1);
+  EXPECT_LE(workbench.preset()->spectral.threshold_deg, 10);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(*workbench.preset(), workbench.history()->opened());
+}
+
+TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
+{
+  open_glass({{"glass", from_file(shipped("N-SF66"))}});
+  EXPECT_EQ(shown_count(ClusterMethod::optimal), 32u);
+  EXPECT_EQ(shown_count(ClusterMethod::thesis), 41u);
+  EXPECT_EQ(shown_count(ClusterMethod::brute_force), 401u);
+  EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 32.0);
+  EXPECT_THAT(panel().model().curve().note, HasSubstr("extrapolated below 390 nm"));
+  click("thesis");
+  EXPECT_EQ(workbench.preset()->spectral.method, ClusterMethod::thesis);
+  EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 41.0);
+  click("Jitter");
+  EXPECT_TRUE(workbench.preset()->spectral.jitter);
+  click("Sorted");
+  move(panel().plot().to_screen({200, 1.95}));
+  frames(2);
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether)
+{
+  const preset::Dispersion flint = from_file(shipped("N-SF66")), crown = from_file(shipped("N-BK7"));
+  open_glass({{"glass", flint}, {"other", crown}});
+  std::vector<spectral::Clustering> both;
+  for (const char* name : {"N-SF66", "N-BK7"})
+    both.push_back(spectral::cluster_wavelengths(optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic), 0.05,
+                                                 ClusterMethod::optimal));
+  EXPECT_EQ(panel().model().clusters_of_scene(), spectral::common_refinement(both).size());
+  open_glass({{"glass", flint}});
+  EXPECT_FALSE(panel().model().clusters_of_scene());
+}
+
+TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
+{
+  open_glass({{"glass", from_points(five)}, {"other", from_file(shipped("N-BK7"))}});
+  const int curves = panel().model().curves_made(), clusterings = panel().model().clusterings_made();
+  frames(10);
+  preset::Preset edited = *workbench.preset();
+  edited.scene.camera.position = {0, 0, 3};
+  workbench.apply({command::Edit{"camera", edited}});
+  frames(10);
+  EXPECT_EQ(panel().model().curves_made(), curves);
+  EXPECT_EQ(panel().model().clusterings_made(), clusterings);
+  edited.spectral.threshold_deg = 0.1;
+  workbench.apply({command::Edit{"threshold", edited}});
+  frames(3);
+  EXPECT_EQ(panel().model().curves_made(), curves) << "the curve is the same";
+  EXPECT_EQ(panel().model().clusterings_made(), clusterings + 1);
+}
+
+TEST_F(DispersionPanelTest, FilesAreLoadedIntoTheGlassThatIsShown)
+{
+  open_glass({{"a", from_points(five)}, {"glass", from_points(five)}});
+  workbench.apply({command::ChooseMaterial{"glass"}});
+  frames(2);
+  workbench.apply({command::Open{shipped("N-BK7")}}); // what dropping a file does
+  frames(2);
+  EXPECT_EQ(dispersion().file, shipped("N-BK7"));
+  EXPECT_EQ(dispersion("a"), from_points(five));
+  EXPECT_EQ(panel().model().curve().name, "N-BK7");
+  EXPECT_EQ(shown_count(ClusterMethod::thesis), 12u);
+  EXPECT_EQ(workbench.history()->undo_label(), "load N-BK7 into glass");
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(points(), five);
+}
+
+TEST_F(DispersionPanelTest, AFileThatCannotBeLoadedIsAMessage)
+{
+  open_glass({{"glass", from_points(five)}});
+  for (const std::string& bad : {folder.write("broken.yml", "DATA: ["), folder.write("empty.yaml", ""),
+                                 folder.write("only-k.yml", "DATA:\n  - type: tabulated k\n    data: |\n      0.3 0.1\n      0.9 0.1\n"),
+                                 (folder.path() / "missing.yml").string()}) {
+    workbench.apply({command::Open{bad}});
+    frames(2);
+    ASSERT_FALSE(workbench.messages().empty()) << bad;
+    EXPECT_TRUE(workbench.messages().back().error);
+    EXPECT_THAT(workbench.messages().back().line, HasSubstr(std::filesystem::path(bad).filename().string()));
+    EXPECT_EQ(points(), five);
+    EXPECT_FALSE(workbench.history()->modified());
+  }
+  expect_true_counts();
+}
+
+TEST_F(DispersionPanelTest, WithoutGlassAFileIsRefused)
+{
+  open();
+  workbench.apply({command::Open{shipped("N-BK7")}});
+  ASSERT_THAT(workbench.messages(), SizeIs(1));
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("this preset has no dielectric"));
+  EXPECT_FALSE(workbench.history()->modified());
+}
+
+TEST_F(DispersionPanelTest, AGlassIsMadeEditableAndBackByUndo)
+{
+  open_glass({{"glass", from_file(shipped("N-SF66"))}});
+  click("Make editable");
+  frames(2);
+  EXPECT_EQ(dispersion().type, preset::Dispersion::Type::points);
+  EXPECT_EQ(panel().model().error(), "");
+  EXPECT_EQ(shown_count(ClusterMethod::optimal), 32u);
+  ASSERT_FALSE(workbench.messages().empty());
+  EXPECT_THAT(workbench.messages().back().line, HasSubstr("they reproduce N-SF66 within 9e-05 of n"));
+  drag_point(points()[3], {points()[3][0], points()[3][1] + 0.02});
+  expect_true_counts();
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(dispersion(), from_file(shipped("N-SF66")));
+}
+
+TEST_F(DispersionPanelTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
+{
+  preset::Dispersion nowhere; // n^2 = 1 - 5 l^2 / (l^2 - .01) < 0
+  nowhere.type = preset::Dispersion::Type::sellmeier;
+  nowhere.b = {-5};
+  nowhere.c_um2 = {0.01};
+  open_glass({{"glass", nowhere}});
+  EXPECT_THAT(panel().model().error(), HasSubstr("gives no number at 380 nm"));
+  preset::Dispersion refused = from_file(shipped("N-SF66"));
+  refused.outside = preset::Outside::refuse;
+  const preset::Dispersion missing = from_file("nowhere.yml");
+  for (const preset::Dispersion& bad : {refused, missing, nowhere}) {
+    workbench.apply({command::Edit{"bad", with_dispersion(*workbench.preset(), "glass", bad)}});
+    frames(3);
+    EXPECT_NE(panel().model().error(), "");
+    move(panel().plot().to_screen({500, 1.5}));
+    click("Sorted");
+    click("Make editable");
+    EXPECT_EQ(dispersion(), bad) << "greyed";
+  }
+  workbench.apply({command::LoadDispersion{"N-BK7"}});
+  frames(3);
+  EXPECT_EQ(panel().model().error(), "");
+}
+
+TEST_F(DispersionPanelTest, AnUndoDuringADragIsNoHarm)
+{
+  open_glass({{"glass", from_points(five)}});
+  click("Add");
+  ASSERT_THAT(points(), SizeIs(6));
+  const auto place = panel().plot().to_screen(points()[5]);
+  press_at(place);
+  move({place[0] - 20, place[1] - 20});
+  frame();
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  move({place[0] - 25, place[1] - 25});
+  frame();
+  let_go();
+  frames(2);
+  EXPECT_THAT(points(), SizeIs(5));
+  expect_true_counts();
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(DispersionPanelTest, TheWavelengthsAreZoomedByTheWheel)
+{
+  open_glass({{"glass", from_points(five)}});
+  const double before = panel().plot().to_screen({780, 1.55})[0] - panel().plot().to_screen({380, 1.55})[0];
+  move(panel().plot().to_screen({580, 1.6}));
+  for (int i = 0; i < 3; ++i) {
+    imgui.wheel(1);
+    frame();
+  }
+  frames(2);
+  EXPECT_GT(panel().plot().to_screen({780, 1.55})[0] - panel().plot().to_screen({380, 1.55})[0], 1.1 * before);
+}
+
+// ------------------------------------------------------------------------------------------- what follows the mouse
+
+double processor_ms()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// Twelve points that meet every n between 1.5 and 1.9 many times.
+std::vector<ControlPoint> wild()
+{
+  std::vector<ControlPoint> points;
+  for (int i = 0; i < 12; ++i) points.push_back({380 + 400.0 * i / 11, i % 2 == 0 ? 1.9 - 0.005 * i : 1.5 + 0.01 * i});
+  return points;
+}
+
+// A step of a drag is two frames of the whole window: the one that sees the mouse and edits the preset, and the one that shows the new
+// curve, both clusterings, bands and figures. Processor time of this thread, so that other work of the machine does not count; the
+// bound of a display's frame at 60 Hz holds with a margin of several times where the compiler optimises.
+TEST_F(DispersionPanelTest, AStepOfADragTakesLessThanAFrame)
+{
+  constexpr int steps = 200;
+  runs.steps = 1;
+  for (const auto& [name, glass] : std::map<std::string, preset::Dispersion>{
+           {"N-BK7", from_file("N-BK7")}, {"N-SF66", from_file("N-SF66")}, {"wild", from_points(wild())}}) {
+    open_glass({{"glass", glass}});
+    if (glass.type == preset::Dispersion::Type::file) click("Make editable");
+    frames(2);
+    const std::vector<ControlPoint> before = points();
+    const std::size_t index = before.size() / 2;
+    const auto at = panel().plot().to_screen(before[index]);
+    press_at(at);
+    std::vector<double> milliseconds;
+    const int clusterings = panel().model().clusterings_made();
+    for (int step = 1; step <= steps; ++step) {
+      const double begin = processor_ms();
+      move({at[0] + 8 * std::sin(0.07 * step), at[1] - std::min(step, steps - step)}); // a pixel a step, up and down
+      frame();
+      milliseconds.push_back(processor_ms() - begin);
+    }
+    let_go();
+    EXPECT_GT(panel().model().clusterings_made() - clusterings, steps * 9 / 10) << "every step was a new curve";
+    EXPECT_NE(points(), before);
+    expect_true_counts();
+    std::sort(milliseconds.begin(), milliseconds.end());
+    RecordProperty(name + "_median_us", static_cast<int>(1000 * milliseconds[steps / 2]));
+    RecordProperty(name + "_worst_us", static_cast<int>(1000 * milliseconds.back()));
+#ifdef NDEBUG
+    EXPECT_LT(milliseconds[steps / 2], 16) << name;
+#endif
+  }
+}
+
+} // namespace
+} // namespace nephroid::ui
