@@ -4,6 +4,7 @@
 #include "measure/measured_job.h"
 #include "run/reference.h"
 #include "run/run.h"
+#include "ui/spectra.h"
 
 #include <chrono>
 #include <string>
@@ -52,7 +53,8 @@ NewRun Engine::make(const preset::Preset& preset)
   plan::Plan plan = previous_->plan;
   std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan.notes);
   auto job = measure::measured(run::make_job(*previous_, *context_), preset, reference);
-  return {std::move(job), std::move(plan), std::move(reference)};
+  auto seen = look_around(preset, previous_->loaded->scene, *previous_->loaded->bvh);
+  return {std::move(job), std::move(plan), std::move(reference), std::move(seen)};
 }
 
 void Engine::watch(const std::stop_token& stop)

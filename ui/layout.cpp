@@ -5,6 +5,7 @@
 #include "ui/dispersion_panel.h"
 #include "ui/error_panel.h"
 #include "ui/plan_panel.h"
+#include "ui/spectra_panel.h"
 #include "ui/view_panel.h"
 
 #include <imgui.h>
@@ -21,10 +22,8 @@ struct Layout {
   const char* in_front; ///< of the tabs at the right
 };
 
-constexpr Layout layouts[] = {{"default", ErrorPanel::title},
-                              {"dispersion", DispersionPanel::title},
-                              {"spectra", "Spectra and importance"},
-                              {"plan", PlanPanel::title}};
+constexpr Layout layouts[] = {
+    {"default", ErrorPanel::title}, {"dispersion", DispersionPanel::title}, {"spectra", SpectraPanel::title}, {"plan", PlanPanel::title}};
 
 const Layout* find(const std::string& name)
 {
@@ -54,7 +53,7 @@ void build_layout(const std::string& name, unsigned dock_space, float width, flo
   const ImGuiID right = ImGui::DockBuilderSplitNode(dock_space, ImGuiDir_Right, tabs / std::max(width, 1.0f), nullptr, &left);
   ImGui::DockBuilderDockWindow(ViewPanel::title, left);
   ImGui::DockBuilderDockWindow(ErrorPanel::title, right);
-  for (const char* title : {DispersionPanel::title, "Spectra and importance", PlanPanel::title}) ImGui::DockBuilderDockWindow(title, right);
+  for (const char* title : {DispersionPanel::title, SpectraPanel::title, PlanPanel::title}) ImGui::DockBuilderDockWindow(title, right);
   // A tab's identifier is that of its window's name in its window (ImGuiWindow::TabId).
   ImGui::DockBuilderGetNode(right)->SelectedTabId = ImHashStr("#TAB", 0, ImHashStr(find(name)->in_front));
   ImGui::DockBuilderFinish(dock_space);

@@ -45,6 +45,7 @@ struct Workbench::Arrival {
   std::mutex mutex;
   std::shared_ptr<const plan::Plan> plan; ///< null: not yet
   std::shared_ptr<const measure::Reference> reference;
+  std::shared_ptr<const SeenByGlass> seen;
 };
 
 void Workbench::apply(const Commands& commands)
@@ -71,6 +72,7 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
   std::erase_if(messages_, [&](const Message& m) { return m.error && m.id <= last_before_commands_; });
   plan_.reset();
   reference_.reset();
+  seen_.reset();
   difference_.forget();
   look_ = Look{};
   snapshot_.reset(); // another preset's picture would be mistaken for this one's
@@ -224,6 +226,7 @@ void Workbench::start()
     const std::lock_guard lock(arrival->mutex);
     arrival->plan = std::make_shared<plan::Plan>(std::move(run.plan));
     arrival->reference = std::move(run.reference);
+    arrival->seen = std::move(run.seen);
     return std::move(run.job);
   });
 }
@@ -235,6 +238,7 @@ void Workbench::take_arrival()
   if (!arrival_->plan) return;
   plan_ = std::exchange(arrival_->plan, nullptr);
   reference_ = std::exchange(arrival_->reference, nullptr);
+  seen_ = std::exchange(arrival_->seen, nullptr);
 }
 
 std::vector<std::string> Workbench::notes() const

@@ -60,6 +60,8 @@ public:
   std::shared_ptr<const job::History> error_history() const { return snapshot_ ? snapshot_->history : nullptr; }
   /// Of the newest run that was made ready; null before the first of a preset. Another plan is another object.
   const std::shared_ptr<const plan::Plan>& plan() const { return plan_; }
+  /// Of that run; null as above, and where the run's source did not look.
+  const std::shared_ptr<const SeenByGlass>& seen_by_glass() const { return seen_; }
   /// What was chosen to be plotted; empty: the run's own. Not every run has it.
   const std::string& error_metric() const { return error_metric_; }
   /// The dielectric that was chosen to be shown; empty or none of the preset's: the first (shown_dielectric).
@@ -157,6 +159,7 @@ private:
   std::shared_ptr<Arrival> arrival_; ///< where the run in hand leaves its plan and its reference
   std::shared_ptr<const plan::Plan> plan_;
   std::shared_ptr<const measure::Reference> reference_;
+  std::shared_ptr<const SeenByGlass> seen_;
   std::string run_name_, snapshot_name_; ///< of the run in hand, and of the one that snapshot_ is of
   std::string error_metric_, material_;
   PinnedRuns pinned_;

@@ -63,6 +63,7 @@ Workspace::Workspace(std::string layout) : layout_(std::move(layout))
   view_ = add_own<ViewPanel>();
   error_ = add_own<ErrorPanel>();
   dispersion_ = add_own<DispersionPanel>(wavelengths_);
+  spectra_ = add_own<SpectraPanel>(wavelengths_);
   plan_ = add_own<PlanPanel>();
 }
 

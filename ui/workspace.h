@@ -7,6 +7,7 @@
 #include "ui/panel.h"
 #include "ui/plan_panel.h"
 #include "ui/plots.h"
+#include "ui/spectra_panel.h"
 #include "ui/view_panel.h"
 #include "ui/wavelength_axis.h"
 
@@ -28,6 +29,7 @@ public:
   const ViewPanel& view() const { return *view_; }
   const ErrorPanel& error() const { return *error_; }
   const DispersionPanel& dispersion() const { return *dispersion_; }
+  const SpectraPanel& spectra() const { return *spectra_; }
   const PlanPanel& plan() const { return *plan_; }
 
 private:
@@ -44,6 +46,7 @@ private:
   ViewPanel* view_ = nullptr;
   ErrorPanel* error_ = nullptr;
   DispersionPanel* dispersion_ = nullptr;
+  SpectraPanel* spectra_ = nullptr;
   PlanPanel* plan_ = nullptr;
   Dialogs dialogs_;
 };

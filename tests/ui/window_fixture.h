@@ -8,11 +8,13 @@
 
 namespace nephroid::test {
 
-class WindowFixture : public ::testing::Test {
+/// Runs: where the window's runs come from, a FakeRuns.
+template <class Runs>
+class WindowFixtureOf : public ::testing::Test {
 protected:
-  explicit WindowFixture(const std::string& layout = {}) : workspace(layout) {}
+  explicit WindowFixtureOf(const std::string& layout = {}) : workspace(layout) {}
 
-  FakeRuns runs;
+  Runs runs;
   TemporaryFolder folder;
   Headless imgui;
   ui::Workbench workbench{runs};
@@ -23,9 +25,9 @@ protected:
   {
     for (int i = 0; i < count; ++i) frame();
   }
-  void open()
+  void open(const std::string& text = test::preset_text)
   {
-    ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+    ASSERT_TRUE(workbench.open(folder.write("test.json", text)));
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.view().texture().empty(); }));
     frames(3); // strips and docks take their final places
   }
@@ -74,5 +76,7 @@ protected:
                       camera().position[2] - camera().target[2]);
   }
 };
+
+using WindowFixture = WindowFixtureOf<FakeRuns>;
 
 } // namespace nephroid::test

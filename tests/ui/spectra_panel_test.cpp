@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Spectra and importance": the mouse edits a light's spectrum, one gesture one entry; its numbers are the engine's; what is
+// wrong is a sentence in it.
+#include "scene/materials.h"
+#include "spectra_scene.h"
+#include "spectral/device_scene.h"
+#include "ui/light_edits.h"
+#include "ui/spectra_panel.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <ctime>
+#include <vector>
+
+namespace nephroid::ui {
+namespace {
+
+using test::eventually;
+using test::room_text;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using Type = preset::LightSpectrum::Type;
+using Effort = preset::Spectral::Effort;
+
+constexpr const char* table = R"({"type": "table", "table": [[400, 0.2], [500, 1], [600, 0.5], [700, 0.8]]})";
+
+class SpectraPanelTest : public test::WindowFixtureOf<test::SeeingRuns> {
+protected:
+  SpectraPanelTest() : WindowFixtureOf("spectra") {}
+
+  void open_room(const std::string& spectrum, const std::string& effort = "importance")
+  {
+    runs.steps = 100000;
+    open(room_text(spectrum, effort));
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.seen_by_glass() != nullptr; }));
+    frames(2);
+  }
+  const SpectraPanel& panel() const { return workspace.spectra(); }
+  const Spectra& spectra() const { return panel().maker().spectra(); }
+  const preset::LightSpectrum& light() const { return workbench.preset()->scene.lights[0].spectrum; }
+  void move_to(const std::array<double, 2>& place)
+  {
+    imgui.move(place[0], place[1]);
+    frame();
+  }
+  void click(const std::array<double, 2>& place, int button = 0)
+  {
+    move_to(place);
+    imgui.button(button, true);
+    frame();
+    imgui.button(button, false);
+    frames(2);
+  }
+  void click(const std::string& widget)
+  {
+    const auto place = panel().place_of(widget);
+    ASSERT_TRUE(place) << widget;
+    click(*place);
+  }
+  /// From one place to another in `steps` moves of the mouse, each a frame.
+  void drag_to(const std::array<double, 2>& from, const std::array<double, 2>& to, int steps = 10)
+  {
+    move_to(from);
+    imgui.button(0, true);
+    frame();
+    for (int i = 1; i <= steps; ++i) {
+      const double part = double(i) / steps;
+      imgui.move(from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1]));
+      frame();
+    }
+    imgui.button(0, false);
+    frames(2);
+  }
+};
+
+TEST_F(SpectraPanelTest, AnIlluminantIsChosenByTheMouse)
+{
+  open_room(R"("D65")");
+  const int made = runs.made;
+  click("illuminant");
+  click("illuminant F10");
+  EXPECT_EQ(light().illuminant, "F10");
+  EXPECT_EQ(workbench.history()->undo_label(), "illuminant F10");
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made; })) << "another light is another picture";
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(light().illuminant, "D65");
+  EXPECT_FALSE(workbench.history()->modified()) << "one entry";
+}
+
+TEST_F(SpectraPanelTest, ARowThatIsDraggedFollowsTheMouseAndIsOneEntry)
+{
+  open_room(table);
+  drag_to(panel().plot().place(600, 0.5), panel().plot().place(640, 0.9));
+  const preset::LightSpectrum dragged = light();
+  ASSERT_THAT(dragged.table, SizeIs(4));
+  EXPECT_NEAR(dragged.table[2][0], 640, 2);
+  EXPECT_NEAR(dragged.table[2][1], 0.9, 0.02);
+  EXPECT_EQ(spectra().lights[0].spectrum, scene::make_light_spectrum(dragged, "test")) << "the curve shown is of the preset as it is";
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(light().table[2], (PowerRow{600, 0.5}));
+  EXPECT_FALSE(workbench.history()->modified()) << "one entry";
+}
+
+TEST_F(SpectraPanelTest, ARowStopsAtItsNeighboursAndTheOthersStayWhereTheyAre)
+{
+  open_room(table);
+  drag_to(panel().plot().place(500, 1), panel().plot().place(650, 0.25));
+  EXPECT_NEAR(light().table[1][0], 599.9, 1e-9);
+  EXPECT_NEAR(light().table[1][1], 0.25, 0.02) << "the largest row sets the scale: it stays while it is held";
+  EXPECT_EQ(light().table[0], (PowerRow{400, 0.2}));
+  EXPECT_EQ(light().table[2], (PowerRow{600, 0.5}));
+}
+
+TEST_F(SpectraPanelTest, GesturesOfTwoPanelsAreTwoEntries)
+{
+  open_room(table);
+  drag(0, 40, 0); // the View's first gesture, then the panel's first
+  drag_to(panel().plot().place(600, 0.5), panel().plot().place(640, 0.9));
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(light().table[2], (PowerRow{600, 0.5}));
+  EXPECT_NE(camera().position[0], 0);
+}
+
+TEST_F(SpectraPanelTest, RowsAreAddedAndRemoved)
+{
+  open_room(table);
+  const auto place = panel().plot().place(550, 0.4);
+  imgui.key(ImGuiMod_Ctrl, true);
+  click(place);
+  imgui.key(ImGuiMod_Ctrl, false);
+  frame();
+  ASSERT_THAT(light().table, SizeIs(5));
+  EXPECT_NEAR(light().table[2][0], 550, 1.5);
+  EXPECT_NEAR(light().table[2][1], 0.4, 0.02);
+  click(panel().plot().place(light().table[2][0], light().table[2][1]), 1);
+  EXPECT_THAT(light().table, SizeIs(4));
+  click(panel().plot().place(500, 1));
+  for (int i = 0; i < 4; ++i) {
+    click(panel().plot().place(light().table.back()[0], light().table.back()[1] / panel().plot().unit()));
+    click("remove");
+  }
+  EXPECT_THAT(light().table, SizeIs(2)) << "a table keeps two rows";
+  click("add");
+  EXPECT_THAT(light().table, SizeIs(3));
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(SpectraPanelTest, LinesAreDraggedAndATemperatureIsOneEntry)
+{
+  open_room(R"({"type": "lines", "table": [[450, 2], [546.1, 4]]})");
+  drag_to(panel().plot().place(450, 0.5), panel().plot().place(480, 0.25));
+  EXPECT_NEAR(light().table[0][0], 480, 2);
+  EXPECT_NEAR(light().table[0][1], 1, 0.08) << "of 4";
+  preset::Preset edited = *workbench.preset();
+  edited.scene.lights[0].spectrum = as_type(light(), Type::blackbody);
+  workbench.apply({command::Edit{"a black body", edited}});
+  frames(2);
+  const auto slider = panel().place_of("temperature");
+  ASSERT_TRUE(slider);
+  drag_to(*slider, {(*slider)[0] + 40, (*slider)[1]});
+  EXPECT_NE(light().temperature_k, 6500);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(light().temperature_k, 6500) << "one entry";
+}
+
+TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines)
+{
+  open_room(R"("F10")");
+  preset::Preset preset = *workbench.preset();
+  const scene::Scene scene = scene::load_scene(preset);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  for (const Effort effort : {Effort::power, Effort::equal, Effort::importance, Effort::radziszewski, Effort::random})
+    for (const auto cluster : {preset::Importance::Cluster::maximum, preset::Importance::Cluster::mean})
+      for (const bool geometry : {true, false}) {
+        preset.spectral.effort = effort;
+        preset.spectral.importance = {cluster, geometry};
+        const int made = runs.made;
+        workbench.apply({command::Edit{"effort", preset}});
+        ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made && workbench.snapshot_is_current(); }));
+        frames(2);
+        ASSERT_EQ(spectra().why_no_u, "");
+        const spectral::WavelengthImportance expected = spectral::wavelength_importance(preset.spectral, scene, bvh);
+        EXPECT_EQ(spectra().importance.u, expected.u);
+        ASSERT_EQ(spectra().importance.surroundings.size(), expected.surroundings.size());
+        for (std::size_t i = 0; i < expected.surroundings.size(); ++i)
+          EXPECT_EQ(spectra().importance.surroundings[i].lightness, expected.surroundings[i].lightness);
+        const spectral::DeviceTables tables = spectral::make_device_tables(preset, scene, bvh);
+        ASSERT_EQ(spectra().clusters.size(), tables.wavelengths.clusters.size());
+        std::int64_t sum = 0;
+        for (std::size_t c = 0; c < tables.importance.size(); ++c) {
+          EXPECT_EQ(spectra().clusters[c].wavelengths, tables.wavelengths.clusters[c]);
+          EXPECT_NEAR(spectra().clusters[c].importance, tables.importance[c], 1e-12);
+          EXPECT_EQ(spectra().clusters[c].iterations, spectral::iterations(tables.importance[c], 100));
+          sum += spectral::iterations(tables.importance[c], 100);
+        }
+        EXPECT_EQ(spectra().iterations(), sum);
+        EXPECT_EQ(spectra().brute_force(), 40100);
+      }
+}
+
+TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsChosen)
+{
+  open_room(R"("D65")");
+  click("geometry");
+  EXPECT_FALSE(workbench.preset()->spectral.importance.geometry);
+  EXPECT_EQ(workbench.history()->undo_label(), "importance by geometry");
+  const std::int64_t before = spectra().iterations();
+  preset::Preset edited = *workbench.preset();
+  edited.spectral.importance.cluster = preset::Importance::Cluster::mean;
+  workbench.apply({command::Edit{"mean", edited}});
+  frame();
+  EXPECT_LT(spectra().iterations(), before) << "without waiting for a run";
+}
+
+TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
+{
+  open_room(table);
+  const std::uint64_t made = panel().maker().made();
+  frames(20);
+  EXPECT_EQ(panel().maker().made(), made);
+  move_to(panel().plot().place(600, 0.5));
+  imgui.button(0, true);
+  frame();
+  move_to(panel().plot().place(620, 0.7));
+  frames(2);
+  const std::uint64_t dragged = panel().maker().made();
+  EXPECT_GT(dragged, made);
+  for (int i = 0; i < 20; ++i) { // held, and at rest
+    frame();
+    EXPECT_TRUE(imgui.commands.empty());
+  }
+  imgui.button(0, false);
+  frames(3);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+  frames(3);
+  EXPECT_EQ(panel().maker().made(), dragged) << "the new run's glass sees what the old one's saw";
+}
+
+TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
+{
+  open_room(table);
+  const auto with_light = [&](const preset::LightSpectrum& spectrum) {
+    preset::Preset edited = *workbench.preset();
+    edited.scene.lights = {edited.scene.lights.empty() ? preset::Light{} : edited.scene.lights[0]};
+    edited.scene.lights[0].spectrum = spectrum;
+    workbench.apply({command::Edit{"light", edited}});
+    frames(3);
+  };
+  for (const preset::LightSpectrum& dark :
+       {preset::LightSpectrum{Type::table, "", 0, {{400, 0}, {700, 0}}}, preset::LightSpectrum{Type::lines, "", 0, {{1064, 1}}}}) {
+    with_light(dark);
+    EXPECT_THAT(spectra().lights[0].error, HasSubstr("no power in 380..780 nm"));
+    EXPECT_THAT(spectra().why_no_u, HasSubstr("no power"));
+    EXPECT_THAT(spectra().clusters, IsEmpty());
+  }
+  with_light({Type::illuminant, "D66", 0, {}});
+  EXPECT_THAT(spectra().lights[0].error, HasSubstr("D65"));
+  preset::Preset edited = *workbench.preset();
+  edited.scene.lights.clear();
+  workbench.apply({command::Edit{"no light", edited}});
+  frames(3);
+  edited.scene.lights = {preset::Light{}};
+  edited.scene.materials["glass"].dispersion.coefficients = {-1};
+  workbench.apply({command::Edit{"no glass", edited}});
+  frames(3);
+  EXPECT_NE(spectra().why_no_u, "");
+  for (const Message& message : workbench.messages()) EXPECT_THAT(message.line, ::testing::Not(HasSubstr(SpectraPanel::title)));
+}
+
+TEST_F(SpectraPanelTest, NothingThatMattersIsASentence)
+{
+  open_room(table);
+  preset::Preset edited = *workbench.preset();
+  for (const char* name : {"red", "floor"}) edited.scene.materials[name].reflectance = {preset::Reflectance::Type::constant, 0, "", {}};
+  workbench.apply({command::Edit{"black", edited}});
+  frames(3);
+  EXPECT_THAT(spectra().why_no_u, HasSubstr("0 at every wavelength"));
+  EXPECT_THAT(spectra().clusters, IsEmpty());
+}
+
+double processor_ms()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+TEST_F(SpectraPanelTest, AStepOfADragIsTimed)
+{
+  open_room(table);
+  move_to(panel().plot().place(600, 0.5));
+  imgui.button(0, true);
+  frame();
+  std::vector<double> steps_ms;
+  const std::uint64_t before = panel().maker().made();
+  for (int i = 1; i <= 200; ++i) {
+    const auto to = panel().plot().place(510 + 11 * i % 167, 0.2 + 0.003 * (37 * i % 211));
+    imgui.move(to[0], to[1]);
+    const double begin = processor_ms();
+    frame(); // pushes the edit
+    frame(); // shows it
+    steps_ms.push_back(processor_ms() - begin);
+  }
+  imgui.button(0, false);
+  frame();
+  EXPECT_GE(panel().maker().made(), before + 190) << "every step changed the curve";
+  std::sort(steps_ms.begin(), steps_ms.end());
+  RecordProperty("drag_step_ms_median", std::to_string(steps_ms[100]));
+  RecordProperty("drag_step_ms_worst", std::to_string(steps_ms.back()));
+}
+
+} // namespace
+} // namespace nephroid::ui

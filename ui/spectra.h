@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the panel "Spectra and importance" shows of a preset: curves on the 401 wavelengths, u(lambda) and iterations a cluster, made
+// anew where what they hang on changed. No Dear ImGui.
+#pragma once
+#include "optics/wavelength.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+#include "spectral/importance.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+/// What u(lambda) hangs on of where a loaded scene's things are. It takes rays, so it comes with a run; panels do the rest.
+struct SeenByGlass {
+  std::vector<std::string> materials; ///< names of Scene::materials, in whose order the shares are
+  spectral::Whereabouts whereabouts;
+  bool operator==(const SeenByGlass&) const = default;
+};
+/// On the thread that made the run ready. Rays are traced only where the preset's effort asks for them.
+std::shared_ptr<const SeenByGlass> look_around(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
+
+struct LightCurve {
+  optics::Spectrum spectrum{}; ///< sums to 1; all 0 where there is an error
+  double largest = 0;          ///< value of it
+  std::string error;           ///< why it has none, a sentence for a person
+};
+
+struct ReflectanceCurve {
+  std::string material;
+  optics::Spectrum reflectance{};
+  std::array<double, 3> srgb{}; ///< 0..1, encoded: its colour under D65
+};
+
+/// A cluster and its iterations after all passes of the preset.
+struct ClusterWork {
+  std::vector<int> wavelengths; ///< indices, rising
+  double importance = 0;        ///< 0..1
+  std::int64_t iterations = 0;
+};
+
+struct Spectra {
+  std::vector<LightCurve> lights;                         ///< one a light of the preset
+  std::vector<ReflectanceCurve> reflectances;             ///< of the materials that objects use and that have one
+  spectral::WavelengthImportance importance;              ///< of the preset's effort; all 0 where why_no_u is not empty
+  std::string why_no_u;                                   ///< why there is none, a sentence for a person
+  std::vector<ClusterWork> clusters;                      ///< empty where there are none; ordered by their smallest wavelength
+  std::array<int, optics::wavelength_count> cluster_of{}; ///< index into clusters; -1: of none
+  std::vector<std::string> materials;                     ///< every one: what Surrounding::material points into
+
+  std::int64_t passes = 0;           ///< N: of the preset's stop, or preset::default_passes
+  std::int64_t iterations() const;   ///< of all clusters together
+  std::int64_t brute_force() const;  ///< 401 N
+  std::int64_t equal_effort() const; ///< N for each cluster
+};
+
+class SpectraMaker {
+public:
+  /// The spectra of a preset; nothing is made anew where neither it nor `seen` changed. seen: null before a run has brought it.
+  /// No Error leaves it: what is wrong is said in the result. Files are read where a material that names one changed.
+  const Spectra& update(const preset::Preset& preset, const std::shared_ptr<const SeenByGlass>& seen);
+  const Spectra& spectra() const { return spectra_; }
+  /// How often anything was made anew.
+  std::uint64_t made() const { return made_; }
+
+private:
+  void make_lights(const preset::Scene& now);
+  void make_materials(const preset::Preset& now);
+  void make_groups(const preset::Preset& now);
+  bool is_of_this_scene(const preset::Spectral& settings) const;
+  void make_importance(const preset::Preset& now);
+  void make_clusters(const preset::Preset& now);
+
+  std::optional<preset::Preset> preset_; ///< what spectra_ is of,
+  std::shared_ptr<const SeenByGlass> seen_;
+  Spectra spectra_;
+  scene::Scene outline_;                 ///< materials, which objects are of which, and lights; no triangles
+  std::string materials_error_;          ///< why outline_ has no materials; empty where it has them
+  std::vector<std::vector<int>> groups_; ///< the clusters of outline_, also of wavelengths that no light has
+  std::string groups_error_;             ///< why there are none
+  std::uint64_t made_ = 0;
+};
+
+/// Every curve as CSV: wavelength_nm, a column a light (sums to 1), luminosity, a column a reflectance, u, cluster, iterations.
+std::string to_csv(const Spectra& spectra);
+/// The preset's colour of a whole wavelength: what the eye makes of it, as bright as the display can show without the colours that it
+/// has not, fading towards the ends as the eye does. sRGB encoded, 0..1.
+std::array<double, 3> wavelength_colour(int index);
+
+} // namespace nephroid::ui

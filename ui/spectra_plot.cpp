@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/spectra_plot.h"
+
+#include "optics/colour.h"
+#include "ui/theme.h"
+#include "ui/wavelength_axis.h"
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <implot.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::ui {
+
+namespace spectra_colour {
+const std::uint32_t light = IM_COL32(255, 206, 112, 255);
+const std::uint32_t luminosity = IM_COL32(132, 204, 146, 255);
+const std::uint32_t u = colour::text;
+const std::uint32_t iterations = colour::accent;
+
+std::uint32_t of(const std::array<double, 3>& srgb)
+{
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(std::lround(255 * srgb[i])); };
+  return IM_COL32(byte(0), byte(1), byte(2), 255);
+}
+} // namespace spectra_colour
+
+namespace {
+
+using optics::wavelength_count;
+using optics::wavelength_nm;
+
+constexpr double top = 1.1;              ///< of the upper axis: room to drag the largest point up
+constexpr std::size_t most_points = 400; ///< in sight: more would lie on each other
+constexpr float curves_part = 0.6f;      ///< of the height, where both plots are shown
+constexpr ImPlotFlags plot_flags =
+    ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText | ImPlotFlags_NoLegend | ImPlotFlags_NoBoxSelect;
+
+float scale() { return ImGui::GetStyle().FontScaleDpi; }
+
+std::uint32_t faded(std::uint32_t colour, unsigned alpha) { return (colour & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT); }
+
+ImPlotSpec spec_of(std::uint32_t colour, float weight)
+{
+  ImPlotSpec spec;
+  spec.LineColor = ImGui::ColorConvertU32ToFloat4(colour);
+  spec.LineWeight = weight * scale();
+  spec.Flags = ImPlotItemFlags_NoFit;
+  return spec;
+}
+
+ImPlotSpec filled(ImPlotSpec spec)
+{
+  spec.FillColor = spec.LineColor;
+  spec.FillAlpha = 0.13f;
+  spec.Flags |= ImPlotLineFlags_Shaded;
+  return spec;
+}
+
+/// divisor: what becomes 1.
+void plot_spectrum(const std::string& label, const optics::Spectrum& values, double divisor, const ImPlotSpec& spec)
+{
+  std::array<double, wavelength_count> x, y;
+  for (std::size_t w = 0; w < values.size(); ++w) {
+    x[w] = wavelength_nm(static_cast<int>(w));
+    y[w] = values[w] / divisor;
+  }
+  ImPlot::PlotLine(label.c_str(), x.data(), y.data(), wavelength_count, spec);
+}
+
+/// The light that is edited, by its own rows: exact where the 401 wavelengths would round them, also beyond these.
+void plot_rows(const preset::LightSpectrum& light, double unit)
+{
+  std::vector<double> x, y;
+  for (const PowerRow& row : light.table) {
+    x.push_back(row[0]);
+    y.push_back(row[1] / unit);
+  }
+  if (light.type == preset::LightSpectrum::Type::lines) {
+    ImPlot::PlotStems("light", x.data(), y.data(), static_cast<int>(x.size()), 0, spec_of(spectra_colour::light, 2));
+    return;
+  }
+  x.insert(x.begin(), x.front()); // nothing outside
+  y.insert(y.begin(), 0);
+  x.push_back(x.back());
+  y.push_back(0);
+  ImPlot::PlotLine("light", x.data(), y.data(), static_cast<int>(x.size()), filled(spec_of(spectra_colour::light, 2)));
+}
+
+void plot_lights(const SpectraPlotContents& contents, double unit)
+{
+  for (std::size_t i = 0; i < contents.spectra->lights.size(); ++i) {
+    const LightCurve& light = contents.spectra->lights[i];
+    if (i == contents.light && contents.edited && has_rows(*contents.edited) && !contents.edited->table.empty())
+      plot_rows(*contents.edited, unit);
+    else if (light.error.empty() && i == contents.light)
+      plot_spectrum("light", light.spectrum, light.largest, filled(spec_of(spectra_colour::light, 2)));
+    else if (light.error.empty())
+      plot_spectrum(fmt::format("light {}", i + 1), light.spectrum, light.largest, spec_of(faded(spectra_colour::light, 110), 1));
+  }
+}
+
+void plot_reflectances(const SpectraPlotContents& contents)
+{
+  for (const ReflectanceCurve& curve : contents.spectra->reflectances) {
+    if (contents.switches->hidden.contains(curve.material)) continue;
+    // A rim of the text's colour: a dark material on a dark plot is to be seen, and in its own colour.
+    plot_spectrum("rim of " + curve.material, curve.reflectance, 1, spec_of(faded(colour::text, 90), 4));
+    plot_spectrum("reflectance of " + curve.material, curve.reflectance, 1, spec_of(spectra_colour::of(curve.srgb), 2));
+  }
+}
+
+void set_up_value_axis(const char* label, double highest)
+{
+  ImPlot::SetupAxis(ImAxis_Y1, label, ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight);
+  ImPlot::SetupAxisLimits(ImAxis_Y1, 0, highest, ImPlotCond_Always);
+}
+
+/// The wavelength under the mouse, of the plot in hand.
+std::optional<int> pointed_wavelength()
+{
+  if (!ImPlot::IsPlotHovered()) return std::nullopt;
+  const long index = std::lround(ImPlot::GetPlotMousePos().x) - optics::first_nm;
+  if (index < 0 || index >= wavelength_count) return std::nullopt;
+  return static_cast<int>(index);
+}
+
+void value_line(std::uint32_t colour, const std::string& text)
+{
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+/// "540 to 561 nm", or "540 nm and 3 more"
+std::string extent_of(const std::vector<int>& wavelengths)
+{
+  const int first = wavelength_nm(wavelengths.front()), last = wavelength_nm(wavelengths.back());
+  if (first == last) return fmt::format("{} nm", first);
+  if (last - first + 1 == std::ssize(wavelengths)) return fmt::format("{} to {} nm", first, last);
+  return fmt::format("{} wavelengths between {} and {} nm", wavelengths.size(), first, last);
+}
+
+/// Every curve at one wavelength.
+void draw_values(const SpectraPlotContents& contents, int index)
+{
+  const Spectra& s = *contents.spectra;
+  const SpectraSwitches& shown = *contents.switches;
+  const auto w = static_cast<std::size_t>(index);
+  if (!ImGui::BeginTooltip()) return;
+  ImGui::TextDisabled("%d nm", wavelength_nm(index));
+  for (std::size_t i = 0; shown.light && i < s.lights.size(); ++i)
+    if (s.lights[i].error.empty())
+      value_line(spectra_colour::light,
+                 fmt::format("light {}: {:.3g} of its largest", i + 1, s.lights[i].spectrum[w] / s.lights[i].largest));
+  if (shown.luminosity) value_line(spectra_colour::luminosity, fmt::format("luminosity: {:.3g}", optics::cie_1931().y[w]));
+  for (const ReflectanceCurve& curve : s.reflectances)
+    if (!shown.hidden.contains(curve.material))
+      value_line(colour::text, fmt::format("{}: reflects {:.3g}", curve.material, curve.reflectance[w]));
+  if (shown.u && s.why_no_u.empty()) value_line(spectra_colour::u, fmt::format("u: {:.3g}", s.importance.u[w]));
+  if (const int c = s.cluster_of[w]; c >= 0) {
+    const ClusterWork& cluster = s.clusters[static_cast<std::size_t>(c)];
+    value_line(colour::quiet_text, fmt::format("cluster {} of {}, {}: {:.3g} of {} iterations, {}", c + 1, s.clusters.size(),
+                                               extent_of(cluster.wavelengths), cluster.importance, s.passes, cluster.iterations));
+  }
+  ImGui::EndTooltip();
+}
+
+/// Bars, one for each run of neighbouring wavelengths of a cluster, in the colour of its middle.
+void draw_bars(const Spectra& spectra)
+{
+  ImPlot::PushPlotClipRect();
+  ImDrawList& list = *ImPlot::GetPlotDrawList();
+  for (int first = 0, next = 0; first < wavelength_count; first = next) {
+    const int c = spectra.cluster_of[static_cast<std::size_t>(first)];
+    for (next = first + 1; next < wavelength_count && spectra.cluster_of[static_cast<std::size_t>(next)] == c;) ++next;
+    if (c < 0) continue;
+    const auto height = static_cast<double>(spectra.clusters[static_cast<std::size_t>(c)].iterations);
+    ImVec2 low = ImPlot::PlotToPixels(wavelength_nm(first) - 0.5, height), high = ImPlot::PlotToPixels(wavelength_nm(next) - 0.5, 0);
+    if (high.x - low.x > 4 * scale()) high.x -= scale(); // a gap where there is room
+    list.AddRectFilled(low, high, spectra_colour::of(wavelength_colour((first + next - 1) / 2)));
+  }
+  ImPlot::PopPlotClipRect();
+}
+
+} // namespace
+
+RowGesture SpectraPlot::draw(const SpectraPlotContents& contents, WavelengthAxis& axis, float height)
+{
+  RowGesture gesture;
+  if (!held_) unit_ = contents.edited ? largest_power(*contents.edited) : 1;
+  const bool both = contents.switches->iterations;
+  const float upper = both ? curves_part * height : height;
+  if (!ImPlot::BeginAlignedPlots("spectra")) return gesture;
+  gesture = draw_curves(contents, axis, upper);
+  if (both) draw_iterations(contents, axis, height - upper - ImGui::GetStyle().ItemSpacing.y);
+  ImPlot::EndAlignedPlots();
+  return gesture;
+}
+
+RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, WavelengthAxis& axis, float height)
+{
+  RowGesture gesture;
+  const SpectraSwitches& shown = *contents.switches;
+  if (!ImPlot::BeginPlot("##spectra", {-1, height}, plot_flags)) return gesture;
+  axis.set_up(shown.iterations);
+  set_up_value_axis("relative", top);
+  ImPlot::SetupFinish();
+  if (shown.light) plot_lights(contents, unit_);
+  if (shown.luminosity) plot_spectrum("luminosity", optics::cie_1931().y, 1, spec_of(spectra_colour::luminosity, 1.5f));
+  plot_reflectances(contents);
+  if (shown.u && contents.spectra->why_no_u.empty())
+    plot_spectrum("u", contents.spectra->importance.u, 1, spec_of(spectra_colour::u, 2.5f));
+  if (shown.light && contents.edited && has_rows(*contents.edited)) gesture = draw_rows(contents);
+  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
+  const ImPlotRange nm = ImPlot::GetPlotLimits().X;
+  area_ = {corner.x, corner.y, size.x, size.y};
+  shown_nm_ = {nm.Min, nm.Max};
+  std::optional<int> pointed;
+  draw_pointer(contents, pointed);
+  const bool all = ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+  ImPlot::EndPlot();
+  if (all) axis.show_all();
+  pointed_ = pointed;
+  return gesture;
+}
+
+/// A point a row. A row that is dragged follows the mouse; Ctrl and a click add one, the right button removes one.
+RowGesture SpectraPlot::draw_rows(const SpectraPlotContents& contents)
+{
+  RowGesture gesture;
+  const std::vector<PowerRow>& rows = contents.edited->table;
+  const ImPlotRange nm = ImPlot::GetPlotLimits().X;
+  const auto in_sight =
+      static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const PowerRow& row) { return nm.Contains(row[0]); }));
+  const auto mouse = [&]() -> PowerRow {
+    const ImPlotPoint at = ImPlot::GetPlotMousePos();
+    return {at.x, std::clamp(at.y, 0.0, top) * unit_};
+  };
+  bool over_a_point = false;
+  for (std::size_t i = 0; i < rows.size() && in_sight <= most_points; ++i) {
+    double x = rows[i][0], y = rows[i][1] / unit_;
+    if (!nm.Contains(x) && held_ != i) continue;
+    const bool marked = contents.selected == i;
+    bool hovered = false, held = false;
+    const bool moved =
+        ImPlot::DragPoint(static_cast<int>(i), &x, &y, ImGui::ColorConvertU32ToFloat4(marked ? colour::text : spectra_colour::light),
+                          (marked ? 5.5f : 4) * scale(), ImPlotDragToolFlags_NoFit | ImPlotDragToolFlags_Delayed, nullptr, &hovered, &held);
+    over_a_point |= hovered;
+    if (held && !held_) {
+      held_ = i;
+      gesture = {RowGesture::Kind::take, i, {}};
+    } else if (held && moved && held_ == i)
+      gesture = {RowGesture::Kind::move, i, mouse()};
+    if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) gesture = {RowGesture::Kind::remove, i, {}};
+  }
+  if (held_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    gesture = {RowGesture::Kind::let_go, *held_, {}};
+    held_.reset();
+  } else if (!over_a_point && !held_ && ImPlot::IsPlotHovered() && ImGui::GetIO().KeyCtrl && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+    gesture = {RowGesture::Kind::add, 0, mouse()};
+  return gesture;
+}
+
+void SpectraPlot::draw_iterations(const SpectraPlotContents& contents, WavelengthAxis& axis, float height)
+{
+  const Spectra& spectra = *contents.spectra;
+  if (!ImPlot::BeginPlot("##iterations", {-1, height}, plot_flags)) return;
+  axis.set_up();
+  set_up_value_axis("iterations", 1.08 * static_cast<double>(std::max<std::int64_t>(spectra.passes, 1)));
+  ImPlot::SetupFinish();
+  draw_bars(spectra);
+  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
+  draw_pointer(contents, pointed_);
+  const bool all = ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+  ImPlot::EndPlot();
+  if (spectra.clusters.empty()) draw_hint(corner, size, spectra.why_no_u);
+  if (all) axis.show_all();
+}
+
+/// A line at the wavelength under the mouse, in both plots, and the values there.
+void SpectraPlot::draw_pointer(const SpectraPlotContents& contents, std::optional<int>& pointed)
+{
+  if (held_) return;
+  const std::optional<int> here = pointed_wavelength();
+  if (here) pointed = here;
+  if (const std::optional<int> at = here ? here : pointed_) {
+    const double nm = wavelength_nm(*at);
+    ImPlot::PlotInfLines("pointer", &nm, 1, spec_of(faded(colour::text, 110), 1));
+  }
+  if (here) draw_values(contents, *here);
+}
+
+std::array<double, 2> SpectraPlot::place(double nm, double value) const
+{
+  return {area_[0] + area_[2] * (nm - shown_nm_[0]) / (shown_nm_[1] - shown_nm_[0]), area_[1] + area_[3] * (1 - value / top)};
+}
+
+} // namespace nephroid::ui
