@@ -16,7 +16,7 @@
 #endif
 
 // XYZ of what a path that has lost some of its light shows of a colour. In single wavelengths, or in all of them.
-static inline float3 shown_through(const World* world, const Background* background, float3 rgb, const Losses* losses, const Band* band)
+static inline float3 shown_after(const World* world, const Background* background, float3 rgb, const Losses* losses, const Band* band)
 {
 #if NEPHROID_ONE_WAY
   if (!losses->any) return background_xyz(background, rgb, WAVELENGTH_COUNT);
@@ -28,28 +28,14 @@ static inline float3 shown_through(const World* world, const Background* backgro
 #endif
 }
 
-// Takes a path that has hit `first` on through glass and mirrors. Returns the XYZ radiance of the environment that it ends at, if it does.
-static inline float3 follow(const World* world, const Background* background, Path path, Hit first, const Band* band, uint2 seed, uint sample,
-                            uint pixel)
+// The XYZ radiance of the environment that a path ends at, which has met `hit`; 0 where it ends elsewhere.
+static inline float3 seen_through(const World* world, const Background* background, Path path, Hit hit, const Band* band, uint2 seed, uint sample,
+                                  uint pixel)
 {
-  float radiance_scale = 1.0f; // radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance")
-  Hit hit = first;
-  float4 choices = (float4)(0.0f);
-  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
-    if (surface_number > 0) hit = next_hit(world, &path);
-    if (hit.primitive == NEPHROID_NO_PRIMITIVE)
-      return radiance_scale * shown_through(world, background, background_rgb(background, path.direction), &path.losses, band);
-    const Surface surface = surface_at(&world->geometry, world->objects, hit);
-    const DeviceMaterial material = material_of(world, surface.object);
-    if (material.type == MATERIAL_DIFFUSE) break;
-    lose_in_medium(world, &path, hit.t);
-    if ((surface_number & 3) == 0) choices = random4(seed, sample, pixel, 1u + (uint)surface_number / 4u, STREAM_BACKGROUND);
-    float n_ratio;
-    if (!bend_path(world, &path, hit.primitive, &surface, &material, band, choices.x, &n_ratio)) break;
-    radiance_scale *= n_ratio * n_ratio;
-    choices = choices.yzwx;
-  }
-  return (float3)(0.0f);
+  Surface surface;
+  const float radiance_scale = reach_end(world, &path, &hit, band, seed, sample, pixel, STREAM_BACKGROUND, &surface);
+  if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
+  return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses, band);
 }
 
 // One sample of every pixel of rows first_row .. first_row + row_count - 1.
@@ -78,7 +64,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
       const float place = golden_place(seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);
       const Band band = wavelength_of_cluster(0, wavelengths, spectrum_cdf, WAVELENGTH_COUNT, place);
-      xyz += follow(&world, &background, path, hit, &band, seed, frame * PATHS_THROUGH_GLASS + i, pixel) / (float)PATHS_THROUGH_GLASS;
+      xyz += seen_through(&world, &background, path, hit, &band, seed, frame * PATHS_THROUGH_GLASS + i, pixel) / (float)PATHS_THROUGH_GLASS;
     }
   if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, film_limit, jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);

@@ -62,28 +62,36 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
   return material_of(world, object).type == MATERIAL_DIFFUSE && camera->inside.count == 0;
 }
 
-// Takes a path that has met `hit` on through glass and mirrors in one band to a diffuse surface. `hit` and `surface` become those of its
-// end. stream: of random numbers. Returns by what the radiance there has to be multiplied, 0 where it meets none: radiance over n^2 is what a path keeps
-// (Nicodemus 1963, "Radiance").
-static inline float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel,
-                                  uint stream, Surface* surface)
+// Takes a path that has met `hit` on through glass and mirrors in one band to a diffuse surface or out of the scene. `hit` and, of a diffuse
+// surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost: radiance
+// over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and refraction.
+static inline float reach_end(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel, uint stream,
+                              Surface* surface)
 {
   float radiance_scale = 1.0f;
   float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
     if (surface_number > 0) *hit = next_hit(world, path);
-    if (hit->primitive == NEPHROID_NO_PRIMITIVE) break;
+    if (hit->primitive == NEPHROID_NO_PRIMITIVE) return radiance_scale;
     *surface = surface_at(&world->geometry, world->objects, *hit);
     const DeviceMaterial material = material_of(world, surface->object);
     lose_in_medium(world, path, hit->t);
     if (material.type == MATERIAL_DIFFUSE) return radiance_scale;
     if ((surface_number & 3) == 0) choices = random4(seed, sample, pixel, 1u + (uint)surface_number / 4u, stream);
     float n_ratio;
-    if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, &n_ratio)) break;
+    if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, &n_ratio)) return 0.0f;
     radiance_scale *= n_ratio * n_ratio;
     choices = choices.yzwx;
   }
   return 0.0f;
+}
+
+// The same to a diffuse surface only: 0 where the path leaves the scene.
+static inline float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel,
+                                  uint stream, Surface* surface)
+{
+  const float radiance_scale = reach_end(world, path, hit, band, seed, sample, pixel, stream, surface);
+  return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }
 
 #endif

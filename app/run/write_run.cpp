@@ -45,6 +45,15 @@ Json energy_json(const job::EnergyBalance& energy)
           {"refused_contributions", energy.refused_contributions}};
 }
 
+Json indirect_energy_json(const job::IndirectBalance& energy)
+{
+  return {{"emitted_w", energy.emitted_w},
+          {"absorbed_w", energy.absorbed_w},
+          {"escaped_w", energy.escaped_w},
+          {"lost_w", energy.lost_w},
+          {"unaccounted_w", energy.emitted_w - energy.absorbed_w - energy.escaped_w - energy.lost_w}};
+}
+
 Json device_json(const compute::DeviceInfo& device)
 {
   return {{"name", device.name},     {"type", device.type},       {"platform", device.platform},
@@ -95,6 +104,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
            {"phase_seconds", phases},
            {"energy", energy_json(snapshot.energy)},
            {"notes", prepared.plan.notes}};
+  if (snapshot.indirect_energy) all["indirect_energy"] = indirect_energy_json(*snapshot.indirect_energy);
   if (snapshot.history) add_errors(all, *snapshot.history, reference);
   return json_text(all, 2) + "\n";
 }

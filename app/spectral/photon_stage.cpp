@@ -2,11 +2,9 @@
 // Photons that are splatted into the pixel that sees them: kernels/photons.cl.
 #include "spectral/film.h"
 #include "spectral/photon_map.h"
+#include "spectral/photon_slices.h"
 #include "spectral/stages.h"
 #include "spectral/variance_deal.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace nephroid::spectral {
 namespace {
@@ -16,7 +14,8 @@ public:
   PhotonStage(DeviceWorld& world, const preset::Spectral& settings, PhotonMap* map)
       : world_(world), by_variance_(settings.effort == preset::Spectral::Effort::variance), deal_(world.tables.emitters),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
-        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0), photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
+        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0),
+        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
   {
     compute::Defines defines = world.defines;
     defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
@@ -27,27 +26,20 @@ public:
   }
 
   const char* name() const override { return "photons"; }
-  double part() const override { return static_cast<double>(at_.slice) / at_.slices; }
+  double part() const override { return slices_.part(); }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass; }
 
   bool step(std::int64_t pass) override
   {
-    if (by_variance_ && at_.slice == 0 && deal_.is_due(pass)) deal(pass);
+    if (by_variance_ && slices_.at_start() && deal_.is_due(pass)) deal(pass);
     const DeviceTables& t = world_.tables;
-    const std::uint32_t all = t.photons_per_pass;
-    if (at_.slice == 0)
-      at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(all / photons_a_step_.amount()), 1, all));
-    const std::uint32_t count = (all - at_.slice + at_.slices - 1) / at_.slices;
-    photons_a_step_.timed(count, [&] {
+    return slices_.step(t.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
       world_.run(kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, world_.buffers.emitters, film_,
-                 world_.energy, moments_, stored_, t.scene.emitter_count, static_cast<int>(t.objects.size()), t.camera, world_.seed, static_cast<std::uint32_t>(pass),
-                 static_cast<std::uint32_t>(deal_.first_pass()), at_.slice, at_.slices, count,
+                 world_.energy, moments_, stored_, t.scene.emitter_count, static_cast<int>(t.objects.size()), t.camera, world_.seed,
+                 static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(deal_.first_pass()), offset, stride, count,
                  world_.on_device(t.caustic_scale), world_.on_device(t.energy_scale),
-                 world_.on_device(photon_scale(all, t.light_towards_targets_w)));
+                 world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w)));
     });
-    if (++at_.slice < at_.slices) return false;
-    at_ = {};
-    return true;
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
@@ -60,14 +52,14 @@ public:
 
   void save(StateWriter& to) const override
   {
-    to.value(at_);
+    slices_.save(to);
     to.buffer(film_);
     deal_.save(to);
     to.buffer(moments_);
   }
   void load(StateReader& from) override
   {
-    from.value(at_);
+    slices_.load(from);
     from.buffer(film_);
     deal_.load(from);
     from.buffer(moments_);
@@ -75,11 +67,6 @@ public:
   }
 
 private:
-  /// Where the pass in hand is: slice s of it has the photons s, s + slices, ...
-  struct Position {
-    std::uint32_t slice = 0, slices = 1;
-  };
-
   void deal(std::int64_t pass)
   {
     deal_.deal(pass, moments_.read(), world_.halves);
@@ -95,8 +82,7 @@ private:
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   unsigned photons_per_item_;
   compute::Kernel kernel_;
-  Position at_;
-  StepSize photons_a_step_{8192};
+  PhotonSlices slices_;
 };
 
 } // namespace

@@ -152,6 +152,11 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   plan.passes.push_back(background);
   plan.passes.push_back(estimate);
   plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs, halves);
+  if (indirect.runs) plan.buffers.push_back({"film indirect", film_bytes(scene, halves)});
+  if (background.runs) {
+    plan.buffers.push_back({"environment", bytes_of(scene.environment->rgb)});
+    plan.buffers.push_back({"film background", film_bytes(scene, halves)});
+  }
   if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer "indirect" against closed forms: a furnace, one bounce between two patches by quadrature, a lit patch against a lamp in its
+// place, and where the power goes.
+#include "compute/compute.h"
+#include "optics/spectrum.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/closed_form.h"
+#include "tests/support/passes.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+preset::Preset indirect_only(int resolution)
+{
+  preset::Preset p = empty_preset(resolution);
+  p.spectral.direct = p.spectral.caustic = false;
+  p.spectral.indirect = true;
+  return p;
+}
+
+/// XYZ of a spectrum after reflectances.
+optics::Colour seen(optics::Spectrum light, const std::vector<optics::Spectrum>& reflectances)
+{
+  for (const optics::Spectrum& r : reflectances)
+    for (std::size_t w = 0; w < light.size(); ++w) light[w] *= r[w];
+  return optics::to_xyz(light);
+}
+
+/// Mean XYZ of the squares of `group` x `group` pixels of a layer: 3 figures a square.
+std::vector<double> squares_of(const job::Layer& layer, int pixels, int group)
+{
+  const int squares = pixels / group;
+  std::vector<double> figures(3 * static_cast<std::size_t>(squares * squares), 0.0);
+  for (int row = 0; row < pixels; ++row)
+    for (int column = 0; column < pixels; ++column) {
+      const std::size_t i = 3 * static_cast<std::size_t>(row * pixels + column);
+      const optics::Colour xyz = optics::linear_srgb_to_xyz({layer.rgb[i], layer.rgb[i + 1], layer.rgb[i + 2]});
+      for (std::size_t c = 0; c < 3; ++c)
+        figures[3 * static_cast<std::size_t>(row / group * squares + column / group) + c] += xyz[c] / (group * group);
+    }
+  return figures;
+}
+
+/// Every figure agrees with its truth, within its own scatter and a share `bias` of the truth.
+void expect_figures(const std::string& what, const std::vector<Estimate>& estimates, const std::vector<double>& truths, double bias)
+{
+  ASSERT_EQ(estimates.size(), truths.size());
+  double smallest = 1, figure = 0, truth = 0, variance = 0;
+  for (std::size_t i = 0; i < truths.size(); ++i) {
+    EXPECT_GT(estimates[i].mean, 0) << what << " " << i;
+    smallest = std::min(smallest, p_value(estimates[i], truths[i], bias * truths[i]));
+    figure += estimates[i].mean;
+    truth += truths[i];
+    variance += estimates[i].variance;
+  }
+  EXPECT_GT(sidak(smallest, static_cast<double>(truths.size())), false_alarm) << what << ": mean " << figure / truth;
+  // Figures of one photon are dependent: the worst case is that all of them move together.
+  expect_truth(what + ": mean / closed form", figure / truth, 1, bias + 3 * sigmas * std::sqrt(variance) / truth);
+}
+
+// Inside of a sphere of reflectance rho: what any piece of the wall reflects goes to all of the wall evenly, because
+// cos(theta) cos(theta') / (pi d^2) = 1 / (4 pi R^2) between any two points. So wherever the light is, what was reflected k times makes the
+// irradiance P rho^k / (4 pi R^2), and all that was reflected once or more
+//   E = P / (4 pi R^2) * rho / (1 - rho).
+// A ball of clear glass around a light in the middle changes nothing: all that leaves it goes straight outwards, and later on every
+// order is even by symmetry.
+struct Furnace {
+  const char* name;
+  preset::Light::Type type;
+  preset::Vec3 position;
+  double glass_radius; // 0: none
+};
+
+class DiffuseFurnace : public testing::TestWithParam<Furnace> {};
+
+TEST_P(DiffuseFurnace, IsEvenlyLit)
+{
+  constexpr double radius = 2, reflectance = 0.7, power = 10;
+  constexpr int pixels = 16, group = 4;
+  preset::Preset p = indirect_only(pixels);
+  p.scene.materials = {{"wall", white(reflectance)}, {"glass", glass(1.5)}};
+  preset::Shape room = check::ball(radius);
+  room.inwards = true;
+  p.scene.objects = {object("room", room, "wall")};
+  preset::Light light;
+  light.type = GetParam().type;
+  light.spectrum.illuminant = "E";
+  light.power_w = power;
+  light.position = GetParam().position;
+  light.direction = {1, 0, 0};
+  light.size = {0.3, 0.2};
+  p.scene.lights = {light};
+  if (GetParam().glass_radius > 0) {
+    p.scene.objects.push_back(object("bulb", check::ball(GetParam().glass_radius), "glass"));
+    p.scene.objects.back().normals = preset::Object::Normals::smooth;
+  }
+  p.scene.camera.position = {0, 0, -0.8};
+  p.scene.camera.target = {0.3, 0, -2};
+  p.scene.camera.fov_deg = 70;
+  p.spectral.max_surfaces = 400;
+  p.spectral.indirect_photons_per_pass = 1 << 14;
+  p.stop.passes = 24;
+
+  job::IndirectBalance energy;
+  const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
+    energy = *snapshot.indirect_energy;
+    return squares_of(layer(snapshot, "indirect"), pixels, group);
+  });
+  const double irradiance = power / (4 * M_PI * radius * radius) * reflectance / (1 - reflectance);
+  const optics::Colour xyz = optics::to_xyz(optics::illuminant("E"));
+  std::vector<double> truths;
+  for (std::size_t i = 0; i < estimates.size(); ++i) truths.push_back(irradiance * reflectance / M_PI * xyz[i % 3]);
+  // 256 x 128 facets have an area that is smaller than the sphere's by 1.5e-4, and are not quite a sphere to each other.
+  expect_figures(std::string("indirect, furnace, ") + GetParam().name, estimates, truths, 5e-4);
+  EXPECT_NEAR(energy.emitted_w / power, 1, 0.05); // wavelengths are drawn by what the eye makes of them, so power scatters
+  EXPECT_LT(energy.escaped_w, 1e-4 * energy.emitted_w);
+  EXPECT_LT(energy.lost_w, 1e-4 * energy.emitted_w);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, DiffuseFurnace,
+                         testing::Values(Furnace{"point", preset::Light::Type::point, {0.9, 0.5, 0.3}, 0},
+                                         Furnace{"spot", preset::Light::Type::spot, {-0.5, 0.5, 0}, 0},
+                                         Furnace{"area", preset::Light::Type::area, {0, -0.4, 0.6}, 0},
+                                         Furnace{"in_a_glass_ball", preset::Light::Type::point, {0, 0, 0}, 0.5}),
+                         [](const testing::TestParamInfo<Furnace>& parameter) { return std::string(parameter.param.name); });
+
+// A pencil of light on the middle of a red tile, which lights a green screen at a right angle to it. With P the power and one bounce,
+//   L(screen) = P rho_red rho_green / pi^2 * cos(theta) cos(theta') / d^2, wavelength by wavelength.
+TEST(Indirect, ARedTileTintsAGreenScreen)
+{
+  constexpr int pixels = 24, group = 6;
+  constexpr double power = 3, height = 0.5;
+  const Screen screen{{0, 0, 0}, 1, pixels};
+  preset::Preset p = indirect_only(pixels);
+  p.scene.materials["red"].reflectance.type = p.scene.materials["green"].reflectance.type = preset::Reflectance::Type::patch;
+  p.scene.materials["red"].reflectance.patch = "red";
+  p.scene.materials["green"].reflectance.patch = "green";
+  p.scene.objects = {object("tile", quad(0.1, 0.1), "red", at({-0.8, height, 0}, {0, 0, -90})), object("screen", quad(1, 1), "green")};
+  preset::Light light = pencil({1, height + 0.4, 0.2}, {-1.8, -0.4, -0.2}, 0.05);
+  light.spectrum.type = preset::LightSpectrum::Type::illuminant;
+  light.spectrum.illuminant = "F10";
+  light.power_w = power;
+  p.scene.lights = {light};
+  screen.fill(p.scene.camera, 3);
+  p.spectral.max_surfaces = 1; // the tile and the screen
+  p.spectral.indirect_photons_per_pass = 1 << 14;
+  p.stop.passes = 32;
+
+  const optics::Colour xyz = seen(optics::illuminant("F10"), {optics::colorchecker_patch("red"), optics::colorchecker_patch("green")});
+  constexpr int squares = pixels / group;
+  std::vector<double> truths(3 * squares * squares, 0.0);
+  for (int row = 0; row < pixels; ++row)
+    for (int column = 0; column < pixels; ++column) {
+      // The tile's normal is +x and the screen's +y.
+      const double dx = screen.x(column) + 0.8, dz = screen.z(row), d2 = dx * dx + height * height + dz * dz;
+      const double radiance = power / (M_PI * M_PI) * dx * height / (d2 * d2);
+      for (std::size_t c = 0; c < 3; ++c)
+        truths[3 * static_cast<std::size_t>(row / group * squares + column / group) + c] += radiance * xyz[c] / (group * group);
+    }
+  const auto estimates =
+      render_passes(p, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "indirect"), pixels, group); });
+  expect_figures("indirect, red tile and green screen", estimates, truths, 2e-3); // middles of pixels, and the pencil's width
+}
+
+// A lit spot of a diffuse tile is a lamp: direct light of a small area lamp in its place, with the power that it reflects, is its
+// indirect light, at every place of a coarse ball with interpolated normals. So both layers mean the same by light on a shading normal.
+TEST(Indirect, ALitTileIsALamp)
+{
+  constexpr int pixels = 24, group = 4;
+  constexpr double reflectance = 0.8, power = 4;
+  preset::Preset p = indirect_only(pixels);
+  p.scene.materials = {{"tile", white(reflectance)}, {"ball", white(0.6)}};
+  preset::Object thing = object("ball", check::ball(0.5, 10), "ball", at({0, 0, 0}, {20, 30, 0}));
+  thing.normals = preset::Object::Normals::smooth;
+  p.scene.camera.position = {2.5, 0.3, 0.6};
+  p.scene.camera.fov_deg = 26;
+  const preset::Vec3 place{0.3, 1.2, 0.2};
+  preset::Light light = pencil({place[0] - 1.8, place[1] - 1.2, place[2]}, {1.8, 1.2, 0}, 0.5); // from below, past the ball
+  light.power_w = power;
+
+  preset::Preset tile = p;
+  tile.scene.objects = {thing, object("tile", quad(0.2, 0.2), "tile", at(place))};
+  tile.scene.lights = {light};
+  tile.spectral.max_surfaces = 1; // the tile and the ball
+  tile.spectral.indirect_photons_per_pass = 1 << 15;
+  tile.stop.passes = 24;
+  preset::Preset lamp = p;
+  lamp.scene.objects = {thing};
+  lamp.scene.lights = {light};
+  lamp.scene.lights[0].type = preset::Light::Type::area;
+  lamp.scene.lights[0].position = place;
+  lamp.scene.lights[0].direction = {0, -1, 0};
+  lamp.scene.lights[0].size = {0.03, 0.03}; // 2 cm is the radius of the spot: seen from 70 cm, its shape changes light by some 1e-4
+  lamp.scene.lights[0].power_w = reflectance * power;
+  lamp.spectral.direct = true;
+  lamp.spectral.indirect = false;
+  lamp.stop.passes = 64;
+
+  const auto truths =
+      render_passes(lamp, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "direct"), pixels, group); });
+  const auto estimates =
+      render_passes(tile, [&](const job::Snapshot& snapshot) { return squares_of(layer(snapshot, "indirect"), pixels, group); });
+  double smallest = 1, figure = 0, truth = 0, variance = 0;
+  int lit = 0;
+  for (std::size_t i = 1; i < truths.size(); i += 3) { // one wavelength: Y says all
+    if (truths[i].mean == 0) continue;
+    ++lit;
+    Estimate difference = estimates[i];
+    difference.variance += truths[i].variance;
+    smallest = std::min(smallest, p_value(difference, truths[i].mean, 1e-3 * truths[i].mean));
+    figure += estimates[i].mean;
+    truth += truths[i].mean;
+    variance += difference.variance;
+  }
+  EXPECT_GT(lit, 10);
+  EXPECT_GT(sidak(smallest, lit), false_alarm);
+  expect_truth("indirect, lit tile / lamp in its place", figure / truth, 1, 1e-3 + sigmas * std::sqrt(variance) / truth);
+}
+
+/// Everything that can happen to a photon: glass that absorbs, a coloured mirror, coloured walls, the open.
+preset::Preset open_room(const std::filesystem::path& folder)
+{
+  preset::Preset p = indirect_only(16);
+  p.scene.materials["wall"].reflectance.type = preset::Reflectance::Type::patch;
+  p.scene.materials["wall"].reflectance.patch = "orange";
+  p.scene.materials["mirror"] = check::mirror(0.9);
+  p.scene.materials["glass"] = glass(1.5);
+  p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::file;
+  p.scene.materials["glass"].dispersion.file = write_constant_nk(folder / "glass.yml", 1.5, 2e-7);
+  p.scene.objects = {object("floor", quad(4, 4), "wall", at({0, -1, 0})), object("back", quad(4, 4), "wall", at({0, 1, -2}, {90, 0, 0})),
+                     object("ball", check::ball(0.6, 64), "glass"), object("mirror", quad(1, 1), "mirror", at({1.5, 0, 0}, {0, 0, 80}))};
+  preset::Light lamp, sun;
+  lamp.position = {0.5, 2, 0.5};
+  sun.type = preset::Light::Type::directional;
+  sun.direction = {-1, -1, -1};
+  p.scene.lights = {lamp, sun};
+  p.spectral.indirect_photons_per_pass = 1 << 16;
+  p.stop.passes = 3;
+  return p;
+}
+
+TEST(Indirect, AccountsForItsEnergy)
+{
+  TemporaryFolder temporary;
+  const preset::Preset p = open_room(temporary.path());
+  const job::Snapshot snapshot = render(p);
+  ASSERT_TRUE(snapshot.indirect_energy);
+  const job::IndirectBalance& e = *snapshot.indirect_energy;
+  expect_truth("indirect, energy: accounted for / emitted", (e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1, 1e-12);
+  EXPECT_GT(e.absorbed_w, 0.1 * e.emitted_w);
+  EXPECT_GT(e.escaped_w, 0.1 * e.emitted_w);
+  EXPECT_LT(e.lost_w, 1e-3 * e.emitted_w);
+  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+}
+
+// However long a step is, and where a run is taken up again, the bits are the same.
+TEST(Indirect, HasTheSameBitsWhenItIsResumed)
+{
+  TemporaryFolder temporary;
+  const preset::Preset p = open_room(temporary.path());
+  const job::Snapshot whole = render(p);
+  const scene::Scene scene = scene::load_scene(p);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  const plan::Plan plan = spectral::make_plan(p, scene, bvh);
+  auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
+  for (int i = 0; i < 5; ++i) job->step();
+  const std::vector<std::byte> state = job->save();
+  job = spectral::make_job(p, scene, bvh, plan, shared_context());
+  job->load(state);
+  while (!job->finished()) job->step();
+  const job::Snapshot resumed = job->snapshot();
+  EXPECT_EQ(layer(resumed, "indirect").rgb, layer(whole, "indirect").rgb);
+  EXPECT_EQ(resumed.indirect_energy->escaped_w, whole.indirect_energy->escaped_w);
+}
+
+} // namespace
