@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "preset/relight.h"
 #include "ui/dispersion_edits.h"
 #include "ui/file_kind.h"
 #include "ui/save.h"
@@ -46,6 +47,7 @@ struct Workbench::Arrival {
   std::shared_ptr<const plan::Plan> plan; ///< null: not yet
   std::shared_ptr<const measure::Reference> reference;
   std::shared_ptr<const SeenByGlass> seen;
+  std::shared_ptr<const preset::Preset> preset; ///< that it was made of
 };
 
 void Workbench::apply(const Commands& commands)
@@ -120,12 +122,12 @@ void Workbench::carry_out(const command::EndGesture&) { gesture_lasts_ = false; 
 
 void Workbench::carry_out(const command::Undo&)
 {
-  if (history_ && history_->undo()) start();
+  if (history_ && history_->undo()) adopt_or_start();
 }
 
 void Workbench::carry_out(const command::Redo&)
 {
-  if (history_ && history_->redo()) start();
+  if (history_ && history_->redo()) adopt_or_start();
 }
 
 void Workbench::carry_out(const command::Restart&)
@@ -213,22 +215,45 @@ void Workbench::say(bool error, std::string line, ErrorKind kind)
   messages_.push_back({++last_message_, error, std::move(line), Clock::now(), kind});
 }
 
-void Workbench::start()
+/// Makes a run of the preset as it is now, on the worker's thread.
+std::function<std::unique_ptr<job::Job>()> Workbench::maker() const
 {
-  restart_wanted_ = gesture_lasts_ = false;
-  snapshot_is_current_ = shown_since_start_ = false;
-  std::erase_if(messages_, [&](const Message& m) { return m.id == failure_message_; });
-  before_start_ = worker_.snapshot();
-  run_name_ = name_of(*history_);
-  arrival_ = std::make_shared<Arrival>();
-  worker_.start([&source = source_, preset = history_->current(), arrival = arrival_] {
-    NewRun run = source.make(preset);
+  return [&source = source_, preset = run_preset_, arrival = arrival_] {
+    NewRun run = source.make(*preset);
     const std::lock_guard lock(arrival->mutex);
     arrival->plan = std::make_shared<plan::Plan>(std::move(run.plan));
     arrival->reference = std::move(run.reference);
     arrival->seen = std::move(run.seen);
+    arrival->preset = preset;
     return std::move(run.job);
-  });
+  };
+}
+
+void Workbench::start()
+{
+  restart_wanted_ = gesture_lasts_ = kernels_changed_ = false;
+  snapshot_is_current_ = shown_since_start_ = false;
+  std::erase_if(messages_, [&](const Message& m) { return m.id == failure_message_; });
+  before_start_ = worker_.snapshot();
+  run_name_ = name_of(*history_);
+  run_preset_ = std::make_shared<const preset::Preset>(history_->current());
+  arrival_ = std::make_shared<Arrival>();
+  worker_.start(maker());
+}
+
+/// Where only the light differs, the run in hand takes it on and goes on converging. What it was measured against is of the old light.
+void Workbench::adopt_or_start()
+{
+  if (kernels_changed_ || !run_preset_ || !preset::only_relit(*run_preset_, history_->current())) {
+    start();
+    return;
+  }
+  restart_wanted_ = snapshot_is_current_ = false;
+  std::erase_if(messages_, [&](const Message& m) { return m.id == failure_message_; });
+  run_name_ = name_of(*history_);
+  run_preset_ = std::make_shared<const preset::Preset>(history_->current());
+  reference_.reset();
+  adoption_ = worker_.adopt(run_preset_, maker());
 }
 
 void Workbench::take_arrival()
@@ -239,6 +264,7 @@ void Workbench::take_arrival()
   plan_ = std::exchange(arrival_->plan, nullptr);
   reference_ = std::exchange(arrival_->reference, nullptr);
   seen_ = std::exchange(arrival_->seen, nullptr);
+  if (arrival_->preset != run_preset_) reference_.reset(); // it is of another light
 }
 
 std::vector<std::string> Workbench::notes() const
@@ -255,13 +281,13 @@ void Workbench::take_snapshot()
   snapshot_ = std::move(newest);
   snapshot_name_ = run_name_;
   shown_since_start_ = true;
-  snapshot_is_current_ = !restart_wanted_;
+  snapshot_is_current_ = !restart_wanted_ && snapshot_->adoption >= adoption_;
 }
 
 void Workbench::collect_messages(Clock::time_point now)
 {
-  if (status_.state == job::State::failed && status_.generation != reported_failure_) {
-    reported_failure_ = status_.generation;
+  if (status_.state == job::State::failed && status_.failures != reported_failure_) {
+    reported_failure_ = status_.failures;
     say(true, status_.message, status_.error_kind);
     failure_message_ = last_message_;
   }
@@ -289,13 +315,13 @@ void Workbench::update(Clock::time_point now)
   collect_messages(now);
   make_difference(now);
   if (source_.take_changed() && history_) {
-    restart_wanted_ = true;
+    restart_wanted_ = kernels_changed_ = true;
     snapshot_is_current_ = false;
   }
   // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device every move of
   // the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen until the mouse rests.
   const bool working = status_.state == job::State::preparing || status_.state == job::State::running;
-  if (restart_wanted_ && (!gesture_lasts_ || !working || shown_since_start_)) start();
+  if (restart_wanted_ && (!gesture_lasts_ || !working || shown_since_start_)) adopt_or_start();
 }
 
 std::filesystem::path Workbench::save_target() const

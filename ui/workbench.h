@@ -15,6 +15,7 @@
 
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -126,6 +127,8 @@ private:
   void say(bool error, std::string line, ErrorKind kind = ErrorKind::failed);
   void say(const std::exception& error);
   void start();
+  void adopt_or_start();
+  std::function<std::unique_ptr<job::Job>()> maker() const;
   void take_snapshot();
   void take_arrival();
   void make_difference(Clock::time_point now);
@@ -147,11 +150,14 @@ private:
   bool help_shown_ = false, quitting_ = false, layout_reset_ = false;
 
   bool restart_wanted_ = false;    ///< the preset changed since the last start
+  bool kernels_changed_ = false;   ///< ... or the kernels
   bool gesture_lasts_ = false;     ///< ... by a gesture that goes on
   bool shown_since_start_ = false; ///< a snapshot of the run in hand has come
   bool snapshot_is_current_ = false;
-  std::uint64_t reported_failure_ = 0; ///< generation of the run whose failure is among the messages
-  std::uint64_t failure_message_ = 0;  ///< its message's id
+  std::uint64_t reported_failure_ = 0;               ///< Status::failures when the newest one became a message
+  std::uint64_t failure_message_ = 0;                ///< its message's id
+  std::shared_ptr<const preset::Preset> run_preset_; ///< of the run in hand
+  std::uint64_t adoption_ = 0;                       ///< of it by the run in hand: Snapshot::adoption of a picture of it is not less
   job::Status status_;
   std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
 

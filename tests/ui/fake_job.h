@@ -7,6 +7,7 @@
 #include "measure/reference.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
+#include "preset/relight.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/workbench.h"
 
@@ -39,6 +40,8 @@ struct FakeSettings {
   std::atomic<int> steps{20};
   std::atomic<int> step_ms{2}, make_ms{0};
   std::atomic<bool> fails{false};
+  std::atomic<bool> adopts{true}; ///< another light, where the preset keeps layers
+  std::atomic<int> adopted{0};
   std::function<std::shared_ptr<const job::History>(int step)> history; ///< after so many steps; empty: nothing is measured
 };
 
@@ -57,7 +60,7 @@ inline std::shared_ptr<job::History> falling_history(int rows, double level = 0.
 
 class FakeJob : public job::Job {
 public:
-  FakeJob(preset::Preset preset, const FakeSettings& runs) : preset_(std::move(preset)), runs_(runs) {}
+  FakeJob(preset::Preset preset, FakeSettings& runs) : preset_(std::move(preset)), runs_(runs) {}
   void step() override
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(runs_.step_ms));
@@ -88,15 +91,24 @@ public:
     made.picture = picture;
     made.progress = progress();
     made.phases = {{"photons", 0.002 * done_}};
+    if (!preset_.scene.lights.empty()) made.energy.emitted_w = preset_.scene.lights[0].power_w; // tells which light it is of
     if (runs_.history) made.history = runs_.history(done_);
     return made;
   }
   std::vector<std::byte> save() override { return {}; }
   void load(std::span<const std::byte>) override {}
+  bool adopt(const preset::Preset& preset) override
+  {
+    if (preset.scene.lights[0].power_w == 13) throw bad_input("lights/0", "is unlucky");
+    if (!runs_.adopts || !preset::only_relit(preset_, preset)) return false;
+    preset_ = preset;
+    ++runs_.adopted;
+    return true;
+  }
 
 private:
   preset::Preset preset_;
-  const FakeSettings& runs_;
+  FakeSettings& runs_;
   int done_ = 0;
 };
 

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// An edit of a light in a preset that keeps layers goes to the run in hand; every other edit starts a new run.
+#include "fake_job.h"
+#include "ui/workbench.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using namespace std::chrono_literals;
+using test::eventually;
+using ::testing::HasSubstr;
+
+class RelightingTest : public ::testing::Test {
+protected:
+  test::FakeRuns runs;
+  test::TemporaryFolder folder;
+  Workbench workbench{runs};
+
+  bool until(const std::function<bool()>& done)
+  {
+    return eventually([&] { workbench.update(); }, done);
+  }
+  void open(int steps, bool relight = true)
+  {
+    runs.steps = steps;
+    runs.reference = std::make_shared<measure::Reference>();
+    ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {relight ? "spectral.relight=true" : "seed=1"}));
+    ASSERT_TRUE(until([&] { return workbench.snapshot() && workbench.plan() && workbench.status().state != job::State::preparing; }));
+  }
+  void edit(const std::function<void(preset::Preset&)>& change, bool live = false)
+  {
+    preset::Preset edited = *workbench.preset();
+    change(edited);
+    workbench.apply({command::Edit{"edit", edited, 1, live}});
+  }
+  void edit_power(double watts, bool live = false)
+  {
+    edit([&](preset::Preset& p) { p.scene.lights[0].power_w = watts; }, live);
+  }
+  double shown_power() const { return workbench.snapshot()->energy.emitted_w; }
+  bool shows(double watts)
+  {
+    return until([&] { return workbench.snapshot_is_current() && shown_power() == watts; });
+  }
+};
+
+TEST_F(RelightingTest, AnotherSpectrumPowerOrWhiteGoesToTheRunInHand)
+{
+  open(100000);
+  edit([](preset::Preset& p) {
+    p.scene.lights[0].spectrum.illuminant = "F10";
+    p.scene.lights[0].power_w = 20;
+    p.white = 2;
+  });
+  workbench.update();
+  ASSERT_TRUE(shows(20));
+  EXPECT_EQ(runs.made, 1);
+  EXPECT_EQ(runs.adopted, 1);
+  const auto steps = workbench.snapshot()->progress.step;
+  EXPECT_TRUE(until([&] { return workbench.snapshot()->progress.step > steps; })) << "it goes on converging";
+  workbench.apply({command::Undo{}});
+  ASSERT_TRUE(shows(10));
+  EXPECT_EQ(runs.made, 1);
+}
+
+TEST_F(RelightingTest, AnotherSceneOrCameraStartsANewRun)
+{
+  open(100000);
+  edit([](preset::Preset& p) { p.scene.lights[0].position[0] = 0.25; });
+  ASSERT_TRUE(until([&] { return runs.made == 2; }));
+  edit([](preset::Preset& p) { p.scene.camera.fov_deg = 30; });
+  ASSERT_TRUE(until([&] { return runs.made == 3; }));
+  edit([](preset::Preset& p) { p.spectral.relight = false; });
+  ASSERT_TRUE(until([&] { return runs.made == 4; }));
+  EXPECT_EQ(runs.adopted, 0);
+}
+
+TEST_F(RelightingTest, WithoutLayersEveryEditStartsANewRun)
+{
+  open(100000, false);
+  edit_power(20);
+  ASSERT_TRUE(until([&] { return runs.made == 2; }));
+  EXPECT_EQ(runs.adopted, 0);
+}
+
+TEST_F(RelightingTest, ARunThatIsFinishedIsRelit)
+{
+  open(3);
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
+  edit_power(30);
+  ASSERT_TRUE(shows(30));
+  EXPECT_EQ(workbench.status().state, job::State::finished);
+  EXPECT_EQ(runs.made, 1);
+}
+
+TEST_F(RelightingTest, ARunThatIsPausedIsRelitAndStaysPaused)
+{
+  open(100000);
+  workbench.apply({command::Pause{true}});
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::paused; }));
+  edit_power(30);
+  ASSERT_TRUE(shows(30));
+  EXPECT_EQ(workbench.status().state, job::State::paused);
+}
+
+TEST_F(RelightingTest, AfterACancelAnEditStartsANewRun)
+{
+  open(100000);
+  workbench.apply({command::Cancel{}});
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::cancelled; }));
+  edit_power(30);
+  ASSERT_TRUE(shows(30));
+  EXPECT_EQ(runs.made, 2);
+}
+
+TEST_F(RelightingTest, AJobThatDoesNotAdoptIsReplaced)
+{
+  runs.adopts = false;
+  open(100000);
+  edit_power(30);
+  ASSERT_TRUE(shows(30));
+  EXPECT_EQ(runs.made, 2);
+}
+
+TEST_F(RelightingTest, ALightThatCannotBeUsedIsOneMessageAndTheNextOneGoesOn)
+{
+  open(100000);
+  edit_power(13);
+  ASSERT_TRUE(until([&] { return workbench.messages().size() == 1; }));
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("is unlucky"));
+  edit_power(14);
+  ASSERT_TRUE(shows(14));
+  EXPECT_TRUE(workbench.messages().empty());
+  EXPECT_EQ(runs.made, 1) << "what was computed is not thrown away";
+}
+
+TEST_F(RelightingTest, TheReferenceIsOfTheOldLight)
+{
+  open(100000);
+  workbench.apply({command::CompareWith{}});
+  EXPECT_THAT(workbench.why_not_comparable(), ::testing::Not(HasSubstr("no reference")));
+  edit_power(20);
+  ASSERT_TRUE(shows(20));
+  EXPECT_NE(workbench.why_not_comparable(), "");
+}
+
+TEST_F(RelightingTest, ALightThatIsDraggedIsShownWhileTheMouseMoves)
+{
+  open(100000);
+  const int made = runs.made;
+  int pictures = 0;
+  double last = shown_power();
+  for (int move = 0; move < 60; ++move) {
+    edit_power(20 + move, true);
+    workbench.update();
+    std::this_thread::sleep_for(10ms);
+    workbench.update();
+    if (shown_power() != last) ++pictures;
+    last = shown_power();
+  }
+  EXPECT_GE(pictures, 6);
+  workbench.apply({command::EndGesture{}});
+  ASSERT_TRUE(shows(79));
+  EXPECT_EQ(runs.made, made);
+}
+
+} // namespace
+} // namespace nephroid::ui
