@@ -6,6 +6,7 @@
 #include "optics/interpolation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,9 @@ IndexSample DispersionCurve::sample(double nm, Outside outside) const
 Spectrum sample_n(const DispersionCurve& curve, Outside outside)
 {
   if (!curve.n) throw bad_input(curve.source, curve.name + " has no index of refraction n, only k", {}, "choose another file");
+  if (const auto gap = curve.n->gap_nm; gap && outside == Outside::refuse)
+    throw bad_input(curve.source, fmt::format("{} has no n between {:.6g} and {:.6g} nm", curve.name, gap->front(), gap->back()),
+                    "expected a table without gaps from 380 to 780 nm", "outside \"hold\" draws a straight line across");
   Spectrum result{};
   for (int i = 0; i < wavelength_count; ++i) {
     const double nm = wavelength_nm(i);
@@ -115,6 +119,13 @@ Spectrum sample_k(const DispersionCurve& curve, Outside outside)
   return result;
 }
 
+Curve curve_of(LinearTable table)
+{
+  const double low = table.low(), high = table.high();
+  const auto gap = gap_between(table.rows(), first_nm, last_nm);
+  return {std::move(table), low, high, false, gap};
+}
+
 std::string outside_note(const DispersionCurve& curve, Outside outside)
 {
   if (!curve.n) return {};
@@ -123,9 +134,13 @@ std::string outside_note(const DispersionCurve& curve, Outside outside)
   if (is_outside(first_nm, low, high)) where = fmt::format("below {:.6g} nm", std::min(low, double{last_nm}));
   if (is_outside(last_nm, low, high))
     where += fmt::format("{}above {:.6g} nm", where.empty() ? "" : " and ", std::max(high, double{first_nm}));
-  if (where.empty()) return {};
+  std::vector<std::string> notes;
   const bool held = outside == Outside::hold || !curve.n->formula;
-  return fmt::format("{}: n is {} {} (data: {:.6g}..{:.6g} nm)", curve.name, held ? "held" : "extrapolated", where, low, high);
+  if (!where.empty())
+    notes.push_back(fmt::format("n is {} {} (data: {:.6g}..{:.6g} nm)", held ? "held" : "extrapolated", where, low, high));
+  if (const auto gap = curve.n->gap_nm)
+    notes.push_back(fmt::format("n is a straight line from {:.6g} to {:.6g} nm, where the table has a gap", gap->front(), gap->back()));
+  return notes.empty() ? std::string{} : fmt::format("{}: {}", curve.name, fmt::join(notes, "; "));
 }
 
 DispersionCurve constant_index(double n)
@@ -165,9 +180,7 @@ DispersionCurve cauchy(std::span<const double> coefficients, double low_nm, doub
 
 DispersionCurve tabulated(std::span<const std::array<double, 2>> nm_n)
 {
-  LinearTable table(sorted_rows(nm_n, Repeats::refuse, "table"));
-  const double low = table.low(), high = table.high();
-  return index_only("table", {std::move(table), low, high, false});
+  return index_only("table", curve_of(LinearTable(sorted_rows(nm_n, Repeats::refuse, "table"))));
 }
 
 DispersionCurve control_points(std::span<const std::array<double, 2>> nm_n)

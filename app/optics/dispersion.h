@@ -28,7 +28,8 @@ struct IndexSample {
 struct Curve {
   std::function<double(double nm)> value;
   double low_nm = 0, high_nm = 0;
-  bool formula = false; ///< may be extrapolated
+  bool formula = false;                          ///< may be extrapolated
+  std::optional<std::array<double, 2>> gap_nm{}; ///< a table's widest hole within 380..780 nm: outside the data, and bridged by a line
 };
 
 struct DispersionCurve {
@@ -42,12 +43,13 @@ struct DispersionCurve {
   IndexSample sample(double nm, Outside outside = Outside::automatic) const;
 };
 
-/// n on the 401 wavelengths. Throws bad_input naming the curve and the first wavelength where n is missing, not finite or <= 0.
+/// n on the 401 wavelengths. Throws bad_input naming the curve and the first wavelength where n is missing, not finite or <= 0, and,
+/// with Outside::refuse, for a gap.
 Spectrum sample_n(const DispersionCurve& curve, Outside outside);
 /// k on the 401 wavelengths (0 where the data has none or a negative value; ends held unless refused).
 Spectrum sample_k(const DispersionCurve& curve, Outside outside);
-/// What a run must say when its 380..780 nm reach beyond the range of n, e.g. "N-SF66: n is extrapolated below 390 nm (data:
-/// 390..2500 nm)"; empty where they do not.
+/// What a run must say when its 380..780 nm reach beyond the data of n, e.g. "N-SF66: n is extrapolated below 390 nm (data:
+/// 390..2500 nm)", or into a gap of it; empty where they do not.
 std::string outside_note(const DispersionCurve& curve, Outside outside);
 
 /// The same n > 0 at every wavelength.

@@ -50,6 +50,23 @@ std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const s
   return unique;
 }
 
+std::optional<std::array<double, 2>> gap_between(std::span<const Row> rows, double low_nm, double high_nm)
+{
+  std::vector<double> steps;
+  std::array<double, 2> widest{0, 0};
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+    const double from = rows[i][0], to = rows[i + 1][0];
+    if (to <= low_nm || from >= high_nm) continue;
+    steps.push_back(to - from);
+    if (to - from > widest[1] - widest[0]) widest = {from, to};
+  }
+  if (steps.size() < 4) return std::nullopt;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double inside = std::min(widest[1], high_nm) - std::max(widest[0], low_nm);
+  return inside >= 20 && widest[1] - widest[0] >= 5 * *middle ? std::optional(widest) : std::nullopt;
+}
+
 double LinearTable::operator()(double nm) const
 {
   if (nm <= low()) return rows_.front()[1];

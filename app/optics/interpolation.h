@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interpolation between rows of (wavelength in nm, value): linear, and a cubic that never overshoots its control points.
 #pragma once
+#include "optics/dispersion.h"
+
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +20,10 @@ enum class Repeats { refuse, mean };
 /// a wavelength that is not positive, or a repeat that is refused.
 std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const std::string& where);
 
+/// The widest step between neighbouring rows that reaches into low..high, where it is a hole in the data and not their usual
+/// step: at least 20 nm of it lie there, and it is five times the median of the steps there, which are four or more. rows: sorted.
+std::optional<std::array<double, 2>> gap_between(std::span<const Row> rows, double low_nm, double high_nm);
+
 /// Straight lines between sorted rows; the end values are held outside.
 class LinearTable {
 public:
@@ -24,10 +31,14 @@ public:
   double operator()(double nm) const;
   double low() const { return rows_.front()[0]; }
   double high() const { return rows_.back()[0]; }
+  std::span<const Row> rows() const { return rows_; }
 
 private:
   std::vector<Row> rows_;
 };
+
+/// A table as a curve of n or k, with its range and its gap.
+Curve curve_of(LinearTable table);
 
 /// The monotone piecewise cubic of Fritsch and Carlson (SIAM J. Numer. Anal. 17, 1980): continuous slope, and between two
 /// control points never above the higher or below the lower one. End values are held outside.

@@ -14,6 +14,7 @@ struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;    ///< one a position, unit; or empty
   std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from outside
+  std::uint32_t mended_normals = 0;  ///< of `normals`, those that a file had on the wrong side of its triangles, or not at all
 };
 
 /// More triangles than this are refused, for one mesh and for a scene: the tree's indices and single buffers end near it.
@@ -21,8 +22,9 @@ inline constexpr std::uint64_t max_triangles = std::uint64_t{1} << 28;
 
 /// OBJ, PLY, STL, glTF, 3DS and whatever else Assimp reads; all its meshes as one, node transforms applied, polygons cut into
 /// triangles, points and lines left out. Vertices are joined where position and normal are equal, so creases stay creases;
-/// normals are the file's own (not STL's, which are a facet's), or empty. Degenerate triangles are kept: see drop_useless().
-/// Throws bad_input naming the file: unreadable, no triangle with an area, a coordinate that is not finite, too many triangles.
+/// normals are the file's own (not STL's, which are a facet's), mended where they oppose the triangles, or empty. Degenerate triangles are
+/// kept: see drop_useless(). Throws bad_input naming the file: unreadable, no triangle with an area, a coordinate that is not finite, too
+/// many triangles.
 Mesh load_mesh(const std::filesystem::path& file);
 
 /// What is wrong with a mesh. Vertices at equal positions count as one here, whatever their normals.

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -106,8 +107,11 @@ void mend_normals(Mesh& mesh)
   std::vector<std::uint32_t> itself(mesh.positions.size());
   for (std::uint32_t i = 0; i < itself.size(); ++i) itself[i] = i;
   const std::vector<glm::vec3> means = mean_normals(mesh, itself);
-  for (std::size_t i = 0; i < means.size(); ++i)
-    if (!(glm::dot(mesh.normals[i], means[i]) > 0)) mesh.normals[i] = means[i] == glm::vec3(0) ? glm::vec3(0, 1, 0) : means[i];
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (glm::dot(mesh.normals[i], means[i]) > 0) continue;
+    mesh.normals[i] = means[i] == glm::vec3(0) ? glm::vec3(0, 1, 0) : means[i];
+    ++mesh.mended_normals;
+  }
 }
 
 /// STL stores a facet's normal, from which Assimp makes vertex normals that are not meant to be smooth.
@@ -156,6 +160,7 @@ std::string pack(const Mesh& mesh)
   add(mesh.positions);
   add(mesh.normals);
   add(mesh.triangles);
+  add(std::array{mesh.mended_normals});
   return bytes;
 }
 
@@ -172,6 +177,9 @@ Mesh unpack(std::string_view bytes)
   take(mesh.positions);
   take(mesh.normals);
   take(mesh.triangles);
+  std::vector<std::uint32_t> mended;
+  take(mended);
+  mesh.mended_normals = mended.at(0);
   return mesh;
 }
 

@@ -42,6 +42,7 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   for (const glm::vec3& p : mesh.positions) result.positions.emplace_back(placement.linear * glm::dvec3(p) + offset);
   for (const glm::vec3& n : mesh.normals) result.normals.emplace_back(glm::normalize(normal_transform * glm::dvec3(n)));
   result.triangles = mesh.triangles;
+  result.mended_normals = mesh.mended_normals;
   if (glm::determinant(placement.linear) < 0)
     for (glm::uvec3& triangle : result.triangles) std::swap(triangle.y, triangle.z);
   return result;
@@ -87,20 +88,6 @@ void check_thickness(const Mesh& mesh, double volume, const std::string& where)
 
 const char* plural(std::uint32_t count) { return count == 1 ? "" : "s"; }
 
-/// Do a file's normals point to the back of most triangles? Light would be bent about the triangles' own normals there, as if the
-/// surface had facets. A few are no sign of it: at a spike a vertex normal may oppose a triangle.
-bool normals_oppose_triangles(const Mesh& mesh)
-{
-  if (mesh.normals.empty()) return false;
-  std::size_t opposed = 0;
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::vec3 a = mesh.positions[t.x];
-    const glm::vec3 across = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
-    if (glm::dot(across, mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z]) < 0) ++opposed;
-  }
-  return 2 * opposed > mesh.triangles.size();
-}
-
 void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
 {
   if (report.degenerate > 0)
@@ -123,10 +110,9 @@ void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
     turn_round(placed.mesh);
     placed.damages.push_back({"is inside out", "its triangles are turned round"});
   }
-  if (normals_oppose_triangles(placed.mesh)) {
-    for (glm::vec3& normal : placed.mesh.normals) normal = -normal;
-    placed.damages.push_back({"its vertex normals look to the wrong side", "they are turned round"});
-  }
+  // A few are no sign of damage: at a spike a file's normal may oppose the mean of its triangles.
+  if (2 * std::size_t{placed.mesh.mended_normals} > placed.mesh.positions.size())
+    placed.damages.push_back({"its vertex normals look to the wrong side of its triangles", "those of the triangles take their place"});
 }
 
 } // namespace

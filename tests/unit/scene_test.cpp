@@ -183,7 +183,7 @@ TEST(Scene, ClosedDielectricsAreTurnedOutwards)
   preset.scene.objects[0].shape->inwards = true;
   const Scene turned = load_scene(preset);
   EXPECT_GT(volume(turned, 0), 0);
-  EXPECT_THAT(turned.warnings, ElementsAre("object 'ball': was inside out; its triangles are turned round"));
+  EXPECT_THAT(turned.warnings, ElementsAre("object 'ball': is inside out; its triangles are turned round"));
   EXPECT_GT(glm::dot(turned.geometry.normals[5], turned.geometry.positions[5]), 0);
   preset.scene.objects[0].material = "wall"; // a room may face inwards
   EXPECT_LT(volume(load_scene(preset), 0), 0);
