@@ -142,6 +142,11 @@ inline preset::Preset random_preset(std::uint64_t seed)
     if (s->effort == Spectral::Effort::random) s->estimator = Spectral::Estimator::sppm;
     if (s->effort == Spectral::Effort::variance) s->estimator = Spectral::Estimator::automatic;
   }
+  if (Spectral& s = p.spectral; s.relight) { // what layers cannot keep
+    s.estimator = Spectral::Estimator::splat;
+    s.effort = Spectral::Effort::power;
+    s.jitter = s.differentials = s.indirect = false;
+  }
   p.scene.camera.target = {0, 0.1, 1.0 / 3};
   p.scene.camera.position = {3, 2, 1e-5};
   p.scene.camera.up = {0, 1, 0};
