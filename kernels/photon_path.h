@@ -24,38 +24,51 @@ static inline int emitter_of(__global const DeviceEmitter* emitters, int count, 
   return low;
 }
 
-// The numbers in [0, 1) that a photon starts with.
+// What a photon starts with.
 typedef struct {
-  float4 emission; // target, direction (2); w: the film's dither
-  float2 place;    // on an area light
-  float wavelength;
-} PhotonNumbers;
+  int emitter;
+  float4 emission; // in [0, 1): target, direction (2); w: the film's dither
+  float2 place;    // in [0, 1): on an area light
+  float wavelength; // in [0, 1): which of its cluster
+} PhotonStart;
 
-// first_pass: from which on `emitter` has its photons (DeviceEmitter::sequence_start is for it). Low discrepancy: the photons of an emitter
-// that go to one half of the film follow one sequence, pass after pass; the halves have sequences of their own, as they must be
-// independent.
-static inline PhotonNumbers photon_numbers(const DeviceEmitter* emitter, const DeviceLight* light, uint2 seed, uint pass, uint first_pass,
-                                           uint photon)
+// Photon `photon` of a pass. first_pass: from which on photons are dealt to the emitters as they are (DeviceEmitter::sequence_start is for
+// it).
+// Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that those of all
+// clusters together are spread evenly; its fourth number says which cluster and which wavelength in it. The halves have sequences of
+// their own, as they must be independent.
+static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights,
+                                       uint2 seed, uint pass, uint first_pass, uint photon)
 {
-  PhotonNumbers numbers;
-  numbers.emission = random4(seed, pass, photon, 0u, STREAM_PHOTONS);
+  PhotonStart start;
+  start.emitter = emitter_of(emitters, emitter_count, photon);
+  start.emission = random4(seed, pass, photon, 0u, STREAM_PHOTONS);
+  start.wavelength = 0.0f;
+  start.place = (float2)(0.0f);
+  const DeviceEmitter emitter = emitters[start.emitter];
+  const DeviceLight light = lights[emitter.light];
+  const bool area = is_light(&light, LIGHT_AREA);
 #if NEPHROID_LOW_DISCREPANCY
-  const uint index = emitter->sequence_start + (pass - first_pass) / NEPHROID_FILM_HALVES * emitter->photon_count + (photon - emitter->first_photon);
-  const uint3 sequence = (uint3)((uint)emitter->cluster, (uint)light->number, pass % NEPHROID_FILM_HALVES);
-  const float4 first = sobol4(seed, sequence, 0u, index);
-  numbers.emission.xyz = first.xyz;
-  numbers.wavelength = first.w;
-  numbers.place = is_light(light, LIGHT_AREA) ? sobol4(seed, sequence, 1u, index).xy : (float2)(0.0f);
+  const uint index = emitter.sequence_start + (pass - first_pass) / NEPHROID_FILM_HALVES * emitter.light_photon_count +
+                     (photon - emitter.light_first_photon);
+  const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, pass % NEPHROID_FILM_HALVES);
+  const float4 point = sobol4(seed, sequence, 0u, index);
+  start.emission.xyz = point.zxy; // the first two dimensions are the best pair
+  if (area) start.place = sobol4(seed, sequence, 1u, index).xy;
+  const float place = point.w * (float)emitter.light_photon_count;
+  const uint whole = min((uint)place, emitter.light_photon_count - 1u);
+  start.emitter = emitter_of(emitters, emitter_count, emitter.light_first_photon + whole);
+  __global const DeviceEmitter* const chosen = emitters + start.emitter;
+  const float within = (float)(emitter.light_first_photon + whole - chosen->first_photon) + (place - (float)whole);
+  start.wavelength = clamp(within / (float)chosen->photon_count, 0.0f, 0x1.fffffep-1f);
 #else
-  numbers.wavelength = 0.0f;
-  numbers.place = (float2)(0.0f);
-  if (NEPHROID_JITTER || is_light(light, LIGHT_AREA)) {
+  if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || area) {
     const float4 more = random4(seed, pass, photon, 1u, STREAM_PHOTONS);
-    numbers.place = more.xy;
-    numbers.wavelength = more.z;
+    start.place = more.xy;
+    start.wavelength = more.z;
   }
 #endif
-  return numbers;
+  return start;
 }
 
 // Where a photon ended, and what is left of its power there.

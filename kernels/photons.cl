@@ -5,6 +5,7 @@
 #include "pass_band.h"
 #include "photon_path.h"
 #include "splat.h"
+#include "stretch.h"
 #include "store.h"
 
 #ifndef NEPHROID_PHOTONS_PER_ITEM
@@ -53,16 +54,15 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #if NEPHROID_STORE
     stored[photon].group = NO_PHOTON;
 #endif
-    const int emitter_number = emitter_of(emitters, emitter_count, photon);
-    const DeviceEmitter emitter = emitters[emitter_number];
+    const PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, first_pass, photon);
+    const DeviceEmitter emitter = emitters[start.emitter];
     const DeviceLight light = lights[emitter.light];
-    const PhotonNumbers numbers = photon_numbers(&emitter, &light, seed, pass, first_pass, photon);
-    const Emission emission = emit(&light, targets, &scene, numbers.emission, numbers.place);
+    const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE
     const Band band = band_of_pass(&world, emitter.cluster, seed, pass);
 #else
-    const Band band = choose_band(&world, emitter.light, emitter.cluster, numbers.wavelength);
+    const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #endif
     const float share = band_share(&world, emitter.light, &band, emitter.share);
     const float watts = emission.watts / (float)emitter.photon_count; // as if the band had all of the light's power
@@ -70,16 +70,21 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const PhotonEnd end = trace_photon(&world, emitter.light, &band, share, &path, seed, pass, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED && !store_photon(stored + photon, &end.surface, path.direction, emitter.cluster, object_count,
-                                                          end.xyz * watts, stored_scale, numbers.emission.w))
+                                                          end.xyz * watts, stored_scale, start.emission.w))
       ++outcomes[OUTCOME_REFUSED];
 #endif
     if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
-      const Splat splat = splat_at(&world, &camera, &end.surface, end.triangle, path.direction);
-      if (splat.pixel >= 0) {
-        const float3 xyz = end.xyz * (watts * splat.weight / PI_F);
-        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, numbers.emission.w)) ++outcomes[OUTCOME_REFUSED];
+      const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);
+      for (int i = 0; i < stretch.count; ++i) {
+        Strand strand;
+        if (!strand_of(&world, &end, &path, emitter.light, &band, &stretch, i, start.wavelength, &strand)) continue;
+        const Splat splat = splat_at(&world, &camera, &strand.surface, strand.triangle, path.direction);
+        if (splat.pixel < 0) continue;
+        const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
+        const float dither = start.emission.w + 0.61803399f * (float)i; // every strand's own
+        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, dither - floor(dither))) ++outcomes[OUTCOME_REFUSED];
 #if NEPHROID_MOMENTS
-        add_exactly(moments + emitter_number, squared(xyz, film_scale));
+        add_exactly(moments + start.emitter, squared(xyz, film_scale));
 #endif
       }
     }

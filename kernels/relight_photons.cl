@@ -25,10 +25,10 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
     const uint photon = offset + stride * number;
-    const DeviceEmitter emitter = emitters[emitter_of(emitters, scene.emitter_count, photon)];
+    const PhotonStart start = photon_start(emitters, scene.emitter_count, lights, seed, pass, first_pass, photon);
+    const DeviceEmitter emitter = emitters[start.emitter];
     const DeviceLight light = lights[emitter.light];
-    const PhotonNumbers numbers = photon_numbers(&emitter, &light, seed, pass, first_pass, photon);
-    const Emission emission = emit(&light, targets, &scene, numbers.emission, numbers.place);
+    const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
     const Band band = whole_cluster(emitter.cluster);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
@@ -38,7 +38,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
       const Splat splat = splat_at(&world, &camera, &end.surface, end.triangle, path.direction);
       const int reflector = material_of(&world, end.surface.object).reflector, layer = emitter.light * scene.cluster_count + emitter.cluster;
       if (splat.pixel >= 0 && !layer_add(&film, splat.pixel, reflector, layer, emission.watts * left * splat.weight / PI_F, film_scale,
-                                         FILM_LIMIT, mean_reflectance + emitter.cluster * reflector_count, numbers.emission.w))
+                                         FILM_LIMIT, mean_reflectance + emitter.cluster * reflector_count, start.emission.w))
         ++outcomes[OUTCOME_REFUSED];
     }
 

@@ -83,15 +83,20 @@ typedef struct {
   float4 centre_radius; // w: radius
 } DeviceTarget;
 
-// Photons of one wavelength cluster from one light. Photon i of a pass belongs to the last emitter with first_photon <= i.
+// Photons of one wavelength cluster from one light. Photon i of a pass belongs to the last emitter with first_photon <= i, or with
+// low-discrepancy numbers to any emitter of the same light, each as often as its photon_count says (photon_path.h). Those of a light
+// follow each other.
 typedef struct {
   uint first_photon;
   uint photon_count;
   int light;
   int cluster;
-  float share;         // the cluster's share of the light's power, 0..1
-  uint sequence_start; // photons that earlier passes took of each half's low-discrepancy sequence
-  int padding[2];
+  float share;             // the cluster's share of the light's power, 0..1
+  uint light_first_photon; // of all emitters of this light together
+  uint light_photon_count;
+  uint sequence;           // which low-discrepancy sequence those have,
+  uint sequence_start;     // and where in it each half of the film is: the photons of earlier deals
+  int padding[3];
 } DeviceEmitter;
 
 typedef struct {
@@ -123,7 +128,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 16 && sizeof(Media) == 48);
-static_assert(sizeof(DeviceLight) == 144 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 32);
+static_assert(sizeof(DeviceLight) == 144 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 32 && sizeof(DeviceBackground) == 16);
 } // namespace nephroid::shared
 #endif

@@ -38,6 +38,9 @@ DeviceBuffers upload(const compute::Context& context, const scene::Scene& scene,
   b.index_of_cluster = upload_vector(context, "index of refraction of each cluster", w.index_of_cluster);
   b.index_of_wavelength = upload_vector(context, "index of refraction of each wavelength", w.index_of_wavelength);
   b.wavelength_cdf = upload_vector(context, "choice of a wavelength", w.wavelength_cdf);
+  b.index_slope = upload_vector(context, "slope of the index of refraction", tables.stretch.index_slope);
+  b.stretch_place = upload_vector(context, "stretch of each wavelength", tables.stretch.place);
+  b.stretch_span = upload_vector(context, "stretch of each cluster", tables.stretch.span);
   b.coefficient = upload_vector(context, "attenuation", w.coefficient);
   b.reflectance = upload_vector(context, "reflectance", w.reflectance);
   b.cluster_cdf = upload_vector(context, "cluster choice", w.cluster_cdf);

@@ -15,9 +15,9 @@ struct DeviceBuffers {
   compute::Buffer<shared::DeviceLight> lights;
   compute::Buffer<shared::DeviceTarget> targets;
   compute::Buffer<shared::DeviceEmitter> emitters;
-  compute::Buffer<float> index_of_cluster, index_of_wavelength, wavelength_cdf, coefficient, reflectance, cluster_cdf;
+  compute::Buffer<float> index_of_cluster, index_of_wavelength, wavelength_cdf, index_slope, coefficient, reflectance, cluster_cdf;
   compute::Buffer<int> cluster_first, cluster_wavelengths;
-  compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all;
+  compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all, stretch_place, stretch_span;
 };
 
 /// Throws failed where the device has not enough memory.

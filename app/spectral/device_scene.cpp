@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "spectral/effort.h"
 #include "spectral/omissions.h"
+#include "spectral/scales.h"
 #include "spectral/scene_clusters.h"
 #include "spectral/targets.h"
 #include "spectral/wavelength_tables.h"
@@ -103,39 +104,23 @@ void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, co
   watts.push_back(towards_targets_w(light, targets, scene.metres_per_unit));
 }
 
-/// weights: Effort::photons.
+/// weights: Effort::photons. Photons are numbered later.
 std::vector<shared::DeviceEmitter> make_emitters(const std::vector<double>& weights, const WavelengthTables& tables, unsigned photons)
 {
   const std::vector<unsigned> counts = deal_out(weights, photons);
   std::vector<shared::DeviceEmitter> emitters;
-  unsigned first = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
     const std::size_t l = i / tables.clusters.size(), c = i % tables.clusters.size();
     shared::DeviceEmitter emitter{};
-    emitter.first_photon = first;
     emitter.photon_count = counts[i];
     emitter.light = static_cast<int>(l);
     emitter.cluster = static_cast<int>(c);
     emitter.share = static_cast<float>(tables.share[l][c]);
     emitters.push_back(emitter);
-    first += counts[i];
   }
   return emitters;
 }
-
-scene::Sphere scene_bounds(const scene::Scene& scene)
-{
-  glm::vec3 low{0}, high{0};
-  for (std::size_t i = 0; i < scene.geometry.positions.size(); ++i) {
-    const glm::vec3& p = scene.geometry.positions[i];
-    low = i == 0 ? p : glm::min(low, p);
-    high = i == 0 ? p : glm::max(high, p);
-  }
-  return {0.5f * (low + high), 0.5f * glm::length(high - low)};
-}
-
-double power_of_two_below(double value) { return std::isfinite(value) && value > 0 ? std::exp2(std::floor(std::log2(value))) : 1.0; }
 
 /// A power of two near the power of the strongest light.
 double choose_power_unit(const scene::Scene& scene)
@@ -145,25 +130,18 @@ double choose_power_unit(const scene::Scene& scene)
   return power_of_two_below(strongest);
 }
 
-/// Fixed-point scales, so that what is usual lies in the middle of 63 bits and may be far brighter or fainter. The caustic film gets 2^16
-/// quanta for a photon with a mean share of all the light's power, on a surface as far away as the scene's middle (the limit of one is
-/// 2^42, see film.h: 8000 times nearer). The direct film gets 2^24 for a surface that the light reaches from the scene's radius, and a
-/// limit that the pixel's samples cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches. The energy
-/// counters get 2^40 for the power of one pass. 2^20 passes fit into 63 bits.
+/// The direct film gets 2^24 quanta for a surface that the light reaches from the scene's radius, and a limit that the pixel's samples
+/// cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
 void set_scales(const scene::Scene& scene, const scene::Sphere& bounds, int pixel_samples, DeviceTables& tables)
 {
-  const scene::Camera& camera = scene.camera;
   const double metres = scene.metres_per_unit;
-  const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius) * metres;
-  const double pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
-  tables.caustic_scale =
-      power_of_two_below(std::exp2(16) * tables.photons_per_pass * pi * distance * distance * pixel_area / tables.light_towards_targets_w);
+  tables.caustic_scale = splat_scale(scene, tables.photons_per_pass, tables.light_towards_targets_w);
   double irradiance = 0;
   for (const scene::Light& light : scene.lights)
     irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(bounds.radius * metres, 2));
   tables.direct_scale = power_of_two_below(std::exp2(24) * pi / irradiance);
   tables.direct_limit = std::exp2(62) / pixel_samples;
-  tables.energy_scale = power_of_two_below(std::exp2(40) / tables.light_towards_targets_w);
+  tables.energy_scale = energy_scale(tables.light_towards_targets_w);
 }
 
 } // namespace
@@ -183,7 +161,9 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
   for (const scene::Light& light : scene.lights)
     if (has_power(light) || !leave_out.dark_lights) lights.push_back(&light);
   const std::vector<bool> lit = leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(optics::wavelength_count, true);
-  tables.wavelengths = make_wavelength_tables(scene, lights, scene_clusters(preset.spectral, scene), lit, tables.materials);
+  const std::vector<std::vector<int>> clusters = scene_clusters(preset.spectral, scene);
+  tables.wavelengths = make_wavelength_tables(scene, lights, clusters, lit, tables.materials);
+  tables.stretch = make_stretch_tables(scene, clusters, lit);
   for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority, object.smooth ? 1 : 0, 0});
   tables.spheres = scene_targets(leave_out, scene);
   std::vector<double> watts;
@@ -191,7 +171,7 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
   Effort effort = make_effort(preset.spectral, scene, bvh, watts, tables.wavelengths);
   tables.emitters = make_emitters(effort.photons, tables.wavelengths, static_cast<unsigned>(preset.spectral.photons_per_pass));
   tables.importance = std::move(effort.importance);
-  for (const shared::DeviceEmitter& emitter : tables.emitters) tables.photons_per_pass += emitter.photon_count;
+  tables.photons_per_pass = number_photons(tables.emitters);
   tables.light_towards_targets_w = std::accumulate(watts.begin(), watts.end(), 0.0);
   tables.towards_targets_w = std::move(watts);
   tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");

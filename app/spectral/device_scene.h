@@ -6,6 +6,7 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "spectral/clusters.h"
+#include "spectral/stretch.h"
 
 #include <vector>
 
@@ -43,9 +44,10 @@ struct DeviceTables {
   unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each emitter
   std::vector<double> importance;              ///< [cluster] 0..1, the largest 1: see Effort
   WavelengthTables wavelengths;
-  double light_towards_targets_w = 0; ///< power that the emitters send out in a pass, all wavelengths
+  StretchTables stretch;              ///< for the same clusters
+  double light_towards_targets_w = 0;    ///< power that the emitters send out in a pass, all wavelengths
   std::vector<double> towards_targets_w; ///< [light]: its part of it
-  double power_unit = 1;              ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
+  double power_unit = 1;                 ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
   double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
   double direct_limit = 1;                    ///< quanta that one contribution to the direct film may have
   double energy_scale = 1;                    ///< energy quanta per watt, a power of two

@@ -48,7 +48,7 @@ struct DeviceWorld {
   {
     const DeviceBuffers& b = buffers;
     kernel.run(global, local, b.nodes, b.blocks, b.corners, b.positions, b.normals, b.object_of_triangle, b.objects, b.materials, b.lights,
-               b.index_of_cluster, b.index_of_wavelength, b.wavelength_cdf, b.reflected_xyz, b.cluster_first, b.cluster_wavelengths, b.coefficient, b.light_xyz, b.reflectance,
+               b.index_of_cluster, b.index_of_wavelength, b.wavelength_cdf, b.index_slope, b.stretch_place, b.stretch_span, b.reflected_xyz, b.cluster_first, b.cluster_wavelengths, b.coefficient, b.light_xyz, b.reflectance,
                tables.wavelengths.reflector_count, tables.scene, rest...);
     context.finish();
   }

@@ -44,12 +44,11 @@ IndirectTables make_indirect_tables(const scene::Scene& scene, const DeviceTable
   for (std::size_t l = 0; l < counts.size(); ++l) {
     if (counts[l] == 0) continue;
     shared::DeviceEmitter emitter{};
-    emitter.first_photon = result.photons_per_pass;
     emitter.photon_count = counts[l];
     emitter.light = static_cast<int>(l);
     result.emitters.push_back(emitter);
-    result.photons_per_pass += counts[l];
   }
+  result.photons_per_pass = number_photons(result.emitters);
   result.film_scale = splat_scale(scene, result.photons_per_pass, result.emitted_w);
   result.energy_scale = energy_scale(result.emitted_w);
   return result;

@@ -12,9 +12,9 @@
 namespace nephroid::spectral {
 
 struct LayerCells {
-  std::vector<int> first;                ///< [pixel + 1] in `cells`
-  std::vector<shared::LayerCell> cells;  ///< of each pixel, the reflector that it sees most at the beginning
-  std::vector<int> reflector_of_block;   ///< cells of one reflector fill whole blocks of LAYER_BLOCK
+  std::vector<int> first;               ///< [pixel + 1] in `cells`
+  std::vector<shared::LayerCell> cells; ///< of each pixel, the reflector that it sees most at the beginning
+  std::vector<int> reflector_of_block;  ///< cells of one reflector fill whole blocks of LAYER_BLOCK
   std::size_t count() const { return LAYER_BLOCK * reflector_of_block.size(); } ///< numbers of cells, those that nothing uses included
 };
 

@@ -12,8 +12,8 @@ LayerFilm::LayerFilm(const compute::Context& context, const std::string& name, c
     : context_(context), layers_(layers), halves_(halves), on_host_(cells),
       first_(context, name + ": cells of each pixel", std::span<const int>(cells.first)),
       reflector_of_block_(context, name + ": reflectors", std::span<const int>(cells.reflector_of_block)),
-      cells_(context, name + ": cells", std::span<const shared::LayerCell>(cells.cells)), sums_(context, name, halves * layers * cells.count()),
-      weighed_(context, name + ": weighed", 6 * cells.count()),
+      cells_(context, name + ": cells", std::span<const shared::LayerCell>(cells.cells)),
+      sums_(context, name, halves * layers * cells.count()), weighed_(context, name + ": weighed", 6 * cells.count()),
       kernel_(compute::Program(context, "relight_weigh.cl", defines).kernel("weigh"))
 {
   sums_.fill_zero();
@@ -78,7 +78,8 @@ std::vector<LayerWeight> mean_and_draw(std::span<const std::array<double, 3>> co
   });
 }
 
-std::vector<LayerWeight> half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, double quanta_per_unit)
+std::vector<LayerWeight> half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
+                                   double quanta_per_unit)
 {
   return make_weights(colours, reflectors, halves, [&](std::size_t half, std::size_t) -> std::array<double, 2> {
     return half == 0 ? std::array{1 / quanta_per_unit, 0.0} : std::array{0.0, 1 / quanta_per_unit};

@@ -55,8 +55,8 @@ private:
 /// What the halves of one layer had: samples or photons.
 using HalfCounts = std::array<double, 2>;
 
-/// Weights for weigh(): the first picture is the mean over both halves of `colours` [layer][reflector] times what is in the film, the second
-/// the draw of its error (job::Picture::error_draw). counts: [layer]; a layer that had none counts nothing.
+/// Weights for weigh(): the first picture is the mean over both halves of `colours` [layer][reflector] times what is in the film, the
+/// second the draw of its error (job::Picture::error_draw). counts: [layer]; a layer that had none counts nothing.
 std::vector<LayerWeight> mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts, int reflectors,
                                        std::size_t halves, double quanta_per_unit);
 

@@ -144,21 +144,19 @@ std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const
     }
   const std::vector<unsigned> counts = deal_out(half_evenly(std::move(parts), never), photons);
   std::vector<shared::DeviceEmitter> emitters;
-  unsigned first = 0;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
     const std::size_t l = i / clusters, c = i % clusters;
     double share = 0;
     for (const int w : tables.wavelengths.clusters[c]) share += light.spectra[l][static_cast<std::size_t>(w)];
     shared::DeviceEmitter emitter{};
-    emitter.first_photon = first;
     emitter.photon_count = counts[i];
     emitter.light = static_cast<int>(l);
     emitter.cluster = static_cast<int>(c);
     emitter.share = static_cast<float>(share * light.power[l] / light.strongest());
     emitters.push_back(emitter);
-    first += counts[i];
   }
+  number_photons(emitters);
   return emitters;
 }
 
@@ -193,8 +191,7 @@ DeviceTables make_run_tables(const preset::Preset& preset, const scene::Scene& s
   DeviceTables tables = make_device_tables(layered, with_unit_lights(scene), bvh);
   const LayerLight light = layer_light(scene, preset.white);
   tables.emitters = layer_emitters(light, tables, static_cast<unsigned>(preset.spectral.photons_per_pass));
-  tables.photons_per_pass = 0;
-  for (const shared::DeviceEmitter& emitter : tables.emitters) tables.photons_per_pass += emitter.photon_count;
+  tables.photons_per_pass = number_photons(tables.emitters);
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
   tables.wavelengths.cluster_cdf = layer_cluster_cdf(light, tables.wavelengths);
   tables.energy_scale = layer_energy_scale(light, tables);

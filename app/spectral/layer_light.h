@@ -46,8 +46,8 @@ struct FlatLight {
 FlatLight flat_light(const WavelengthTables& tables);
 
 /// Half of the work goes by what the eye makes of the present light, and half to every cluster alike, for lights to come.
-/// DeviceEmitter::share is the cluster's part of the light's power, in units of LayerLight::strongest(). tables: of unit lights. Every light
-/// that reaches a target has an emitter for every cluster, whatever its power.
+/// DeviceEmitter::share is the cluster's part of the light's power, in units of LayerLight::strongest(). tables: of unit lights. Every
+/// light that reaches a target has an emitter for every cluster, whatever its power.
 std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const DeviceTables& tables, unsigned photons);
 /// [cluster + 1]: which cluster a path through glass takes.
 std::vector<float> layer_cluster_cdf(const LayerLight& light, const WavelengthTables& tables);

@@ -6,6 +6,7 @@
 #include "spectral/relighting.h"
 
 #include <cmath>
+#include <utility>
 
 namespace nephroid::spectral {
 namespace {
@@ -31,6 +32,8 @@ public:
 
   bool step(std::int64_t pass) override
   {
+    if (std::exchange(chosen_for_, relighting_.changes) != relighting_.changes)
+      cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
     return rows_.step([&](int first_row, int rows) {
       const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
       world_.run(kernel_, pixels, 64, cluster_cdf_, relighting_.mean_reflectance, relighting_.luminance_share, unbent_.first(),
@@ -45,7 +48,8 @@ public:
     const int reflectors = world_.tables.wavelengths.reflector_count;
     const double quanta = world_.tables.direct_scale;
     const std::array<std::vector<float>, 2> straight = unbent_.weigh(half_sums(relighting_.weights.all, reflectors, world_.halves, quanta)),
-                                            through = bent_.weigh(half_sums(relighting_.weights.clusters, reflectors, world_.halves, quanta));
+                                            through =
+                                                bent_.weigh(half_sums(relighting_.weights.clusters, reflectors, world_.halves, quanta));
     std::vector<float>& rgb = layer_of(picture, "direct").rgb;
     const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width);
     for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
@@ -80,6 +84,7 @@ private:
   std::int64_t pixel_samples_;
   LayerFilm unbent_, bent_;
   compute::Buffer<float> cluster_cdf_;
+  std::uint64_t chosen_for_ = 0; ///< Relighting::changes of the light that cluster_cdf_ is for
   compute::Kernel kernel_;
   PixelRows rows_;
 };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caustic layer, kept as layers: kernels/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt anew when the
-// light changes, and what was sent before stays as good as it was.
+// The caustic layer, kept as layers: kernels/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt anew when
+// the light changes, and what was sent before stays as good as it was.
 #include "spectral/film.h"
 #include "spectral/layer_film.h"
 #include "spectral/photon_slices.h"
 #include "spectral/relighting.h"
+#include "spectral/wavelength_tables.h"
 
 #include <algorithm>
 
@@ -17,8 +18,7 @@ public:
       : world_(world), relighting_(relighting), emitters_(world.tables.emitters), sent_(emitters_.size()),
         film_(world.context, "film caustic", relighting.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
         // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
-        scale_(world.tables.caustic_scale / world.tables.photons_per_pass),
-        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
+        scale_(world.tables.caustic_scale / world.tables.photons_per_pass), photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
   {
     compute::Defines defines = world.defines;
     defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
@@ -33,7 +33,8 @@ public:
   {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete = slices_.step(world_.tables.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
+    const bool complete = slices_.step(world_.tables.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride,
+                                                                           std::uint32_t count) {
       world_.run(kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, world_.buffers.emitters,
                  film_.first(), film_.cells(), film_.sums(), film_.layer_count(), relighting_.mean_reflectance, world_.energy,
                  world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(at_.first_pass), offset,
@@ -64,6 +65,7 @@ public:
   void save(StateWriter& to) const override
   {
     to.value(at_);
+    to.value(dealt_ == relighting_.changes);
     slices_.save(to);
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
       to.value(sent_[e]);
@@ -74,6 +76,9 @@ public:
   void load(StateReader& from) override
   {
     from.value(at_);
+    bool dealt = true;
+    from.value(dealt);
+    dealt_ = relighting_.changes - (dealt ? 0 : 1);
     slices_.load(from);
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
       from.value(sent_[e]);
@@ -101,6 +106,15 @@ private:
     return slices_.done_of(emitter.first_photon + emitter.photon_count) - slices_.done_of(emitter.first_photon);
   }
 
+  /// Photons of a light to one half of the film, in the complete passes.
+  std::uint64_t sent_by(int light, std::size_t half) const
+  {
+    std::uint64_t sum = 0;
+    for (std::size_t e = 0; e < emitters_.size(); ++e)
+      if (emitters_[e].light == light) sum += sent_[e][half];
+    return sum;
+  }
+
   /// A new light's powers count in the energy balance at once; photons are dealt by it from the next pass on.
   void take_light(std::int64_t pass)
   {
@@ -110,10 +124,10 @@ private:
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
       emitters_[e].share = now[e].share;
       if (!deals) continue;
-      emitters_[e].first_photon = now[e].first_photon;
       emitters_[e].photon_count = now[e].photon_count;
-      emitters_[e].sequence_start = static_cast<std::uint32_t>(std::max(sent_[e][0], sent_[e][1]));
+      emitters_[e].sequence_start = static_cast<std::uint32_t>(std::max(sent_by(emitters_[e].light, 0), sent_by(emitters_[e].light, 1)));
     }
+    if (deals) number_photons(emitters_);
     shared_ = relighting_.changes;
     if (deals) {
       dealt_ = relighting_.changes;

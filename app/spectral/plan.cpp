@@ -96,6 +96,20 @@ plan::Pass estimate_pass(const preset::Preset& preset, bool caustics)
           preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false", "/measure/estimate", true};
 }
 
+plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Scene& scene, bool splats)
+{
+  const std::string field = "/spectral/differentials";
+  if (!settings.differentials) return not_asked_for("differentials", "differentials");
+  if (settings.relight) return {"differentials", false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
+  if (!splats) return {"differentials", false, "nothing is splatted", "", false};
+  const StretchParameter along = stretch_parameter(scene);
+  if (along == StretchParameter::none) return {"differentials", false, "no glass bends one wavelength otherwise than another", field, true};
+  return {"differentials", true,
+          fmt::format("splats are stretched along the way that they move with the {}",
+                      along == StretchParameter::index ? "index of refraction" : "wavelength, for there are several curves"),
+          field, true};
+}
+
 std::uint64_t film_bytes(const scene::Scene& scene, int halves)
 {
   return static_cast<std::uint64_t>(halves) * 3 * sizeof(std::int64_t) * static_cast<std::uint64_t>(scene.camera.width) * scene.camera.height;
@@ -138,10 +152,12 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   const bool caustics = photons.runs;
   if (caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
     photons = {"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false};
+  const plan::Pass differentials = differentials_pass(preset.spectral, scene, photons.runs);
   plan.passes = {direct, photons};
   if (caustics) {
     plan.passes.push_back(effort_pass(preset.spectral, tables.importance));
     plan.passes.push_back(stray_photons_pass(leave_out, tables));
+    plan.passes.push_back(differentials);
   }
   const std::vector<plan::Pass> code = code_omissions(leave_out, scene, attenuators);
   for (const std::vector<plan::Pass>& passes : {data_omissions(leave_out, scene, tables.spheres), code})
@@ -160,6 +176,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);
+  plan.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(int(differentials.runs));
   plan.defines["NEPHROID_JITTER"] = std::to_string(int(preset.spectral.jitter && tables.wavelengths.clusters_spread));
   plan.defines["NEPHROID_LOW_DISCREPANCY"] = std::to_string(int(preset.spectral.low_discrepancy));
   plan.defines["NEPHROID_FILM_HALVES"] = std::to_string(halves);

@@ -14,8 +14,8 @@ namespace nephroid::spectral {
 struct Relighting {
   LayerLight light;
   LayerWeights weights;
-  std::uint64_t changes = 0; ///< of the light
-  LayerCells unbent, bent;   ///< seen directly, and through glass and mirrors
+  std::uint64_t changes = 0;                                ///< of the light
+  LayerCells unbent, bent;                                  ///< seen directly, and through glass and mirrors
   compute::Buffer<float> mean_reflectance, luminance_share; ///< FlatLight
 };
 

@@ -2,10 +2,26 @@
 #include "spectral/scene_clusters.h"
 
 #include "spectral/clusters.h"
+#include "spectral/stretch.h"
 
 #include <algorithm>
 
 namespace nephroid::spectral {
+
+namespace {
+
+/// Neighbouring wavelengths, `step` in a group, the last group with what is left.
+std::vector<std::vector<int>> neighbours(int step)
+{
+  std::vector<std::vector<int>> groups;
+  for (int w = 0; w < optics::wavelength_count; ++w) {
+    if (w % step == 0) groups.emplace_back();
+    groups.back().push_back(w);
+  }
+  return groups;
+}
+
+} // namespace
 
 std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
 {
@@ -15,9 +31,12 @@ std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, c
     if (material.type != scene::Material::Type::dielectric) continue;
     if (std::find(curves.begin(), curves.end(), material.n) == curves.end()) curves.push_back(material.n);
   }
+  if (!curves.empty() && settings.method == ClusterMethod::brute_force) return neighbours(settings.step_nm);
   std::vector<Clustering> clusterings;
   for (const optics::Spectrum& curve : curves) clusterings.push_back(cluster_wavelengths(curve, settings.threshold_deg, settings.method));
-  return common_refinement(clusterings);
+  std::vector<std::vector<int>> clusters = common_refinement(clusterings);
+  if (settings.differentials && stretch_parameter(scene) == StretchParameter::wavelength) clusters = split_into_runs(clusters);
+  return clusters;
 }
 
 } // namespace nephroid::spectral

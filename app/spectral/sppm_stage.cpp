@@ -141,10 +141,7 @@ private:
   }
 
   /// Runs count their own iterations, so each has random numbers of its own by its seed.
-  Uint2 seed_of(int cluster) const
-  {
-    return {world_.seed.x, world_.seed.y ^ static_cast<std::uint32_t>(cluster + 1) * 0x9E3779B9u};
-  }
+  Uint2 seed_of(int cluster) const { return {world_.seed.x, world_.seed.y ^ static_cast<std::uint32_t>(cluster + 1) * 0x9E3779B9u}; }
 
   Run make_run()
   {
@@ -182,18 +179,17 @@ Sender SppmStage::make_sender(int cluster) const
     weights.push_back(t.towards_targets_w[l] * (t.wavelengths.weight[l][c] + 0.05 * t.wavelengths.share[l][c]));
   const std::vector<unsigned> counts = deal_out(weights, photons_);
   std::vector<shared::DeviceEmitter> emitters;
-  unsigned first = 0;
   for (std::size_t l = 0; l < counts.size(); ++l) {
     if (counts[l] == 0) continue;
     shared::DeviceEmitter emitter{};
-    emitter.first_photon = first;
     emitter.photon_count = counts[l];
     emitter.light = static_cast<int>(l);
     emitter.cluster = cluster;
     emitter.share = static_cast<float>(t.wavelengths.share[l][c]);
+    emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters are runs of their own
     emitters.push_back(emitter);
-    first += counts[l];
   }
+  number_photons(emitters);
   return {{world_.context, "emitters of a cluster", std::span<const shared::DeviceEmitter>(emitters)},
           static_cast<int>(emitters.size()),
           photon_scale(photons_, std::accumulate(weights.begin(), weights.end(), 0.0))};
@@ -204,10 +200,10 @@ bool SppmStage::send(std::int64_t pass)
   const Sender& sender = senders_[static_cast<std::size_t>(at_.cluster)];
   const DeviceTables& t = world_.tables;
   return slices_.step(photons_, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-    world_.run(send_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, sender.emitters, unused_, run_of(at_.cluster).energy,
-               unused_, map_.stored(), sender.emitter_count, static_cast<int>(t.objects.size()), t.camera, seed_of(at_.cluster),
-               static_cast<std::uint32_t>(iterations_of(at_.cluster, pass)), 0u, offset, stride, count, 0.0f, world_.on_device(t.energy_scale),
-               world_.on_device(sender.photon_scale));
+    world_.run(send_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, sender.emitters, unused_,
+               run_of(at_.cluster).energy, unused_, map_.stored(), sender.emitter_count, static_cast<int>(t.objects.size()), t.camera,
+               seed_of(at_.cluster), static_cast<std::uint32_t>(iterations_of(at_.cluster, pass)), 0u, offset, stride, count, 0.0f,
+               world_.on_device(t.energy_scale), world_.on_device(sender.photon_scale));
   });
 }
 
@@ -266,8 +262,13 @@ void SppmStage::report(std::int64_t passes, bool done, job::Snapshot& snapshot)
     const double scale = (random_ ? cluster_count() : 1) / (world_.tables.energy_scale * count);
     for (std::size_t i = 0; i < watts.size(); ++i) watts[i] += static_cast<double>(quanta[i]) * (i == OUTCOME_REFUSED ? 1 : scale);
   }
-  snapshot.energy = {watts[OUTCOME_EMITTED], watts[OUTCOME_DEPOSITED], watts[OUTCOME_MISSED], watts[OUTCOME_ABSORBED],
-                     watts[OUTCOME_ESCAPED], watts[OUTCOME_LOST], static_cast<std::uint64_t>(watts[OUTCOME_REFUSED])};
+  snapshot.energy = {watts[OUTCOME_EMITTED],
+                     watts[OUTCOME_DEPOSITED],
+                     watts[OUTCOME_MISSED],
+                     watts[OUTCOME_ABSORBED],
+                     watts[OUTCOME_ESCAPED],
+                     watts[OUTCOME_LOST],
+                     static_cast<std::uint64_t>(watts[OUTCOME_REFUSED])};
 }
 
 } // namespace

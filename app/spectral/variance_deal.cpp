@@ -48,14 +48,12 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
   if (total > 0)
     for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = kept * first_deal_[e] + (1 - kept) * deviation[e] / total;
   const std::vector<unsigned> counts = deal_out(weights, all);
-  unsigned first = 0;
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     shared::DeviceEmitter& emitter = emitters_[e];
-    emitter.sequence_start += static_cast<std::uint32_t>(pass - first_pass_) / halves * emitter.photon_count;
-    emitter.first_photon = first;
+    emitter.sequence_start += static_cast<std::uint32_t>(pass - first_pass_) / halves * emitter.light_photon_count;
     emitter.photon_count = counts[e];
-    first += counts[e];
   }
+  number_photons(emitters_);
   first_pass_ = pass;
 }
 

@@ -218,4 +218,23 @@ std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned phot
   return counts;
 }
 
+unsigned number_photons(std::vector<shared::DeviceEmitter>& emitters)
+{
+  unsigned first = 0;
+  for (auto begin = emitters.begin(); begin != emitters.end();) {
+    const auto end = std::find_if(begin, emitters.end(), [&](const shared::DeviceEmitter& e) { return e.light != begin->light; });
+    const unsigned light_first = first;
+    for (auto e = begin; e != end; ++e) {
+      e->first_photon = first;
+      first += e->photon_count;
+    }
+    for (auto e = begin; e != end; ++e) {
+      e->light_first_photon = light_first;
+      e->light_photon_count = first - light_first;
+    }
+    begin = end;
+  }
+  return first;
+}
+
 } // namespace nephroid::spectral

@@ -15,4 +15,8 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
 /// max(photons, number of positive weights). Emitters of weight 0 are left out with 0 photons.
 std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned photons);
 
+/// Fills DeviceEmitter::first_photon and the two of the light from the emitters' photon_count; emitters of a light follow each other.
+/// Returns how many photons there are in all.
+unsigned number_photons(std::vector<shared::DeviceEmitter>& emitters);
+
 } // namespace nephroid::spectral

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// One path for a whole cluster is biased; one wavelength of the cluster for each path is not, however coarse the clusters are. The truth is
+// brute force, a path for every wavelength. Low-discrepancy numbers and photons dealt by variance have to keep the expectation too.
+#include "compute/compute.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/leaving_out_scenes.h"
+#include "tests/support/passes.h"
+
+#include <gtest/gtest.h>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+using preset::Spectral;
+
+/// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey.
+preset::Preset dispersing_ball(bool absorbing)
+{
+  preset::Preset p = ball_scene();
+  p.scene.materials["glass"].dispersion.coefficients = {1.4, 0.04};
+  p.scene.lights[0].spectrum.illuminant = "A";
+  p.scene.materials["white"].reflectance.type = preset::Reflectance::Type::patch;
+  p.scene.materials["white"].reflectance.patch = "foliage";
+  if (absorbing) {
+    p.scene.materials["mirror"] = mirror(0.5);
+    p.scene.materials["mirror"].reflectance.type = preset::Reflectance::Type::patch;
+    p.scene.materials["mirror"].reflectance.patch = "orange";
+    p.scene.objects.push_back(object("mirror", quad(1, 1), "mirror", at({0.8, 0.05, 0})));
+  }
+  p.spectral.photons_per_pass = 1 << 13;
+  p.stop.passes = 24;
+  return p;
+}
+
+/// Linear sRGB of the picture in 3 x 3 blocks, and the watts of the energy balance.
+std::vector<double> figures(const job::Snapshot& snapshot)
+{
+  const std::vector<float>& rgb = snapshot.picture->rgb;
+  const int size = snapshot.picture->width, block = size / 3;
+  std::vector<double> sums(27);
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column)
+      for (int c = 0; c < 3; ++c)
+        sums[static_cast<std::size_t>(3 * (3 * (row / block) + column / block) + c)] +=
+            rgb[static_cast<std::size_t>(3 * (row * size + column) + c)];
+  for (const double watts : {snapshot.energy.emitted_w, snapshot.energy.deposited_w, snapshot.energy.absorbed_w}) sums.push_back(watts);
+  return sums;
+}
+
+/// Sidak's p-value of the worst figure of two runs that should have one expectation.
+double p_of_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
+{
+  double worst = 1;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Estimate both{a[i].mean - b[i].mean, a[i].variance + b[i].variance, std::min(a[i].degrees, b[i].degrees)};
+    worst = std::min(worst, p_value(both, 0, 1e-6 * std::abs(a[i].mean)));
+  }
+  return sidak(worst, static_cast<double>(a.size()));
+}
+
+class WavelengthJitter : public testing::TestWithParam<bool> {};
+
+TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce)
+{
+  preset::Preset p = dispersing_ball(GetParam());
+  p.spectral.method = Spectral::Method::brute_force;
+  const std::vector<Estimate> truth = render_passes(p, figures);
+  p.seed = 2;
+  p.spectral.method = Spectral::Method::optimal;
+  p.spectral.threshold_deg = 80; // one cluster
+  p.spectral.jitter = true;
+  EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
+  p.seed = 3;
+  p.spectral.low_discrepancy = true;
+  p.spectral.threshold_deg = 0.5;
+  EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
+  p.seed = 4;
+  p.spectral.effort = Spectral::Effort::variance;
+  EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
+}
+
+INSTANTIATE_TEST_SUITE_P(, WavelengthJitter, testing::Bool(), [](const auto& test) { return test.param ? "WithColouredMirror" : "Glass"; });
+
+// Without jitter one cluster sends all wavelengths the way of one: it differs from brute force far beyond the noise.
+TEST(WholeClusters, AreBiased)
+{
+  preset::Preset p = dispersing_ball(false);
+  p.spectral.method = Spectral::Method::brute_force;
+  const std::vector<Estimate> truth = render_passes(p, figures);
+  p.seed = 2;
+  p.spectral.method = Spectral::Method::optimal;
+  p.spectral.threshold_deg = 80;
+  EXPECT_LT(p_of_same(render_passes(p, figures), truth), false_alarm);
+}
+
+// The sequence spreads photons more evenly than chance does: behind glass that bends nothing (n = 1 + 1e-6) a floor's irradiance is smooth,
+// and its pixels scatter far less about their mean.
+TEST(LowDiscrepancy, SpreadsPhotonsEvenly)
+{
+  preset::Preset p = dispersing_ball(false);
+  p.scene.materials["glass"].dispersion.coefficients = {1.000001};
+  p.spectral.direct = false;
+  p.spectral.photons_per_pass = 1 << 16;
+  p.stop.passes = 4;
+  const auto scatter = [&](bool low_discrepancy) {
+    p.spectral.low_discrepancy = low_discrepancy;
+    p.seed = 1;
+    const job::Snapshot a = render(p);
+    p.seed = 2;
+    const job::Snapshot b = render(p);
+    double sum = 0;
+    for (std::size_t i = 0; i < a.picture->rgb.size(); ++i) sum += std::pow(a.picture->rgb[i] - b.picture->rgb[i], 2);
+    return sum;
+  };
+  EXPECT_LT(scatter(true), 0.5 * scatter(false));
+}
+
+} // namespace
