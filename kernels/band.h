@@ -22,10 +22,10 @@ static inline Band whole_cluster(int cluster)
   return band;
 }
 
-// One wavelength of a cluster. cdf: of the cluster's members, [count], the last 1; u in [0, 1).
-static inline Band wavelength_of_cluster(int cluster, __global const int* wavelengths, __global const float* cdf, int count, float u)
+// The first member of a cluster with cdf > u; cdf: of its members, [count], the last 1; u in [0, 1).
+static inline int member_of_cluster(__global const float* cdf, int count, float u)
 {
-  int low = 0, high = count - 1; // the first member with cdf > u
+  int low = 0, high = count - 1;
   while (low < high) {
     const int middle = (low + high) >> 1;
     if (cdf[middle] > u)
@@ -33,8 +33,15 @@ static inline Band wavelength_of_cluster(int cluster, __global const int* wavele
     else
       low = middle + 1;
   }
-  const float before = low > 0 ? cdf[low - 1] : 0.0f;
-  const Band band = {cluster, wavelengths[low], 1.0f / (cdf[low] - before)};
+  return low;
+}
+
+// One wavelength of a cluster.
+static inline Band wavelength_of_cluster(int cluster, __global const int* wavelengths, __global const float* cdf, int count, float u)
+{
+  const int member = member_of_cluster(cdf, count, u);
+  const float before = member > 0 ? cdf[member - 1] : 0.0f;
+  const Band band = {cluster, wavelengths[member], 1.0f / (cdf[member] - before)};
   return band;
 }
 

@@ -29,8 +29,10 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
   else
     near_object = surface->object; // an open mesh: the path got in without meeting its surface
   const int far_object = medium_object(&beyond, objects);
-  const float n_i = near_object < 0 ? 1.0f : n_of[objects[near_object].material];
-  const float n_t = far_object < 0 ? 1.0f : n_of[objects[far_object].material];
+  const int near_material = near_object < 0 ? -1 : objects[near_object].material;
+  const int far_material = far_object < 0 ? -1 : objects[far_object].material;
+  const float n_i = near_material < 0 ? 1.0f : n_of[near_material];
+  const float n_t = far_material < 0 ? 1.0f : n_of[far_material];
   *n_ratio = 1.0f;
 #if NEPHROID_BENDING
   const bool bends = n_i != n_t;
@@ -39,9 +41,11 @@ static inline bool cross_interface(Media* media, const Surface* surface, __globa
 #endif
   if (!bends) { // nothing changes here: one medium hides the other, or both are the same
     bend->direction = direction;
-    bend->transmitted = true;
+    bend->transmitted = bend->straight = true;
   } else
     *bend = bend_at_surface(direction, surface, n_i, n_t, choice);
+  bend->near_material = near_material;
+  bend->far_material = far_material;
   if (bend->transmitted) {
     *media = beyond;
     *n_ratio = n_i / n_t;

@@ -12,6 +12,17 @@
 #define NEPHROID_OCCLUSION 1
 #endif
 
+// Where the camera sees `position`, in pixels from the top left corner; *depth: along the view, positive before the camera.
+static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth)
+{
+  const float3 to_camera = camera->position.xyz - position;
+  const float z = -dot(to_camera, camera->forward.xyz);
+  *depth = z;
+  const float x = 0.5f - 0.5f * dot(to_camera, camera->right.xyz) / (z * camera->tan_x);
+  const float y = 0.5f + 0.5f * dot(to_camera, camera->up.xyz) / (z * camera->tan_y);
+  return (float2)(x * (float)camera->width, y * (float)camera->height);
+}
+
 // The pixel that sees `position`, or -1; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited there adds
 // F reflectance / pi * weight to the pixel's radiance.
 // A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A), with
@@ -22,18 +33,15 @@ static inline int project_to_pixel(const DeviceCamera* camera, float3 position, 
   const float3 to_camera = camera->position.xyz - position;
   const float cos_camera = dot(to_camera, geometric), cos_arriving = -dot(arriving, geometric);
   if (!(cos_camera * cos_arriving > 0.0f)) return -1; // seen from its other side
-  const float z = -dot(to_camera, camera->forward.xyz);
+  float z;
+  const float2 place = place_on_film(camera, position, &z);
   if (!(z > 0.0f)) return -1;
-  const float x = 0.5f - 0.5f * dot(to_camera, camera->right.xyz) / (z * camera->tan_x);
-  const float y = 0.5f + 0.5f * dot(to_camera, camera->up.xyz) / (z * camera->tan_y);
-  if (!(x >= 0.0f && x < 1.0f && y >= 0.0f && y < 1.0f)) return -1;
+  if (!(place.x >= 0.0f && place.x < (float)camera->width && place.y >= 0.0f && place.y < (float)camera->height)) return -1;
   const float pixel_area = 4.0f * camera->tan_x * camera->tan_y / ((float)camera->width * (float)camera->height);
   const float depth = z * metres_per_unit;
   // cos_camera is cos(theta) times the distance already.
   *weight = fabs(cos_camera) / (z * depth * depth * pixel_area);
-  const int column = min((int)(x * (float)camera->width), camera->width - 1);
-  const int row = min((int)(y * (float)camera->height), camera->height - 1);
-  return row * camera->width + column;
+  return (int)place.y * camera->width + (int)place.x;
 }
 
 // Where a splat goes, and by what factor the light there becomes the pixel's radiance.

@@ -15,15 +15,16 @@
 // The most splats that a photon becomes, and the length in pixels below which it stays one.
 #define STRETCH_SPLATS 16
 #define STRETCH_SHORTEST 0.1f
-// The farthest that a wavelength's last direction may lie from the photon's for D' to say where it goes, in radians. Beyond, as where
-// D' is infinite (the critical angle), the photon is a point.
-#define STRETCH_WIDEST 0.1f
+// The farthest that the last directions of a streak may lie apart for D' to say where they go, in radians: at three times as much a rainbow's
+// colours are off by 3 % (docs/spectral.md). Also where D' is infinite, at the critical angle, a photon is not stretched.
+#define STRETCH_WIDEST 0.01f
 
-// How a photon is splatted.
+// How a photon is splatted: `count` splats, of the light of its whole cluster or of what its band stands for alone. More than one splat: each
+// goes where its own wavelength does.
 typedef struct {
-  int count;   // splats; more than one: each of one wavelength of the cluster
-  bool whole;  // one splat for all of the cluster, which goes to the same place; else for what the photon stands for
-  bool beside; // an end lies in another triangle
+  int count;
+  bool whole;
+  bool beside; // an end of the streak lies in another triangle
 } Stretch;
 
 // s of the photon itself.
@@ -86,27 +87,46 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
   return surface_beside(world, end, dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f, place, &surface, &triangle);
 }
 
-// What becomes of a deposited photon. Its decision rests on where the whole cluster's light goes and not on the photon's own wavelength, so it is the
-// same for all of them: no light is counted twice or lost where a streak would leave the receiver.
+// Tries to stretch a photon from `low` to `high`, its s being 0. False where that leads off the receiver or too far to know where.
+static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float low, float high,
+                                Stretch* stretch)
+{
+  if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
+  float2 first, last;
+  if (!stretch_end(world, camera, end, path, low, &first, &stretch->beside)) return false;
+  if (!stretch_end(world, camera, end, path, high, &last, &stretch->beside)) return false;
+  const float pixels = distance(first, last);
+  if (!(pixels < STRETCH_SHORTEST)) stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
+  return true;
+}
+
+// What becomes of a deposited photon: a streak of its cluster; where that cannot be, with jitter, a streak of its own wavelength; else a point.
+// The first choice rests on where the whole cluster's light goes and not on the photon's wavelength, so it is the same for all of
+// them, and no light is counted twice or lost where a streak would leave the receiver.
 static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, const Band* band)
 {
-  const Stretch point = {1, false, false};
 #if NEPHROID_DIFFERENTIALS
-  const float4 span = world->stretch_span[band->cluster];
   const float origin = stretch_origin(world, band);
-  const float widest = (span.z - span.y) * length(path->differential.direction);
-  if (!(widest <= STRETCH_WIDEST)) return point;
-  float2 low, high;
-  Stretch stretch = {1, true, false};
-  if (!stretch_end(world, camera, end, path, span.y - origin, &low, &stretch.beside)) return point;
-  if (!stretch_end(world, camera, end, path, span.z - origin, &high, &stretch.beside)) return point;
-  const float pixels = distance(low, high);
-  if (pixels < STRETCH_SHORTEST) return stretch;
-  stretch.count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
-  return stretch;
-#else
-  return point;
+  const float4 span = world->stretch_span[band->cluster];
+  Stretch whole = {1, true, false};
+  if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, &whole)) return whole;
+  if (band->wavelength >= 0) {
+    const float4 place = world->stretch_place[band->wavelength];
+    Stretch own = {1, false, false};
+    if (stretch_over(world, camera, end, path, place.y - origin, place.z - origin, &own)) return own;
+  }
 #endif
+  const Stretch point = {1, false, false};
+  return point;
+}
+
+// Where in its tent a wavelength's light lies, as s less `origin`; u in [0, 1) turns the tent's distribution round, whose lower half is
+// (1 + t)^2 / 2, t in -1..0.
+static inline float place_in_tent(const World* world, int wavelength, float u, float origin)
+{
+  const float t = u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u);
+  const float4 place = world->stretch_place[wavelength];
+  return place.x - origin + (t < 0.0f ? -t * (place.y - place.x) : t * (place.z - place.x));
 }
 
 // u in [0, 1) picks a wavelength of the photon's cluster, as choose_band does, and a place in its tent: *x becomes its s less the photon's.
@@ -118,11 +138,7 @@ static inline Band stretched_band(const World* world, int light, const Band* pho
   const int member = member_of_cluster(cdf, count, u);
   const float before = member > 0 ? cdf[member - 1] : 0.0f;
   const Band band = {photon->cluster, world->tables.wavelengths[first + member], 1.0f / (cdf[member] - before)};
-  // The tent's distribution turned round: its lower half is (1 + t)^2 / 2, t in -1..0.
-  const float rest = clamp((u - before) * band.weight, 0.0f, 1.0f);
-  const float t = rest < 0.5f ? sqrt(2.0f * rest) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * rest);
-  const float4 place = world->stretch_place[band.wavelength];
-  *x = place.x - stretch_origin(world, photon) + (t < 0.0f ? -t * (place.y - place.x) : t * (place.z - place.x));
+  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f), stretch_origin(world, photon));
   return band;
 }
 
@@ -148,10 +164,15 @@ static inline bool strand_of(const World* world, const PhotonEnd* end, const Pat
     if (stretch->whole && band->wavelength >= 0) strand->xyz = carried_light(world, &path->losses, light, &whole, reflector).xyz;
     return true;
   }
-  const float turned = u + (float)i / (float)stretch->count;
+  float turned = u + (float)i / (float)stretch->count;
+  turned = turned < 1.0f ? turned : turned - 1.0f;
   float x;
-  const Band wavelength = stretched_band(world, light, band, turned < 1.0f ? turned : turned - 1.0f, &x);
-  strand->xyz = carried_light(world, &path->losses, light, &wavelength, reflector).xyz / (float)stretch->count;
+  if (stretch->whole) {
+    const Band wavelength = stretched_band(world, light, band, turned, &x);
+    strand->xyz = carried_light(world, &path->losses, light, &wavelength, reflector).xyz;
+  } else
+    x = place_in_tent(world, band->wavelength, turned, stretch_origin(world, band));
+  strand->xyz /= (float)stretch->count;
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;
   strand->surface.position = place;

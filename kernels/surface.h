@@ -61,8 +61,11 @@ static inline float3 start_on_side(const Surface* surface, float side) { return 
 // What a mirror or dielectric does to a ray: the new direction, and whether the ray went through.
 typedef struct {
   float3 direction;
-  float3 normal; // unit, on the side that the ray came from: what it was bent about; not set where nothing bends it
+  float3 normal;    // unit, on the side that the ray came from: what it was bent about
+  int near_material; // of an interface, before it and beyond it; -1: air
+  int far_material;
   bool transmitted;
+  bool straight; // nothing bent it: the normal is not set
 } Bend;
 
 // normal: unit, on the side that the ray comes from. choice: uniform in [0, 1): below the reflectance the ray is reflected.
@@ -70,6 +73,8 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
 {
   Bend bend;
   bend.normal = normal;
+  bend.near_material = bend.far_material = -1;
+  bend.straight = false;
   const float cos_i = clamp(-dot(direction, normal), 0.0f, 1.0f);
   const float eta = n_i / n_t;
   const float cos_t = refracted_cosine(cos_i, eta);

@@ -7,6 +7,7 @@
 #include "bvh.h"
 #include "attenuation.h"
 #include "band.h"
+#include "differential.h"
 #include "interface.h"
 #include "media.h"
 #include "surface.h"
@@ -26,6 +27,9 @@ typedef struct {
   __global const float* index_of_cluster;    // [cluster][material]: of refraction, the mean
   __global const float* index_of_wavelength; // [401][material]
   __global const float* wavelength_cdf;      // [light, or all of them at the end][member of cluster]: see band.h
+  __global const float* index_slope;         // [cluster][material]: dn/ds, see stretch.h, here and below
+  __global const float4* stretch_place;      // [401]: s of a wavelength, of the one below it, of the one above
+  __global const float4* stretch_span;       // [cluster]: s of its mean index, the lowest and the highest s of its light
   __global const float4* reflected_xyz;      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar); w: of light
   SpectralTables tables;
   int reflector_count;
@@ -37,13 +41,14 @@ typedef struct {
   __global const float *nodes, __global const float *blocks, __global const uint *corners, __global const float *positions,             \
       __global const float *normals, __global const uint *object_of_triangle, __global const DeviceObject *objects,                      \
       __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_cluster,             \
-      __global const float *index_of_wavelength, __global const float *wavelength_cdf,           \
+      __global const float *index_of_wavelength, __global const float *wavelength_cdf, __global const float *index_slope, __global const float4 *stretch_place,     \
+      __global const float4 *stretch_span,           \
       __global const float4 *reflected_xyz, __global const int *cluster_first, __global const int *cluster_wavelengths,                  \
       __global const float *coefficient, __global const float4 *light_xyz, __global const float *reflectance, int reflector_count,       \
       DeviceScene scene
 #define WORLD                                                                                                                            \
   {                                                                                                                                      \
-    {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root}, objects, materials, lights, index_of_cluster, index_of_wavelength, wavelength_cdf, \
+    {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root}, objects, materials, lights, index_of_cluster, index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, \
         reflected_xyz, {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, reflector_count, scene                 \
   }
 
@@ -53,6 +58,7 @@ typedef struct {
   Media media;  // that enclose it
   Losses losses;
   float behind; // the path begins this far behind `origin`: 0 but on its first way (Emission)
+  Differential differential;
 } Path;
 
 static inline Hit next_hit(const World* world, const Path* path)
@@ -99,6 +105,22 @@ static inline Band choose_band(const World* world, int light, int cluster, float
 #endif
 }
 
+// Carries the path's derivatives to a surface and across the bend there, before `path` itself goes on.
+static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface, const Band* band, const Bend* bend)
+{
+#if NEPHROID_DIFFERENTIALS
+  // From the path's origin: where that is not the light itself (Emission), nothing depends on the wavelength yet.
+  differential_to_surface(&path->differential, path->direction, distance(path->origin, surface->position), surface);
+  if (bend->straight) return;
+  __global const float* n_of = index_of_band(world, band);
+  __global const float* slope_of = world->index_slope + band->cluster * world->scene.material_count;
+  const int near = bend->near_material, far = bend->far_material;
+  differential_through_bend(&path->differential, &world->geometry, triangle, surface, world->objects[surface->object].smooth != 0, path->direction,
+                            bend, near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], near < 0 ? 0.0f : slope_of[near],
+                            far < 0 ? 0.0f : slope_of[far]);
+#endif
+}
+
 // Takes the path on from a mirror or dielectric that it hit. choice: uniform in [0, 1).
 // *n_ratio: n before over n after. False where the path is inside too many media.
 static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface, const DeviceMaterial* material,
@@ -116,6 +138,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   {
     if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice, &bend, n_ratio)) return false;
   }
+  bend_differential(world, path, triangle, surface, band, &bend);
   path->direction = bend.direction;
   path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
   path->skip = triangle;
@@ -127,7 +150,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
 // back of it (-1: a white one).
 static inline float4 carried_light(const World* world, const Losses* losses, int light, const Band* band, int reflector)
 {
-#if NEPHROID_JITTER
+#if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0) {
     const float left = wavelength_left(&world->tables, losses, band->wavelength) * band->weight;
     const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + band->wavelength];
