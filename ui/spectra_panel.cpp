@@ -13,12 +13,15 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace nephroid::ui {
 namespace {
 
 using Effort = preset::Spectral::Effort;
 using Type = preset::LightSpectrum::Type;
+
+constexpr std::size_t most_seen = 6; ///< materials around the glass that the table shows without scrolling
 
 float em() { return ImGui::GetFontSize(); }
 
@@ -38,13 +41,20 @@ void sentence(std::uint32_t colour, const std::string& text)
   ImGui::PopStyleColor();
 }
 
-/// A box in the colour of its curve: the switches are the plot's legend.
-bool draw_switch(const char* label, std::uint32_t colour, bool& on)
+/// A box with a piece of its curve: the switches are the plot's legend. first: it begins a line.
+bool draw_switch(const std::string& name, std::uint32_t colour, bool& on, bool first = false)
 {
-  same_line_if_room(ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(label, nullptr, true).x);
-  ImGui::PushStyleColor(ImGuiCol_CheckMark, colour);
-  const bool changed = ImGui::Checkbox(label, &on);
-  ImGui::PopStyleColor();
+  const float swatch = em(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const std::string ten_spaces(10, ' '); // ImGui rounds what a text is wide
+  const float space = ImGui::CalcTextSize(ten_spaces.c_str()).x / 10;
+  const std::string room(static_cast<std::size_t>(std::ceil((swatch + 1.5f * gap) / space)), ' '), label = room + name;
+  if (!first) same_line_if_room(ImGui::GetFrameHeight() + gap + ImGui::CalcTextSize(label.c_str(), nullptr, true).x);
+  const bool changed = ImGui::Checkbox(label.c_str(), &on);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float x = low.x + ImGui::GetFrameHeight() + gap, y = std::round((low.y + high.y) / 2), half = em() / 8;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({x, y - half}, {x + swatch, y + half}, on ? colour : colour::frame);
+  if (spectra_colour::is_dark(colour)) list.AddRect({x - 1, y - half - 1}, {x + swatch + 1, y + half + 1}, spectra_colour::rim);
   return changed;
 }
 
@@ -68,8 +78,10 @@ void SpectraPanel::draw(const Workbench& workbench, Commands& commands)
   draw_light(workbench, commands);
   draw_switches();
   const Spectra& spectra = maker_.spectra();
-  const float row = ImGui::GetFrameHeightWithSpacing(), line = ImGui::GetTextLineHeightWithSpacing();
-  const float below = 2 * line + row + static_cast<float>(std::min<std::size_t>(spectra.importance.surroundings.size() + 1, 6)) * line;
+  const float line = ImGui::GetTextLineHeight(), cell = line + 2 * ImGui::GetStyle().CellPadding.y;
+  const auto seen = spectra.importance.surroundings.size();
+  const float table = seen == 0 ? 0 : static_cast<float>(std::min(seen, most_seen) + 1) * cell + ImGui::GetStyle().ItemSpacing.y;
+  const float below = 2 * line + ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.y + table;
   draw_plot(workbench, commands, std::max(ImGui::GetContentRegionAvail().y - below, 16 * em()));
   draw_numbers();
   draw_effort(workbench, commands);
@@ -205,17 +217,17 @@ void SpectraPanel::draw_row_controls(const Workbench& workbench, Commands& comma
 
 void SpectraPanel::draw_switches()
 {
-  ImGui::Dummy({0, 0});
   const Spectra& spectra = maker_.spectra();
-  draw_switch("light", spectra_colour::light, switches_.light);
+  draw_switch("light", spectra_colour::light, switches_.light, true);
   draw_switch("luminosity", spectra_colour::luminosity, switches_.luminosity);
   draw_switch("u", spectra_colour::u, switches_.u);
   ImGui::SetItemTooltip("How much a wavelength matters: (4.15) of the thesis where the effort is importance");
   draw_switch("iterations", spectra_colour::iterations, switches_.iterations);
   note_place("iterations");
+  ImGui::PushID("reflectances"); // a material may be called "light"
   for (const ReflectanceCurve& curve : spectra.reflectances) {
     bool on = !switches_.hidden.contains(curve.material);
-    const bool changed = draw_switch((curve.material + "##reflectance").c_str(), spectra_colour::of(curve.srgb), on);
+    const bool changed = draw_switch(curve.material, spectra_colour::of(curve.srgb), on);
     ImGui::SetItemTooltip("%s", fmt::format("Reflectance of {}, in its colour under D65", curve.material).c_str());
     note_place("reflectance " + curve.material);
     if (!changed) continue;
@@ -224,6 +236,7 @@ void SpectraPanel::draw_switches()
     else
       switches_.hidden.insert(curve.material);
   }
+  ImGui::PopID();
 }
 
 void SpectraPanel::draw_plot(const Workbench& workbench, Commands& commands, float height)
@@ -303,7 +316,7 @@ void SpectraPanel::draw_effort(const Workbench& workbench, Commands& commands)
   note_place("effort");
   if (settings.effort != Effort::importance && settings.effort != Effort::radziszewski) return;
   same_line_if_room(7 * em());
-  if (choice_combo("of a cluster", settings.importance.cluster)) push("importance of a cluster");
+  if (choice_combo("##cluster", settings.importance.cluster)) push("importance of a cluster");
   note_place("importance of a cluster");
   if (settings.effort != Effort::importance) return;
   same_line_if_room(7 * em());

@@ -4,7 +4,6 @@
 #include "optics/colour.h"
 #include "ui/theme.h"
 #include "ui/wavelength_axis.h"
-#include "ui/widgets.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -18,8 +17,19 @@ namespace nephroid::ui {
 namespace spectra_colour {
 const std::uint32_t light = IM_COL32(255, 206, 112, 255);
 const std::uint32_t luminosity = IM_COL32(132, 204, 146, 255);
-const std::uint32_t u = colour::text;
+const std::uint32_t u = IM_COL32(206, 158, 255, 255); // most walls are white
 const std::uint32_t iterations = colour::accent;
+const std::uint32_t rim = IM_COL32(132, 132, 132, 255);
+
+/// A contrast below 2 with the ground, as WCAG defines it: (L + 0.05) / (L of the ground + 0.05), L the relative luminance.
+bool is_dark(std::uint32_t colour)
+{
+  const auto luminance = [](std::uint32_t packed) {
+    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(packed);
+    return 0.2126 * std::pow(c.x, 2.2) + 0.7152 * std::pow(c.y, 2.2) + 0.0722 * std::pow(c.z, 2.2);
+  };
+  return luminance(colour) + 0.05 < 2 * (luminance(colour::surround) + 0.05);
+}
 
 std::uint32_t of(const std::array<double, 3>& srgb)
 {
@@ -107,9 +117,9 @@ void plot_reflectances(const SpectraPlotContents& contents)
 {
   for (const ReflectanceCurve& curve : contents.spectra->reflectances) {
     if (contents.switches->hidden.contains(curve.material)) continue;
-    // A rim of the text's colour: a dark material on a dark plot is to be seen, and in its own colour.
-    plot_spectrum("rim of " + curve.material, curve.reflectance, 1, spec_of(faded(colour::text, 90), 4));
-    plot_spectrum("reflectance of " + curve.material, curve.reflectance, 1, spec_of(spectra_colour::of(curve.srgb), 2));
+    const std::uint32_t own = spectra_colour::of(curve.srgb);
+    if (spectra_colour::is_dark(own)) plot_spectrum("rim of " + curve.material, curve.reflectance, 1, spec_of(spectra_colour::rim, 4));
+    plot_spectrum("reflectance of " + curve.material, curve.reflectance, 1, spec_of(own, 2));
   }
 }
 
@@ -181,7 +191,10 @@ void draw_bars(const Spectra& spectra)
     const auto height = static_cast<double>(spectra.clusters[static_cast<std::size_t>(c)].iterations);
     ImVec2 low = ImPlot::PlotToPixels(wavelength_nm(first) - 0.5, height), high = ImPlot::PlotToPixels(wavelength_nm(next) - 0.5, 0);
     if (high.x - low.x > 4 * scale()) high.x -= scale(); // a gap where there is room
-    list.AddRectFilled(low, high, spectra_colour::of(wavelength_colour((first + next - 1) / 2)));
+    const auto bright = wavelength_colour((first + next - 1) / 2);
+    std::array<double, 3> quiet{}; // pure spectral colours would change how the picture's are seen
+    for (std::size_t i = 0; i < 3; ++i) quiet[i] = 0.12 + 0.65 * bright[i];
+    list.AddRectFilled(low, high, spectra_colour::of(quiet));
   }
   ImPlot::PopPlotClipRect();
 }
@@ -273,11 +286,9 @@ void SpectraPlot::draw_iterations(const SpectraPlotContents& contents, Wavelengt
   set_up_value_axis("iterations", 1.08 * static_cast<double>(std::max<std::int64_t>(spectra.passes, 1)));
   ImPlot::SetupFinish();
   draw_bars(spectra);
-  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
   draw_pointer(contents, pointed_);
   const bool all = ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
   ImPlot::EndPlot();
-  if (spectra.clusters.empty()) draw_hint(corner, size, spectra.why_no_u);
   if (all) axis.show_all();
 }
 

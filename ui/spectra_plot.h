@@ -25,6 +25,9 @@ struct SpectraSwitches {
 /// IM_COL32 of each curve; a reflectance has its own.
 namespace spectra_colour {
 extern const std::uint32_t light, luminosity, u, iterations;
+/// About what is in a dark colour, so that it is seen on the plot's ground, and in its own colour.
+extern const std::uint32_t rim;
+bool is_dark(std::uint32_t colour);
 /// As bytes for the display.
 std::uint32_t of(const std::array<double, 3>& srgb);
 } // namespace spectra_colour
