@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. Costs one reading of the film.
+// First each cell by itself, then each pixel's cells together.
 #include "layer_types.h"
 
 // One work item: eight cells of one reflector. rows: halves times layers.
@@ -29,4 +30,16 @@ __kernel void weigh(__global const long* sums, int block_count, int rows, __glob
   vstore8(d, 3 * cells + (size_t)item, weighed);
   vstore8(e, 4 * cells + (size_t)item, weighed);
   vstore8(f, 5 * cells + (size_t)item, weighed);
+}
+
+// One work item: one pixel.
+__kernel void gather_cells(__global const int* first, __global const LayerCell* cells, __global const float* weighed, int cell_count,
+                           int pixel_count, __global float* pictures) // [2][pixel][3]
+{
+  const int pixel = (int)get_global_id(0);
+  if (pixel >= pixel_count) return;
+  float sums[6] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+  for (int i = first[pixel]; i < first[pixel + 1]; ++i)
+    for (int c = 0; c < 6; ++c) sums[c] += weighed[(size_t)c * (size_t)cell_count + (size_t)cells[i].cell];
+  for (int c = 0; c < 6; ++c) pictures[((size_t)(c / 3) * (size_t)pixel_count + (size_t)pixel) * 3 + (size_t)(c % 3)] = sums[c];
 }

@@ -26,6 +26,9 @@ void add_samples(const Survey& survey, int x, int y, int weight, std::vector<See
   }
 }
 
+/// Of a pixel's own sample, where one of a neighbour's has 1.
+int own_weight(const Survey& survey) { return 1 + 8 * survey.samples; }
+
 /// What a pixel sees, by falling count; of equal ones the smaller number first.
 void look(const Survey& survey, int x, int y, std::vector<Seen>& list)
 {
@@ -33,7 +36,7 @@ void look(const Survey& survey, int x, int y, std::vector<Seen>& list)
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
       if (x + dx >= 0 && x + dx < survey.width && y + dy >= 0 && y + dy < survey.height)
-        add_samples(survey, x + dx, y + dy, dx == 0 && dy == 0 ? 1 + 8 * survey.samples : 1, list);
+        add_samples(survey, x + dx, y + dy, dx == 0 && dy == 0 ? own_weight(survey) : 1, list);
   std::sort(list.begin(), list.end(),
             [](const Seen& a, const Seen& b) { return a.count != b.count ? a.count > b.count : a.reflector < b.reflector; });
 }
@@ -65,12 +68,13 @@ LayerCells make_layer_cells(const Survey& survey, std::size_t most, bool every_p
     longest = std::max(longest, list.size());
     seen[i] = std::move(list);
   }
-  // Every pixel gets its first reflector before any gets its second.
+  // Every pixel gets its first reflector before any gets its second, and what it sees itself before what its neighbours see.
   std::vector<std::size_t> kept(pixels, 0);
   std::size_t left = most;
-  for (std::size_t rank = 0; rank < longest && left > 0; ++rank)
-    for (std::size_t i = 0; i < pixels && left > 0; ++i)
-      if (seen[i].size() > rank) ++kept[i], --left;
+  for (const int fewest : {own_weight(survey), 0})
+    for (std::size_t rank = 0; rank < longest && left > 0; ++rank)
+      for (std::size_t i = 0; i < pixels && left > 0; ++i)
+        if (kept[i] == rank && seen[i].size() > rank && seen[i][rank].count >= fewest) ++kept[i], --left;
 
   LayerCells result;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -111,7 +115,8 @@ LayerBudget layer_budget(const shared::DeviceCamera& camera, std::span<const sce
     const glm::vec3 way = glm::normalize(forward + x * camera.tan_x * right + y * camera.tan_y * up);
     if (std::any_of(spheres.begin(), spheres.end(), [&](const scene::Sphere& sphere) { return may_see(way, sphere); })) ++bent;
   }
-  return {pixels + pixels / 4, 2 * bent};
+  constexpr std::size_t small = 8192; // pictures may have edges everywhere
+  return {pixels + pixels / 4 + small, bent > 0 ? 2 * bent + small : 0};
 }
 
 } // namespace nephroid::spectral

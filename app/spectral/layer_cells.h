@@ -35,7 +35,8 @@ LayerCells make_layer_cells(const Survey& survey, std::size_t most, bool every_p
 std::size_t padded_cells(std::size_t cells, int reflector_count);
 
 /// How many cells a camera's films may have, known before anything is surveyed. unbent: one a pixel and a quarter more for edges; bent, for
-/// what is seen through glass and mirrors: two a pixel that may see `spheres`, which enclose all glass and mirrors.
+/// what is seen through glass and mirrors: two a pixel that may see `spheres`, which enclose all glass and mirrors; both some thousand
+/// more.
 struct LayerBudget {
   std::size_t unbent = 0, bent = 0;
 };

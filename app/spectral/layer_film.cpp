@@ -9,34 +9,35 @@ static_assert(sizeof(LayerWeight) == 6 * sizeof(float), "the weights as kernels/
 
 LayerFilm::LayerFilm(const compute::Context& context, const std::string& name, const LayerCells& cells, std::size_t layers,
                      std::size_t halves, const compute::Defines& defines)
-    : context_(context), layers_(layers), halves_(halves), on_host_(cells),
+    : context_(context), layers_(layers), halves_(halves), pixels_(cells.first.size() - 1), cell_count_(cells.count()),
       first_(context, name + ": cells of each pixel", std::span<const int>(cells.first)),
       reflector_of_block_(context, name + ": reflectors", std::span<const int>(cells.reflector_of_block)),
       cells_(context, name + ": cells", std::span<const shared::LayerCell>(cells.cells)),
-      sums_(context, name, halves * layers * cells.count()), weighed_(context, name + ": weighed", 6 * cells.count()),
-      kernel_(compute::Program(context, "relight_weigh.cl", defines).kernel("weigh"))
+      sums_(context, name, halves * layers * cell_count_), weighed_(context, name + ": weighed", 6 * cell_count_),
+      pictures_(context, name + ": pictures", 6 * pixels_)
 {
+  const compute::Program program(context, "relight_weigh.cl", defines);
+  weigh_ = program.kernel("weigh");
+  gather_ = program.kernel("gather_cells");
   sums_.fill_zero();
 }
 
 std::array<std::vector<float>, 2> LayerFilm::weigh(std::span<const LayerWeight> weights)
 {
   std::array<std::vector<float>, 2> pictures;
-  const std::size_t pixels = on_host_.first.size() - 1, cells = on_host_.count();
-  for (std::vector<float>& picture : pictures) picture.assign(3 * pixels, 0);
-  if (cells == 0) return pictures;
+  for (std::vector<float>& picture : pictures) picture.resize(3 * pixels_);
+  if (cell_count_ == 0) return pictures;
   const std::span<const float> numbers(weights.front().first.data(), 6 * weights.size());
   if (weights_.size() == numbers.size())
     weights_.write(numbers);
   else
     weights_ = compute::Buffer<float>(context_, "weights of layers", numbers);
-  kernel_.run(cells / 8, 64, sums_, static_cast<int>(on_host_.reflector_of_block.size()), static_cast<int>(halves_ * layers_),
-              reflector_of_block_, weights_, weighed_);
-  const std::vector<float> weighed = weighed_.read();
-  for (std::size_t p = 0; p < pixels; ++p)
-    for (auto i = static_cast<std::size_t>(on_host_.first[p]); i < static_cast<std::size_t>(on_host_.first[p + 1]); ++i)
-      for (std::size_t c = 0; c < 6; ++c)
-        pictures[c / 3][3 * p + c % 3] += weighed[c * cells + static_cast<std::size_t>(on_host_.cells[i].cell)];
+  weigh_.run(cell_count_ / 8, 64, sums_, static_cast<int>(cell_count_ / LAYER_BLOCK), static_cast<int>(halves_ * layers_),
+             reflector_of_block_, weights_, weighed_);
+  gather_.run(pixels_, 64, first_, cells_, weighed_, static_cast<int>(cell_count_), static_cast<int>(pixels_), pictures_);
+  const std::size_t bytes = 3 * pixels_ * sizeof(float);
+  pictures_.RawBuffer::read(pictures[0].data(), bytes, 0);
+  pictures_.RawBuffer::read(pictures[1].data(), bytes, bytes);
   return pictures;
 }
 

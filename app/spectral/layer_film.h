@@ -27,7 +27,6 @@ public:
             const compute::Defines& defines);
 
   std::size_t layers() const { return layers_; }
-  int reflectors() const { return reflectors_; }
   /// The kernel arguments LAYER_FILM_ARGUMENTS.
   const compute::Buffer<int>& first() const { return first_; }
   const compute::Buffer<shared::LayerCell>& cells() const { return cells_; }
@@ -42,14 +41,12 @@ public:
 
 private:
   compute::Context context_{};
-  std::size_t layers_ = 0, halves_ = 1;
-  int reflectors_ = 0;
-  LayerCells on_host_;
+  std::size_t layers_ = 0, halves_ = 1, pixels_ = 0, cell_count_ = 0;
   compute::Buffer<int> first_, reflector_of_block_;
   compute::Buffer<shared::LayerCell> cells_;
   compute::Buffer<std::int64_t> sums_; ///< [block][half][layer][cell of the block]
-  compute::Buffer<float> weights_, weighed_;
-  compute::Kernel kernel_;
+  compute::Buffer<float> weights_, weighed_, pictures_;
+  compute::Kernel weigh_, gather_;
 };
 
 /// What the halves of one layer had: samples or photons.

@@ -17,22 +17,17 @@ struct Estimate {
   double error() const { return std::sqrt(variance); }
 };
 
-/// Runs a preset and hands back the mean of each of the figures that `figures` reads from a snapshot; they have to be means over passes
-/// themselves (pixels, the energy balance), from which each pass's own is worked out.
-inline std::vector<Estimate> render_passes(const preset::Preset& preset,
-                                           const std::function<std::vector<double>(const job::Snapshot&)>& figures)
+/// Steps a new job to its end and hands back the mean of each of the figures that `figures` reads from it after every pass; they have to be
+/// means over passes themselves (pixels, the energy balance), from which each pass's own is worked out.
+inline std::vector<Estimate> step_passes(job::Job& job, const std::function<std::vector<double>(job::Job&)>& figures)
 {
-  const scene::Scene scene = scene::load_scene(preset);
-  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const plan::Plan plan = spectral::make_plan(preset, scene, bvh);
-  const auto job = spectral::make_job(preset, scene, bvh, plan, shared_context());
   std::vector<double> last;
   std::vector<Estimate> estimates;
   int pass = 0;
-  while (!job->finished()) {
-    job->step();
-    if (job->progress().step == pass) continue;
-    const std::vector<double> mean = figures(job->snapshot());
+  while (!job.finished()) {
+    job.step();
+    if (job.progress().step == pass) continue;
+    const std::vector<double> mean = figures(job);
     last.resize(mean.size(), 0.0);
     estimates.resize(mean.size());
     for (std::size_t i = 0; i < mean.size(); ++i) { // Welford's sums
@@ -48,6 +43,13 @@ inline std::vector<Estimate> render_passes(const preset::Preset& preset,
     e.degrees = pass - 1;
   }
   return estimates;
+}
+
+/// The same for a preset's job and the figures of its snapshots.
+inline std::vector<Estimate> render_passes(const preset::Preset& preset,
+                                           const std::function<std::vector<double>(const job::Snapshot&)>& figures)
+{
+  return step_passes(*job_of(preset), [&](job::Job& job) { return figures(job.snapshot()); });
 }
 
 /// The chance that an estimate is at least so far from the truth, after Student with Bernstein's bound; bias: what it may be off by

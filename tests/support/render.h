@@ -12,6 +12,8 @@
 #include "tests/support/presets.h"
 #include "tests/support/test_kernels.h"
 
+#include <memory>
+
 namespace nephroid::test {
 
 using check::layer;
@@ -23,12 +25,17 @@ inline const compute::Context& shared_context()
   return context;
 }
 
-inline job::Snapshot render(const preset::Preset& preset, const compute::Context& context = shared_context())
+inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const compute::Context& context = shared_context())
 {
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const plan::Plan plan = spectral::make_plan(preset, scene, bvh);
-  const auto job = spectral::make_job(preset, scene, bvh, plan, context);
+  return spectral::make_job(preset, scene, bvh, plan, context);
+}
+
+inline job::Snapshot render(const preset::Preset& preset, const compute::Context& context = shared_context())
+{
+  const auto job = job_of(preset, context);
   while (!job->finished()) job->step();
   return job->snapshot();
 }

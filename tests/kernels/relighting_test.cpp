@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// Layers weighed by a light are the picture under that light: against runs without layers, in a scene with dispersion, several reflectors,
+// an edge in most pixels' reach, glass before the camera and a dark lamp.
+#include "base/error.h"
+#include "compute/compute.h"
+#include "job/job.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/leaving_out_scenes.h"
+#include "tests/support/passes.h"
+#include "tests/support/statistics.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+preset::LightSpectrum illuminant(const std::string& name)
+{
+  preset::LightSpectrum spectrum;
+  spectrum.illuminant = name;
+  return spectrum;
+}
+
+/// A ball of dispersing glass over a floor of coloured tiles, which the camera sees beside the ball and through it; two lamps, the second
+/// of which is dark.
+preset::Preset tiled_scene()
+{
+  preset::Preset p = ball_scene();
+  const char* patches[] = {"orange", "blue sky", "moderate red"};
+  p.scene.objects.pop_back();
+  for (int i = 0; i < 3; ++i) {
+    preset::Material tile = white(1);
+    tile.reflectance.type = preset::Reflectance::Type::patch;
+    tile.reflectance.patch = patches[i];
+    p.scene.materials[patches[i]] = tile;
+  }
+  for (int i = 0; i < 12; ++i)
+    for (int k = 0; k < 12; ++k)
+      p.scene.objects.push_back(object(std::to_string(12 * i + k), quad(0.3, 0.3), patches[(i + 2 * k) % 3],
+                                       at({0.3 * (i - 6) + 0.11, 0, 0.3 * (k - 6) + 0.07})));
+  p.scene.lights[0].spectrum = illuminant("D65");
+  preset::Light second = p.scene.lights[0];
+  second.position = {-0.4, 2.3, 0.5};
+  second.power_w = 0;
+  p.scene.lights.push_back(second);
+  p.spectral.photons_per_pass = 1 << 13;
+  p.spectral.leave_out.direct = true;
+  p.stop.passes = 24;
+  return p;
+}
+
+preset::Preset layered(preset::Preset p)
+{
+  p.spectral.relight = true;
+  return p;
+}
+
+/// Means over blocks of 3 x 3 pixels of a layer, in three channels.
+std::vector<double> blocks_of(const job::Snapshot& snapshot, const std::string& name)
+{
+  const std::vector<float>& rgb = layer(snapshot, name).rgb;
+  const int width = snapshot.picture->width, blocks = width / 3;
+  std::vector<double> means(static_cast<std::size_t>(3 * blocks * blocks), 0);
+  for (int y = 0; y < 3 * blocks; ++y)
+    for (int x = 0; x < 3 * blocks; ++x)
+      for (int c = 0; c < 3; ++c)
+        means[static_cast<std::size_t>(3 * (y / 3 * blocks + x / 3) + c)] += rgb[static_cast<std::size_t>(3 * (y * width + x) + c)] / 9.0;
+  return means;
+}
+
+std::vector<double> both_layers(const job::Snapshot& snapshot)
+{
+  std::vector<double> all = blocks_of(snapshot, "direct");
+  const std::vector<double> caustic = blocks_of(snapshot, "caustic");
+  all.insert(all.end(), caustic.begin(), caustic.end());
+  return all;
+}
+
+/// Both have the same expectations: the Sidak-corrected chance of the worst figure, where each may be off by `bias` besides.
+double same(const std::vector<Estimate>& a, const std::vector<Estimate>& b, double bias = 0)
+{
+  double smallest = 1;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Estimate difference{a[i].mean - b[i].mean, a[i].variance + b[i].variance, std::min(a[i].degrees, b[i].degrees)};
+    if (difference.variance > 0) smallest = std::min(smallest, p_value(difference, 0, bias * std::abs(b[i].mean)));
+  }
+  return sidak(smallest, static_cast<double>(a.size()));
+}
+
+double largest(const std::vector<Estimate>& estimates)
+{
+  double most = 0;
+  for (const Estimate& e : estimates) most = std::max(most, e.mean);
+  return most;
+}
+
+TEST(Relighting, UnderItsOwnLightThePictureIsThatOfARunWithoutLayers)
+{
+  preset::Preset plain = tiled_scene();
+  plain.seed = 1000;
+  const std::vector<Estimate> layers = render_passes(layered(tiled_scene()), both_layers), without = render_passes(plain, both_layers);
+  EXPECT_GT(largest(without), 0);
+  EXPECT_GT(same(layers, without), false_alarm);
+}
+
+TEST(Relighting, UnderAnotherLightItIsThatOfARunWithThatLight)
+{
+  // F10 has narrow lines where D65 is smooth; the dark lamp comes on, the white changes.
+  preset::Preset other = layered(tiled_scene());
+  other.scene.lights[0].spectrum = illuminant("F10");
+  other.scene.lights[1].spectrum = illuminant("A");
+  other.scene.lights[1].power_w = 20;
+  other.white = 0.25;
+  const preset::Preset own = layered(tiled_scene());
+  const auto job = job_of(own);
+  // The passes go on under the run's own light; only the figures are of the other one.
+  const std::vector<Estimate> relit = step_passes(*job, [&](job::Job& j) {
+    EXPECT_TRUE(j.adopt(other));
+    const std::vector<double> figures = both_layers(j.snapshot());
+    EXPECT_TRUE(j.adopt(own));
+    return figures;
+  });
+  preset::Preset fresh = other;
+  fresh.spectral.relight = false;
+  fresh.seed = 1000;
+  const std::vector<Estimate> truth = render_passes(fresh, both_layers);
+  EXPECT_GT(same(relit, truth), false_alarm);
+
+  // The test sees as little as one colour taken for another: the picture under the old light is not that.
+  preset::Preset old = tiled_scene();
+  old.scene.lights[1] = other.scene.lights[1];
+  old.white = other.white;
+  EXPECT_LT(same(render_passes(old, both_layers), truth), false_alarm);
+}
+
+TEST(Relighting, TheRunGoesOnUnderTheNewLightAndItsEnergyIsThatLights)
+{
+  preset::Preset other = layered(tiled_scene());
+  other.scene.lights[0].spectrum = line(480);
+  other.scene.lights[0].power_w = 1e6;
+  other.scene.lights[1].power_w = 2e6;
+  const auto job = job_of(layered(tiled_scene()));
+  while (job->progress().step < 3) job->step();
+  ASSERT_TRUE(job->adopt(other));
+  EXPECT_EQ(job->snapshot().energy.emitted_w, 0) << "nothing has been sent under the new light yet";
+  while (!job->finished()) job->step();
+  preset::Preset fresh = other;
+  fresh.spectral.relight = false;
+  const job::Snapshot relit = job->snapshot(), truth = render(fresh);
+  const job::EnergyBalance &e = relit.energy, &t = truth.energy;
+  // Point lamps' photons differ little in power, and of 21 x 2^13 at least a tenth reach the floor through the ball: a standard error
+  // of less than 1 %.
+  EXPECT_NEAR(e.emitted_w / t.emitted_w, 1, 0.07);
+  EXPECT_NEAR(e.deposited_w / t.deposited_w, 1, 0.07);
+  EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-6 * e.emitted_w);
+  EXPECT_EQ(e.refused_contributions, 0u);
+}
+
+TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter)
+{
+  // Over many seeds, the mean of (picture - mean of pictures)^2 and of draw^2 are the same.
+  preset::Preset p = layered(tiled_scene());
+  p.stop.passes = 4;
+  p.scene.camera.resolution = {12, 12};
+  preset::Preset other = p;
+  other.scene.lights[0].spectrum = illuminant("F10");
+  constexpr int runs = 12;
+  std::vector<std::vector<float>> pictures;
+  double draws = 0;
+  for (int i = 0; i < runs; ++i) {
+    p.seed = other.seed = static_cast<std::uint64_t>(i) + 1;
+    const auto job = job_of(p);
+    while (job->progress().step < 2) job->step();
+    ASSERT_TRUE(job->adopt(other));
+    while (!job->finished()) job->step();
+    const job::Snapshot snapshot = job->snapshot();
+    ASSERT_FALSE(snapshot.picture->error_draw.empty());
+    for (const float d : snapshot.picture->error_draw) draws += double(d) * d / runs;
+    pictures.push_back(snapshot.picture->rgb);
+  }
+  double scatter = 0;
+  for (std::size_t k = 0; k < pictures[0].size(); ++k) {
+    double sum = 0, squares = 0;
+    for (const auto& picture : pictures) sum += picture[k], squares += double(picture[k]) * picture[k];
+    scatter += (squares - sum * sum / runs) / (runs - 1);
+  }
+  RecordProperty("draws_over_scatter", std::to_string(draws / scatter));
+  EXPECT_NEAR(std::log2(draws / scatter), 0, 1);
+}
+
+TEST(Relighting, ACheckpointGoesOnToTheSameBits)
+{
+  const preset::Preset own = layered(tiled_scene());
+  preset::Preset other = own;
+  other.scene.lights[1].power_w = 5;
+  const auto straight = job_of(own);
+  while (straight->progress().step < 2) straight->step();
+  ASSERT_TRUE(straight->adopt(other));
+  straight->step();
+  const std::vector<std::byte> saved = straight->save();
+  const auto resumed = job_of(other);
+  resumed->load(saved);
+  while (!straight->finished()) straight->step();
+  while (!resumed->finished()) resumed->step();
+  const job::Snapshot a = straight->snapshot(), b = resumed->snapshot();
+  EXPECT_EQ(a.picture->rgb, b.picture->rgb);
+  EXPECT_EQ(a.energy.emitted_w, b.energy.emitted_w);
+}
+
+TEST(Relighting, OnlyTheLightIsAdopted)
+{
+  const preset::Preset own = layered(tiled_scene());
+  const auto job = job_of(own);
+  preset::Preset moved = own, broken = own;
+  moved.scene.lights[0].position[0] += 0.1;
+  EXPECT_FALSE(job->adopt(moved));
+  EXPECT_FALSE(job_of(tiled_scene())->adopt(tiled_scene())) << "without layers there is nothing to weigh";
+  broken.scene.lights[0].spectrum.illuminant = "D66";
+  EXPECT_THROW(job->adopt(broken), Error);
+  while (job->progress().step < 1) job->step();
+  EXPECT_EQ(job->snapshot().energy.refused_contributions, 0u);
+}
+
+TEST(Relighting, TheMemoryIsWhatThePlanSays)
+{
+  preset::Preset p = layered(tiled_scene());
+  p.scene.camera.resolution = {128, 128};
+  const scene::Scene scene = scene::load_scene(p);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  const plan::Plan plan = spectral::make_plan(p, scene, bvh);
+  const auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
+  std::uint64_t films = 0;
+  for (const plan::PlannedBuffer& b : plan.buffers)
+    if (b.name.starts_with("film ")) films += b.bytes;
+  const std::size_t saved = job->save().size();
+  EXPECT_LE(saved, films + 65536);
+  EXPECT_GE(saved, films / 3) << "what is promised is not far above what is taken";
+}
+
+/// The shortest of several times.
+template <class Work>
+double milliseconds(const Work& work)
+{
+  double best = INFINITY;
+  for (int i = 0; i < 5; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+  }
+  return best;
+}
+
+// Figures for the docs; nothing is asserted about them.
+TEST(Relighting, TakesMilliseconds)
+{
+  preset::Preset p = tiled_scene();
+  p.scene.camera.resolution = {512, 512};
+  p.scene.lights.pop_back();
+  const auto plain = job_of(p);
+  p.spectral.relight = true;
+  const auto layers = job_of(p);
+  for (int i = 0; i < 8; ++i) layers->step(), plain->step();
+  const double relit = milliseconds([&] {
+    p.scene.lights[0].power_w += 1;
+    ASSERT_TRUE(layers->adopt(p));
+    layers->snapshot();
+  });
+  const double snapshot = milliseconds([&] { plain->snapshot(); });
+  RecordProperty("relit_snapshot_ms", std::to_string(relit));
+  RecordProperty("plain_snapshot_ms", std::to_string(snapshot));
+}
+
+} // namespace
