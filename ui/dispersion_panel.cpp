@@ -259,6 +259,13 @@ void DispersionPanel::draw_plot(const Frame& frame)
   use_gesture(frame, plot_.draw(contents, axis_, std::max(free - below, 10 * em)));
 }
 
+/// On the grid, if it is wanted; else in figures that a person can read in the preset, finer than a pixel.
+ControlPoint DispersionPanel::place(const PointGesture& gesture) const
+{
+  const ControlPoint to = snap_ ? snapped(gesture.to, plot_.grid()) : gesture.to;
+  return {std::round(to[0] * 100) / 100, std::round(to[1] * 1e6) / 1e6};
+}
+
 void DispersionPanel::use_gesture(const Frame& frame, const PointGesture& gesture)
 {
   using Kind = PointGesture::Kind;
@@ -275,7 +282,7 @@ void DispersionPanel::use_gesture(const Frame& frame, const PointGesture& gestur
     if (!std::exchange(dragging_, true)) gestures_.begin();
     selected_ = gesture.point;
     std::vector<ControlPoint> points = points_;
-    move_point(points, gesture.point, snap_ ? snapped(gesture.to, plot_.grid()) : gesture.to);
+    move_point(points, gesture.point, place(gesture));
     if (points != points_) edit_points(frame, "move a control point", std::move(points), gestures_.number(), true);
     return;
   }
@@ -283,7 +290,7 @@ void DispersionPanel::use_gesture(const Frame& frame, const PointGesture& gestur
     if (std::exchange(dragging_, false)) frame.commands.push_back(command::EndGesture{});
     return;
   case Kind::add:
-    add(frame, snap_ ? snapped(gesture.to, plot_.grid()) : gesture.to);
+    add(frame, place(gesture));
     return;
   case Kind::remove:
     remove(frame, gesture.point);

@@ -44,6 +44,7 @@ private:
   void draw_points_row(const Frame& frame);
   void draw_place(const Frame& frame);
   void draw_plot(const Frame& frame);
+  ControlPoint place(const PointGesture& gesture) const;
   void use_gesture(const Frame& frame, const PointGesture& gesture);
   void draw_threshold(const Frame& frame);
   void draw_methods(const Frame& frame);

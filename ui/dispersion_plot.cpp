@@ -19,7 +19,7 @@ namespace {
 
 constexpr ImU32 outline = IM_COL32(20, 20, 20, 255); ///< about lines and points, which lie on bands of any colour
 constexpr ImU32 beyond = IM_COL32(0, 0, 0, 70);      ///< over wavelengths that are not rendered
-constexpr float point_radius = 5;                    ///< pixels at scale 1
+constexpr float point_radius = 5, grab_radius = 9;   ///< pixels at scale 1
 constexpr double least_span = 1e-4;                  ///< of the axis of n
 constexpr double ranks_margin = 6;
 
@@ -154,7 +154,7 @@ void draw_values(const DispersionModel& model, int wavelength)
   const spectral::Clustering& clustering = model.chosen().clustering;
   const spectral::Cluster& cluster = clustering.clusters[c];
   ImGui::PushStyleColor(ImGuiCol_Text, cluster_colour(c));
-  ImGui::TextUnformatted(fmt::format("cluster {} of {}: {} nm wide, mean n {:.6g}", c + 1, clustering.clusters.size(),
+  ImGui::TextUnformatted(fmt::format("cluster {} of {}: {} wavelengths, mean n {:.6g}", c + 1, clustering.clusters.size(),
                                      cluster.wavelengths.size(), cluster.n_mean)
                              .c_str());
   ImGui::PopStyleColor();
@@ -162,10 +162,11 @@ void draw_values(const DispersionModel& model, int wavelength)
   ImGui::EndTooltip();
 }
 
-/// Its index, or -1.
+/// Its index, or -1; also while a button is held, when the person looks at something else.
 int wavelength_under_mouse(const Columns& columns)
 {
-  const double column = ImPlot::IsPlotHovered() ? std::round(ImPlot::GetPlotMousePos().x) - columns.x.front() : -1;
+  const double column =
+      ImPlot::IsPlotHovered() && !ImGui::IsAnyMouseDown() ? std::round(ImPlot::GetPlotMousePos().x) - columns.x.front() : -1;
   return column >= 0 && column < optics::wavelength_count ? columns.wavelength[static_cast<std::size_t>(column)] : -1;
 }
 
@@ -234,7 +235,7 @@ PointGesture DispersionPlot::draw(const DispersionContents& contents, Wavelength
   keep_area();
 
   if (!sorted) shade_beyond();
-  const int under_mouse = columns && !held_ ? wavelength_under_mouse(*columns) : -1;
+  const int under_mouse = columns ? wavelength_under_mouse(*columns) : -1;
   if (columns) draw_bands(model, *columns, under_mouse);
   if (has_k) {
     ImPlot::SetAxes(ImAxis_X1, ImAxis_Y2);
@@ -242,13 +243,14 @@ PointGesture DispersionPlot::draw(const DispersionContents& contents, Wavelength
     ImPlot::SetAxes(ImAxis_X1, ImAxis_Y1);
   }
   PointGesture gesture;
-  if (sorted)
+  if (sorted) {
     plot_line("n", x, n, colour::text, 0, x.size());
-  else {
+    held_ = over_point_ = false;
+  } else {
     plot_curve("n", curve, curve.line_n, colour::text);
     gesture = draw_points(contents);
   }
-  if (under_mouse >= 0 && gesture.kind == PointGesture::Kind::none) draw_values(model, under_mouse);
+  if (under_mouse >= 0 && !over_point_) draw_values(model, under_mouse);
   const bool hovered = ImPlot::IsPlotHovered();
   ImPlot::EndPlot();
   if (hovered && !sorted && contents.points.empty() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) axis.show_all();
@@ -265,14 +267,17 @@ PointGesture DispersionPlot::draw_points(const DispersionContents& contents)
     const ControlPoint& point = contents.points[i];
     if (!held_ && (point[0] < x_ends_[0] || point[0] > x_ends_[1])) continue;
     ControlPoint to = point;
-    bool clicked = false, hovered = false, held = false;
+    bool hovered = false, held = false;
     const bool is_selected = contents.selected == i;
+    // What can be grabbed is wider than what is seen.
+    const bool moved = ImPlot::DragPoint(static_cast<int>(i), &to[0], &to[1], {0, 0, 0, 0}, grab_radius * scale(),
+                                         ImPlotDragToolFlags_NoFit | ImPlotDragToolFlags_Delayed, nullptr, &hovered, &held);
+    const ImVec2 at = ImPlot::PlotToPixels(point[0], point[1]);
+    const float radius = point_radius * (hovered || held ? 1.3f : 1) * scale();
     ImPlot::PushPlotClipRect();
-    list.AddCircleFilled(ImPlot::PlotToPixels(point[0], point[1]), (point_radius + 2) * scale(), outline);
+    list.AddCircleFilled(at, radius + 2 * scale(), outline);
+    list.AddCircleFilled(at, radius, is_selected ? colour::note : colour::text);
     ImPlot::PopPlotClipRect();
-    const bool moved =
-        ImPlot::DragPoint(static_cast<int>(i), &to[0], &to[1], ImGui::ColorConvertU32ToFloat4(is_selected ? colour::note : colour::text),
-                          point_radius * scale(), ImPlotDragToolFlags_NoFit | ImPlotDragToolFlags_Delayed, &clicked, &hovered, &held);
     any_held |= held;
     any_hovered |= hovered;
     if (moved)
@@ -285,7 +290,8 @@ PointGesture DispersionPlot::draw_points(const DispersionContents& contents)
   }
   if (held_ && !any_held) gesture.kind = PointGesture::Kind::release;
   held_ = any_held;
-  const bool beside = ImPlot::IsPlotHovered() && !any_hovered && !any_held && !contents.points.empty();
+  over_point_ = any_hovered || any_held;
+  const bool beside = ImPlot::IsPlotHovered() && !over_point_ && !contents.points.empty();
   if (beside && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
     const ImPlotPoint mouse = ImPlot::GetPlotMousePos();
     gesture = {PointGesture::Kind::add, 0, {mouse.x, mouse.y}};

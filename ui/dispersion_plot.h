@@ -46,6 +46,7 @@ private:
   void keep_area();
 
   bool held_ = false;                  ///< a point is dragged: the axes stay
+  bool over_point_ = false;            ///< the mouse is on one
   std::array<double, 2> n_ends_{1, 2}; ///< of the y axis,
   std::array<double, 2> x_ends_{0, 1}; ///< and of the x axis, as drawn last
   std::array<double, 4> area_{};

@@ -6,13 +6,11 @@
 #include "headless.h"
 #include "image/image.h"
 #include "preset/read.h"
+#include "real_window.h"
 #include "ui/placement.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-
-#include <cstdlib>
-#include <sys/wait.h>
 
 namespace nephroid::ui {
 namespace {
@@ -21,16 +19,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::string program = "'" NEPHROID_PROGRAM "'";
-
-bool there_is(const std::string& command) { return std::system(("command -v " + command + " > /dev/null 2>&1").c_str()) == 0; }
-
-/// Exit code of a line of shell, with what it printed in `output`.
-int shell(const std::string& line, const std::filesystem::path& output)
-{
-  const int status = std::system(("{ " + line + "; } > '" + output.string() + "' 2>&1").c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
+using test::bytes_at, test::program, test::shell, test::there_is;
 
 /// Where a window of this size draws the picture: the window's own code, without a display, says so.
 Placement placement_in_window(int width, int height, const std::array<int, 2>& picture)
@@ -44,27 +33,7 @@ Placement placement_in_window(int width, int height, const std::array<int, 2>& p
   return place(Look{}, workspace.view().canvas(), picture);
 }
 
-std::array<int, 3> bytes_at(const image::Image& picture, double x, double y)
-{
-  const std::size_t index = static_cast<std::size_t>(static_cast<int>(y) * picture.width + static_cast<int>(x)) * picture.channels.size();
-  std::array<int, 3> bytes{};
-  for (std::size_t c = 0; c < 3; ++c) bytes[c] = static_cast<int>(std::lround(255 * picture.data[index + c]));
-  return bytes;
-}
-
-class WindowTest : public ::testing::Test {
-protected:
-  test::TemporaryFolder folder;
-  std::filesystem::path log = folder.path() / "log.txt";
-  /// What runs the rest of a command line on a display of its own. The X authority file is ours: xvfb-run's own temporary folder may still
-  /// be written to when xvfb-run removes it, and then it exits with 5.
-  /// The OpenGL driver unloads itself at the end, so LeakSanitizer cannot tell whose its memory was; the headless tests look for our leaks.
-  std::string on_display() const
-  {
-    return "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" xvfb-run -a -f " + quoted("authority") + " -s '-screen 0 1600x1000x24' ";
-  }
-  std::string quoted(const std::string& name) const { return "'" + (folder.path() / name).string() + "'"; }
-};
+class WindowTest : public test::RealWindow {};
 
 TEST_F(WindowTest, WithoutADisplayItSaysWhatToDo)
 {

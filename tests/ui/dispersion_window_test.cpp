@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Dispersion" in the real window: a control point is dragged by real X events, and the preset that is saved has moved it.
+// Skipped where there is no xvfb-run or no xdotool.
+#include "base/files.h"
+#include "fake_job.h"
+#include "headless.h"
+#include "image/image.h"
+#include "preset/read.h"
+#include "real_window.h"
+#include "ui/dispersion_panel.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::ui {
+namespace {
+
+using test::bytes_at, test::program, test::shell, test::there_is;
+
+constexpr int width = 1100, height = 760;
+
+preset::Preset with_glass()
+{
+  preset::Preset made = preset::parse_preset(test::preset_text, "test");
+  preset::Material& glass = made.scene.materials["glass"];
+  glass.type = preset::Material::Type::dielectric;
+  glass.dispersion = with_points({}, {{380, 1.62}, {450, 1.58}, {550, 1.55}, {650, 1.53}, {780, 1.52}});
+  preset::Object& ball = made.scene.objects.emplace_back();
+  ball.name = "ball";
+  ball.material = "glass";
+  ball.shape = preset::Shape{};
+  ball.shape->radius = 0.3;
+  return made;
+}
+
+/// Where a window draws these points of a preset: its own code, without a display, says so.
+std::vector<std::array<int, 2>> on_screen(const std::string& file, const std::vector<ControlPoint>& points)
+{
+  test::Headless imgui;
+  ImGui::GetIO().DisplaySize = {width, height};
+  test::FakeRuns runs;
+  Workbench workbench{runs};
+  Workspace workspace("dispersion");
+  workbench.open(file);
+  for (int i = 0; i < 5; ++i) imgui.frame(workspace, workbench);
+  std::vector<std::array<int, 2>> pixels;
+  for (const ControlPoint& point : points) {
+    const auto at = workspace.dispersion().plot().to_screen(point);
+    pixels.push_back({static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1]))});
+  }
+  return pixels;
+}
+
+/// Of pixels of exactly this colour (IM_COL32), one above the other in a column of the screen.
+int longest_run(const image::Image& screen, int x, std::uint32_t colour)
+{
+  const std::array<int, 3> wanted{static_cast<int>(colour & 255), static_cast<int>(colour >> 8 & 255),
+                                  static_cast<int>(colour >> 16 & 255)};
+  int longest = 0, run = 0;
+  for (int y = 0; y < screen.height; ++y) {
+    run = bytes_at(screen, x, y) == wanted ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+class DispersionWindowTest : public test::RealWindow {};
+
+TEST_F(DispersionWindowTest, ADraggedPointIsInThePresetThatIsSaved)
+{
+  if (!there_is("xvfb-run") || !there_is("xdotool")) GTEST_SKIP() << "no xvfb-run or no xdotool";
+  const preset::Preset opened = with_glass();
+  const std::vector<ControlPoint> before = sorted_points(opened.scene.materials.at("glass").dispersion);
+  const std::string file = folder.write("glass.json", preset::to_json(opened));
+  const auto way = on_screen(file, {before[2], {570, 1.59}});
+  const std::string options = fmt::format(" --layout dispersion --size {}x{} --frames 100000 --screenshot ", width, height);
+  std::string moves;
+  for (int step = 1; step <= 8; ++step)
+    moves += fmt::format("xdotool mousemove --window $id {} {}; sleep 0.1\n", way[0][0] + (way[1][0] - way[0][0]) * step / 8,
+                         way[0][1] + (way[1][1] - way[0][1]) * step / 8);
+  // Keys slower than one frame, as in window_test.cpp.
+  write_file_whole(folder.path() / "events.sh", fmt::format(R"(#!/bin/sh
+chord() {{ xdotool keydown ctrl; sleep 0.4; xdotool keydown $1; sleep 0.4; xdotool keyup $1; sleep 0.4; xdotool keyup ctrl; sleep 0.4; }}
+{} '{}' {} {} &
+id=$(timeout 20 xdotool search --sync --onlyvisible --name Nephroid | head -n 1)
+xdotool windowfocus $id
+sleep 3
+xdotool mousemove --window $id {} {}
+sleep 1
+xdotool mousedown 1
+sleep 0.5
+{}sleep 0.5
+xdotool mouseup 1
+sleep 1
+chord s
+chord q
+wait
+)",
+                                                            program, file, options, quoted("screen.png"), way[0][0], way[0][1], moves));
+  ASSERT_EQ(shell(on_display() + "timeout 60 sh " + quoted("events.sh"), log), 0) << read_file(log);
+  const std::vector<ControlPoint> after = sorted_points(preset::read_preset(file).scene.materials.at("glass").dispersion);
+  ASSERT_EQ(after.size(), before.size());
+  EXPECT_NEAR(after[2][0], 570, 3);
+  EXPECT_NEAR(after[2][1], 1.59, 0.003);
+  for (const std::size_t i : {0u, 1u, 3u, 4u}) EXPECT_EQ(after[i], before[i]) << i;
+
+  // What was saved is said at the foot for a while, which moves points up: their wavelengths are where they were.
+  const image::Image screen = image::read_image(folder.path() / "screen.png");
+  const auto at = on_screen(file, {after[2], after[1]});
+  EXPECT_GE(longest_run(screen, at[0][0], colour::note), 8) << "the selected point, where the preset has it";
+  EXPECT_GE(longest_run(screen, at[1][0], colour::text), 8) << "one at its left; those at its right lie below its tooltip";
+}
+
+} // namespace
+} // namespace nephroid::ui
