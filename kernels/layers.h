@@ -15,7 +15,7 @@ typedef struct {
   __global const LayerCell* cells;   // of each pixel, the reflector that it sees most at its beginning
   volatile __global long* sums;
   int layer_count;
-  int half;                          // of the film, that this pass adds to
+  int image;                         // of the film, that this pass adds to
 } LayerFilm;
 
 #define LAYER_FILM_ARGUMENTS(name)                                                                                                       \
@@ -44,7 +44,7 @@ static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, in
   }
   if (!(fabs(quanta) <= limit)) return false;
   const int cell = film->cells[i].cell;
-  const size_t row = (size_t)(cell / LAYER_BLOCK) * NEPHROID_FILM_HALVES * (size_t)film->layer_count + (size_t)(film->half * film->layer_count + layer);
+  const size_t row = (size_t)(cell / LAYER_BLOCK) * NEPHROID_FILM_HALVES * (size_t)film->layer_count + (size_t)(film->image * film->layer_count + layer);
   add_exactly(film->sums + row * LAYER_BLOCK + cell % LAYER_BLOCK, convert_long_rte(quanta + (dither - 0.5f)));
   return true;
 }

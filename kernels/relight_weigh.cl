@@ -6,7 +6,7 @@
 // One work item: eight cells of one reflector. rows: halves times layers.
 __kernel void weigh(__global const long* sums, int block_count, int rows, __global const int* reflector_of_block,
                     __global const float* weights,     // [reflector][row][6]: RGB of the one, RGB of the other
-                    __global float* weighed)           // [6][cell]
+                    __global float* weighed)           // [eight cells][6][cell of the eight]
 {
   const int item = (int)get_global_id(0), block = item / (LAYER_BLOCK / 8), eighth = item % (LAYER_BLOCK / 8);
   if (block >= block_count) return;
@@ -23,23 +23,20 @@ __kernel void weigh(__global const long* sums, int block_count, int rows, __glob
     f += weight[5] * value;
     weight += 6;
   }
-  const size_t cells = (size_t)block_count * (LAYER_BLOCK / 8);
-  vstore8(a, (size_t)item, weighed);
-  vstore8(b, cells + (size_t)item, weighed);
-  vstore8(c, 2 * cells + (size_t)item, weighed);
-  vstore8(d, 3 * cells + (size_t)item, weighed);
-  vstore8(e, 4 * cells + (size_t)item, weighed);
-  vstore8(f, 5 * cells + (size_t)item, weighed);
+  const float8 sums_of[6] = {a, b, c, d, e, f};
+  for (int k = 0; k < 6; ++k) vstore8(sums_of[k], 6 * (size_t)item + (size_t)k, weighed);
 }
 
 // One work item: one pixel.
-__kernel void gather_cells(__global const int* first, __global const LayerCell* cells, __global const float* weighed, int cell_count,
-                           int pixel_count, __global float* pictures) // [2][pixel][3]
+__kernel void gather_cells(__global const int* first, __global const LayerCell* cells, __global const float* weighed, int pixel_count,
+                           __global float* pictures) // [2][pixel][3]
 {
   const int pixel = (int)get_global_id(0);
   if (pixel >= pixel_count) return;
   float sums[6] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-  for (int i = first[pixel]; i < first[pixel + 1]; ++i)
-    for (int c = 0; c < 6; ++c) sums[c] += weighed[(size_t)c * (size_t)cell_count + (size_t)cells[i].cell];
+  for (int i = first[pixel]; i < first[pixel + 1]; ++i) {
+    const int cell = cells[i].cell;
+    for (int c = 0; c < 6; ++c) sums[c] += weighed[(size_t)(cell / 8) * 48 + (size_t)(8 * c + cell % 8)];
+  }
   for (int c = 0; c < 6; ++c) pictures[((size_t)(c / 3) * (size_t)pixel_count + (size_t)pixel) * 3 + (size_t)(c % 3)] = sums[c];
 }

@@ -34,7 +34,7 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(std::span<const LayerWeight> 
     weights_ = compute::Buffer<float>(context_, "weights of layers", numbers);
   weigh_.run(cell_count_ / 8, 64, sums_, static_cast<int>(cell_count_ / LAYER_BLOCK), static_cast<int>(halves_ * layers_),
              reflector_of_block_, weights_, weighed_);
-  gather_.run(pixels_, 64, first_, cells_, weighed_, static_cast<int>(cell_count_), static_cast<int>(pixels_), pictures_);
+  gather_.run(pixels_, 64, first_, cells_, weighed_, static_cast<int>(pixels_), pictures_);
   const std::size_t bytes = 3 * pixels_ * sizeof(float);
   pictures_.RawBuffer::read(pictures[0].data(), bytes, 0);
   pictures_.RawBuffer::read(pictures[1].data(), bytes, bytes);

@@ -16,6 +16,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <ctime>
 
 using namespace nephroid;
 using namespace nephroid::test;
@@ -245,17 +246,19 @@ TEST(Relighting, TheMemoryIsWhatThePlanSays)
   EXPECT_GE(saved, films / 3) << "what is promised is not far above what is taken";
 }
 
-/// The shortest of several times.
+/// The least of several: by the clock, and by the processors of all threads, which other programs disturb less.
 template <class Work>
-double milliseconds(const Work& work)
+std::string milliseconds(const Work& work)
 {
-  double best = INFINITY;
+  double elapsed = INFINITY, processor = INFINITY;
   for (int i = 0; i < 5; ++i) {
     const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t processor_begin = std::clock();
     work();
-    best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    elapsed = std::min(elapsed, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    processor = std::min(processor, 1e3 * static_cast<double>(std::clock() - processor_begin) / CLOCKS_PER_SEC);
   }
-  return best;
+  return std::to_string(elapsed) + " elapsed, " + std::to_string(processor) + " of processors";
 }
 
 // Figures for the docs; nothing is asserted about them.
@@ -264,18 +267,20 @@ TEST(Relighting, TakesMilliseconds)
   preset::Preset p = tiled_scene();
   p.scene.camera.resolution = {512, 512};
   p.scene.lights.pop_back();
+  p.spectral.threshold_deg = 0.032; // 32 clusters
   const auto plain = job_of(p);
   p.spectral.relight = true;
   const auto layers = job_of(p);
   for (int i = 0; i < 8; ++i) layers->step(), plain->step();
-  const double relit = milliseconds([&] {
+  const std::string relit = milliseconds([&] {
     p.scene.lights[0].power_w += 1;
     ASSERT_TRUE(layers->adopt(p));
     layers->snapshot();
   });
-  const double snapshot = milliseconds([&] { plain->snapshot(); });
-  RecordProperty("relit_snapshot_ms", std::to_string(relit));
-  RecordProperty("plain_snapshot_ms", std::to_string(snapshot));
+  const std::string snapshot = milliseconds([&] { plain->snapshot(); });
+  RecordProperty("phases", std::to_string(layers->save().size() / 1048576) + " MiB saved");
+  RecordProperty("relit_snapshot_ms", relit);
+  RecordProperty("plain_snapshot_ms", snapshot);
 }
 
 } // namespace
