@@ -24,21 +24,22 @@ std::vector<double> by_power(const std::vector<double>& watts, const WavelengthT
   return weights;
 }
 
+/// Of each cluster.
+std::vector<double> watts_in_clusters(const std::vector<double>& watts, const WavelengthTables& tables)
+{
+  std::vector<double> sums(tables.clusters.size(), 0);
+  for (std::size_t l = 0; l < watts.size(); ++l)
+    for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += watts[l] * tables.share[l][c];
+  return sums;
+}
+
 /// Each cluster's importance, shared by the lights in proportion to their watts in it.
 std::vector<double> by_importance(const std::vector<double>& importance, const std::vector<double>& watts, const WavelengthTables& tables)
 {
-  // Importance counts what the nine points see; so that the picture is right on average also where it is 0, a cluster with light gets
-  // at least one photon (deal_out).
-  constexpr double least = 1e-9;
-  const std::size_t clusters = tables.clusters.size();
-  std::vector<double> weights(watts.size() * clusters, 0);
-  for (std::size_t c = 0; c < clusters; ++c) {
-    double in_cluster = 0;
-    for (std::size_t l = 0; l < watts.size(); ++l) in_cluster += watts[l] * tables.share[l][c];
-    if (!(in_cluster > 0)) continue;
-    for (std::size_t l = 0; l < watts.size(); ++l)
-      weights[l * clusters + c] = std::max(importance[c], least) * watts[l] * tables.share[l][c] / in_cluster;
-  }
+  const std::vector<double> all = watts_in_clusters(watts, tables);
+  std::vector<double> weights;
+  for (std::size_t l = 0; l < watts.size(); ++l)
+    for (std::size_t c = 0; c < all.size(); ++c) weights.push_back(all[c] > 0 ? importance[c] * watts[l] * tables.share[l][c] / all[c] : 0);
   return weights;
 }
 
@@ -81,6 +82,12 @@ Effort make_effort(const preset::Spectral& settings, const scene::Scene& scene, 
   if ((settings.effort == Choice::importance || settings.effort == Choice::radziszewski) && caustics_are_possible(scene, watts)) {
     const optics::Spectrum u = wavelength_importance(settings, scene, bvh).u;
     importance = cluster_importance(u, tables.clusters, settings.importance.cluster);
+    // What the nine points see is not all that caustics fall on. So that the picture is right on average, a cluster with light has at
+    // least one photon a pass, or one iteration of all.
+    constexpr double least = 1e-9;
+    const std::vector<double> lit = watts_in_clusters(watts, tables);
+    for (std::size_t c = 0; c < clusters; ++c)
+      if (lit[c] > 0) importance[c] = std::max(importance[c], least);
   }
   return {by_importance(importance, watts, tables), importance};
 }

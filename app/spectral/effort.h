@@ -13,7 +13,7 @@ namespace nephroid::spectral {
 
 struct Effort {
   std::vector<double> photons;    ///< [light][cluster] flat: photons of a pass are dealt in proportion; 0 only where there is no light
-  std::vector<double> importance; ///< [cluster]: 0..1, the largest 1: part of the iterations that a cluster has a turn in
+  std::vector<double> importance; ///< [cluster]: 0..1, the largest 1, above 0 where there is light: part of the iterations that it has
 };
 
 /// watts: of each light of `tables` towards its targets.
