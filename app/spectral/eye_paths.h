@@ -14,8 +14,7 @@ class EyePaths {
 public:
   explicit EyePaths(DeviceWorld& world)
       : world_(world), points_(world.context, "visible points", point_count(world.tables.camera)),
-        view_(compute::Program(world.context, "view.cl", world.defines).kernel("view")),
-        rows_(world.tables.camera.height)
+        view_(compute::Program(world.context, "view.cl", world.defines).kernel("view")), rows_(world.tables.camera.height)
   {
   }
   /// What it takes on the device.

@@ -110,11 +110,14 @@ inline std::vector<Omission> omissions()
   close_light.stop.passes = 24;
   straight.scene.materials["glass"] = glass(1);
   straight.scene.objects[0].shape = box(1, 0.4, 1);
+  preset::Preset no_glass_seen = floor_scene();
+  no_glass_seen.spectral.estimator = preset::Spectral::Estimator::automatic;
   // A tree of a few triangles is soon searched: all other code has its largest share.
   preset::Preset slab = ball;
   slab.scene.objects[0].shape = box(1, 0.4, 1);
   return {{"direct", &L::direct, no_floor},
           {"photons", &L::photons, no_glass},
+          {"photon_maps", &L::photon_maps, no_glass_seen},
           {"stray_photons", &L::stray_photons, close_light, false},
           {"unreached_targets", &L::unreached_targets, spot_scene(40), false},
           {"dark_lights", &L::dark_lights, dark_lights_scene()},
