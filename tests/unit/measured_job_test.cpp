@@ -16,8 +16,10 @@ namespace {
 using namespace nephroid;
 using test::error_of;
 using testing::Contains;
+using testing::Each;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 constexpr int size = 64;
 constexpr double grey = 0.5, sigma = 0.2;
@@ -61,6 +63,7 @@ public:
   }
   std::vector<std::byte> save() override { return std::vector<std::byte>(static_cast<std::size_t>(done_)); }
   void load(std::span<const std::byte> checkpoint) override { done_ = static_cast<int>(checkpoint.size()); }
+  bool adopt(const preset::Preset& preset) override { return preset.spectral.relight; }
 
 private:
   static std::vector<double> zeros() { return std::vector<double>(3 * size * size); }
@@ -231,13 +234,41 @@ TEST(MeasuredJob, AMaskIsMeasuredOnItsOwn)
   EXPECT_NE(job::error_in(history, history.rows.back(), "masked_mse"), job::error_in(history, history.rows.back(), "mse"));
 }
 
+TEST(MeasuredJob, AnotherLightBeginsAHistoryWithoutTheReference)
+{
+  preset::Preset p = settings();
+  p.spectral.relight = true;
+  const auto job = noisy(p, truth());
+  EXPECT_THAT(run(*job).columns, Contains("lab_mean"));
+  ASSERT_TRUE(job->adopt(p));
+  EXPECT_FALSE(job->finished()) << "the picture under the new light has not been measured";
+  const job::History history = run(*job);
+  EXPECT_EQ(history.rows.size(), 1u);
+  EXPECT_THAT(history.columns, Each(StartsWith("estimated_"))) << "the reference is of the old light";
+  EXPECT_EQ(history.error_column, "estimated_lab_mean");
+
+  p.spectral.relight = false;
+  EXPECT_FALSE(job->adopt(p)) << "the job itself refuses";
+  EXPECT_EQ(run(*job).rows.size(), 1u) << "and nothing has changed";
+}
+
+TEST(MeasuredJob, ARunThatStopsByItsReferenceStartsAgainUnderAnotherLight)
+{
+  preset::Preset p = settings();
+  p.spectral.relight = true;
+  p.stop.error = 1;
+  EXPECT_FALSE(noisy(p, truth())->adopt(p));
+  EXPECT_TRUE(noisy(p, nullptr)->adopt(p)) << "its estimate needs none";
+}
+
 TEST(MeasuredJob, RefusesWhatCannotBeMeasured)
 {
   preset::Preset preset = settings();
   preset.stop.error = 1;
   preset.measure.estimate = false;
   EXPECT_EQ(error_of([&] { noisy(preset, nullptr); }).line(),
-            "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or 'measure.estimate' true");
+            "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or 'measure.estimate' true and "
+            "another 'spectral.estimator' than sppm");
   preset = settings();
   preset.stop.error = 1;
   preset.stop.metric = preset::Stop::Metric::rel_mse;
