@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a path moves as glass bends it a little more: derivatives of its place and direction, carried from surface to surface as ray differentials are
-// (Igehy 1999, "Tracing ray differentials"), with the wavelength in the place of the pixel (Elek et al. 2014, "Spectral ray differentials").
+// How a path moves as glass bends it a little more: derivatives of its place and direction, carried from surface to surface as ray
+// differentials are (Igehy 1999, "Tracing ray differentials"), with the wavelength in the place of the pixel (Elek et al. 2014, "Spectral
+// ray differentials").
 //
-// They are taken with respect to one parameter s of the wavelength that stretch.h chooses: a prime is d/ds below, and n' = dn/ds of every
+// They are taken with respect to one parameter s of the wavelength (app/spectral/stretch.h): a prime is d/ds below, and n' = dn/ds of every
 // material is given. With s the wavelength in nm a path moves by P' a nanometre; with s the index n itself, by P' a unit of n.
 // Emission does not depend on the wavelength, so every path starts with P' = 0 and D' = 0. Which surfaces a path meets, and whether it is
 // reflected there, is held fixed.
@@ -85,7 +86,8 @@ static inline void differential_through_bend(Differential* d, const Geometry* ge
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float3 d_normal = (float3)(0.0f);
 #if NEPHROID_SMOOTH
-  if (smooth && any(bend->normal != side * surface->geometric)) d_normal = side * normal_differential(geometry, triangle, surface->position, d->position);
+  if (smooth && any(bend->normal != side * surface->geometric))
+    d_normal = side * normal_differential(geometry, triangle, surface->position, d->position);
 #endif
   const float eta = n_i / n_t;
   d->direction = bend->transmitted

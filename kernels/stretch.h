@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// A splat as a streak: the light of a photon's cluster is spread along the way on which its place moves with the wavelength (Elek et al. 2014,
-// "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a rainbow become one band.
+// A splat as a streak: the light of a photon's cluster is spread along the way on which its place moves with the wavelength (Elek et al.
+// 2014, "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a rainbow become one band.
 //
-// The last way of the photon of parameter s is the ray (O, D); that of another wavelength begins at O + x O' and goes along D + x D', x its s less the
-// photon's (differential.h), and is cut with the tangent plane of the receiver exactly: a place on a grazing receiver is anything but linear in x.
-// A wavelength's light lies as a tent over +-1 nm, so that it is interpolated linearly between the 401 and their sum stays what it is.
+// The last way of the photon of parameter s is the ray (O, D); that of another wavelength begins at O + x O' and goes along D + x D', x its
+// s less the photon's (differential.h), and is cut with the tangent plane of the receiver exactly: a place on a grazing receiver is
+// anything but linear in x. A wavelength's light lies as a tent over +-1 nm, so that it is interpolated linearly between the 401 and their
+// sum stays what it is.
 #ifndef NEPHROID_STRETCH_H
 #define NEPHROID_STRETCH_H
 
-#include "shared_types.h"
 #include "photon_path.h"
+#include "shared_types.h"
 #include "splat.h"
 
 // The most splats that a photon becomes, and the length in pixels below which it stays one.
 #define STRETCH_SPLATS 16
 #define STRETCH_SHORTEST 0.1f
-// The farthest that the last directions of a streak may lie apart for D' to say where they go, in radians: at three times as much a rainbow's
-// colours are off by 3 % (docs/spectral.md). Also where D' is infinite, at the critical angle, a photon is not stretched.
+// The farthest that the last directions of a streak may lie apart for D' to say where they go, in radians. A rainbow of streaks some
+// three times as wide is off by 3 % (docs/spectral.md). Also where D' is infinite, at the critical angle, a photon is not stretched.
 #define STRETCH_WIDEST 0.01f
 
-// How a photon is splatted: `count` splats, of the light of its whole cluster or of what its band stands for alone. More than one splat: each
-// goes where its own wavelength does.
+// How a photon is splatted: `count` splats, of the light of its whole cluster or of what its band stands for alone. More than one splat:
+// each goes where its own wavelength does.
 typedef struct {
   int count;
   bool whole;
@@ -71,8 +72,8 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
   return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
 }
 
-// Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels. *beside: set where that
-// is in another triangle.
+// Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels. *beside: set where
+// that is in another triangle.
 static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float x,
                                float2* film_place, bool* beside)
 {
@@ -88,8 +89,8 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
 }
 
 // Tries to stretch a photon from `low` to `high`, its s being 0. False where that leads off the receiver or too far to know where.
-static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float low, float high,
-                                Stretch* stretch)
+static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float low,
+                                float high, Stretch* stretch)
 {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
   float2 first, last;
@@ -100,8 +101,8 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
   return true;
 }
 
-// What becomes of a deposited photon: a streak of its cluster; where that cannot be, with jitter, a streak of its own wavelength; else a point.
-// The first choice rests on where the whole cluster's light goes and not on the photon's wavelength, so it is the same for all of
+// What becomes of a deposited photon: a streak of its cluster; where that cannot be, with jitter, a streak of its own wavelength; else a
+// point. The first choice rests on where the whole cluster's light goes and not on the photon's wavelength, so it is the same for all of
 // them, and no light is counted twice or lost where a streak would leave the receiver.
 static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, const Band* band)
 {
@@ -149,10 +150,10 @@ typedef struct {
   float3 xyz; // as PhotonEnd's
 } Strand;
 
-// The splat number i of stretch->count; u in [0, 1), the same for all of them: they take turns through the cluster's distribution, and with jitter the first
-// is of the photon's own wavelength. False where it does not reach the receiver.
-static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, int light, const Band* band, const Stretch* stretch, int i,
-                             float u, Strand* strand)
+// The splat number i of stretch->count; u in [0, 1), the same for all of them: they take turns through the cluster's distribution, and with
+// jitter the first is of the photon's own wavelength. False where it does not reach the receiver.
+static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, int light, const Band* band,
+                             const Stretch* stretch, int i, float u, Strand* strand)
 {
   strand->surface = end->surface;
   strand->triangle = end->triangle;
