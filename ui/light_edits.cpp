@@ -108,7 +108,8 @@ std::optional<std::size_t> add_row(LightSpectrum& spectrum, const PowerRow& row)
   const auto near = [&](const PowerRow& other) { return std::abs(other[0] - nm) < 2 * nearest_nm; };
   if (rows.size() >= preset::max_rows || std::any_of(rows.begin(), rows.end(), near)) return std::nullopt;
   const auto at = std::find_if(rows.begin(), rows.end(), [&](const PowerRow& other) { return other[0] > nm; });
-  return static_cast<std::size_t>(rows.insert(at, {nm, legal_power(row[1])}) - rows.begin());
+  const auto added = rows.insert(at, {nm, legal_power(row[1])});
+  return static_cast<std::size_t>(added - rows.begin());
 }
 
 std::optional<std::size_t> add_in_widest_gap(LightSpectrum& spectrum)

@@ -76,8 +76,7 @@ std::array<double, 3> colour_of(const Spectrum& reflectance)
   return display(optics::xyz_to_linear_srgb(optics::to_xyz(reflected)));
 }
 
-/// Materials and objects, as load_scene has them. Throws Error where a file
-/// cannot be read or a name is of no material.
+/// Materials and objects, as load_scene has them. Throws Error where a file cannot be read or a name is of no material.
 void read_materials(const preset::Preset& preset, scene::Scene& outline)
 {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
@@ -199,8 +198,8 @@ void SpectraMaker::make_groups(const preset::Preset& now)
 bool SpectraMaker::is_of_this_scene(const preset::Spectral& settings) const
 {
   if (!seen_ || seen_->materials != spectra_.materials || seen_->whereabouts.towards.size() != outline_.lights.size()) return false;
-  const bool rays = settings.effort == preset::Spectral::Effort::importance && settings.importance.geometry;
-  return !rays || seen_->whereabouts.seen.size() == outline_.materials.size();
+  const bool rays = settings.effort == preset::Spectral::Effort::importance && settings.importance.geometry && seen_->whereabouts.caustics;
+  return !rays || !seen_->whereabouts.seen.empty();
 }
 
 void SpectraMaker::make_importance(const preset::Preset& now)
@@ -210,9 +209,8 @@ void SpectraMaker::make_importance(const preset::Preset& now)
   for (std::size_t i = 0; i < spectra_.lights.size(); ++i)
     if (!spectra_.lights[i].error.empty()) spectra_.why_no_u = fmt::format("light {}: {}", i + 1, spectra_.lights[i].error);
   if (!spectra_.why_no_u.empty()) return;
-  if (!seen_ || seen_->materials != spectra_.materials || seen_->whereabouts.towards.size() != outline_.lights.size()) {
-    spectra_.why_no_u = "It comes with the run that is being made ready: what "
-                        "the glass sees takes rays";
+  if (!is_of_this_scene(now.spectral)) {
+    spectra_.why_no_u = "what the glass sees is not known before a run of this preset is ready";
     return;
   }
   try {
@@ -228,14 +226,14 @@ void SpectraMaker::make_clusters(const preset::Preset& now)
   spectra_.clusters.clear();
   spectra_.cluster_of.fill(-1);
   if (!spectra_.why_no_u.empty()) return;
-  // As the engine has them: without the wavelengths and lights that are left
-  // out.
+  // As the engine has them: without the wavelengths and lights that are left out.
   std::vector<const scene::Light*> lights;
   std::vector<double> watts;
+  const std::vector<double> all_watts = spectral::watts(outline_.lights, seen_->whereabouts.towards);
   for (std::size_t i = 0; i < outline_.lights.size(); ++i)
     if (spectral::has_power(outline_.lights[i]) || !now.spectral.leave_out.dark_lights) {
       lights.push_back(&outline_.lights[i]);
-      watts.push_back(seen_->whereabouts.towards[i]);
+      watts.push_back(all_watts[i]);
     }
   std::vector<bool> lit(wavelength_count, true);
   if (now.spectral.leave_out.unlit_wavelengths) lit = spectral::lit_wavelengths(outline_);
@@ -254,8 +252,9 @@ std::string to_csv(const Spectra& spectra)
   // A name in quotes, as RFC 4180 has them.
   const auto quoted = [](const std::string& name) {
     std::string text = "\"";
-    for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return text + "\"";
+    for (const char c : name) text.append(c == '"' ? 2 : 1, c);
+    text += '"';
+    return text;
   };
   std::string csv = "wavelength_nm";
   for (std::size_t i = 0; i < spectra.lights.size(); ++i) csv += fmt::format(",light {}", i + 1);
@@ -281,8 +280,7 @@ std::array<double, 3> wavelength_colour(int index)
   optics::Colour linear = optics::xyz_to_linear_srgb({eye.x[w], eye.y[w], eye.z[w]});
   for (double& channel : linear) channel = std::max(channel, 0.0);
   const double largest = *std::max_element(linear.begin(), linear.end());
-  // As bright as can be in the middle of the spectrum; towards its ends as
-  // faint as the eye makes it, but never black.
+  // As bright as can be in the middle of the spectrum; towards its ends as faint as the eye makes it, but never black.
   const double fading = std::clamp(std::sqrt((eye.x[w] + eye.y[w] + eye.z[w]) / 0.3), 0.2, 1.0);
   for (double& channel : linear) channel = largest > 0 ? fading * channel / largest : 0;
   return display(linear);

@@ -77,6 +77,7 @@ void SpectraPanel::draw(const Workbench& workbench, Commands& commands)
   choose_light(*workbench.preset());
   draw_light(workbench, commands);
   draw_switches();
+  draw_copy();
   const Spectra& spectra = maker_.spectra();
   const float line = ImGui::GetTextLineHeight(), cell = line + 2 * ImGui::GetStyle().CellPadding.y;
   const auto seen = spectra.importance.surroundings.size();
@@ -237,6 +238,14 @@ void SpectraPanel::draw_switches()
       switches_.hidden.insert(curve.material);
   }
   ImGui::PopID();
+}
+
+void SpectraPanel::draw_copy()
+{
+  same_line_if_room(4 * em());
+  if (ImGui::Button("Copy")) ImGui::SetClipboardText(to_csv(maker_.spectra()).c_str());
+  note_place("copy");
+  ImGui::SetItemTooltip("Every curve as CSV, a row a wavelength");
 }
 
 void SpectraPanel::draw_plot(const Workbench& workbench, Commands& commands, float height)

@@ -37,6 +37,7 @@ private:
   void draw_spectrum_controls(const Workbench& workbench, Commands& commands);
   void draw_row_controls(const Workbench& workbench, Commands& commands);
   void draw_switches();
+  void draw_copy();
   void draw_plot(const Workbench& workbench, Commands& commands, float height);
   void draw_numbers() const;
   void draw_effort(const Workbench& workbench, Commands& commands);
