@@ -5,6 +5,8 @@
 #include "base/json_pointer.h"
 #include "optics/dispersion.h"
 #include "scene/materials.h"
+#include "scene/scene.h"
+#include "spectral/scene_clusters.h"
 #include "ui/dispersion_edits.h"
 
 #include <algorithm>
@@ -102,16 +104,18 @@ void DispersionModel::update(const preset::Preset& preset, const std::string& ma
   curve_ = &glasses_.at(material).curve;
   if (changed) cluster();
 
-  bool of_scene = std::exchange(method_, preset.spectral.method) != preset.spectral.method || changed;
-  if (of_scene && error_.empty()) {
+  changed |= std::exchange(method_, preset.spectral.method) != preset.spectral.method;
+  if (changed && error_.empty()) {
     bands_ = bands_of(chosen().clustering);
     cluster_of_ = cluster_of_wavelengths(chosen().clustering);
   }
   std::vector<std::string> used = used_dielectrics(preset);
-  for (const std::string& name : used) of_scene |= update_curve(preset, name);
-  of_scene |= used != used_;
+  for (const std::string& name : used) changed |= update_curve(preset, name);
+  changed |= used != used_;
   used_ = std::move(used);
-  if (of_scene) combine();
+  changed |= std::exchange(step_nm_, preset.spectral.step_nm) != preset.spectral.step_nm;
+  changed |= std::exchange(differentials_, preset.spectral.differentials) != preset.spectral.differentials;
+  if (changed) combine(preset.spectral);
 }
 
 void DispersionModel::cluster()
@@ -127,17 +131,21 @@ void DispersionModel::cluster()
   }
 }
 
-void DispersionModel::combine()
+/// By the engine's own rule, which asks for each object's index of refraction only.
+void DispersionModel::combine(const preset::Spectral& settings)
 {
-  clusters_of_scene_.reset();
-  if (used_.size() < 2 || !error_.empty()) return;
-  std::vector<spectral::Clustering> clusterings;
+  clusters_of_run_.reset();
+  scene::Scene outline;
   for (const std::string& name : used_) {
     const GlassCurve& glass = glasses_.at(name).curve;
     if (!glass.error.empty()) return;
-    clusterings.push_back(name == material_ ? chosen().clustering : spectral::cluster_wavelengths(glass.n, threshold_deg_, method_));
+    outline.objects.emplace_back().material = static_cast<int>(outline.materials.size());
+    scene::Material& material = outline.materials.emplace_back();
+    material.type = scene::Material::Type::dielectric;
+    material.n = glass.n;
   }
-  clusters_of_scene_ = spectral::common_refinement(clusterings).size();
+  if (outline.objects.empty() || !error_.empty()) return;
+  clusters_of_run_ = spectral::scene_clusters(settings, outline).size();
 }
 
 } // namespace nephroid::ui

@@ -40,8 +40,9 @@ public:
   const ClusterFigures& chosen() const { return figures(method_); }
   const std::vector<Band>& bands() const { return bands_; }
   const std::array<std::size_t, optics::wavelength_count>& cluster_of() const { return cluster_of_; }
-  /// What the run uses where objects are made of several glasses: the clusters of all of them, cut by each other.
-  std::optional<std::size_t> clusters_of_scene() const { return clusters_of_scene_; }
+  /// How many the run has: of all glasses that objects are made of, by brute force of step_nm neighbours, with differentials as they
+  /// need them. Nothing where no object is made of glass or one of the curves has an error.
+  std::optional<std::size_t> clusters_of_run() const { return clusters_of_run_; }
 
   /// How often each was made, for tests.
   int curves_made() const { return curves_made_; }
@@ -56,20 +57,22 @@ private:
   /// True where the material's curve was made anew.
   bool update_curve(const preset::Preset& preset, const std::string& material);
   void cluster();
-  void combine();
+  void combine(const preset::Spectral& settings);
 
   std::map<std::string, Glass> glasses_; ///< by material
   std::vector<std::string> used_;        ///< materials of the objects
   std::string material_;                 ///< the one that is shown
   double threshold_deg_ = 0;
   spectral::ClusterMethod method_ = spectral::ClusterMethod::optimal;
+  int step_nm_ = 1;
+  bool differentials_ = false;
 
   const GlassCurve* curve_ = nullptr; ///< in glasses_
   std::string error_;
   std::array<ClusterFigures, 3> figures_;
   std::vector<Band> bands_;
   std::array<std::size_t, optics::wavelength_count> cluster_of_{};
-  std::optional<std::size_t> clusters_of_scene_;
+  std::optional<std::size_t> clusters_of_run_;
   int curves_made_ = 0, clusterings_made_ = 0;
 };
 

@@ -2,7 +2,6 @@
 #include "ui/dispersion_panel.h"
 
 #include "base/files.h"
-#include "preset/choices.h"
 #include "ui/theme.h"
 #include "ui/wavelength_axis.h"
 #include "ui/widgets.h"
@@ -13,21 +12,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <filesystem>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
 
 using Type = preset::Dispersion::Type;
 
-constexpr double least_threshold_deg = 0.001, greatest_threshold_deg = 10; ///< of the slider
 constexpr double far_nm = 200; ///< control points farther beyond the 401 wavelengths do not widen the axis
-
-double three_digits(double value)
-{
-  const double decimal = std::pow(10, 2 - std::floor(std::log10(value)));
-  return std::round(value * decimal) / decimal;
-}
 
 /// Where n comes from, in a few words.
 std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& curve)
@@ -50,38 +44,18 @@ std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& 
   return fmt::format("{} control points, {}", dispersion.table.size(), range);
 }
 
+/// Empty where there is no folder of shipped materials.
 std::vector<std::string> shipped_materials()
 {
   std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(presets_folder() / "materials", ignored))
-    if (is_dispersion_file(entry.path().string())) names.push_back(entry.path().stem().string());
+  try {
+    for (const auto& entry : std::filesystem::directory_iterator(presets_folder() / "materials"))
+      if (is_dispersion_file(entry.path().string())) names.push_back(entry.path().stem().string());
+  } catch (const std::exception&) {
+    names.clear();
+  }
   std::sort(names.begin(), names.end());
   return names;
-}
-
-void wrapped(ImU32 colour, const std::string& text)
-{
-  ImGui::PushTextWrapPos(0);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopTextWrapPos();
-}
-
-std::string spread_text(const Spread& spread) { return fmt::format("{:.3f} / {:.3f}", spread.mean_deg, spread.greatest_deg); }
-
-void heading(const char* text, const char* help)
-{
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", text);
-  ImGui::SetItemTooltip("%s", help);
-}
-
-void cell(const std::string& text)
-{
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(text.c_str());
 }
 
 } // namespace
@@ -104,7 +78,7 @@ void DispersionPanel::draw(const Workbench& workbench, Commands& commands)
     draw_methods(frame);
     draw_bias(frame);
   } else
-    wrapped(colour::error, model_.error());
+    draw_wrapped(colour::error, model_.error());
   below_plot_ = ImGui::GetCursorPosY() - top;
 }
 
@@ -187,8 +161,8 @@ void DispersionPanel::draw_source(const Frame& frame) const
   const preset::Dispersion& dispersion = frame.material.dispersion;
   std::string text = source_text(dispersion, model_.curve());
   if (!fitted_text_.empty() && dispersion == fitted_) text += "; " + fitted_text_;
-  wrapped(colour::quiet_text, text);
-  if (!model_.curve().note.empty()) wrapped(colour::note, model_.curve().note);
+  draw_wrapped(colour::quiet_text, text);
+  if (!model_.curve().note.empty()) draw_wrapped(colour::note, model_.curve().note);
 }
 
 void DispersionPanel::draw_points_row(const Frame& frame)
@@ -337,84 +311,6 @@ void DispersionPanel::make_editable(const Frame& frame)
   fitted_ = std::get<command::Edit>(frame.commands.back()).preset.scene.materials.at(shown_).dispersion;
   frame.commands.push_back(command::Report{note, false});
   selected_.reset();
-}
-
-void DispersionPanel::edit_spectral(const Frame& frame, const std::string& label, const preset::Spectral& spectral, std::uint64_t gesture,
-                                    bool live)
-{
-  preset::Preset edited = frame.preset;
-  edited.spectral = spectral;
-  frame.commands.push_back(command::Edit{label, std::move(edited), gesture, live});
-}
-
-void DispersionPanel::draw_threshold(const Frame& frame)
-{
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Threshold");
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(-1);
-  preset::Spectral spectral = frame.preset.spectral;
-  const bool changed =
-      ImGui::SliderScalar("##threshold", ImGuiDataType_Double, &spectral.threshold_deg, &least_threshold_deg, &greatest_threshold_deg,
-                          "%.3g degrees", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  remember("Threshold");
-  if (ImGui::IsItemActivated()) gestures_.begin();
-  spectral.threshold_deg = std::clamp(three_digits(spectral.threshold_deg), least_threshold_deg, greatest_threshold_deg);
-  if (changed && spectral != frame.preset.spectral) edit_spectral(frame, "threshold of the clusters", spectral, gestures_.number(), true);
-  if (ImGui::IsItemDeactivated()) frame.commands.push_back(command::EndGesture{});
-  ImGui::SetItemTooltip(
-      "Largest change of the refraction angle inside a cluster, as the mean over 0..89 degrees of incidence. Ctrl+click: type it");
-}
-
-void DispersionPanel::draw_methods(const Frame& frame)
-{
-  if (!ImGui::BeginTable("methods", 5, ImGuiTableFlags_SizingStretchProp)) return;
-  heading("Method", "How wavelengths are grouped; what is checked is what the run uses");
-  heading("Clusters", "Groups of wavelengths that share one path each");
-  heading("Saving", "401 wavelengths / clusters: so many times fewer paths than one for each wavelength");
-  heading("At 45 deg",
-          "By how many degrees the refraction angle differs inside a cluster at 45 degrees of incidence: mean over the wavelengths / "
-          "greatest");
-  heading("0..89 deg", "The same as the mean over 0 to 89 degrees of incidence, which the threshold is about");
-  for (const auto& choice : preset::Choices<spectral::ClusterMethod>::all) {
-    const ClusterFigures& figures = model_.figures(choice.value);
-    const std::string name(choice.name == "brute_force" ? "brute force" : choice.name);
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    if (ImGui::RadioButton(name.c_str(), frame.preset.spectral.method == choice.value)) {
-      preset::Spectral spectral = frame.preset.spectral;
-      spectral.method = choice.value;
-      edit_spectral(frame, "method of the clusters: " + name, spectral);
-    }
-    remember(name.c_str());
-    ImGui::SetItemTooltip("%s", std::string(choice.sentence).c_str());
-    cell(fmt::format("{}", figures.clustering.clusters.size()));
-    cell(fmt::format("{:.3g}", figures.saving));
-    cell(spread_text(figures.at_45));
-    cell(spread_text(figures.over_angles));
-  }
-  ImGui::EndTable();
-}
-
-void DispersionPanel::draw_bias(const Frame& frame)
-{
-  preset::Spectral spectral = frame.preset.spectral;
-  if (ImGui::Checkbox("Jitter", &spectral.jitter))
-    edit_spectral(frame, spectral.jitter ? "jitter wavelengths" : "do not jitter wavelengths", spectral);
-  remember("Jitter");
-  ImGui::SetItemTooltip("Each photon takes one wavelength of its cluster (spectral.jitter)");
-  ImGui::SameLine();
-  const Spread& spread = model_.chosen().at_45;
-  std::string text;
-  if (spectral.jitter)
-    text = "Bias 0: each photon takes one wavelength of its cluster";
-  else if (spread.greatest_deg == 0)
-    text = "Bias 0: no cluster bends two rays alike that differ";
-  else
-    text = fmt::format("Bias: rays of a cluster go one way that differ by up to {:.2g} degrees", spread.greatest_deg);
-  wrapped(colour::quiet_text, text);
-  if (const auto clusters = model_.clusters_of_scene())
-    wrapped(colour::quiet_text, fmt::format("With the other glasses of the scene: {} clusters", *clusters));
 }
 
 } // namespace nephroid::ui

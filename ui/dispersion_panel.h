@@ -6,6 +6,7 @@
 #include "ui/dispersion_plot.h"
 #include "ui/gestures.h"
 #include "ui/panel.h"
+#include "ui/spectra.h"
 
 #include <map>
 #include <string>
@@ -26,6 +27,8 @@ public:
   /// For tests: what was drawn last, and where (the middle on the screen) a widget of this name was.
   const DispersionModel& model() const { return model_; }
   const DispersionPlot& plot() const { return plot_; }
+  /// 401 N over the iterations of all clusters, where the effort gives clusters different ones.
+  std::optional<double> saving_by_effort() const { return saving_by_effort_; }
   std::array<double, 2> widget(const std::string& name) const { return widgets_.at(name); }
 
 private:
@@ -49,6 +52,7 @@ private:
   void draw_threshold(const Frame& frame);
   void draw_methods(const Frame& frame);
   void draw_bias(const Frame& frame);
+  void draw_effort(const Frame& frame);
 
   void make_editable(const Frame& frame);
   void add(const Frame& frame, const ControlPoint& at);
@@ -63,6 +67,8 @@ private:
   Gestures gestures_{title};
   DispersionModel model_;
   DispersionPlot plot_;
+  SpectraMaker work_; ///< iterations a cluster, where the effort gives each its own
+  std::optional<double> saving_by_effort_;
   std::string shown_;                   ///< the material
   std::vector<ControlPoint> points_;    ///< of this frame, by rising wavelength
   std::optional<std::size_t> selected_; ///< one of them

@@ -24,6 +24,15 @@ bool input_text(const char* label, const char* hint, std::string& text, int flag
   return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1, flags | ImGuiInputTextFlags_CallbackResize, resize, &text);
 }
 
+void draw_wrapped(std::uint32_t colour, const std::string& text)
+{
+  ImGui::PushTextWrapPos(0);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+}
+
 void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint)
 {
   const float wrap = 0.9f * size.x;

@@ -3,6 +3,7 @@
 // wrong becomes a message.
 #include "optics/dispersion.h"
 #include "preset/read.h"
+#include "spectra_scene.h"
 #include "spectral/clusters.h"
 #include "ui/actions.h"
 #include "window_fixture.h"
@@ -262,9 +263,15 @@ TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether)
   for (const char* name : {"N-SF66", "N-BK7"})
     both.push_back(spectral::cluster_wavelengths(optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic), 0.05,
                                                  ClusterMethod::optimal));
-  EXPECT_EQ(panel().model().clusters_of_scene(), spectral::common_refinement(both).size());
+  EXPECT_EQ(panel().model().clusters_of_run(), spectral::common_refinement(both).size());
+  preset::Preset edited = *workbench.preset();
+  edited.spectral.method = ClusterMethod::brute_force;
+  edited.spectral.step_nm = 4;
+  workbench.apply({command::Edit{"method", edited}});
+  frames(2);
+  EXPECT_EQ(panel().model().clusters_of_run(), 101u);
   open_glass({{"glass", flint}});
-  EXPECT_FALSE(panel().model().clusters_of_scene());
+  EXPECT_EQ(panel().model().clusters_of_run(), panel().model().chosen().clustering.clusters.size());
 }
 
 TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
@@ -400,6 +407,41 @@ TEST_F(DispersionPanelTest, TheWavelengthsAreZoomedByTheWheel)
   }
   frames(2);
   EXPECT_GT(panel().plot().to_screen({780, 1.55})[0] - panel().plot().to_screen({380, 1.55})[0], 1.1 * before);
+}
+
+// -------------------------------------------------------------------------------------------------------- effort
+
+class DispersionEffortTest : public test::WindowFixtureOf<test::SeeingRuns> {
+protected:
+  DispersionEffortTest() : test::WindowFixtureOf<test::SeeingRuns>("dispersion") {}
+  void open_room(const std::string& effort)
+  {
+    ASSERT_TRUE(workbench.open(folder.write("room.json", test::room_text("\"D65\"", effort))));
+    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.seen_by_glass() != nullptr; }));
+    frames(2);
+  }
+};
+
+// Radziszewski et al.: u = 1 / cosh^2(.0072 (l - 538)); a cluster has its largest, and ceil(u N) of N = 100 iterations. The largest u
+// is 1 already: 538 nm is one of the wavelengths.
+TEST_F(DispersionEffortTest, UnequalWorkSavesMore)
+{
+  open_room("radziszewski");
+  const ClusterFigures& chosen = workspace.dispersion().model().chosen();
+  double iterations = 0;
+  for (const spectral::Cluster& cluster : chosen.clustering.clusters) {
+    double u = 0;
+    for (const int index : cluster.wavelengths) u = std::max(u, 1 / std::pow(std::cosh(0.0072 * (optics::wavelength_nm(index) - 538)), 2));
+    iterations += std::ceil(100 * u);
+  }
+  ASSERT_TRUE(workspace.dispersion().saving_by_effort());
+  EXPECT_NEAR(*workspace.dispersion().saving_by_effort(), 401 * 100 / iterations, 1e-9);
+  EXPECT_GT(*workspace.dispersion().saving_by_effort(), chosen.saving);
+  open_room("importance");
+  ASSERT_TRUE(workspace.dispersion().saving_by_effort());
+  EXPECT_GT(*workspace.dispersion().saving_by_effort(), chosen.saving);
+  open_room("power");
+  EXPECT_FALSE(workspace.dispersion().saving_by_effort());
 }
 
 // ------------------------------------------------------------------------------------------- what follows the mouse
