@@ -270,6 +270,29 @@ TEST(SpectralDifferentials, KeepTheLightAtTheEdgeOfAReceiver)
   for (int i = last + 1; i < columns; ++i) EXPECT_EQ(band[static_cast<std::size_t>(i)][1], 0) << i << " beyond " << last;
 }
 
+// A strip between the camera and the receiver hides columns 400 to 600, wherever the photons are whose streaks lie there.
+TEST(SpectralDifferentials, AreHiddenByWhatStandsBeforeThem)
+{
+  Newton newton;
+  const double half_way = (2 - drop) / 2,
+               middle = newton.left() + columns / 2 * newton.pixel(); // the camera is 2 + drop above the receiver
+  const double from = middle + (400 - columns / 2) * newton.pixel() / 2, to = middle + (600 - columns / 2) * newton.pixel() / 2;
+  newton.preset().scene.objects.push_back(object("strip", quad(to - from, 1), "white", at({(from + to) / 2, half_way, 0})));
+  newton.preset().spectral.differentials = true;
+  const Columns band = newton.rendered(render(newton.preset())), truth = newton.truth();
+  double seen = 0, expected = 0;
+  for (std::size_t i = 0; i < columns; ++i) {
+    if (i > 400 && i < 599) {
+      EXPECT_EQ(band[i][1], 0) << i;
+    } else if (i < 399 || i > 600) {
+      EXPECT_GT(band[i][1], 0) << i;
+      seen += band[i][1];
+      expected += truth[i][1];
+    }
+  }
+  EXPECT_NEAR(seen / expected, 1, 0.02);
+}
+
 TEST(SpectralDifferentials, AreLeftOutWhereNothingDisperses)
 {
   Newton newton;
