@@ -63,4 +63,19 @@ FAULTS = [
     Fault("boxes do not grow", "bvh.h", "0x1p-20f * BVH_MAX", "-0x1p-12f * BVH_MAX"),
     Fault("barycentrics swapped", "surface.h", "a + hit.u * ab + hit.v * ac", "a + hit.v * ab + hit.u * ac"),
     Fault("faceted where smooth", "surface.h", "if (objects[surface.object].smooth)", "if (!objects[surface.object].smooth)"),
+    # Indirect light
+    Fault("light of the first diffuse surface too", "indirect.cl", "bool met_diffuse = false;", "bool met_diffuse = true;"),
+    Fault("sent on uniformly, not by the cosine", "indirect.cl", "const float radius = sqrt(u);", "const float radius = sqrt(u * (2.0f - u));"),
+    Fault("reflectance counts twice", "indirect.cl", "const float scale = photon->watts *",
+          "const float scale = world->tables.reflectance[reflector * WAVELENGTH_COUNT + photon->band.wavelength] * photon->watts *"),
+    Fault("indirect light without the shading normal", "indirect.cl",
+          "return max(dot(arriving, surface->shading) / dot(arriving, surface->geometric), 0.0f);", "return 1.0f;"),
+    # Background
+    Fault("surroundings as in a mirror", "background.h", "atan2(direction.x, -direction.z)", "atan2(-direction.x, -direction.z)"),
+    Fault("surroundings upside down", "background.h", "direction.z * direction.z), direction.y)", "direction.z * direction.z), -direction.y)"),
+    Fault("turned the other way", "background.h", "+ b->size.turns", "- b->size.turns"),
+    Fault("half a texel to the side", "background.h", "(float)b->size.width - 0.5f", "(float)b->size.width"),
+    Fault("a seam", "background.h", "column + 1 < b->size.width ? column + 1 : 0", "min(column + 1, b->size.width - 1)"),
+    Fault("background without n^2", "background.cl", "return radiance_scale * shown_after(", "return shown_after("),
+    Fault("wavelengths without their weight", "background.cl", "* band->weight * background_xyz", "* background_xyz"),
 ]
