@@ -19,6 +19,7 @@ PROGRAMS = [
     "kernels_fresnel_test", "kernels_film_test", "kernels_random_test", "kernels_emission_test", "kernels_samplers_test",
     "kernels_emission_samplers_test", "images_statistics_test", "physics_radiance_in_glass_test", "physics_area_light_test",
     "physics_refraction_test", "physics_radiometry_test", "kernels_trace_test", "images_error_estimate_test", "kernels_photons_test",
+    "physics_background_test", "physics_indirect_test",
 ]
 
 
