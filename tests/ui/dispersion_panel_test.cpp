@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, files are loaded, what is
 // wrong becomes a message.
+#include "dispersion_fixture.h"
 #include "optics/dispersion.h"
 #include "preset/read.h"
 #include "spectra_scene.h"
 #include "spectral/clusters.h"
 #include "ui/actions.h"
-#include "window_fixture.h"
 
 #include <gmock/gmock.h>
 
@@ -16,97 +16,11 @@ namespace nephroid::ui {
 namespace {
 
 using spectral::ClusterMethod;
+using test::five, test::from_file, test::from_points, test::shipped;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-std::string shipped(const std::string& name) { return std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"; }
-
-preset::Dispersion from_file(const std::string& file)
-{
-  preset::Dispersion dispersion;
-  dispersion.type = preset::Dispersion::Type::file;
-  dispersion.file = file;
-  return dispersion;
-}
-
-preset::Dispersion from_points(std::vector<ControlPoint> points) { return with_points({}, std::move(points)); }
-
-const std::vector<ControlPoint> five{{380, 1.62}, {450, 1.58}, {550, 1.55}, {650, 1.53}, {780, 1.52}};
-
-class DispersionPanelTest : public test::WindowFixture {
-protected:
-  DispersionPanelTest() : test::WindowFixture("dispersion") {}
-
-  /// A preset of these dielectrics, with a ball of each.
-  void open_glass(const std::map<std::string, preset::Dispersion>& glasses)
-  {
-    preset::Preset made = preset::parse_preset(test::preset_text, "test");
-    for (const auto& [name, dispersion] : glasses) {
-      preset::Material& material = made.scene.materials[name];
-      material.type = preset::Material::Type::dielectric;
-      material.dispersion = dispersion;
-      preset::Object& ball = made.scene.objects.emplace_back();
-      ball.name = ball.material = name;
-      ball.shape = preset::Shape{};
-    }
-    ASSERT_TRUE(workbench.open(folder.write("glass.json", preset::to_json(made))));
-    frames(4);
-  }
-  const DispersionPanel& panel() const { return workspace.dispersion(); }
-  const preset::Dispersion& dispersion(const std::string& material = "glass") const
-  {
-    return workbench.preset()->scene.materials.at(material).dispersion;
-  }
-  std::vector<ControlPoint> points() const { return sorted_points(dispersion()); }
-  std::size_t shown_count(ClusterMethod method) const { return panel().model().figures(method).clustering.clusters.size(); }
-  /// What the clusters of the preset's curve are, without the panel.
-  std::size_t true_count(ClusterMethod method) const
-  {
-    return spectral::cluster_wavelengths(optics::sample_n(optics::control_points(dispersion().table), optics::Outside::automatic),
-                                         workbench.preset()->spectral.threshold_deg, method)
-        .clusters.size();
-  }
-  void expect_true_counts() const
-  {
-    ASSERT_EQ(panel().model().error(), "");
-    for (const ClusterMethod method : {ClusterMethod::optimal, ClusterMethod::thesis, ClusterMethod::brute_force})
-      EXPECT_EQ(shown_count(method), true_count(method));
-  }
-
-  void move(const std::array<double, 2>& at)
-  {
-    imgui.move(at[0], at[1]);
-    frame();
-  }
-  void press_at(const std::array<double, 2>& at, int button = 0)
-  {
-    move(at);
-    frame(); // a point is known to be under the mouse from the second frame on
-    imgui.button(button, true);
-    frame();
-  }
-  void let_go(int button = 0)
-  {
-    imgui.button(button, false);
-    frame();
-  }
-  void click(const std::array<double, 2>& at, int button = 0)
-  {
-    press_at(at, button);
-    let_go(button);
-    frame();
-  }
-  void click(const std::string& widget) { click(panel().widget(widget)); }
-  /// In the plot, as wavelength and n.
-  void drag_point(const ControlPoint& from, const ControlPoint& to, int steps = 5)
-  {
-    const auto begin = panel().plot().to_screen(from), end = panel().plot().to_screen(to);
-    press_at(begin);
-    for (int i = 1; i <= steps; ++i) move({begin[0] + (end[0] - begin[0]) * i / steps, begin[1] + (end[1] - begin[1]) * i / steps});
-    let_go();
-    frame();
-  }
-};
+class DispersionPanelTest : public test::DispersionFixture {};
 
 TEST_F(DispersionPanelTest, WithoutGlassItSaysSo)
 {
@@ -290,90 +204,6 @@ TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
   frames(3);
   EXPECT_EQ(panel().model().curves_made(), curves) << "the curve is the same";
   EXPECT_EQ(panel().model().clusterings_made(), clusterings + 1);
-}
-
-TEST_F(DispersionPanelTest, FilesAreLoadedIntoTheGlassThatIsShown)
-{
-  open_glass({{"a", from_points(five)}, {"glass", from_points(five)}});
-  workbench.apply({command::ChooseMaterial{"glass"}});
-  frames(2);
-  workbench.apply({command::Open{shipped("N-BK7")}}); // what dropping a file does
-  frames(2);
-  EXPECT_EQ(dispersion().file, shipped("N-BK7"));
-  EXPECT_EQ(dispersion("a"), from_points(five));
-  EXPECT_EQ(panel().model().curve().name, "N-BK7");
-  EXPECT_EQ(shown_count(ClusterMethod::thesis), 12u);
-  EXPECT_EQ(workbench.history()->undo_label(), "load N-BK7 into glass");
-  press(ImGuiKey_Z, ImGuiMod_Ctrl);
-  EXPECT_EQ(points(), five);
-}
-
-TEST_F(DispersionPanelTest, AFileThatCannotBeLoadedIsAMessage)
-{
-  open_glass({{"glass", from_points(five)}});
-  for (const std::string& bad : {folder.write("broken.yml", "DATA: ["), folder.write("empty.yaml", ""),
-                                 folder.write("only-k.yml", "DATA:\n  - type: tabulated k\n    data: |\n      0.3 0.1\n      0.9 0.1\n"),
-                                 (folder.path() / "missing.yml").string()}) {
-    workbench.apply({command::Open{bad}});
-    frames(2);
-    ASSERT_FALSE(workbench.messages().empty()) << bad;
-    EXPECT_TRUE(workbench.messages().back().error);
-    EXPECT_THAT(workbench.messages().back().line, HasSubstr(std::filesystem::path(bad).filename().string()));
-    EXPECT_EQ(points(), five);
-    EXPECT_FALSE(workbench.history()->modified());
-  }
-  expect_true_counts();
-}
-
-TEST_F(DispersionPanelTest, WithoutGlassAFileIsRefused)
-{
-  open();
-  workbench.apply({command::Open{shipped("N-BK7")}});
-  ASSERT_THAT(workbench.messages(), SizeIs(1));
-  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("this preset has no dielectric"));
-  EXPECT_FALSE(workbench.history()->modified());
-}
-
-TEST_F(DispersionPanelTest, AGlassIsMadeEditableAndBackByUndo)
-{
-  open_glass({{"glass", from_file(shipped("N-SF66"))}});
-  click("Make editable");
-  frames(2);
-  EXPECT_EQ(dispersion().type, preset::Dispersion::Type::points);
-  EXPECT_EQ(panel().model().error(), "");
-  EXPECT_EQ(shown_count(ClusterMethod::optimal), 32u);
-  ASSERT_FALSE(workbench.messages().empty());
-  EXPECT_THAT(workbench.messages().back().line, HasSubstr("they reproduce N-SF66 within 9e-05 of n"));
-  drag_point(points()[3], {points()[3][0], points()[3][1] + 0.02});
-  expect_true_counts();
-  press(ImGuiKey_Z, ImGuiMod_Ctrl);
-  press(ImGuiKey_Z, ImGuiMod_Ctrl);
-  EXPECT_EQ(dispersion(), from_file(shipped("N-SF66")));
-}
-
-TEST_F(DispersionPanelTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
-{
-  preset::Dispersion nowhere; // n^2 = 1 - 5 l^2 / (l^2 - .01) < 0
-  nowhere.type = preset::Dispersion::Type::sellmeier;
-  nowhere.b = {-5};
-  nowhere.c_um2 = {0.01};
-  open_glass({{"glass", nowhere}});
-  EXPECT_THAT(panel().model().error(), HasSubstr("gives no number at 380 nm"));
-  preset::Dispersion refused = from_file(shipped("N-SF66"));
-  refused.outside = preset::Outside::refuse;
-  const preset::Dispersion missing = from_file("nowhere.yml");
-  for (const preset::Dispersion& bad : {refused, missing, nowhere}) {
-    workbench.apply({command::Edit{"bad", with_dispersion(*workbench.preset(), "glass", bad)}});
-    frames(3);
-    EXPECT_NE(panel().model().error(), "");
-    move(panel().plot().to_screen({500, 1.5}));
-    click("Sorted");
-    click("Make editable");
-    EXPECT_EQ(dispersion(), bad) << "greyed";
-  }
-  workbench.apply({command::LoadDispersion{"N-BK7"}});
-  frames(3);
-  EXPECT_EQ(panel().model().error(), "");
 }
 
 TEST_F(DispersionPanelTest, AnUndoDuringADragIsNoHarm)

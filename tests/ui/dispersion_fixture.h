@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Dispersion" in a window without a display: presets with glass, the mouse on its points and widgets.
+#pragma once
+#include "optics/dispersion.h"
+#include "preset/read.h"
+#include "spectral/clusters.h"
+#include "window_fixture.h"
+
+#include <map>
+
+namespace nephroid::test {
+
+using spectral::ClusterMethod;
+using ui::ControlPoint;
+
+inline std::string shipped(const std::string& name) { return std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"; }
+
+inline preset::Dispersion from_file(const std::string& file)
+{
+  preset::Dispersion dispersion;
+  dispersion.type = preset::Dispersion::Type::file;
+  dispersion.file = file;
+  return dispersion;
+}
+
+inline preset::Dispersion from_points(std::vector<ControlPoint> points) { return ui::with_points({}, std::move(points)); }
+
+inline const std::vector<ControlPoint> five{{380, 1.62}, {450, 1.58}, {550, 1.55}, {650, 1.53}, {780, 1.52}};
+
+class DispersionFixture : public WindowFixture {
+protected:
+  DispersionFixture() : WindowFixture("dispersion") {}
+
+  /// A preset of these dielectrics, with a ball of each.
+  void open_glass(const std::map<std::string, preset::Dispersion>& glasses)
+  {
+    preset::Preset made = preset::parse_preset(test::preset_text, "test");
+    for (const auto& [name, dispersion] : glasses) {
+      preset::Material& material = made.scene.materials[name];
+      material.type = preset::Material::Type::dielectric;
+      material.dispersion = dispersion;
+      preset::Object& ball = made.scene.objects.emplace_back();
+      ball.name = ball.material = name;
+      ball.shape = preset::Shape{};
+    }
+    ASSERT_TRUE(workbench.open(folder.write("glass.json", preset::to_json(made))));
+    frames(4);
+  }
+  const ui::DispersionPanel& panel() const { return workspace.dispersion(); }
+  const preset::Dispersion& dispersion(const std::string& material = "glass") const
+  {
+    return workbench.preset()->scene.materials.at(material).dispersion;
+  }
+  std::vector<ControlPoint> points() const { return ui::sorted_points(dispersion()); }
+  std::size_t shown_count(ClusterMethod method) const { return panel().model().figures(method).clustering.clusters.size(); }
+  /// What the clusters of the preset's curve are, without the panel.
+  std::size_t true_count(ClusterMethod method) const
+  {
+    return spectral::cluster_wavelengths(optics::sample_n(optics::control_points(dispersion().table), optics::Outside::automatic),
+                                         workbench.preset()->spectral.threshold_deg, method)
+        .clusters.size();
+  }
+  void expect_true_counts() const
+  {
+    ASSERT_EQ(panel().model().error(), "");
+    for (const ClusterMethod method : {ClusterMethod::optimal, ClusterMethod::thesis, ClusterMethod::brute_force})
+      EXPECT_EQ(shown_count(method), true_count(method));
+  }
+
+  void move(const std::array<double, 2>& at)
+  {
+    imgui.move(at[0], at[1]);
+    frame();
+  }
+  void press_at(const std::array<double, 2>& at, int button = 0)
+  {
+    move(at);
+    frame(); // a point is known to be under the mouse from the second frame on
+    imgui.button(button, true);
+    frame();
+  }
+  void let_go(int button = 0)
+  {
+    imgui.button(button, false);
+    frame();
+  }
+  void click(const std::array<double, 2>& at, int button = 0)
+  {
+    press_at(at, button);
+    let_go(button);
+    frame();
+  }
+  void click(const std::string& widget) { click(panel().widget(widget)); }
+  /// In the plot, as wavelength and n.
+  void drag_point(const ControlPoint& from, const ControlPoint& to, int steps = 5)
+  {
+    const auto begin = panel().plot().to_screen(from), end = panel().plot().to_screen(to);
+    press_at(begin);
+    for (int i = 1; i <= steps; ++i) move({begin[0] + (end[0] - begin[0]) * i / steps, begin[1] + (end[1] - begin[1]) * i / steps});
+    let_go();
+    frame();
+  }
+};
+
+} // namespace nephroid::test
