@@ -64,7 +64,7 @@ LayerCells make_layer_cells(const Survey& survey, std::size_t most, bool every_p
   for (std::size_t i = 0; i < pixels; ++i) {
     std::vector<Seen> list;
     look(survey, static_cast<int>(i) % survey.width, static_cast<int>(i) / survey.width, list);
-    if (list.empty() && every_pixel) list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
+    if (list.empty() && every_pixel && survey.reflector_count > 0) list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
     longest = std::max(longest, list.size());
     seen[i] = std::move(list);
   }

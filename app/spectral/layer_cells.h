@@ -27,8 +27,8 @@ struct Survey {
 };
 
 /// A cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may be in the pixel beside.
-/// most: at most so many; then what pixels see least goes first. every_pixel: also a pixel that sees nothing has one (then `most` is at
-/// least the number of pixels).
+/// most: at most so many; then what pixels see least goes first. every_pixel: also a pixel that sees nothing has one, where there
+/// are reflectors at all (then `most` is at least the number of pixels).
 LayerCells make_layer_cells(const Survey& survey, std::size_t most, bool every_pixel);
 
 /// The most that LayerCells::count() can be for so many cells.

@@ -227,9 +227,11 @@ std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Sc
 
 std::string kernel_sources(const compute::Context& context)
 {
-  return compute::kernel_source(context, "direct.cl") + compute::kernel_source(context, "photons.cl") +
-         compute::kernel_source(context, "indirect.cl") + compute::kernel_source(context, "background.cl") +
-         compute::kernel_source(context, "grid.cl") + compute::kernel_source(context, "view.cl") + compute::kernel_source(context, "gather.cl");
+  std::string all;
+  for (const char* file : {"direct.cl", "photons.cl", "indirect.cl", "background.cl", "grid.cl", "view.cl", "gather.cl", "relight_direct.cl",
+                           "relight_photons.cl", "relight_weigh.cl"})
+    all += compute::kernel_source(context, file);
+  return all;
 }
 
 } // namespace nephroid::spectral

@@ -230,7 +230,17 @@ TEST(Relighting, OnlyTheLightIsAdopted)
   EXPECT_EQ(job->snapshot().energy.refused_contributions, 0u);
 }
 
-TEST(Relighting, TheMemoryIsWhatThePlanSays)
+TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
+{
+  preset::Preset p = layered(ball_scene());
+  p.scene.objects.pop_back(); // no diffuse surface
+  p.stop.passes = 1;
+  p.spectral.leave_out.direct = p.spectral.leave_out.photons = false;
+  const job::Snapshot snapshot = render(p);
+  for (const float value : snapshot.picture->rgb) ASSERT_EQ(value, 0);
+}
+
+TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
 {
   preset::Preset p = layered(tiled_scene());
   p.scene.camera.resolution = {128, 128};
@@ -238,6 +248,8 @@ TEST(Relighting, TheMemoryIsWhatThePlanSays)
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const plan::Plan plan = spectral::make_plan(p, scene, bvh);
   const auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
+  EXPECT_THAT(plan.passes, testing::Not(testing::Contains(testing::Field(&plan::Pass::name, "dark lights")))) << "it is kept";
+  EXPECT_THAT(plan.passes, testing::Contains(testing::Field(&plan::Pass::name, "relighting")));
   std::uint64_t films = 0;
   for (const plan::PlannedBuffer& b : plan.buffers)
     if (b.name.starts_with("film ")) films += b.bytes;

@@ -91,5 +91,25 @@ TEST_F(EngineTest, WithoutAFolderNothingChanges)
   EXPECT_FALSE(engine.take_changed());
 }
 
+TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
+{
+  Engine engine(options());
+  Workbench workbench(engine);
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done, 60); };
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2", "spectral.relight=true"}));
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
+  const double bright = sum(workbench.snapshot());
+  const std::uint64_t run = workbench.status().generation;
+  EXPECT_GT(bright, 0);
+
+  preset::Preset edited = *workbench.preset();
+  edited.scene.lights[0].power_w *= 3;
+  workbench.apply({command::Edit{"power", edited, 1, false}});
+  ASSERT_TRUE(until([&] { return workbench.snapshot_is_current(); }));
+  EXPECT_NEAR(sum(workbench.snapshot()) / bright, 3, 1e-4);
+  EXPECT_EQ(workbench.snapshot()->progress.step, 2);
+  EXPECT_EQ(workbench.status().generation, run);
+}
+
 } // namespace
 } // namespace nephroid::ui
