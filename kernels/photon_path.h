@@ -49,9 +49,11 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   const DeviceLight light = lights[emitter.light];
   const bool area = is_light(&light, LIGHT_AREA);
 #if NEPHROID_LOW_DISCREPANCY
-  const uint index = emitter.sequence_start + (pass - first_pass) / NEPHROID_FILM_HALVES * emitter.light_photon_count +
-                     (photon - emitter.light_first_photon);
-  const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, pass % NEPHROID_FILM_HALVES);
+  const ulong start_of_deal = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
+  const ulong number = start_of_deal + (ulong)((pass - first_pass) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
+                       (photon - emitter.light_first_photon);
+  const uint index = (uint)number; // a sequence has 2^32 points; then another begins
+  const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | pass % NEPHROID_FILM_HALVES);
   const float4 point = sobol4(seed, sequence, 0u, index);
   start.emission.xyz = point.zxy; // the first two dimensions are the best pair
   if (area) start.place = sobol4(seed, sequence, 1u, index).xy;

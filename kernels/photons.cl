@@ -2,6 +2,7 @@
 // The caustic layer: photons of each wavelength cluster leave the lights towards the caustic objects, are bent by glass and mirrors, and
 // are splatted into the pixel that sees the diffuse surface they reach.
 #include "shared_types.h"
+#include "guide.h"
 #include "pass_band.h"
 #include "photon_path.h"
 #include "splat.h"
@@ -11,7 +12,7 @@
 #ifndef NEPHROID_PHOTONS_PER_ITEM
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
-// 1: measure each emitter's variance.
+// 1: photons go where they matter, and it is measured where that is.
 #ifndef NEPHROID_MOMENTS
 #define NEPHROID_MOMENTS 0
 #endif
@@ -39,7 +40,10 @@ static inline long squared(float3 xyz, float scale)
 // Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                      volatile __global long* moments,                              // [emitter], with NEPHROID_MOMENTS
+                      volatile __global long* moments,       // with NEPHROID_MOMENTS: [emitter]
+                      volatile __global long* guide_moments, // ... [light][GUIDE_CELLS]
+                      __global const float* guide,           // ... [light][GUIDE_FLOATS]
+                      float unseen_weight,                   // ... of a stored photon that no pixel sees directly, as if one did
                       __global StoredPhoton* stored,                                // [photon], with NEPHROID_STORE
                       int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint pass, uint first_pass, uint offset,
                       uint stride, uint count, float film_scale, float energy_scale, float stored_scale)
@@ -54,9 +58,15 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #if NEPHROID_STORE
     stored[photon].group = NO_PHOTON;
 #endif
-    const PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, first_pass, photon);
+    PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, first_pass, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
     const DeviceLight light = lights[emitter.light];
+#if NEPHROID_MOMENTS
+    const Guided guided = guide_numbers(guide + emitter.light * GUIDE_FLOATS, &start.emission);
+    long moment = 0;
+#else
+    const Guided guided = {1.0f, 0u};
+#endif
     const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE
@@ -65,7 +75,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #endif
     const float share = band_share(&world, emitter.light, &band, emitter.share);
-    const float watts = emission.watts / (float)emitter.photon_count; // as if the band had all of the light's power
+    const float watts = emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
     const PhotonEnd end = trace_photon(&world, emitter.light, &band, share, &path, seed, pass, photon);
 #if NEPHROID_STORE
@@ -84,11 +94,18 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
         const float dither = start.emission.w + 0.61803399f * (float)i; // every strand's own
         if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, dither - floor(dither))) ++outcomes[OUTCOME_REFUSED];
 #if NEPHROID_MOMENTS
-        add_exactly(moments + start.emitter, squared(xyz, film_scale));
+        moment += squared(xyz, film_scale);
 #endif
       }
     }
 
+#if NEPHROID_MOMENTS
+    if (NEPHROID_STORE && end.outcome == OUTCOME_DEPOSITED && moment == 0) moment = squared(end.xyz * (watts * unseen_weight / PI_F), film_scale);
+    if (moment != 0) {
+      add_exactly(moments + start.emitter, moment);
+      add_exactly(guide_moments + emitter.light * GUIDE_CELLS + guided.cell, moment);
+    }
+#endif
     const long quanta = convert_long_rte(watts * share * energy_scale);
     const long left = end.left >= 1.0f ? quanta : convert_long_rte((float)quanta * end.left);
     outcomes[OUTCOME_EMITTED] += quanta;

@@ -22,6 +22,13 @@ struct alignas(16) float4 {
 // At most this many spheres stand for the caustic objects.
 #define MAX_TARGETS 16
 
+// The histogram that guides a light's photons (guide.h): bins of the numbers that pick a target and a direction in it.
+#define GUIDE_BINS_X 16
+#define GUIDE_BINS_Y 16
+#define GUIDE_BINS_Z 16
+#define GUIDE_CELLS (GUIDE_BINS_X * GUIDE_BINS_Y * GUIDE_BINS_Z)
+#define GUIDE_FLOATS (GUIDE_BINS_X + GUIDE_BINS_X * GUIDE_BINS_Y + GUIDE_CELLS)
+
 #define MATERIAL_DIFFUSE 0
 #define MATERIAL_DIELECTRIC 1
 #define MATERIAL_MIRROR 2
@@ -62,9 +69,9 @@ typedef struct {
 } Media;
 
 typedef struct {
-  float4 position;     // area: its centre; directional: unused
-  float4 direction;    // unit, the way the light goes; point: unused
-  float4 edge_u;       // area: the full edges
+  float4 position;  // area: its centre; directional: unused
+  float4 direction; // unit, the way the light goes; point: unused
+  float4 edge_u;    // area: the full edges
   float4 edge_v;
   int type;            // LIGHT_*
   float one_minus_cos; // spot: of its half angle
@@ -73,7 +80,7 @@ typedef struct {
   Media inside;        // directional: none
   int first_target;    // in the table of targets: those that this light can reach
   int target_count;
-  int number;          // among the preset's lights: its random numbers do not depend on which others are left out
+  int number; // among the preset's lights: its random numbers do not depend on which others are left out
   int padding;
 } DeviceLight;
 
@@ -94,9 +101,10 @@ typedef struct {
   float share;             // the cluster's share of the light's power, 0..1
   uint light_first_photon; // of all emitters of this light together
   uint light_photon_count;
-  uint sequence;           // which low-discrepancy sequence those have,
-  uint sequence_start;     // and where in it each half of the film is: the photons of earlier deals
-  int padding[3];
+  uint sequence;            // which low-discrepancy sequence those have,
+  uint sequence_start;      // and where in it each half of the film is: the photons of earlier deals, lower
+  uint sequence_start_high; // and upper 32 bits
+  int padding[2];
 } DeviceEmitter;
 
 typedef struct {
@@ -116,7 +124,7 @@ typedef struct {
 
 // What every kernel needs of the scene as a whole.
 typedef struct {
-  int root;               // of the tree: bvh.h
+  int root; // of the tree: bvh.h
   int material_count;
   int light_count;
   int cluster_count;

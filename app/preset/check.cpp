@@ -151,7 +151,6 @@ void check_relight(const Spectral& spectral, const Where& where)
   refuse(spectral.estimator == Spectral::Estimator::sppm, "estimator", "photon maps add up colours, not layers");
   refuse(spectral.effort != Spectral::Effort::power, "effort",
          "half of the photons go by the present light's power, and half to every cluster alike for lights to come");
-  refuse(spectral.jitter, "jitter", "a layer is a whole cluster's");
   refuse(spectral.differentials, "differentials", "a layer is a whole cluster's");
   refuse(spectral.indirect, "indirect", "its light met several reflectors");
 }

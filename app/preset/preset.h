@@ -188,8 +188,8 @@ struct Spectral {
   Estimator estimator = Estimator::automatic;
   Effort effort = Effort::power;
   Importance importance;
-  bool jitter = false;                     ///< each photon takes one wavelength of its cluster, so clusters leave no bias
-  bool low_discrepancy = false;            ///< photons leave the lights by a scrambled Sobol sequence
+  bool jitter = true;                      ///< each photon takes one wavelength of its cluster, so clusters leave no bias
+  bool low_discrepancy = true;             ///< photons leave the lights by a scrambled Sobol sequence
   bool differentials = false;              ///< a splat is stretched along the way that it moves with wavelength
   bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster

@@ -125,7 +125,8 @@ private:
       emitters_[e].share = now[e].share;
       if (!deals) continue;
       emitters_[e].photon_count = now[e].photon_count;
-      emitters_[e].sequence_start = static_cast<std::uint32_t>(std::max(sent_by(emitters_[e].light, 0), sent_by(emitters_[e].light, 1)));
+      emitters_[e].sequence_start = emitters_[e].sequence_start_high = 0;
+      advance_sequence(emitters_[e], std::max(sent_by(emitters_[e].light, 0), sent_by(emitters_[e].light, 1)));
     }
     if (deals) number_photons(emitters_);
     shared_ = relighting_.changes;

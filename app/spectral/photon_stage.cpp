@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons that are splatted into the pixel that sees them: kernels/photons.cl.
+#include "spectral/emission_guide.h"
 #include "spectral/film.h"
 #include "spectral/photon_map.h"
 #include "spectral/photon_slices.h"
 #include "spectral/stages.h"
 #include "spectral/variance_deal.h"
+
+#include <cmath>
+#include <numbers>
 
 namespace nephroid::spectral {
 namespace {
@@ -13,7 +17,10 @@ class PhotonStage final : public Stage {
 public:
   PhotonStage(DeviceWorld& world, const preset::Spectral& settings, PhotonMap* map)
       : world_(world), by_variance_(settings.effort == preset::Spectral::Effort::variance), deal_(world.tables.emitters),
+        guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
+        guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * GUIDE_CELLS : 0)),
+        guide_table_(world.context, "guide of directions", std::span<const float>(guide_.table())),
         film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0),
         photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
   {
@@ -35,10 +42,10 @@ public:
     const DeviceTables& t = world_.tables;
     return slices_.step(t.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
       world_.run(kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, world_.buffers.emitters, film_,
-                 world_.energy, moments_, stored_, t.scene.emitter_count, static_cast<int>(t.objects.size()), t.camera, world_.seed,
-                 static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(deal_.first_pass()), offset, stride, count,
-                 world_.on_device(t.caustic_scale), world_.on_device(t.energy_scale),
-                 world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w)));
+                 world_.energy, moments_, guide_moments_, guide_table_, unseen_weight(), stored_, t.scene.emitter_count,
+                 static_cast<int>(t.objects.size()), t.camera, world_.seed, static_cast<std::uint32_t>(pass),
+                 static_cast<std::uint32_t>(deal_.first_pass()), offset, stride, count, world_.on_device(t.caustic_scale),
+                 world_.on_device(t.energy_scale), world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w)));
     });
   }
 
@@ -55,29 +62,55 @@ public:
     slices_.save(to);
     to.buffer(film_);
     deal_.save(to);
+    guide_.save(to);
     to.buffer(moments_);
+    to.buffer(guide_moments_);
   }
   void load(StateReader& from) override
   {
     slices_.load(from);
     from.buffer(film_);
     deal_.load(from);
+    guide_.load(from);
     from.buffer(moments_);
-    world_.buffers.emitters.write(deal_.emitters());
+    from.buffer(guide_moments_);
+    write_deal();
   }
 
 private:
+  /// Deals the photons of the passes from this one on by what the earlier ones have shown.
   void deal(std::int64_t pass)
   {
+    std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
+    for (const shared::DeviceEmitter& e : deal_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
+    guide_.learn(guide_moments_.read(), photons, static_cast<double>(pass - deal_.first_pass()));
     deal_.deal(pass, moments_.read(), world_.halves);
     moments_.fill_zero();
+    guide_moments_.fill_zero();
+    write_deal();
+  }
+
+  void write_deal()
+  {
     world_.buffers.emitters.write(deal_.emitters());
+    guide_table_.write(guide_.table());
+  }
+
+  /// What a photon that only a map will show is worth: a quarter of a splat on a surface as far away as the scene's middle, of which
+  /// DeviceTables::caustic_scale makes 2^16 quanta.
+  float unseen_weight() const
+  {
+    const DeviceTables& t = world_.tables;
+    return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_pass * std::numbers::pi / (t.caustic_scale * t.light_towards_targets_w));
   }
 
   DeviceWorld& world_;
   bool by_variance_;
   VarianceDeal deal_;
-  compute::Buffer<std::int64_t> moments_; ///< [emitter], see VarianceDeal::deal
+  EmissionGuide guide_;
+  compute::Buffer<std::int64_t> moments_;       ///< [emitter], see VarianceDeal::deal
+  compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
+  compute::Buffer<float> guide_table_;
   compute::Buffer<std::int64_t> film_;
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   unsigned photons_per_item_;

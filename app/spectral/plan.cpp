@@ -3,8 +3,8 @@
 #include "spectral/device_scene.h"
 #include "spectral/effort.h"
 #include "spectral/engine.h"
-#include "spectral/layer_plan.h"
 #include "spectral/layer_light.h"
+#include "spectral/layer_plan.h"
 #include "spectral/map_plan.h"
 #include "spectral/omissions.h"
 
@@ -71,11 +71,11 @@ plan::Pass background_pass(const preset::Spectral& settings, const scene::Scene&
   if (!scene.environment) return {"background", false, "there is no environment: what meets nothing is black", "", false};
   if (scene.environment->is_black()) return {"background", false, "the environment is black", "", false};
   const int width = scene.environment->width, height = scene.environment->height;
-  return {"background", true,
-          (width * height == 1 ? "one colour all around" : fmt::format("a picture of {} x {} texels", width, height)) +
-              fmt::format(", seen directly, through glass and in mirrors; {} a pixel",
-                          counted(settings.pixel_samples, "sample", "samples")),
-          "/spectral/background", true};
+  return {
+      "background", true,
+      (width * height == 1 ? "one colour all around" : fmt::format("a picture of {} x {} texels", width, height)) +
+          fmt::format(", seen directly, through glass and in mirrors; {} a pixel", counted(settings.pixel_samples, "sample", "samples")),
+      "/spectral/background", true};
 }
 
 plan::Pass stray_photons_pass(const preset::LeaveOut& leave_out, const DeviceTables& tables)
@@ -93,14 +93,16 @@ plan::Pass estimate_pass(const preset::Preset& preset, bool caustics)
     return {"error estimate", false, "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves", "",
             false};
   return {"error estimate", preset.measure.estimate,
-          preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false", "/measure/estimate", true};
+          preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false", "/measure/estimate",
+          true};
 }
 
 plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Scene& scene, bool splats)
 {
   const std::string field = "/spectral/differentials";
   if (!settings.differentials) return not_asked_for("differentials", "differentials");
-  if (settings.relight) return {"differentials", false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
+  if (settings.relight)
+    return {"differentials", false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
   if (!splats) return {"differentials", false, "nothing is splatted", "", false};
   const StretchParameter along = stretch_parameter(scene);
   if (along == StretchParameter::none) return {"differentials", false, "no glass bends one wavelength otherwise than another", field, true};
@@ -112,10 +114,27 @@ plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Sce
 
 std::uint64_t film_bytes(const scene::Scene& scene, int halves)
 {
-  return static_cast<std::uint64_t>(halves) * 3 * sizeof(std::int64_t) * static_cast<std::uint64_t>(scene.camera.width) * scene.camera.height;
+  return static_cast<std::uint64_t>(halves) * 3 * sizeof(std::int64_t) * static_cast<std::uint64_t>(scene.camera.width) *
+         scene.camera.height;
 }
 
 std::uint64_t bytes_of(const auto& items) { return items.size() * sizeof(items[0]); }
+
+plan::Pass jitter_pass(const preset::Spectral& settings, const WavelengthTables& tables)
+{
+  const std::string field = "/spectral/jitter";
+  if (!settings.jitter) return {"jitter", false, "spectral.jitter is false: every path of a cluster has the cluster's mean n", field, true};
+  if (settings.relight) return {"jitter", false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
+  if (!tables.clusters_spread) return {"jitter", false, "n is the same at all wavelengths of every cluster", "", false};
+  return {"jitter", true, "each path takes one wavelength of its cluster, so clusters leave no bias", field, false};
+}
+
+plan::Pass low_discrepancy_pass(const preset::Spectral& settings)
+{
+  const std::string field = "/spectral/low_discrepancy";
+  if (!settings.low_discrepancy) return {"low discrepancy", false, "spectral.low_discrepancy is false: plain random numbers", field, true};
+  return {"low discrepancy", true, "photons leave the lights by a scrambled Sobol sequence", field, false};
+}
 
 std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene::Bvh& bvh, const DeviceTables& tables, bool direct,
                                          bool photons, int halves)
@@ -125,8 +144,9 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
       {"tree", bytes_of(bvh.nodes) + bytes_of(bvh.blocks)},
       {"triangles", bytes_of(scene.geometry.triangles) + bytes_of(scene.geometry.positions) + bytes_of(scene.geometry.normals) +
                         bytes_of(scene.object_of_triangle)},
-      {"wavelength tables", bytes_of(w.index_of_cluster) + bytes_of(w.index_of_wavelength) + bytes_of(w.wavelength_cdf) + bytes_of(w.coefficient) + bytes_of(w.reflectance) + bytes_of(w.light_xyz) +
-                                bytes_of(w.reflected_xyz) + bytes_of(w.reflected_xyz_all) + bytes_of(w.cluster_wavelengths)}};
+      {"wavelength tables", bytes_of(w.index_of_cluster) + bytes_of(w.index_of_wavelength) + bytes_of(w.wavelength_cdf) +
+                                bytes_of(w.coefficient) + bytes_of(w.reflectance) + bytes_of(w.light_xyz) + bytes_of(w.reflected_xyz) +
+                                bytes_of(w.reflected_xyz_all) + bytes_of(w.cluster_wavelengths)}};
   if (direct) list.push_back({"film direct", film_bytes(scene, halves)});
   if (photons) list.push_back({"film caustic", film_bytes(scene, halves)});
   return list;
@@ -147,16 +167,19 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   const plan::Pass estimate = estimate_pass(preset, photons.runs);
   const int halves = estimate.runs ? 2 : 1;
   const bool relight = preset.spectral.relight;
-  const MapPlan maps = relight ? MapPlan{no_maps_of_layers(), {}}
-                               : plan_maps(preset.spectral, scene, tables, photons.runs, film_bytes(scene, halves));
+  const MapPlan maps =
+      relight ? MapPlan{no_maps_of_layers(), {}} : plan_maps(preset.spectral, scene, tables, photons.runs, film_bytes(scene, halves));
   const bool caustics = photons.runs;
   if (caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
     photons = {"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false};
   const plan::Pass differentials = differentials_pass(preset.spectral, scene, photons.runs);
+  const plan::Pass jitter = jitter_pass(preset.spectral, tables.wavelengths);
   plan.passes = {direct, photons};
   if (caustics) {
     plan.passes.push_back(effort_pass(preset.spectral, tables.importance));
     plan.passes.push_back(stray_photons_pass(leave_out, tables));
+    plan.passes.push_back(jitter);
+    plan.passes.push_back(low_discrepancy_pass(preset.spectral));
     plan.passes.push_back(differentials);
   }
   const std::vector<plan::Pass> code = code_omissions(leave_out, scene, attenuators);
@@ -173,11 +196,14 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
     plan.buffers.push_back({"environment", bytes_of(scene.environment->rgb)});
     plan.buffers.push_back({"film background", film_bytes(scene, halves)});
   }
+  if (photons.runs && preset.spectral.effort == preset::Spectral::Effort::variance)
+    plan.buffers.push_back(
+        {"guide of directions", tables.lights.size() * (GUIDE_FLOATS * sizeof(float) + GUIDE_CELLS * sizeof(std::int64_t))});
   if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);
   plan.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(int(differentials.runs));
-  plan.defines["NEPHROID_JITTER"] = std::to_string(int(preset.spectral.jitter && tables.wavelengths.clusters_spread));
+  plan.defines["NEPHROID_JITTER"] = std::to_string(int(jitter.runs));
   plan.defines["NEPHROID_LOW_DISCREPANCY"] = std::to_string(int(preset.spectral.low_discrepancy));
   plan.defines["NEPHROID_FILM_HALVES"] = std::to_string(halves);
   plan.defines["NEPHROID_MAX_SURFACES"] = std::to_string(preset.spectral.max_surfaces);

@@ -38,7 +38,8 @@ public:
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
         random_(settings.effort == preset::Spectral::Effort::random), alpha_(settings.sppm.alpha),
         first_radius_(first_map_radius(settings, scene)), map_(world.context, photons_, world.defines), eye_(world),
-        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1), unused_(world.context, "unused", 0)
+        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1), unused_(world.context, "unused", 0),
+        no_guide_(world.context, "unused", 0)
   {
     compute::Defines defines = world.defines;
     defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
@@ -165,6 +166,7 @@ private:
   std::vector<Sender> senders_; ///< [cluster]
   std::vector<Run> runs_;
   compute::Buffer<std::int64_t> unused_; ///< for what the photon kernel does not do here
+  compute::Buffer<float> no_guide_;      ///< likewise
   PhotonSlices slices_;
   Position at_;
   bool sorted_ = false; ///< the grid has this iteration's photons
@@ -201,8 +203,9 @@ bool SppmStage::send(std::int64_t pass)
   const DeviceTables& t = world_.tables;
   return slices_.step(photons_, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
     world_.run(send_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, sender.emitters, unused_,
-               run_of(at_.cluster).energy, unused_, map_.stored(), sender.emitter_count, static_cast<int>(t.objects.size()), t.camera,
-               seed_of(at_.cluster), static_cast<std::uint32_t>(iterations_of(at_.cluster, pass)), 0u, offset, stride, count, 0.0f,
+               run_of(at_.cluster).energy, unused_, unused_, no_guide_, 0.0f, map_.stored(), sender.emitter_count,
+               static_cast<int>(t.objects.size()), t.camera, seed_of(at_.cluster),
+               static_cast<std::uint32_t>(iterations_of(at_.cluster, pass)), 0u, offset, stride, count, 0.0f,
                world_.on_device(t.energy_scale), world_.on_device(sender.photon_scale));
   });
 }

@@ -50,7 +50,7 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
   const std::vector<unsigned> counts = deal_out(weights, all);
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     shared::DeviceEmitter& emitter = emitters_[e];
-    emitter.sequence_start += static_cast<std::uint32_t>(pass - first_pass_) / halves * emitter.light_photon_count;
+    advance_sequence(emitter, static_cast<std::uint64_t>(pass - first_pass_) / halves * emitter.light_photon_count);
     emitter.photon_count = counts[e];
   }
   number_photons(emitters_);

@@ -237,4 +237,11 @@ unsigned number_photons(std::vector<shared::DeviceEmitter>& emitters)
   return first;
 }
 
+void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons)
+{
+  const std::uint64_t at = (std::uint64_t{emitter.sequence_start_high} << 32 | emitter.sequence_start) + photons;
+  emitter.sequence_start = static_cast<std::uint32_t>(at);
+  emitter.sequence_start_high = static_cast<std::uint32_t>(at >> 32);
+}
+
 } // namespace nephroid::spectral

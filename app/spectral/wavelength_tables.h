@@ -19,4 +19,7 @@ std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned phot
 /// Returns how many photons there are in all.
 unsigned number_photons(std::vector<shared::DeviceEmitter>& emitters);
 
+/// Moves an emitter's place in its low-discrepancy sequence on.
+void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons);
+
 } // namespace nephroid::spectral

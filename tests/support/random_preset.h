@@ -145,7 +145,7 @@ inline preset::Preset random_preset(std::uint64_t seed)
   if (Spectral& s = p.spectral; s.relight) { // what layers cannot keep
     s.estimator = Spectral::Estimator::splat;
     s.effort = Spectral::Effort::power;
-    s.jitter = s.differentials = s.indirect = false;
+    s.differentials = s.indirect = false;
   }
   p.scene.camera.target = {0, 0.1, 1.0 / 3};
   p.scene.camera.position = {3, 2, 1e-5};
