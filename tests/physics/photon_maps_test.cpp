@@ -97,16 +97,20 @@ TEST(PhotonMaps, SplatsAloneShowNothingBehindGlass)
 
 constexpr int size = 64, blocks = 8, edge = size / blocks;
 
-/// Y of the layer "caustic" in blocks of pixels, row by row, and its mean.
-std::vector<double> block_luminance(const job::Snapshot& snapshot)
+/// X + Y + Z of the layer "caustic" in blocks of pixels, row by row, and its mean. Wavelengths and clusters are chosen in proportion to
+/// that sum, so it is the least noisy figure.
+std::vector<double> block_sums(const job::Snapshot& snapshot)
 {
-  const std::vector<double> y = luminance(layer(snapshot, "caustic"));
+  const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
   std::vector<double> sums(blocks * blocks + 1, 0.0);
   for (int row = 0; row < size; ++row)
-    for (int column = 0; column < size; ++column)
-      sums[static_cast<std::size_t>(row / edge * blocks + column / edge)] +=
-          y[static_cast<std::size_t>(row * size + column)] / (edge * edge);
-  sums.back() = std::accumulate(y.begin(), y.end(), 0.0) / (size * size);
+    for (int column = 0; column < size; ++column) {
+      const auto i = 3 * static_cast<std::size_t>(row * size + column);
+      const optics::Colour xyz = optics::linear_srgb_to_xyz({rgb[i], rgb[i + 1], rgb[i + 2]});
+      const double value = xyz[0] + xyz[1] + xyz[2];
+      sums[static_cast<std::size_t>(row / edge * blocks + column / edge)] += value / (edge * edge);
+      sums.back() += value / (size * size);
+    }
   return sums;
 }
 
@@ -148,7 +152,7 @@ void expect_same_picture(const std::string& what, const std::vector<Estimate>& m
   Estimate all = maps.back();
   all.variance += splats.back().variance;
   record(what + ": light in all, over that of splats", all.mean / means.back(), 1, tolerance(all) / means.back() + 0.005);
-  EXPECT_LT(tolerance(all), 0.1 * means.back()) << what;
+  EXPECT_LT(tolerance(all), 0.2 * means.back()) << what;
   EXPECT_GT(sidak(smallest, static_cast<double>(maps.size())), false_alarm) << what;
   EXPECT_GT(lit, 4) << what;
   testing::Test::RecordProperty(what + ": mean z^2 of bright blocks, and the worst off",
@@ -175,7 +179,7 @@ preset::Preset ball_caustic()
   p.scene.camera.fov_deg = 30;
   p.spectral.threshold_deg = 3;
   p.spectral.photons_per_pass = 1 << 16;
-  p.stop.passes = 16;
+  p.stop.passes = 24;
   return p;
 }
 
@@ -193,7 +197,7 @@ TEST(PhotonMaps, SppmIsWhatSplatsAre)
   sppm.spectral.effort = preset::Spectral::Effort::equal;
   sppm.spectral.photons_per_pass = 1 << 14;
   set_radius(sppm, 0.4);
-  expect_same_picture("sppm against splats", render_passes(sppm, block_luminance), render_passes(splat, block_luminance), 0.4);
+  expect_same_picture("sppm against splats", render_passes(sppm, block_sums), render_passes(splat, block_sums), 0.4);
 }
 
 // A window before the camera whose glass hardly bends: what is behind it is gathered, and has to look like what is splatted without it.
@@ -207,10 +211,15 @@ TEST(PhotonMaps, AWindowChangesNothing)
   set_radius(maps, 0.4);
   for (const bool jitter : {false, true}) {
     splat.spectral.jitter = maps.spectral.jitter = jitter;
-    // Of each cluster a pass has one wavelength: narrow clusters keep passes alike.
-    if (jitter) splat.spectral.threshold_deg = maps.spectral.threshold_deg = 0.2;
-    expect_same_picture(jitter ? "jittered maps through a window" : "maps through a window", render_passes(maps, block_luminance),
-                        render_passes(splat, block_luminance), 0.4);
+    // Of each cluster a pass has one wavelength: many passes of few photons. On a grey floor most wavelengths bring as much X + Y + Z.
+    if (jitter)
+      for (preset::Preset* p : {&splat, &maps}) {
+        p->scene.materials["floor"] = white(0.8);
+        p->spectral.photons_per_pass = 1 << 14;
+        p->stop.passes = 80;
+      }
+    expect_same_picture(jitter ? "jittered maps through a window" : "maps through a window", render_passes(maps, block_sums),
+                        render_passes(splat, block_sums), 0.4);
   }
 }
 
@@ -236,12 +245,12 @@ TEST(PhotonMaps, AMirrorShowsWhatTheMirroredCameraSees)
   maps.scene.camera.target[2] = -3;
   maps.spectral.sppm.radius = 0.4 * 2 * 4.4 * std::tan(8 * degree) / size;
   const auto mirrored = [](const job::Snapshot& snapshot) {
-    std::vector<double> figures = block_luminance(snapshot);
+    std::vector<double> figures = block_sums(snapshot);
     for (auto row = figures.begin(); row + 1 != figures.end(); row += blocks) std::reverse(row, row + blocks);
     return figures;
   };
   // The floor is seen from the side: a disc on it covers no more pixels than one that faces the camera.
-  expect_same_picture("maps in a mirror", render_passes(maps, mirrored), render_passes(splat, block_luminance), 0.4);
+  expect_same_picture("maps in a mirror", render_passes(maps, mirrored), render_passes(splat, block_sums), 0.4);
 }
 
 } // namespace
