@@ -170,7 +170,7 @@ void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& 
     note_place("temperature");
   } else {
     ImGui::TextDisabled("%s", fmt::format("{} {}", spectrum_.table.size(), spectrum_.table.size() == 1 ? "row" : "rows").c_str());
-    ImGui::SetItemTooltip("Drag a point. Ctrl + click adds one, a click with the right button removes one.");
+    ImGui::SetItemTooltip("Drag a point. A double click adds one, a click with the right button removes one.");
   }
 }
 
@@ -203,10 +203,11 @@ void SpectraPanel::draw_row_controls(const Workbench& workbench, Commands& comma
     edit_spectrum(workbench, edited, "add a row", false, commands);
   }
   note_place("add");
-  ImGui::SetItemTooltip("One more row, in the widest gap; Ctrl + click in the plot adds one there.");
+  ImGui::SetItemTooltip("One more row, in the widest gap; a double click in the plot adds one there.");
   ImGui::SameLine();
   ImGui::BeginDisabled(!row_ || !can_remove_row(spectrum_));
-  if (ImGui::Button("Remove")) follow({RowGesture::Kind::remove, *row_, {}}, workbench, commands);
+  const bool deleted = row_ && ImGui::IsWindowFocused() && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGuiKey_Delete, false);
+  if (ImGui::Button("Remove") || deleted) follow({RowGesture::Kind::remove, *row_, {}}, workbench, commands);
   note_place("remove");
   ImGui::EndDisabled();
   if (!row_) {

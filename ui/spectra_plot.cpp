@@ -129,6 +129,9 @@ void set_up_value_axis(const char* label, double highest)
   ImPlot::SetupAxisLimits(ImAxis_Y1, 0, highest, ImPlotCond_Always);
 }
 
+/// In the plot in hand.
+bool double_clicked() { return ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left); }
+
 /// The wavelength under the mouse, of the plot in hand.
 std::optional<int> pointed_wavelength()
 {
@@ -227,21 +230,22 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
   plot_reflectances(contents);
   if (shown.u && contents.spectra->why_no_u.empty())
     plot_spectrum("u", contents.spectra->importance.u, 1, spec_of(spectra_colour::u, 2.5f));
-  if (shown.light && contents.edited && has_rows(*contents.edited)) gesture = draw_rows(contents);
+  const bool rows = shown.light && contents.edited && has_rows(*contents.edited);
+  if (rows) gesture = draw_rows(contents);
   const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
   const ImPlotRange nm = ImPlot::GetPlotLimits().X;
   area_ = {corner.x, corner.y, size.x, size.y};
   shown_nm_ = {nm.Min, nm.Max};
   std::optional<int> pointed;
   draw_pointer(contents, pointed);
-  const bool all = ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+  const bool all = !rows && double_clicked();
   ImPlot::EndPlot();
   if (all) axis.show_all();
   pointed_ = pointed;
   return gesture;
 }
 
-/// A point a row. A row that is dragged follows the mouse; Ctrl and a click add one, the right button removes one.
+/// A point a row. A row that is dragged follows the mouse; a double click adds one, the right button removes one.
 RowGesture SpectraPlot::draw_rows(const SpectraPlotContents& contents)
 {
   RowGesture gesture;
@@ -273,7 +277,7 @@ RowGesture SpectraPlot::draw_rows(const SpectraPlotContents& contents)
   if (held_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     gesture = {RowGesture::Kind::let_go, *held_, {}};
     held_.reset();
-  } else if (!over_a_point && !held_ && ImPlot::IsPlotHovered() && ImGui::GetIO().KeyCtrl && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+  } else if (!over_a_point && !held_ && double_clicked())
     gesture = {RowGesture::Kind::add, 0, mouse()};
   return gesture;
 }
@@ -287,7 +291,7 @@ void SpectraPlot::draw_iterations(const SpectraPlotContents& contents, Wavelengt
   ImPlot::SetupFinish();
   draw_bars(spectra);
   draw_pointer(contents, pointed_);
-  const bool all = ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+  const bool all = double_clicked();
   ImPlot::EndPlot();
   if (all) axis.show_all();
 }
