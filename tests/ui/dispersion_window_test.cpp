@@ -14,7 +14,7 @@
 namespace nephroid::ui {
 namespace {
 
-using test::bytes_at, test::program, test::shell, test::there_is;
+using test::bytes_at, test::there_is;
 
 constexpr int width = 1100, height = 760;
 
@@ -72,31 +72,8 @@ TEST_F(DispersionWindowTest, ADraggedPointIsInThePresetThatIsSaved)
   const std::vector<ControlPoint> before = sorted_points(opened.scene.materials.at("glass").dispersion);
   const std::string file = folder.write("glass.json", preset::to_json(opened));
   const auto way = on_screen(file, {before[2], {570, 1.59}});
-  const std::string options = fmt::format(" --layout dispersion --size {}x{} --frames 100000 --screenshot ", width, height);
-  std::string moves;
-  for (int step = 1; step <= 8; ++step)
-    moves += fmt::format("xdotool mousemove --window $id {} {}; sleep 0.1\n", way[0][0] + (way[1][0] - way[0][0]) * step / 8,
-                         way[0][1] + (way[1][1] - way[0][1]) * step / 8);
-  // Keys slower than one frame, as in window_test.cpp.
-  write_file_whole(folder.path() / "events.sh", fmt::format(R"(#!/bin/sh
-chord() {{ xdotool keydown ctrl; sleep 0.4; xdotool keydown $1; sleep 0.4; xdotool keyup $1; sleep 0.4; xdotool keyup ctrl; sleep 0.4; }}
-{} '{}' {} {} &
-id=$(timeout 20 xdotool search --sync --onlyvisible --name Nephroid | head -n 1)
-xdotool windowfocus $id
-sleep 3
-xdotool mousemove --window $id {} {}
-sleep 1
-xdotool mousedown 1
-sleep 0.5
-{}sleep 0.5
-xdotool mouseup 1
-sleep 1
-chord s
-chord q
-wait
-)",
-                                                            program, file, options, quoted("screen.png"), way[0][0], way[0][1], moves));
-  ASSERT_EQ(shell(on_display() + "timeout 60 sh " + quoted("events.sh"), log), 0) << read_file(log);
+  const std::string options = fmt::format("--layout dispersion --size {}x{}", width, height);
+  ASSERT_EQ(drag_and_save(file, options, way[0], way[1]), 0) << read_file(log);
   const std::vector<ControlPoint> after = sorted_points(preset::read_preset(file).scene.materials.at("glass").dispersion);
   ASSERT_EQ(after.size(), before.size());
   EXPECT_NEAR(after[2][0], 570, 3);

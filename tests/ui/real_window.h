@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real program in a real window on a virtual display of its own.
 #pragma once
+#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -47,6 +49,35 @@ protected:
     return "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" xvfb-run -a -f " + quoted("authority") + " -s '-screen 0 1600x1000x24' ";
   }
   std::string quoted(const std::string& name) const { return "'" + (folder.path() / name).string() + "'"; }
+  /// Opens a preset, drags with the left button from one place of the window to another, saves and quits, all by X events; needs xdotool.
+  /// The program's exit code; its last frame is in screen.png, what it printed in `log`.
+  int drag_and_save(const std::string& file, const std::string& options, const std::array<int, 2>& from, const std::array<int, 2>& to) const
+  {
+    std::string moves;
+    for (int step = 1; step <= 8; ++step)
+      moves += fmt::format("xdotool mousemove --window $id {} {}; sleep 0.1\n", from[0] + (to[0] - from[0]) * step / 8,
+                           from[1] + (to[1] - from[1]) * step / 8);
+    // Keys slower than one frame: where Ctrl goes up before the key within a frame, Dear ImGui sees the key alone.
+    write_file_whole(folder.path() / "events.sh", fmt::format(R"(#!/bin/sh
+chord() {{ xdotool keydown ctrl; sleep 0.4; xdotool keydown $1; sleep 0.4; xdotool keyup $1; sleep 0.4; xdotool keyup ctrl; sleep 0.4; }}
+{} '{}' {} --frames 100000 --screenshot {} &
+id=$(timeout 20 xdotool search --sync --onlyvisible --name Nephroid | head -n 1)
+xdotool windowfocus $id
+sleep 3
+xdotool mousemove --window $id {} {}
+sleep 1
+xdotool mousedown 1
+sleep 0.5
+{}sleep 0.5
+xdotool mouseup 1
+sleep 1
+chord s
+chord q
+wait
+)",
+                                                              program, file, options, quoted("screen.png"), from[0], from[1], moves));
+    return shell(on_display() + "timeout 60 sh " + quoted("events.sh"), log);
+  }
 };
 
 } // namespace nephroid::test
