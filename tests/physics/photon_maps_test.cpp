@@ -178,6 +178,7 @@ preset::Preset ball_caustic()
   p.scene.camera.target = {1.2, 0, 0};
   p.scene.camera.fov_deg = 30;
   p.spectral.threshold_deg = 3;
+  p.spectral.jitter = false;
   p.spectral.photons_per_pass = 1 << 16;
   p.stop.passes = 24;
   return p;
