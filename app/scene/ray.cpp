@@ -49,7 +49,7 @@ public:
     return first <= last;
   }
 
-  /// Distance of triangle i of a block, or infinity. The triangle is sheared so that the ray becomes the z axis; it is hit where the
+  /// Distance of triangle i of a block, not above 0 where the ray does not hit it. The triangle is sheared so that the ray becomes the z axis; it is hit where the
   /// three edge functions have one sign (Woop, Benthin and Wald 2013). Two triangles compute their common edge from the same numbers.
   double distance(const float* block, std::size_t i) const
   {
@@ -57,7 +57,7 @@ public:
     const double ea = c.x * b.y - c.y * b.x, eb = a.x * c.y - a.y * c.x, ec = b.x * a.y - b.y * a.x;
     const double det = ea + eb + ec;
     const bool inside = (ea >= 0 && eb >= 0 && ec >= 0) || (ea <= 0 && eb <= 0 && ec <= 0);
-    if (!inside || det == 0) return std::numeric_limits<double>::infinity();
+    if (!inside || det == 0) return 0;
     return (ea * a.z + eb * b.z + ec * c.z) * scale_ / det;
   }
 

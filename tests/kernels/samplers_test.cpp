@@ -44,7 +44,7 @@ kernel void camera_directions(DeviceCamera camera, uint2 seed, global float4* ou
 kernel void clusters(global const float* cdf, int clusters, uint2 seed, uint frame, uint path, global int* out, uint count)
 {
   const uint i = get_global_id(0);
-  if (i < count) out[i] = choose_cluster(cdf, clusters, seed, frame, path, i);
+  if (i < count) out[i] = choose_cluster(cdf, clusters, seed, frame, path, PATHS_THROUGH_GLASS, i, STREAM_CAMERA_CLUSTER);
 }
 // Item i meets interface i % interfaces: (cosine, n before, n after). Bit k of the answer: choice k of four reflects.
 kernel void reflections(global const float4* interfaces, int interface_count, uint2 seed, global int* out, uint count)

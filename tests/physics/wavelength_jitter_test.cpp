@@ -17,7 +17,8 @@ namespace {
 
 using preset::Spectral;
 
-/// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey.
+/// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
+/// whole clusters, are independent, and are dealt by power: what a test is about it turns on.
 preset::Preset dispersing_ball(bool absorbing)
 {
   preset::Preset p = ball_scene();
@@ -32,6 +33,8 @@ preset::Preset dispersing_ball(bool absorbing)
     p.scene.objects.push_back(object("mirror", quad(1, 1), "mirror", at({0.8, 0.05, 0})));
   }
   p.spectral.photons_per_pass = 1 << 13;
+  p.spectral.jitter = p.spectral.low_discrepancy = false;
+  p.spectral.effort = Spectral::Effort::power;
   p.stop.passes = 24;
   return p;
 }
