@@ -17,9 +17,10 @@ KERNELS = Path(__file__).resolve().parents[2] / "kernels"
 # Programs whose tests take their kernels from NEPHROID_TEST_KERNELS, the quick ones first.
 PROGRAMS = [
     "kernels_fresnel_test", "kernels_film_test", "kernels_random_test", "kernels_emission_test", "kernels_samplers_test",
-    "kernels_emission_samplers_test", "images_statistics_test", "physics_radiance_in_glass_test", "physics_area_light_test",
+    "kernels_emission_samplers_test", "kernels_low_discrepancy_test", "kernels_photon_map_test", "kernels_differential_test", "images_statistics_test", "physics_radiance_in_glass_test", "physics_area_light_test",
     "physics_refraction_test", "physics_radiometry_test", "kernels_trace_test", "images_error_estimate_test", "kernels_photons_test",
-    "physics_background_test", "physics_indirect_test",
+    "physics_background_test", "physics_indirect_test", "physics_wavelength_jitter_test", "physics_photon_maps_test",
+    "physics_spectral_differentials_test", "kernels_relighting_test",
 ]
 
 
@@ -34,13 +35,26 @@ def find_programs(build: Path, names: list[str]) -> list[Path]:
     return programs
 
 
+def places(fault: Fault, folder: Path) -> int:
+    """How often a kernel has the text that a fault replaces."""
+    file = folder / fault.file
+    return file.read_text().count(fault.right) if file.is_file() else 0
+
+
+def check_texts(faults: list[Fault], kernels: Path) -> int:
+    """Says which faults cannot be put in, because their kernel has changed; 1 where there are such."""
+    stale = [f for f in faults if places(f, kernels) != 1 or f.wrong == f.right]
+    for fault in stale:
+        print(f"run.py: faults.py, {fault.name!r}: {places(fault, kernels)} places in {fault.file} read {fault.right!r}; one is expected")
+    return 1 if stale else 0
+
+
 def put_in(fault: Fault, folder: Path) -> None:
     """Changes the one place in a copy of the kernels."""
+    if check_texts([fault], folder):
+        sys.exit(1)
     file = folder / fault.file
-    text = file.read_text()
-    if text.count(fault.right) != 1:
-        sys.exit(f"run.py: faults.py, {fault.name!r}: {text.count(fault.right)} places in {fault.file} read {fault.right!r}; one is expected")
-    file.write_text(text.replace(fault.right, fault.wrong))
+    file.write_text(file.read_text().replace(fault.right, fault.wrong))
 
 
 def failed_tests(command: list[str], kernels: Path, timeout_s: int) -> list[str]:
@@ -75,18 +89,23 @@ def run(commands: list[list[str]], fault: Fault | None, arguments: argparse.Name
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=Path, required=True, help="a build folder with its tests built")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--build", type=Path, help="a build folder with its tests built")
+    what.add_argument("--check-texts", action="store_true", help="only see that every fault still finds its place in the kernels")
     parser.add_argument("--kernels", type=Path, default=KERNELS, help="the right kernels (default: kernels/)")
     parser.add_argument("--only", metavar="TEXT", action="append", help="faults whose name contains this; may be given again")
     parser.add_argument("--programs", metavar="NAME", nargs="+", default=PROGRAMS, help="test programs, by name or pattern")
     parser.add_argument("--all", action="store_true", help="run every test for every fault, rather than until one fails")
     parser.add_argument("--timeout", type=int, default=600, help="seconds after which a test program hangs (default: %(default)s)")
     arguments = parser.parse_args()
-    arguments.build = arguments.build.resolve()
 
     faults = [f for f in FAULTS if not arguments.only or any(text in f.name for text in arguments.only)]
     if not faults:
         sys.exit("run.py: --only: no fault has such a name; see faults.py")
+    if arguments.check_texts:
+        return check_texts(faults, arguments.kernels)
+
+    arguments.build = arguments.build.resolve()
     commands = [[str(program)] for program in find_programs(arguments.build, arguments.programs)]
     if arguments.programs == PROGRAMS:
         commands.append([str(arguments.build / "bin/nephroid"), "check", "--kernels", "{kernels}"])
