@@ -17,7 +17,8 @@ KERNELS = Path(__file__).resolve().parents[2] / "kernels"
 # Programs whose tests take their kernels from NEPHROID_TEST_KERNELS, the quick ones first.
 PROGRAMS = [
     "kernels_fresnel_test", "kernels_film_test", "kernels_random_test", "kernels_emission_test", "kernels_samplers_test",
-    "kernels_emission_samplers_test", "kernels_low_discrepancy_test", "kernels_photon_map_test", "kernels_differential_test", "images_statistics_test", "physics_radiance_in_glass_test", "physics_area_light_test",
+    "kernels_emission_samplers_test", "kernels_low_discrepancy_test", "kernels_guide_test", "kernels_photon_map_test",
+    "kernels_differential_test", "images_statistics_test", "physics_radiance_in_glass_test", "physics_area_light_test",
     "physics_refraction_test", "physics_radiometry_test", "kernels_trace_test", "images_error_estimate_test", "kernels_photons_test",
     "physics_background_test", "physics_indirect_test", "physics_wavelength_jitter_test", "physics_photon_maps_test",
     "physics_spectral_differentials_test", "kernels_relighting_test",
