@@ -70,7 +70,8 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE
-    const Band band = band_of_pass(&world, emitter.cluster, seed, pass);
+    const int part = part_of_cluster(start.wavelength);
+    const Band band = band_of_pass(&world, emitter.cluster, part, seed, pass);
 #else
     const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #endif
@@ -79,7 +80,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
     const PhotonEnd end = trace_photon(&world, emitter.light, &band, share, &path, seed, pass, photon);
 #if NEPHROID_STORE
-    if (end.outcome == OUTCOME_DEPOSITED && !store_photon(stored + photon, &end.surface, path.direction, emitter.cluster, object_count,
+    if (end.outcome == OUTCOME_DEPOSITED && !store_photon(stored + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count,
                                                           end.xyz * watts, stored_scale, start.emission.w))
       ++outcomes[OUTCOME_REFUSED];
 #endif

@@ -6,15 +6,15 @@
 #include "photon_map.h"
 #include "surface.h"
 
-// xyz: reflected power. scale: quanta of a unit of it. dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot
+// band: pass_band.h. xyz: reflected power. scale: quanta of a unit of it. dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot
 // is empty, where a photon carries too much.
-static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int cluster, int object_count, float3 xyz,
+static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band, int object_count, float3 xyz,
                                 float scale, float dither)
 {
   const float3 quanta = xyz * scale;
   const bool fits = quanta.x <= PHOTON_LIMIT && quanta.y <= PHOTON_LIMIT && quanta.z <= PHOTON_LIMIT;
   StoredPhoton photon;
-  photon.group = fits ? photon_group(surface->object, dot(arriving, surface->geometric) < 0.0f, cluster, object_count) : NO_PHOTON;
+  photon.group = fits ? photon_group(surface->object, dot(arriving, surface->geometric) < 0.0f, band, object_count) : NO_PHOTON;
   photon.position[0] = surface->position.x;
   photon.position[1] = surface->position.y;
   photon.position[2] = surface->position.z;

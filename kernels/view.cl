@@ -40,8 +40,8 @@ static inline VisiblePoint nothing_visible(void)
   return point;
 }
 
-// Where a path that has hit `hit` ends in a band. weight: of the path.
-static inline VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, float weight, int object_count, uint2 seed, uint pass,
+// Where a path that has hit `hit` ends in a band, which is of a part of its cluster. weight: of the path.
+static inline VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight, int object_count, uint2 seed, uint pass,
                                uint pixel)
 {
   VisiblePoint point = nothing_visible();
@@ -52,7 +52,7 @@ static inline VisiblePoint see(const World* world, Path path, Hit hit, const Ban
   point.position = (float4)(surface.position, 0.0f);
   point.normal = (float4)(surface.geometric, 0.0f);
   point.throughput = (float4)(weight * radiance_scale * transmittance(world, &path.losses, band, reflector), 0.0f);
-  point.group = photon_group(surface.object, dot(path.direction, surface.geometric) < 0.0f, band->cluster, object_count);
+  point.group = photon_group(surface.object, dot(path.direction, surface.geometric) < 0.0f, band_number(band->cluster, part), object_count);
   return point;
 }
 
@@ -78,8 +78,9 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
       weight = 1.0f / (cluster_cdf[cluster + 1] - cluster_cdf[cluster]);
     }
     if (cluster >= 0) {
-      const Band band = band_of_pass(&world, cluster, seed, pass);
-      point = see(&world, path, hit, &band, weight, object_count, seed, pass, pixel);
+      const int part = part_of_cluster(jitter.w);
+      const Band band = band_of_pass(&world, cluster, part, seed, pass);
+      point = see(&world, path, hit, &band, part, weight * (float)NEPHROID_PASS_BANDS, object_count, seed, pass, pixel);
     }
   }
   point.position.w = jitter.z;

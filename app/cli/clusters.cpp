@@ -30,6 +30,7 @@ struct ClusterOptions {
   std::string preset, ior, material, outside;
   std::optional<double> threshold_deg;
   std::optional<std::string> method;
+  preset::Overrides overrides;
   bool json = false;
 };
 
@@ -68,7 +69,7 @@ std::string chosen_material(const preset::Preset& preset, const std::string& wan
 
 Task preset_task(const ClusterOptions& options)
 {
-  const preset::Preset preset = preset::read_preset(options.preset);
+  const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
   const std::string name = chosen_material(preset, options.material);
   const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
   const std::string where = preset.source + "#/scene/materials/" + pointer_key(name) + "/dispersion";
@@ -142,6 +143,10 @@ void add_clusters(CLI::App& program, Session&)
   verb->add_option("--method", options->method, "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal")
       ->check(CLI::IsMember(names))
       ->type_name("METHOD");
+  verb->add_option("--set", options->overrides, "Change a setting of the preset, as for run; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
   add_outside_option(*verb, options->outside);
   verb->add_flag("--json", options->json, "One JSON object instead of text");
   verb->callback([options] { print_clusters(*options); });

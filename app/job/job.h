@@ -55,7 +55,7 @@ struct Snapshot {
   std::shared_ptr<const Picture> picture;
   Progress progress;
   EnergyBalance energy;
-  std::optional<IndirectBalance> indirect_energy; ///< where there is such a layer
+  std::optional<IndirectBalance> indirect_energy;     ///< where there is such a layer
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
   std::shared_ptr<const History> history;             ///< of its error so far; null where nothing is measured
   std::uint64_t adoption = 0;                         ///< the newest Worker::adopt() that it knows of; the worker's to set

@@ -128,6 +128,14 @@ void check_effort(const Spectral& s, const std::string& pointer, const Where& wh
                     "expected another effort or estimator", "choose effort importance, or estimator automatic");
 }
 
+/// What nothing can measure is refused before anything runs.
+void check_stop(const Preset& preset, const Where& where)
+{
+  if (preset.stop.error && !preset.reference && preset.spectral.estimator == Spectral::Estimator::sppm)
+    throw bad_input(where("/stop/error"), "nothing measures the error of this run: the estimator sppm makes no estimate of its own error",
+                    "expected a 'reference', or another 'spectral.estimator'");
+}
+
 /// A reference that shares a seed with the run would share its noise, and call it right.
 void check_reference(const Preset& preset, const Where& where)
 {
@@ -166,6 +174,7 @@ void check(const Preset& preset, const Where& where)
   for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
   check_effort(preset.spectral, "/spectral", where);
   if (preset.reference && preset.reference->spectral) check_effort(*preset.reference->spectral, "/reference/spectral", where);
+  check_stop(preset, where);
   check_reference(preset, where);
   check_relight(preset.spectral, where);
 }

@@ -33,8 +33,12 @@ preset::Spectral brute_force(const preset::Spectral& settings)
   preset::Spectral made;
   made.method = preset::Spectral::Method::brute_force;
   made.max_surfaces = settings.max_surfaces;
+  // Photon maps have a radius, and the estimator sppm keeps to them: where splats do, they are the truth.
+  if (settings.estimator == preset::Spectral::Estimator::splat) made.estimator = settings.estimator;
   made.direct = settings.direct;
   made.caustic = settings.caustic;
+  made.indirect = settings.indirect;
+  made.background = settings.background;
   return made;
 }
 

@@ -26,9 +26,9 @@ struct WavelengthTables {
   std::vector<shared::float4> light_xyz;         ///< [light][401]: share times (xbar, ybar, zbar), share
   std::vector<shared::float4> reflected_xyz;     ///< [light][cluster][reflector]; w: the share, as of a white one
   std::vector<shared::float4> reflected_xyz_all; ///< [light][reflector]
-  std::vector<float> cluster_cdf;                ///< cluster_count + 1, from 0 to 1
+  std::vector<float> cluster_cdf;                ///< exact_cdf_from_zero of what paths through glass are worth in each cluster
   std::vector<std::vector<double>> share;        ///< [light][cluster]: of the light's power
-  std::vector<std::vector<double>> weight;       ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3
+  std::vector<std::vector<double>> weight;       ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3: see worth.h
   int attenuator_count = 0, reflector_count = 0;
 };
 
@@ -44,7 +44,7 @@ struct DeviceTables {
   unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each emitter
   std::vector<double> importance;              ///< [cluster] 0..1, the largest 1: see Effort
   WavelengthTables wavelengths;
-  StretchTables stretch;              ///< for the same clusters
+  StretchTables stretch;                 ///< for the same clusters
   double light_towards_targets_w = 0;    ///< power that the emitters send out in a pass, all wavelengths
   std::vector<double> towards_targets_w; ///< [light]: its part of it
   double power_unit = 1;                 ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision

@@ -13,17 +13,12 @@
 
 namespace nephroid::spectral {
 
-/// A kernel's uint2.
-struct Uint2 {
-  std::uint32_t x, y;
-};
-
 struct DeviceWorld {
   compute::Context context;
   DeviceTables tables;
   DeviceBuffers buffers;
   compute::Defines defines; ///< of the plan, for every kernel
-  Uint2 seed{};
+  shared::uint2 seed{};
   double white = 1;
   unsigned halves = 2;                  ///< of a film: 2 where the error is estimated (film.h)
   compute::Buffer<std::int64_t> energy; ///< [OUTCOME_COUNT] quanta
@@ -48,9 +43,26 @@ struct DeviceWorld {
   {
     const DeviceBuffers& b = buffers;
     kernel.run(global, local, b.nodes, b.blocks, b.corners, b.positions, b.normals, b.object_of_triangle, b.objects, b.materials, b.lights,
-               b.index_of_cluster, b.index_of_wavelength, b.wavelength_cdf, b.index_slope, b.stretch_place, b.stretch_span, b.reflected_xyz, b.cluster_first, b.cluster_wavelengths, b.coefficient, b.light_xyz, b.reflectance,
-               tables.wavelengths.reflector_count, tables.scene, rest...);
+               b.index_of_cluster, b.index_of_wavelength, b.wavelength_cdf, b.index_slope, b.stretch_place, b.stretch_span, b.reflected_xyz,
+               b.cluster_first, b.cluster_wavelengths, b.coefficient, b.light_xyz, b.reflectance, tables.wavelengths.reflector_count,
+               tables.scene, rest...);
     context.finish();
+  }
+
+  /// Photons that one work item follows, one after the other, so that what an item adds up for itself is worth while: on a CPU.
+  unsigned photons_per_item() const { return context.device().type == "cpu" ? 16 : 1; }
+  /// For a kernel that run_photons runs.
+  compute::Defines photon_defines() const
+  {
+    compute::Defines all = defines;
+    all["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item());
+    return all;
+  }
+  /// As run, with items for `count` photons, and one at least.
+  template <class... Rest>
+  void run_photons(compute::Kernel& kernel, std::uint32_t count, const Rest&... rest)
+  {
+    run(kernel, std::max(1u, (count + photons_per_item() - 1) / photons_per_item()), 32, rest...);
   }
 };
 

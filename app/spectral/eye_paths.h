@@ -23,7 +23,7 @@ public:
   /// One path for every pixel of the next rows, then gather(points, first_pixel, count), which queues kernels. cluster: see view.cl.
   /// True when all rows are done.
   template <class Gather>
-  bool step(Uint2 seed, std::uint32_t pass, int cluster, const Gather& gather)
+  bool step(shared::uint2 seed, std::uint32_t pass, int cluster, const Gather& gather)
   {
     const auto width = static_cast<std::uint32_t>(world_.tables.camera.width);
     return rows_.step(static_cast<std::int64_t>(points_.size() / width), [&](int first_row, int rows) {
@@ -34,6 +34,14 @@ public:
       world_.context.finish();
     });
   }
+
+  /// Stage::warm_up for its kernel.
+  void warm_up()
+  {
+    world_.run(view_, 1, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, world_.seed, 0u, 0,
+               static_cast<int>(world_.tables.objects.size()), 0, 0);
+  }
+  const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
   const PixelRows& rows() const { return rows_; }
 

@@ -31,6 +31,7 @@ PhotonMap::PhotonMap(const compute::Context& context, std::uint32_t slots, const
 {
   grid_.bucket_mask = bucket_mask(slots);
   grid_.stride = stride(slots);
+  stored_.fill_zero();
   // What is read beyond the last photon does not count, but it has to be numbers.
   positions_.fill_zero();
   values_.fill_zero();
@@ -53,7 +54,7 @@ void PhotonMap::build(double cell_edge, std::uint32_t slots)
 {
   grid_.inverse_cell = static_cast<float>(1 / cell_edge);
   starts_.fill_zero();
-  count_.run(slots, 64, stored_, starts_, grid_, slots);
+  count_.run(std::max(slots, 1u), 64, stored_, starts_, grid_, slots);
   sum_.run(scan_blocks, 16, starts_, block_sums_, grid_);
   scan_.run(scan_blocks, 16, starts_, block_sums_, grid_);
   scatter_.run(std::max(slots, 8u), 64, stored_, starts_, positions_, values_, grid_, slots);

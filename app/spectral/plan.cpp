@@ -129,6 +129,14 @@ plan::Pass jitter_pass(const preset::Spectral& settings, const WavelengthTables&
   return {"jitter", true, "each path takes one wavelength of its cluster, so clusters leave no bias", field, false};
 }
 
+/// Wavelengths of a cluster in one pass, where photon maps need photons and eye paths of one wavelength: so many that a pass has 32 in all,
+/// for a picture of a few wavelengths has a cast. In sppm a pass has one cluster's turn after the other, with one each.
+int pass_bands(const preset::Spectral& settings, bool jittered_maps, const WavelengthTables& tables)
+{
+  if (!jittered_maps || settings.estimator == preset::Spectral::Estimator::sppm) return 1;
+  return std::max(1, 32 / static_cast<int>(std::max<std::size_t>(tables.clusters.size(), 1)));
+}
+
 plan::Pass low_discrepancy_pass(const preset::Spectral& settings)
 {
   const std::string field = "/spectral/low_discrepancy";
@@ -204,11 +212,14 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   plan.defines = omission_defines(code, scene, attenuators);
   plan.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(int(differentials.runs));
   plan.defines["NEPHROID_JITTER"] = std::to_string(int(jitter.runs));
+  plan.defines["NEPHROID_PASS_BANDS"] = std::to_string(pass_bands(preset.spectral, jitter.runs && maps.pass.runs, tables.wavelengths));
   plan.defines["NEPHROID_LOW_DISCREPANCY"] = std::to_string(int(preset.spectral.low_discrepancy));
   plan.defines["NEPHROID_FILM_HALVES"] = std::to_string(halves);
   plan.defines["NEPHROID_MAX_SURFACES"] = std::to_string(preset.spectral.max_surfaces);
   plan.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(bvh.stack, 1));
   plan.notes = scene.warnings;
+  if (!direct.runs && !caustics && !indirect.runs && !background.runs)
+    plan.notes.push_back(fmt::format("there is nothing to render: {}", direct.reason));
   if (photons.runs && tables.photons_per_pass > static_cast<unsigned>(preset.spectral.photons_per_pass))
     plan.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light",
                                      preset.spectral.photons_per_pass, tables.photons_per_pass));

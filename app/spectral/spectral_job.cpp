@@ -37,7 +37,13 @@ class SpectralJob final : public job::Job {
 public:
   SpectralJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
               const compute::Context& context)
-      : world_{context, make_run_tables(preset, scene, bvh), {}, plan.defines, {}, preset.white, runs(plan, "error estimate") ? 2u : 1u, {}},
+      : world_{.context = context,
+               .tables = make_run_tables(preset, scene, bvh),
+               .buffers = {},
+               .defines = plan.defines,
+               .white = preset.white,
+               .halves = runs(plan, "error estimate") ? 2u : 1u,
+               .energy = {}},
         stop_seconds_(preset.stop.seconds)
   {
     world_.buffers = upload(context, scene, bvh, world_.tables);
@@ -49,15 +55,20 @@ public:
       relighting_ = make_relighting(world_, layer_light(scene, preset.white));
     }
     if (runs(plan, "direct"))
-      stages_.push_back({relighting_ ? make_layered_direct_stage(world_, *relighting_, preset.spectral) : make_direct_stage(world_, preset.spectral)});
+      stages_.push_back(
+          {relighting_ ? make_layered_direct_stage(world_, *relighting_, preset.spectral) : make_direct_stage(world_, preset.spectral)});
     const bool sppm = preset.spectral.estimator == preset::Spectral::Estimator::sppm, maps = runs(plan, "photon maps");
     if (maps && !sppm) map_ = std::make_unique<PhotonMap>(context, world_.tables.photons_per_pass, world_.defines);
     if (runs(plan, "photons"))
-      stages_.push_back({relighting_ ? make_layered_photon_stage(world_, *relighting_) : make_photon_stage(world_, preset.spectral, map_.get())});
-    if (maps) stages_.push_back({sppm ? make_sppm_stage(world_, scene, preset.spectral) : make_map_stage(world_, scene, preset.spectral, *map_)});
+      stages_.push_back(
+          {relighting_ ? make_layered_photon_stage(world_, *relighting_) : make_photon_stage(world_, preset.spectral, map_.get())});
+    if (maps)
+      stages_.push_back({sppm ? make_sppm_stage(world_, scene, preset.spectral) : make_map_stage(world_, scene, preset.spectral, *map_)});
     if (runs(plan, "indirect")) stages_.push_back({make_indirect_stage(world_, scene, preset.spectral)});
     if (runs(plan, "background")) stages_.push_back({make_background_stage(world_, scene, preset.spectral)});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
+    for (const TimedStage& s : stages_) s.stage->warm_up();
+    world_.energy.fill_zero();
     // A run is over when no stage takes part any more.
     std::int64_t most = 0;
     for (const TimedStage& s : stages_) most = std::max(most, s.stage->passes());
@@ -207,7 +218,7 @@ private:
     return e;
   }
 
-  DeviceWorld world_; ///< the stages use it
+  DeviceWorld world_;     ///< the stages use it
   preset::Preset preset_; ///< where layers are kept: what the light is of
   std::unique_ptr<Relighting> relighting_;
   std::unique_ptr<PhotonMap> map_;
@@ -228,8 +239,8 @@ std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Sc
 std::string kernel_sources(const compute::Context& context)
 {
   std::string all;
-  for (const char* file : {"direct.cl", "photons.cl", "indirect.cl", "background.cl", "grid.cl", "view.cl", "gather.cl", "relight_direct.cl",
-                           "relight_photons.cl", "relight_weigh.cl"})
+  for (const char* file : {"direct.cl", "photons.cl", "indirect.cl", "background.cl", "grid.cl", "view.cl", "gather.cl",
+                           "relight_direct.cl", "relight_photons.cl", "relight_weigh.cl"})
     all += compute::kernel_source(context, file);
   return all;
 }

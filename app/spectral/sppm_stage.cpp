@@ -3,13 +3,14 @@
 // statistics of its own for every pixel. The runs take turns: a cluster of importance u has ceil(u p) iterations after p passes. With
 // effort `random` (thesis figure 1.5) one cluster a pass is drawn, and all share one run, in which it counts for all.
 #include "optics/colour.h"
+#include "spectral/emitters.h"
 #include "spectral/eye_paths.h"
 #include "spectral/importance.h"
 #include "spectral/map_radius.h"
 #include "spectral/photon_map.h"
 #include "spectral/photon_slices.h"
 #include "spectral/stages.h"
-#include "spectral/wavelength_tables.h"
+#include "spectral/worth.h"
 
 #include <cmath>
 #include <numbers>
@@ -38,13 +39,11 @@ public:
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
         random_(settings.effort == preset::Spectral::Effort::random), alpha_(settings.sppm.alpha),
         first_radius_(first_map_radius(settings, scene)), map_(world.context, photons_, world.defines), eye_(world),
-        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1), unused_(world.context, "unused", 0),
-        no_guide_(world.context, "unused", 0)
+        unused_(world.context, "unused", 0), no_guide_(world.context, "unused", 0)
   {
-    compute::Defines defines = world.defines;
-    defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
-    defines["NEPHROID_SPLAT"] = "0";
-    defines["NEPHROID_STORE"] = "1";
+    compute::Defines defines = world.photon_defines();
+    defines["NEPHROID_SPLAT"] = std::to_string(0);
+    defines["NEPHROID_STORE"] = std::to_string(1);
     send_ = compute::Program(world.context, "photons.cl", defines).kernel("photons");
     const compute::Program gather(world.context, "gather.cl", world.defines);
     gather_ = gather.kernel("gather_to_statistics");
@@ -60,6 +59,15 @@ public:
   {
     const std::vector<double>& u = world_.tables.importance;
     return static_cast<std::uint64_t>(std::llround(photons_ * (random_ ? 1.0 : std::accumulate(u.begin(), u.end(), 0.0))));
+  }
+
+  /// Its state may be gigabytes, so nothing is saved: kernels run over no photon and no pixel.
+  void warm_up() override
+  {
+    send_photons(0, 0, 1, 0);
+    map_.build(first_radius_, 0);
+    eye_.warm_up();
+    gather_photons(eye_.points(), 0, 0, 0, 1);
   }
 
   bool step(std::int64_t pass) override
@@ -142,7 +150,10 @@ private:
   }
 
   /// Runs count their own iterations, so each has random numbers of its own by its seed.
-  Uint2 seed_of(int cluster) const { return {world_.seed.x, world_.seed.y ^ static_cast<std::uint32_t>(cluster + 1) * 0x9E3779B9u}; }
+  shared::uint2 seed_of(int cluster) const
+  {
+    return {world_.seed.x, world_.seed.y ^ static_cast<std::uint32_t>(cluster + 1) * 0x9E3779B9u};
+  }
 
   Run make_run()
   {
@@ -152,6 +163,10 @@ private:
   }
 
   Sender make_sender(int cluster) const;
+  void send_photons(std::int64_t pass, std::uint32_t offset, std::uint32_t stride, std::uint32_t count);
+  /// items: work items, at least one; of them `count` gather.
+  void gather_photons(const compute::Buffer<shared::VisiblePoint>& points, std::uint32_t first_pixel, std::uint32_t count, int cluster,
+                      std::size_t items);
   bool send(std::int64_t pass);
   bool gather(std::int64_t pass);
 
@@ -161,7 +176,6 @@ private:
   double alpha_, first_radius_;
   PhotonMap map_;
   EyePaths eye_;
-  unsigned photons_per_item_;
   compute::Kernel send_, gather_, start_, add_radiance_;
   std::vector<Sender> senders_; ///< [cluster]
   std::vector<Run> runs_;
@@ -176,38 +190,44 @@ Sender SppmStage::make_sender(int cluster) const
 {
   const DeviceTables& t = world_.tables;
   const auto c = static_cast<std::size_t>(cluster);
-  std::vector<double> weights;
-  for (std::size_t l = 0; l < t.lights.size(); ++l)
-    weights.push_back(t.towards_targets_w[l] * (t.wavelengths.weight[l][c] + 0.05 * t.wavelengths.share[l][c]));
-  const std::vector<unsigned> counts = deal_out(weights, photons_);
-  std::vector<shared::DeviceEmitter> emitters;
-  for (std::size_t l = 0; l < counts.size(); ++l) {
-    if (counts[l] == 0) continue;
-    shared::DeviceEmitter emitter{};
-    emitter.photon_count = counts[l];
-    emitter.light = static_cast<int>(l);
-    emitter.cluster = cluster;
-    emitter.share = static_cast<float>(t.wavelengths.share[l][c]);
-    emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters are runs of their own
-    emitters.push_back(emitter);
+  std::vector<PhotonSource> sources;
+  double weights = 0;
+  for (std::size_t l = 0; l < t.lights.size(); ++l) {
+    const double share = t.wavelengths.share[l][c];
+    sources.push_back({t.towards_targets_w[l] * worth(t.wavelengths.weight[l][c], share), static_cast<int>(l), cluster, share});
+    weights += sources.back().weight;
   }
-  number_photons(emitters);
+  std::vector<shared::DeviceEmitter> emitters = make_emitters(sources, photons_);
+  for (shared::DeviceEmitter& emitter : emitters) emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters are runs of their own
   return {{world_.context, "emitters of a cluster", std::span<const shared::DeviceEmitter>(emitters)},
           static_cast<int>(emitters.size()),
-          photon_scale(photons_, std::accumulate(weights.begin(), weights.end(), 0.0))};
+          photon_scale(photons_, weights)};
+}
+
+void SppmStage::send_photons(std::int64_t pass, std::uint32_t offset, std::uint32_t stride, std::uint32_t count)
+{
+  const int cluster = std::min(at_.cluster, cluster_count() - 1);
+  const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
+  const DeviceTables& t = world_.tables;
+  world_.run_photons(send_, count, world_.buffers.targets, sender.emitters, unused_, run_of(cluster).energy, unused_, unused_, no_guide_,
+                     0.0f, map_.stored(), sender.emitter_count, static_cast<int>(t.objects.size()), t.camera, seed_of(cluster),
+                     static_cast<std::uint32_t>(iterations_of(cluster, pass)), 0u, offset, stride, count, 0.0f,
+                     world_.on_device(t.energy_scale), world_.on_device(sender.photon_scale));
 }
 
 bool SppmStage::send(std::int64_t pass)
 {
-  const Sender& sender = senders_[static_cast<std::size_t>(at_.cluster)];
-  const DeviceTables& t = world_.tables;
-  return slices_.step(photons_, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-    world_.run(send_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, sender.emitters, unused_,
-               run_of(at_.cluster).energy, unused_, unused_, no_guide_, 0.0f, map_.stored(), sender.emitter_count,
-               static_cast<int>(t.objects.size()), t.camera, seed_of(at_.cluster),
-               static_cast<std::uint32_t>(iterations_of(at_.cluster, pass)), 0u, offset, stride, count, 0.0f,
-               world_.on_device(t.energy_scale), world_.on_device(sender.photon_scale));
-  });
+  return slices_.step(photons_,
+                      [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) { send_photons(pass, offset, stride, count); });
+}
+
+void SppmStage::gather_photons(const compute::Buffer<shared::VisiblePoint>& points, std::uint32_t first_pixel, std::uint32_t count,
+                               int cluster, std::size_t items)
+{
+  const double weight = random_ ? cluster_count() : 1;
+  const double unit = weight / (senders_[static_cast<std::size_t>(cluster)].photon_scale * world_.tables.power_unit);
+  gather_.run(items, 64, map_.starts(), map_.positions(), map_.values(), map_.grid(), points, run_of(cluster).statistics, first_pixel,
+              count, static_cast<float>(alpha_), static_cast<float>(unit));
 }
 
 bool SppmStage::gather(std::int64_t pass)
@@ -216,12 +236,9 @@ bool SppmStage::gather(std::int64_t pass)
   // Pixels without photons keep the first radius, and a search may be as wide as 3 cells.
   if (!sorted_) map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
   sorted_ = true;
-  const double weight = random_ ? cluster_count() : 1;
-  const double unit = weight / (senders_[static_cast<std::size_t>(at_.cluster)].photon_scale * world_.tables.power_unit);
   return eye_.step(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), at_.cluster,
                    [&](const auto& points, std::uint32_t first_pixel, std::uint32_t count) {
-                     gather_.run(count, 64, map_.starts(), map_.positions(), map_.values(), map_.grid(), points,
-                                 run_of(at_.cluster).statistics, first_pixel, count, static_cast<float>(alpha_), static_cast<float>(unit));
+                     gather_photons(points, first_pixel, count, at_.cluster, count);
                    });
 }
 

@@ -6,7 +6,9 @@
 #include "preset/preset.h"
 #include "spectral/state_bytes.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace nephroid::spectral {
 
@@ -15,6 +17,17 @@ public:
   virtual ~Stage() = default;
   /// Of its phase in run.json.
   virtual const char* name() const = 0;
+  /// Runs its kernels once without effect on what it computes: OpenCL compiles them when they first run, and that is no work of the run's.
+  /// The shared energy counters are the caller's to reset.
+  virtual void warm_up()
+  {
+    StateWriter before;
+    save(before);
+    step(0);
+    const std::vector<std::byte> bytes = before.take();
+    StateReader back(bytes);
+    load(back);
+  }
   /// How many passes it takes part in: what has had enough samples takes no more.
   virtual std::int64_t passes() const { return preset::max_passes; }
   /// One step of about 50 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the thesis' experiments at a size that two cores manage in minutes and prints the tables of docs/thesis.md and docs/spectral.md.
+
+    tests/experiments/thesis.py PROGRAM OUT [EXPERIMENT...]
+
+Every run of a table is made in one go, one after the other; references are made once and kept (docs/error-against-time.md).
+"""
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+SIZE = 128
+SPEED_SIZE = 176  # IW-SSIM needs 161 pixels
+PHOTONS = 4096  # of one iteration of one cluster
+OURS = {"estimator": "automatic", "jitter": True, "low_discrepancy": True, "effort": "variance"}
+THESIS = {"method": "thesis", "estimator": "sppm", "jitter": False, "low_discrepancy": False, "effort": "importance",
+          "photons_per_pass": PHOTONS}
+BRUTE = THESIS | {"method": "brute_force", "effort": "equal"}
+
+
+class Experiments:
+    def __init__(self, program, out):
+        self.program, self.out, self.size = program, Path(out), SIZE
+
+    def run(self, name, preset, spectral, passes=None, seconds=None, seed=1, reference=None, extra=()):
+        """One run; returns its run.json, its history and its folder."""
+        folder = self.out / name
+        sets = [f"scene.camera.resolution=[{self.size},{self.size}]", "sweep=null", "spectral.direct=false",
+                f"stop.passes={passes or 'null'}", f"stop.seconds={seconds or 'null'}", *extra]
+        sets += [f"spectral.{key}={json.dumps(value)}" for key, value in spectral.items()]
+        if reference:
+            sets.append("reference=" + json.dumps({"type": "recipe", "passes": reference, "spectral": OURS | {"direct": False}}))
+            sets.append("measure.perceptual=true")
+        command = [self.program, "run", preset, "--seed", str(seed), "-o", str(folder)]
+        for item in sets:
+            command += ["--set", item]
+        subprocess.run(command, check=True, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        rows = list(csv.DictReader(open(folder / "history.csv"))) if (folder / "history.csv").exists() else []
+        return json.load(open(folder / "run.json")), rows, folder
+
+    def compare(self, a, b):
+        result = subprocess.run([self.program, "compare", "--json", str(a / "image.exr"), str(b / "image.exr")], check=True,
+                                capture_output=True, text=True)
+        return json.loads(result.stdout)
+
+    def iterations(self, preset, passes, *options):
+        result = subprocess.run([self.program, "importance", preset, "--set", f"stop.passes={passes}", "--set", "sweep=null", *options,
+                                 "--json"], check=True, capture_output=True, text=True)
+        return sum(max(i["iterations"], 1) for i in json.loads(result.stdout)["iterations"])
+
+
+def reaches(rows, error, metric):
+    """Seconds until the error of a history stays at most `error`, straight lines between logarithms; None where it never does."""
+    from math import exp, log
+    before = None
+    for row in rows:
+        now = (float(row["seconds"]), float(row[metric]))
+        if now[1] <= error:
+            if before is None:
+                return now[0]
+            part = (log(before[1]) - log(error)) / (log(before[1]) - log(now[1]))
+            return exp(log(before[0]) + part * (log(now[0]) - log(before[0])))
+        before = now
+    return None
+
+
+def speed(e, scene="bunny", brute_passes=20, seconds=60):
+    """Figures 4.13 and 4.14, rows 1 to 3: brute force, the thesis' clusters with (4.15), with Radziszewski et al., and ours."""
+    e.size = SPEED_SIZE
+    preset = f"spectral/thesis/{scene}"
+    settings = {"brute force": (BRUTE, brute_passes, None), "thesis, (4.15)": (THESIS, None, seconds),
+                "thesis, Radziszewski et al.": (THESIS | {"effort": "radziszewski"}, None, seconds), "ours": (OURS, None, seconds)}
+    runs = {name: e.run(f"speed-{scene}/{index}", preset, spectral, passes, limit, reference=150)
+            for index, (name, (spectral, passes, limit)) in enumerate(settings.items())}
+    metric = "lab_mean"
+    truth = float(runs["brute force"][1][-1][metric])
+    slow = float(runs["brute force"][1][-1]["seconds"])
+    floor = runs["ours"][0]["reference"]["noise_floor"][metric]
+    print(f"\n{scene}: brute force, {brute_passes} iterations a wavelength: lab_mean {truth:.2f} after {slow:.0f} s; noise floor {floor:.2f}\n")
+    print("| method | seconds | passes | lab_mean | lab_rms | rel_l2 | IW-SSIM | seconds to brute force's lab_mean | times faster |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for name, (run, rows, _) in runs.items():
+        last = rows[-1]
+        when = reaches(rows, truth, metric)
+        print(f"| {name} | {float(last['seconds']):.1f} | {run['passes']} | {float(last['lab_mean']):.2f} | {float(last['lab_rms']):.2f} | "
+              f"{float(last['rel_l2']):.3f} | {float(last['iw_ssim']):.4f} | {f'{when:.2f}' if when else 'not reached'} | "
+              f"{f'{slow / when:.0f}' if when else '-'} |")
+
+
+def differences(e, title, preset, variants, passes):
+    """Neighbouring variants against each other, and the noise: the same variant with another seed."""
+    runs = {name: (e.run(f"{title}/{index}", preset, spectral, passes.get(name) if isinstance(passes, dict) else passes)[2],
+                   e.run(f"{title}/{index}-again", preset, spectral, passes.get(name) if isinstance(passes, dict) else passes, seed=2)[2])
+            for index, (name, spectral) in enumerate(variants.items())}
+    print(f"\n{title}\n\n| pair | lab_mean | lab_rms | noise: lab_mean of two seeds, first, second |\n|---|---|---|---|")
+    names = list(runs)
+    for a, b in zip(names, names[1:]):
+        m = e.compare(runs[a][0], runs[b][0])
+        noise = [e.compare(runs[n][0], runs[n][1])["lab_mean"] for n in (a, b)]
+        print(f"| {a} to {b} | {m['lab_mean']:.2f} | {m['lab_rms']:.2f} | {noise[0]:.2f}, {noise[1]:.2f} |")
+
+
+SPLAT = {"estimator": "splat", "jitter": False, "low_discrepancy": True, "photons_per_pass": 1 << 18}
+
+
+def figure_4_6(e):
+    for scene, method in (("bunny", "thesis"), ("bunny-arbitrary-2", "thesis"), ("diamond-arbitrary-1", "thesis")):
+        differences(e, f"figure-4-6-{scene}", f"spectral/thesis/{scene}",
+                    {f"{t} degrees": SPLAT | {"method": method, "threshold_deg": t} for t in (0.5, 0.1, 0.05, 0.01)}, 24)
+
+
+def figure_4_9(e):
+    differences(e, "figure-4-9", "spectral/thesis/bunny", {f"{n} iterations": BRUTE for n in (5, 10, 20)},
+                {f"{n} iterations": n for n in (5, 10, 20)})
+
+
+def figure_4_10(e):
+    for scene in ("bunny", "bunny-arbitrary-2"):
+        differences(e, f"figure-4-10-{scene}", f"spectral/thesis/{scene}",
+                    {f"{s} nm": SPLAT | {"method": "brute_force", "step_nm": s} for s in (4, 2, 1)}, 24)
+
+
+def figure_4_11(e):
+    print("\nfigure-4-11\n\n| ghat | iterations | seconds | lab_mean | noise floor |\n|---|---|---|---|---|")
+    for geometry in (True, False):
+        run, rows, _ = e.run(f"figure-4-11/{geometry}", "spectral/thesis/enclosed-bunny", THESIS | {"importance.geometry": geometry}, 200,
+                             reference=100)
+        count = e.iterations("spectral/thesis/enclosed-bunny", 200, "--set", "spectral.method=thesis", "--set",
+                             f"spectral.importance.geometry={json.dumps(geometry)}")
+        print(f"| {'with' if geometry else 'without'} | {count} | {run['work_seconds']:.1f} | {float(rows[-1]['lab_mean']):.2f} | "
+              f"{run['reference']['noise_floor']['lab_mean']:.2f} |")
+
+
+def figure_4_12(e):
+    differences(e, "figure-4-12", "spectral/thesis/cylinders",
+                {"brute force": SPLAT | {"method": "brute_force"}, "clusters": SPLAT | {"method": "thesis"}}, 24)
+
+
+def figure_1_5(e):
+    print("\nfigure-1-5\n\n| wavelengths | iterations | seconds | lab_mean | rel_l2 | noise floor |\n|---|---|---|---|---|---|")
+    for name, spectral, passes in (("all alike", BRUTE, 10), ("one at random", BRUTE | {"effort": "random"}, 4010)):
+        run, rows, _ = e.run(f"figure-1-5/{name.split()[0]}", "spectral/thesis/prism-f10", spectral, passes, reference=100)
+        print(f"| {name} | {4010} | {run['work_seconds']:.1f} | {float(rows[-1]['lab_mean']):.2f} | {float(rows[-1]['rel_l2']):.3f} | "
+              f"{run['reference']['noise_floor']['lab_mean']:.2f} |")
+
+
+def beyond(e):
+    """Each of what goes beyond the thesis, with and without, at equal time."""
+    base = {"estimator": "automatic", "jitter": False, "low_discrepancy": False, "effort": "power", "differentials": False}
+    steps = {"clusters alone": base, "jitter": base | {"jitter": True}, "low discrepancy": base | {"low_discrepancy": True},
+             "variance": base | {"effort": "variance"}, "differentials": base | {"differentials": True},
+             "jitter, low discrepancy, variance": base | OURS}
+    for preset, seconds in (("spectral/thesis/bunny", 12), ("spectral/prism", 8), ("spectral/ball-lens", 8), ("spectral/brilliant", 8)):
+        print(f"\n{preset}, {seconds} s each\n\n| with | photons, million | lab_mean | lab_rms | rel_l2 |\n|---|---|---|---|---|")
+        for index, (name, spectral) in enumerate(steps.items()):
+            run, rows, _ = e.run(f"beyond-{Path(preset).name}/{index}", preset, spectral, seconds=seconds, reference=150)
+            print(f"| {name} | {run['photons'] / 1e6:.1f} | " + " | ".join(f"{float(rows[-1][m]):.3f}" for m in ("lab_mean", "lab_rms", "rel_l2")) + " |")
+        floor = run["reference"]["noise_floor"]
+        print("| noise floor | | " + " | ".join(f"{floor[m]:.3f}" for m in ("lab_mean", "lab_rms", "rel_l2")) + " |")
+
+
+EXPERIMENTS = {"speed": speed, "figure-4-6": figure_4_6, "figure-4-9": figure_4_9, "figure-4-10": figure_4_10, "figure-4-11": figure_4_11,
+               "figure-4-12": figure_4_12, "figure-1-5": figure_1_5, "beyond": beyond}
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3 or not set(sys.argv[3:]) <= set(EXPERIMENTS):
+        sys.exit(f"usage: thesis.py PROGRAM OUT [{' | '.join(EXPERIMENTS)}]...")
+    for chosen in sys.argv[3:] or EXPERIMENTS:
+        EXPERIMENTS[chosen](Experiments(sys.argv[1], sys.argv[2]))
+        sys.stdout.flush()
