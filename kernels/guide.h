@@ -7,6 +7,7 @@
 #define NEPHROID_GUIDE_H
 
 #include "shared_types.h"
+#include "choice.h"
 
 typedef struct {
   float density; // how much more often than evenly: the photon counts 1 / density
@@ -16,19 +17,12 @@ typedef struct {
 // Draws one of `count` bins and a place in it: *number in [0, 1) becomes another number in [0, 1). cdf: exact_cdf of the bins. Returns the bin.
 static inline int draw_bin(__global const float* cdf, int count, float* number, float* density)
 {
-  int low = 0, high = count - 1; // the first bin with cdf > number
-  while (low < high) {
-    const int middle = (low + high) >> 1;
-    if (cdf[middle] > *number)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  const float before = low > 0 ? cdf[low - 1] : 0.0f, chance = cdf[low] - before;
-  const float moved = ((float)low + (*number - before) / chance) / (float)count;
+  const int bin = choose(cdf, count, *number);
+  const float before = chance_before(cdf, bin), chance = cdf[bin] - before;
+  const float moved = ((float)bin + (*number - before) / chance) / (float)count;
   *number = moved < 0x1.fffffep-1f ? moved : 0x1.fffffep-1f;
   *density *= chance * (float)count;
-  return low;
+  return bin;
 }
 
 // numbers: xyz of a photon's emission. guide: of its light, GUIDE_FLOATS: cdfs of the first number, of the second given the first, of the

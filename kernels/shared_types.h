@@ -11,6 +11,9 @@ using uint = std::uint32_t;
 struct alignas(16) float4 {
   float x, y, z, w;
 };
+struct alignas(8) uint2 {
+  uint x, y;
+};
 #endif
 
 // 380..780 nm in steps of 1 nm: optics::wavelength_count.

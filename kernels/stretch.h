@@ -136,8 +136,8 @@ static inline Band stretched_band(const World* world, int light, const Band* pho
   const int first = world->tables.first[photon->cluster], count = world->tables.first[photon->cluster + 1] - first;
   const int members = world->tables.first[world->scene.cluster_count];
   __global const float* cdf = world->wavelength_cdf + light * members + first;
-  const int member = member_of_cluster(cdf, count, u);
-  const float before = member > 0 ? cdf[member - 1] : 0.0f;
+  const int member = choose(cdf, count, u);
+  const float before = chance_before(cdf, member);
   const Band band = {photon->cluster, world->tables.wavelengths[first + member], 1.0f / (cdf[member] - before)};
   *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f), stretch_origin(world, photon));
   return band;

@@ -5,6 +5,7 @@
 #include "optics/primary_spectra.h"
 #include "spectral/exact_cdf.h"
 #include "spectral/scales.h"
+#include "spectral/worth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +34,15 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
 {
   BackgroundTables tables;
   tables.size = {environment.width, environment.height, static_cast<float>(std::fmod(environment.rotate_deg, 360.0) / 360), 0};
-  std::vector<double> worth(wavelength_count, 0.0); // X + Y + Z of grey, and a twentieth by power, so that the ends are seen too
-  for (std::size_t w = 0; w < worth.size(); ++w)
+  std::vector<double> weights(wavelength_count, 0.0); // of grey
+  for (std::size_t w = 0; w < weights.size(); ++w)
     for (const Spectrum& primary : optics::primary_spectra()) {
       const optics::Colour xyz = one_wavelength(primary, w);
       tables.primary_xyz.push_back(to_float4(xyz));
-      worth[w] += (xyz[0] + xyz[1] + xyz[2]) / 3 + 0.05 * primary[w];
+      weights[w] += worth((xyz[0] + xyz[1] + xyz[2]) / 3, primary[w]);
     }
   for (const Spectrum& primary : optics::primary_spectra()) tables.primary_xyz.push_back(to_float4(optics::to_xyz(primary)));
-  tables.spectrum_cdf = exact_cdf(worth);
+  tables.spectrum_cdf = exact_cdf(weights);
   // 2^24 quanta for a mean texel; all samples of a pixel together cannot leave 63 bits.
   const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) / static_cast<double>(environment.rgb.size());
   tables.film_scale = power_of_two_below(0x1p24 / mean);

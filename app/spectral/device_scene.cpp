@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "spectral/effort.h"
+#include "spectral/emitters.h"
 #include "spectral/omissions.h"
 #include "spectral/scales.h"
 #include "spectral/scene_clusters.h"
@@ -104,22 +105,15 @@ void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, co
   watts.push_back(towards_targets_w(light, targets, scene.metres_per_unit));
 }
 
-/// weights: Effort::photons. Photons are numbered later.
-std::vector<shared::DeviceEmitter> make_emitters(const std::vector<double>& weights, const WavelengthTables& tables, unsigned photons)
+/// weights: Effort::photons.
+std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, const WavelengthTables& tables)
 {
-  const std::vector<unsigned> counts = deal_out(weights, photons);
-  std::vector<shared::DeviceEmitter> emitters;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == 0) continue;
+  std::vector<PhotonSource> sources;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
     const std::size_t l = i / tables.clusters.size(), c = i % tables.clusters.size();
-    shared::DeviceEmitter emitter{};
-    emitter.photon_count = counts[i];
-    emitter.light = static_cast<int>(l);
-    emitter.cluster = static_cast<int>(c);
-    emitter.share = static_cast<float>(tables.share[l][c]);
-    emitters.push_back(emitter);
+    sources.push_back({weights[i], static_cast<int>(l), static_cast<int>(c), tables.share[l][c]});
   }
-  return emitters;
+  return sources;
 }
 
 /// A power of two near the power of the strongest light.
@@ -169,9 +163,10 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
   std::vector<double> watts;
   for (const scene::Light* light : lights) add_light(*light, tables.spheres, scene, leave_out, tables, watts);
   Effort effort = make_effort(preset.spectral, scene, bvh, watts, tables.wavelengths);
-  tables.emitters = make_emitters(effort.photons, tables.wavelengths, static_cast<unsigned>(preset.spectral.photons_per_pass));
+  tables.emitters =
+      make_emitters(photon_sources(effort.photons, tables.wavelengths), static_cast<unsigned>(preset.spectral.photons_per_pass));
   tables.importance = std::move(effort.importance);
-  tables.photons_per_pass = number_photons(tables.emitters);
+  tables.photons_per_pass = count_photons(tables.emitters);
   tables.light_towards_targets_w = std::accumulate(watts.begin(), watts.end(), 0.0);
   tables.towards_targets_w = std::move(watts);
   tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");

@@ -3,6 +3,7 @@
 
 #include "spectral/importance.h"
 #include "spectral/omissions.h"
+#include "spectral/worth.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +20,7 @@ std::vector<double> by_power(const std::vector<double>& watts, const WavelengthT
 {
   std::vector<double> weights;
   for (std::size_t l = 0; l < watts.size(); ++l)
-    for (std::size_t c = 0; c < tables.clusters.size(); ++c)
-      weights.push_back(watts[l] * (tables.weight[l][c] + 0.05 * tables.share[l][c]));
+    for (std::size_t c = 0; c < tables.clusters.size(); ++c) weights.push_back(watts[l] * worth(tables.weight[l][c], tables.share[l][c]));
   return weights;
 }
 

@@ -17,11 +17,9 @@ public:
         everything_(world.context, "target of indirect light", std::span<const shared::DeviceTarget>(&tables_.everything, 1)),
         emitters_(world.context, "emitters of indirect light", std::span<const shared::DeviceEmitter>(tables_.emitters)),
         spectrum_cdf_(world.context, "wavelengths of indirect light", std::span<const float>(tables_.spectrum_cdf)),
-        film_(world.zeroed("film indirect", world.film_size())), energy_(world.zeroed("energy of indirect light", OUTCOME_COUNT)),
-        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
+        film_(world.zeroed("film indirect", world.film_size())), energy_(world.zeroed("energy of indirect light", OUTCOME_COUNT))
   {
-    compute::Defines defines = world.defines;
-    defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
+    compute::Defines defines = world.photon_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every photon has a wavelength of its own
     kernel_ = compute::Program(world.context, "indirect.cl", defines).kernel("indirect");
   }
@@ -32,10 +30,9 @@ public:
   bool step(std::int64_t pass) override
   {
     return slices_.step(tables_.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-      world_.run(kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, everything_, emitters_,
-                 static_cast<int>(tables_.emitters.size()), spectrum_cdf_, film_, energy_, world_.tables.camera, world_.seed,
-                 static_cast<std::uint32_t>(pass), offset, stride, count, tables_.outside_distance, world_.on_device(tables_.film_scale),
-                 world_.on_device(tables_.energy_scale));
+      world_.run_photons(kernel_, count, everything_, emitters_, static_cast<int>(tables_.emitters.size()), spectrum_cdf_, film_, energy_,
+                         world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), offset, stride, count,
+                         tables_.outside_distance, world_.on_device(tables_.film_scale), world_.on_device(tables_.energy_scale));
     });
   }
 
@@ -78,7 +75,6 @@ private:
   compute::Buffer<shared::DeviceEmitter> emitters_;
   compute::Buffer<float> spectrum_cdf_;
   compute::Buffer<std::int64_t> film_, energy_;
-  unsigned photons_per_item_;
   compute::Kernel kernel_;
   PhotonSlices slices_;
 };

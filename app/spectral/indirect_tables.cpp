@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/indirect_tables.h"
 
+#include "spectral/emitters.h"
 #include "spectral/exact_cdf.h"
 #include "spectral/scales.h"
 #include "spectral/targets.h"
-#include "spectral/wavelength_tables.h"
+#include "spectral/worth.h"
 
 #include <numeric>
 
 namespace nephroid::spectral {
 namespace {
 
-/// What the eye makes of each wavelength of a light, and a twentieth by plain power, as photons of a cluster are dealt out.
-std::vector<double> visible_power(const WavelengthTables& tables, std::size_t light)
+/// Of each wavelength of a light.
+std::vector<double> wavelength_worth(const WavelengthTables& tables, std::size_t light)
 {
   std::vector<double> weights;
   for (const int w : tables.cluster_wavelengths) {
     const shared::float4& xyz = tables.light_xyz[light * WAVELENGTH_COUNT + static_cast<std::size_t>(w)];
-    weights.push_back((double(xyz.x) + xyz.y + xyz.z) / 3 + 0.05 * xyz.w);
+    weights.push_back(worth((double(xyz.x) + xyz.y + xyz.z) / 3, xyz.w));
   }
   return weights;
 }
@@ -30,25 +31,18 @@ IndirectTables make_indirect_tables(const scene::Scene& scene, const DeviceTable
   const scene::Sphere all = everything(scene);
   result.everything.centre_radius = {all.centre.x, all.centre.y, all.centre.z, all.radius};
   result.outside_distance = 2.5f * all.radius;
-  std::vector<double> weights;
+  std::vector<PhotonSource> sources;
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
     const double watts = towards_targets_w(light, {all}, scene.metres_per_unit);
-    const std::vector<double> visible = visible_power(tables.wavelengths, l);
-    weights.push_back(watts * std::accumulate(visible.begin(), visible.end(), 0.0));
+    const std::vector<double> weights = wavelength_worth(tables.wavelengths, l);
+    sources.push_back({watts * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
     result.emitted_w += watts;
-    const std::vector<float> cdf = exact_cdf(visible);
+    const std::vector<float> cdf = exact_cdf(weights);
     result.spectrum_cdf.insert(result.spectrum_cdf.end(), cdf.begin(), cdf.end());
   }
-  const std::vector<unsigned> counts = deal_out(weights, photons);
-  for (std::size_t l = 0; l < counts.size(); ++l) {
-    if (counts[l] == 0) continue;
-    shared::DeviceEmitter emitter{};
-    emitter.photon_count = counts[l];
-    emitter.light = static_cast<int>(l);
-    result.emitters.push_back(emitter);
-  }
-  result.photons_per_pass = number_photons(result.emitters);
+  result.emitters = make_emitters(sources, photons);
+  result.photons_per_pass = count_photons(result.emitters);
   result.film_scale = splat_scale(scene, result.photons_per_pass, result.emitted_w);
   result.energy_scale = energy_scale(result.emitted_w);
   return result;

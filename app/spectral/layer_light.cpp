@@ -2,7 +2,9 @@
 #include "spectral/layer_light.h"
 
 #include "scene/materials.h"
-#include "spectral/wavelength_tables.h"
+#include "spectral/emitters.h"
+#include "spectral/exact_cdf.h"
+#include "spectral/worth.h"
 
 #include <fmt/format.h>
 
@@ -22,8 +24,8 @@ double reflectance(const WavelengthTables& tables, std::size_t reflector, int wa
   return static_cast<double>(tables.reflectance[reflector * optics::wavelength_count + static_cast<std::size_t>(wavelength)]);
 }
 
-/// What the eye makes of each cluster of a light of 1 W, and a twentieth of its share, so that what is hardly seen is not forgotten.
-std::vector<double> seen_power(const optics::Spectrum& spectrum, const WavelengthTables& tables)
+/// Of each cluster of a light of 1 W.
+std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const WavelengthTables& tables)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
   std::vector<double> power;
@@ -31,7 +33,7 @@ std::vector<double> seen_power(const optics::Spectrum& spectrum, const Wavelengt
     double sum = 0;
     for (const int index : cluster) {
       const auto w = static_cast<std::size_t>(index);
-      sum += spectrum[w] * ((eye.x[w] + eye.y[w] + eye.z[w]) / 3 + 0.05);
+      sum += worth(spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, spectrum[w]);
     }
     power.push_back(sum);
   }
@@ -134,46 +136,34 @@ FlatLight flat_light(const WavelengthTables& tables)
 
 std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const DeviceTables& tables, unsigned photons)
 {
-  const std::size_t clusters = tables.wavelengths.clusters.size();
+  const std::vector<std::vector<int>>& clusters = tables.wavelengths.clusters;
+  std::vector<PhotonSource> sources;
   std::vector<double> parts;
   std::vector<bool> never;
-  for (std::size_t l = 0; l < light.spectra.size(); ++l)
-    for (const double seen : seen_power(light.spectra[l], tables.wavelengths)) {
-      parts.push_back(tables.towards_targets_w[l] * light.power[l] * seen);
+  for (std::size_t l = 0; l < light.spectra.size(); ++l) {
+    const std::vector<double> worth = cluster_worth(light.spectra[l], tables.wavelengths);
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+      double share = 0;
+      for (const int w : clusters[c]) share += light.spectra[l][static_cast<std::size_t>(w)];
+      sources.push_back({0, static_cast<int>(l), static_cast<int>(c), share * light.power[l] / light.strongest()});
+      parts.push_back(tables.towards_targets_w[l] * light.power[l] * worth[c]);
       never.push_back(!(tables.towards_targets_w[l] > 0));
     }
-  const std::vector<unsigned> counts = deal_out(half_evenly(std::move(parts), never), photons);
-  std::vector<shared::DeviceEmitter> emitters;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == 0) continue;
-    const std::size_t l = i / clusters, c = i % clusters;
-    double share = 0;
-    for (const int w : tables.wavelengths.clusters[c]) share += light.spectra[l][static_cast<std::size_t>(w)];
-    shared::DeviceEmitter emitter{};
-    emitter.photon_count = counts[i];
-    emitter.light = static_cast<int>(l);
-    emitter.cluster = static_cast<int>(c);
-    emitter.share = static_cast<float>(share * light.power[l] / light.strongest());
-    emitters.push_back(emitter);
   }
-  number_photons(emitters);
-  return emitters;
+  parts = half_evenly(std::move(parts), never);
+  for (std::size_t i = 0; i < sources.size(); ++i) sources[i].weight = parts[i];
+  return make_emitters(sources, photons);
 }
 
 std::vector<float> layer_cluster_cdf(const LayerLight& light, const WavelengthTables& tables)
 {
   std::vector<double> parts(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < light.spectra.size(); ++l) {
-    const std::vector<double> seen = seen_power(light.spectra[l], tables);
-    for (std::size_t c = 0; c < parts.size(); ++c) parts[c] += light.power[l] * seen[c];
+    const std::vector<double> worth = cluster_worth(light.spectra[l], tables);
+    for (std::size_t c = 0; c < parts.size(); ++c) parts[c] += light.power[l] * worth[c];
   }
   parts = half_evenly(std::move(parts), std::vector<bool>(tables.clusters.size(), false));
-  const double total = std::accumulate(parts.begin(), parts.end(), 0.0);
-  std::vector<float> cdf{0};
-  double sum = 0;
-  for (const double part : parts) cdf.push_back(static_cast<float>((sum += part) / total));
-  if (cdf.size() > 1) cdf.back() = 1;
-  return cdf;
+  return exact_cdf_from_zero(parts);
 }
 
 double layer_energy_scale(const LayerLight& light, const DeviceTables& tables)
@@ -191,7 +181,7 @@ DeviceTables make_run_tables(const preset::Preset& preset, const scene::Scene& s
   DeviceTables tables = make_device_tables(layered, with_unit_lights(scene), bvh);
   const LayerLight light = layer_light(scene, preset.white);
   tables.emitters = layer_emitters(light, tables, static_cast<unsigned>(preset.spectral.photons_per_pass));
-  tables.photons_per_pass = number_photons(tables.emitters);
+  tables.photons_per_pass = count_photons(tables.emitters);
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
   tables.wavelengths.cluster_cdf = layer_cluster_cdf(light, tables.wavelengths);
   tables.energy_scale = layer_energy_scale(light, tables);

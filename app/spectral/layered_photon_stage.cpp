@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caustic layer, kept as layers: kernels/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt anew when
 // the light changes, and what was sent before stays as good as it was.
+#include "spectral/emitters.h"
 #include "spectral/film.h"
 #include "spectral/layer_film.h"
 #include "spectral/photon_slices.h"
 #include "spectral/relighting.h"
-#include "spectral/wavelength_tables.h"
 
 #include <algorithm>
 
@@ -18,11 +18,9 @@ public:
       : world_(world), relighting_(relighting), emitters_(world.tables.emitters), sent_(emitters_.size()),
         film_(world.context, "film caustic", relighting.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
         // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
-        scale_(world.tables.caustic_scale / world.tables.photons_per_pass), photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
+        scale_(world.tables.caustic_scale / world.tables.photons_per_pass)
   {
-    compute::Defines defines = world.defines;
-    defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
-    kernel_ = compute::Program(world.context, "relight_photons.cl", defines).kernel("photons");
+    kernel_ = compute::Program(world.context, "relight_photons.cl", world.photon_defines()).kernel("photons");
   }
 
   const char* name() const override { return "photons"; }
@@ -33,13 +31,13 @@ public:
   {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete = slices_.step(world_.tables.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride,
-                                                                           std::uint32_t count) {
-      world_.run(kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, world_.buffers.emitters,
-                 film_.first(), film_.cells(), film_.sums(), film_.layer_count(), relighting_.mean_reflectance, world_.energy,
-                 world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(at_.first_pass), offset,
-                 stride, count, world_.on_device(scale_), static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest()));
-    });
+    const bool complete =
+        slices_.step(world_.tables.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
+          world_.run_photons(kernel_, count, world_.buffers.targets, world_.buffers.emitters, film_.first(), film_.cells(), film_.sums(),
+                             film_.layer_count(), relighting_.mean_reflectance, world_.energy, world_.tables.camera, world_.seed,
+                             static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(at_.first_pass), offset, stride, count,
+                             world_.on_device(scale_), static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest()));
+        });
     if (complete)
       for (std::size_t e = 0; e < emitters_.size(); ++e) sent_[e][at_.half] += emitters_[e].photon_count;
     return complete;
@@ -144,7 +142,6 @@ private:
   std::uint64_t shared_ = 0, dealt_ = 0;           ///< Relighting::changes when shares and counts were last taken
   LayerFilm film_;
   double scale_; ///< quanta per W m^-2 sr^-1, of one photon that has a layer's whole power
-  unsigned photons_per_item_;
   compute::Kernel kernel_;
   Position at_;
   PhotonSlices slices_;

@@ -21,11 +21,9 @@ public:
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * GUIDE_CELLS : 0)),
         guide_table_(world.context, "guide of directions", std::span<const float>(guide_.table())),
-        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0),
-        photons_per_item_(world.context.device().type == "cpu" ? 16 : 1)
+        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0)
   {
-    compute::Defines defines = world.defines;
-    defines["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item_);
+    compute::Defines defines = world.photon_defines();
     defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
     defines["NEPHROID_STORE"] = std::to_string(int(map != nullptr));
     if (map) stored_ = map->stored();
@@ -41,11 +39,11 @@ public:
     if (by_variance_ && slices_.at_start() && deal_.is_due(pass)) deal(pass);
     const DeviceTables& t = world_.tables;
     return slices_.step(t.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-      world_.run(kernel_, (count + photons_per_item_ - 1) / photons_per_item_, 32, world_.buffers.targets, world_.buffers.emitters, film_,
-                 world_.energy, moments_, guide_moments_, guide_table_, unseen_weight(), stored_, t.scene.emitter_count,
-                 static_cast<int>(t.objects.size()), t.camera, world_.seed, static_cast<std::uint32_t>(pass),
-                 static_cast<std::uint32_t>(deal_.first_pass()), offset, stride, count, world_.on_device(t.caustic_scale),
-                 world_.on_device(t.energy_scale), world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w)));
+      world_.run_photons(kernel_, count, world_.buffers.targets, world_.buffers.emitters, film_, world_.energy, moments_, guide_moments_,
+                         guide_table_, unseen_weight(), stored_, t.scene.emitter_count, static_cast<int>(t.objects.size()), t.camera,
+                         world_.seed, static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(deal_.first_pass()), offset, stride,
+                         count, world_.on_device(t.caustic_scale), world_.on_device(t.energy_scale),
+                         world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w)));
     });
   }
 
@@ -113,7 +111,6 @@ private:
   compute::Buffer<float> guide_table_;
   compute::Buffer<std::int64_t> film_;
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
-  unsigned photons_per_item_;
   compute::Kernel kernel_;
   PhotonSlices slices_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/variance_deal.h"
 
-#include "spectral/wavelength_tables.h"
+#include "spectral/emitters.h"
 
 #include <bit>
 #include <cmath>

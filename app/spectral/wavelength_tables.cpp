@@ -2,6 +2,8 @@
 #include "spectral/wavelength_tables.h"
 
 #include "optics/colour.h"
+#include "spectral/exact_cdf.h"
+#include "spectral/worth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -142,43 +144,31 @@ void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTa
   }
 }
 
-/// What light of one wavelength is worth sending a path for: what the eye makes of it, and a twentieth of its plain power, so that what
-/// the eye hardly sees is still seen.
-double worth(const std::array<double, 4>& xyz_power) { return (xyz_power[0] + xyz_power[1] + xyz_power[2]) / 3 + 0.05 * xyz_power[3]; }
-
 double radiometric(const scene::Light& light) { return light.power_w + light.irradiance_w_m2; }
 
-/// From 0 to 1. Clusters without light get none.
 void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
   std::vector<double> weights(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < lights.size(); ++l)
-    for (std::size_t c = 0; c < weights.size(); ++c)
-      weights[c] += radiometric(*lights[l]) * (tables.weight[l][c] + 0.05 * tables.share[l][c]);
-  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  double sum = 0;
-  tables.cluster_cdf.push_back(0);
-  for (const double weight : weights) {
-    sum += weight;
-    tables.cluster_cdf.push_back(total > 0 ? static_cast<float>(sum / total) : 1.0f);
-  }
+    for (std::size_t c = 0; c < weights.size(); ++c) weights[c] += radiometric(*lights[l]) * worth(tables.weight[l][c], tables.share[l][c]);
+  tables.cluster_cdf = exact_cdf_from_zero(weights);
 }
 
-/// Within each cluster from above 0 to 1, by the worth of the members' light; all alike where there is none.
+/// A cdf of each cluster, one after the other, by the worth of the members' light.
 void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
   for (const std::vector<int>& cluster : tables.clusters) {
-    double total = 0, sum = 0;
-    const auto weight = [&](int w) {
+    std::vector<double> weights;
+    for (const int w : cluster) {
       double all = 0;
-      for (const scene::Light* light : lights) all += radiometric(*light) * worth(reflected(light->spectrum, nullptr, {w}));
-      return all;
-    };
-    for (const int w : cluster) total += weight(w);
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
-      sum += total > 0 ? weight(cluster[i]) / total : 1.0 / static_cast<double>(cluster.size());
-      tables.wavelength_cdf.push_back(i + 1 == cluster.size() ? 1.0f : std::min(static_cast<float>(sum), 1.0f));
+      for (const scene::Light* light : lights) {
+        const std::array<double, 4> xyz_power = reflected(light->spectrum, nullptr, {w});
+        all += radiometric(*light) * worth((xyz_power[0] + xyz_power[1] + xyz_power[2]) / 3, xyz_power[3]);
+      }
+      weights.push_back(all);
     }
+    const std::vector<float> cdf = exact_cdf(weights);
+    tables.wavelength_cdf.insert(tables.wavelength_cdf.end(), cdf.begin(), cdf.end());
   }
 }
 
@@ -197,51 +187,6 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
   for (const scene::Light* light : lights) add_wavelength_cdf({light}, tables);
   add_wavelength_cdf(lights, tables);
   return tables;
-}
-
-std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned photons)
-{
-  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const auto positive = static_cast<unsigned>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
-  std::vector<unsigned> counts(weights.size(), 0);
-  if (positive == 0) return counts;
-  const unsigned spare = photons > positive ? photons - positive : 0;
-  // The running sum is rounded, not each count: then the counts add up to `spare` whatever the weights.
-  double sum = 0;
-  unsigned dealt = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    sum += weights[i];
-    const auto upto = static_cast<unsigned>(std::llround(spare * std::min(sum / total, 1.0)));
-    counts[i] = upto - dealt + (weights[i] > 0 ? 1 : 0);
-    dealt = upto;
-  }
-  return counts;
-}
-
-unsigned number_photons(std::vector<shared::DeviceEmitter>& emitters)
-{
-  unsigned first = 0;
-  for (auto begin = emitters.begin(); begin != emitters.end();) {
-    const auto end = std::find_if(begin, emitters.end(), [&](const shared::DeviceEmitter& e) { return e.light != begin->light; });
-    const unsigned light_first = first;
-    for (auto e = begin; e != end; ++e) {
-      e->first_photon = first;
-      first += e->photon_count;
-    }
-    for (auto e = begin; e != end; ++e) {
-      e->light_first_photon = light_first;
-      e->light_photon_count = first - light_first;
-    }
-    begin = end;
-  }
-  return first;
-}
-
-void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons)
-{
-  const std::uint64_t at = (std::uint64_t{emitter.sequence_start_high} << 32 | emitter.sequence_start) + photons;
-  emitter.sequence_start = static_cast<std::uint32_t>(at);
-  emitter.sequence_start_high = static_cast<std::uint32_t>(at >> 32);
 }
 
 } // namespace nephroid::spectral

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables that engine 1 hands to its kernels: targets that enclose, photons dealt out, sums over wavelength; and the plan's reasons.
+// The tables that engine 1 hands to its kernels: targets that enclose, sums over wavelength; and the plan's reasons.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "plan/plan.h"
@@ -8,7 +8,6 @@
 #include "spectral/device_scene.h"
 #include "spectral/engine.h"
 #include "spectral/targets.h"
-#include "spectral/wavelength_tables.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 
@@ -21,19 +20,6 @@ using namespace nephroid;
 using namespace nephroid::test;
 
 namespace {
-
-TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
-{
-  using testing::ElementsAre;
-  EXPECT_THAT(spectral::deal_out({1, 1, 2}, 8), ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
-  EXPECT_THAT(spectral::deal_out({1, 0, 1e-9}, 100), ElementsAre(99, 0, 1));
-  EXPECT_THAT(spectral::deal_out({1, 1, 1}, 1), ElementsAre(1, 1, 1));
-  EXPECT_THAT(spectral::deal_out({0, 0}, 10), ElementsAre(0, 0));
-  std::vector<double> weights(401);
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::pow(0.9, static_cast<double>(i));
-  const std::vector<unsigned> counts = spectral::deal_out(weights, 1 << 18);
-  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 1u << 18);
-}
 
 preset::Preset scene_with(const preset::Shape& shape, const preset::Material& material)
 {
