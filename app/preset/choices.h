@@ -105,7 +105,8 @@ struct Choices<Spectral::Effort> {
       {Effort::equal, "equal", "The same for each cluster."},
       {Effort::importance, "importance", "By the importance of (4.15): light, luminosity, surroundings."},
       {Effort::radziszewski, "radziszewski", "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
-      {Effort::variance, "variance", "By the variance that is measured while the run goes on; not with sppm."},
+      {Effort::variance, "variance",
+       "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm."},
       {Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
 };
 

@@ -70,7 +70,10 @@ void describe(V& v, S& s)
   v.field({.name = "estimator", .sentence = "How caustics are estimated."}, s.estimator);
   v.field({.name = "effort", .sentence = "How the work is dealt to the clusters."}, s.effort);
   v.field({.name = "importance", .sentence = "How much a wavelength matters, where `effort` asks for it."}, s.importance);
-  v.field({.name = "jitter", .sentence = "Each photon takes one wavelength of its cluster, so that clusters leave no bias."}, s.jitter);
+  v.field({.name = "jitter",
+           .sentence = "Each path takes one wavelength of its cluster, so that clusters leave no bias; with photon maps those of a pass "
+                       "share few."},
+          s.jitter);
   v.field({.name = "low_discrepancy", .sentence = "Photons leave the lights by a scrambled Sobol sequence."}, s.low_discrepancy);
   v.field({.name = "differentials", .sentence = "A splat is stretched along the way that it moves with wavelength."}, s.differentials);
   v.field({.name = "relight", .sentence = "Keep a layer for each cluster, so that the spectrum of a light can change without a new run."},

@@ -179,8 +179,8 @@ struct Spectral {
   /// Where caustics are estimated. automatic: splats where the camera sees the receiver directly, photon maps elsewhere.
   enum class Estimator { automatic, splat, sppm };
   /// How the work is dealt to the clusters. power: by what the eye makes of their light; equal: the same for each; importance: u of
-  /// (4.15); radziszewski: that of Radziszewski et al. 2009; variance: by the variance that is measured; random: one cluster a
-  /// pass, drawn at random (sppm only).
+  /// (4.15); radziszewski: that of Radziszewski et al. 2009; variance: by the variance that is measured, which also guides the directions
+  /// in which photons leave a light (not with sppm); random: one cluster a pass, drawn at random (sppm only).
   enum class Effort { power, equal, importance, radziszewski, variance, random };
   Method method = Method::optimal;
   double threshold_deg = 0.05; ///< alpha: the largest change of the refraction angle inside a cluster
@@ -188,7 +188,7 @@ struct Spectral {
   Estimator estimator = Estimator::automatic;
   Effort effort = Effort::power;
   Importance importance;
-  bool jitter = true;                      ///< each photon takes one wavelength of its cluster, so clusters leave no bias
+  bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so clusters leave no bias
   bool low_discrepancy = true;             ///< photons leave the lights by a scrambled Sobol sequence
   bool differentials = false;              ///< a splat is stretched along the way that it moves with wavelength
   bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
