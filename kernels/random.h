@@ -4,20 +4,21 @@
 #ifndef NEPHROID_RANDOM_H
 #define NEPHROID_RANDOM_H
 
-// Streams keep apart what is drawn for different ends with the same (pass, index, dimension). No two kernels share one.
-#define STREAM_PHOTONS 0u        // photons.cl: index is the photon of a pass
-#define STREAM_CAMERA 1u         // direct.cl, here and below: index is the pixel
-#define STREAM_CAMERA_LIGHT 2u   // places on area lights
-#define STREAM_CAMERA_CLUSTER 3u // where a pixel starts among the clusters
-#define STREAM_CAMERA_WAVELENGTH 4u // inside of a cluster
-#define STREAM_SOBOL 5u             // low_discrepancy.h: how a sequence is scrambled
-#define STREAM_BACKGROUND 14u    // background.cl: index is the pixel
+// Streams keep apart what is drawn for different ends with the same (pass, index, dimension). No two kernels of a run share one; the
+// kernels of relighting (relight_*.cl) use those of the kernels that they replace.
+#define STREAM_PHOTONS 0u                // photons.cl: index is the photon of a pass
+#define STREAM_CAMERA 1u                 // direct.cl, here and below: index is the pixel
+#define STREAM_CAMERA_LIGHT 2u           // places on area lights
+#define STREAM_CAMERA_CLUSTER 3u         // where a pixel starts among the clusters
+#define STREAM_CAMERA_WAVELENGTH 4u      // inside of a cluster
+#define STREAM_SOBOL 5u                  // low_discrepancy.h: how a sequence is scrambled
+#define STREAM_BACKGROUND 14u            // background.cl: index is the pixel
 #define STREAM_BACKGROUND_WAVELENGTH 15u // where a pixel starts in the spectrum
-#define STREAM_VIEW 32u          // view.cl, here and below: index is the pixel
+#define STREAM_INDIRECT 16u              // indirect.cl: index is the photon of a pass
+#define STREAM_SURVEY 24u                // relight_direct.cl, its survey: index is the pixel
+#define STREAM_VIEW 32u                  // view.cl, here and below: index is the pixel
 #define STREAM_VIEW_CLUSTER 33u
-#define STREAM_PASS_BAND 34u     // pass_band.h: index is the cluster
-#define STREAM_INDIRECT 16u      // indirect.cl: index is the photon of a pass
-#define STREAM_SURVEY 24u        // relight_direct.cl, its survey: index is the pixel
+#define STREAM_PASS_BAND 34u             // pass_band.h: index is the cluster
 
 static inline uint4 philox4x32(uint4 counter, uint2 key)
 {

@@ -49,8 +49,9 @@ public:
     return first <= last;
   }
 
-  /// Distance of triangle i of a block, not above 0 where the ray does not hit it. The triangle is sheared so that the ray becomes the z axis; it is hit where the
-  /// three edge functions have one sign (Woop, Benthin and Wald 2013). Two triangles compute their common edge from the same numbers.
+  /// Distance of triangle i of a block, not above 0 where the ray does not hit it. The triangle is sheared so that the ray becomes the z
+  /// axis; it is hit where the three edge functions have one sign (Woop, Benthin and Wald 2013). Two triangles compute their common edge
+  /// from the same numbers.
   double distance(const float* block, std::size_t i) const
   {
     const glm::dvec3 a = sheared(block, 0, i), b = sheared(block, 1, i), c = sheared(block, 2, i);

@@ -223,8 +223,7 @@ const std::vector<Extreme> extremes = {
      }},
     {"InsideOut", "a closed mesh whose triangles look inwards", "turned round: Fresnel",
      [] {
-       return warned(mesh_under_pencil({{0.5, 0.5, 0.5, true}}), "object 'mesh': is inside out; its triangles are turned round",
-                     one_plate);
+       return warned(mesh_under_pencil({{0.5, 0.5, 0.5, true}}), "object 'mesh': is inside out; its triangles are turned round", one_plate);
      }},
     {"Duplicated", "a face given twice, and one without area", "dropped: Fresnel",
      [] {

@@ -266,9 +266,10 @@ TEST(MeasuredJob, RefusesWhatCannotBeMeasured)
   preset::Preset preset = settings();
   preset.stop.error = 1;
   preset.measure.estimate = false;
-  EXPECT_EQ(error_of([&] { noisy(preset, nullptr); }).line(),
-            "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or 'measure.estimate' true and "
-            "another 'spectral.estimator' than sppm");
+  EXPECT_EQ(
+      error_of([&] { noisy(preset, nullptr); }).line(),
+      "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or 'measure.estimate' true and "
+      "another 'spectral.estimator' than sppm");
   preset = settings();
   preset.stop.error = 1;
   preset.stop.metric = preset::Stop::Metric::rel_mse;
