@@ -113,7 +113,7 @@ std::vector<Followed> follow(Lab& lab, const std::vector<Ray64>& rays, const std
   compute::Buffer<std::uint32_t> meets(context, "meets", all);
   compute::Buffer<int> lengths(context, "lengths", rays.size());
   compute::Buffer<float> out(context, "states", all * 12);
-  lab.world.run(lab.kernel, rays.size(), 64, in, in_clusters, spectral::Uint2{1, 2}, meets, lengths, out,
+  lab.world.run(lab.kernel, rays.size(), 64, in, in_clusters, shared::uint2{1, 2}, meets, lengths, out,
                 static_cast<std::uint32_t>(rays.size()));
   const std::vector<std::uint32_t> met = meets.read();
   const std::vector<int> length = lengths.read();
@@ -298,7 +298,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Differential,
                          testing::Values(DifferentialCase{"Prism", prism, 3}, DifferentialCase{"SmoothBall", smooth_ball, 3},
                                          DifferentialCase{"FacetedBall", faceted_ball, 4}, DifferentialCase{"Brilliant", brilliant, 8},
                                          DifferentialCase{"Mirrors", mirrors, 5}, DifferentialCase{"NestedTwoCurves", nested, 6}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& scene) { return scene.param.name; });
 
 // A prism of apex A at minimum deviation: both refractions are alike, sin((A + d) / 2) = n sin(A / 2). There the deviation d does not
 // change with the angle of incidence, so for a fixed ray too
