@@ -37,7 +37,9 @@ class Experiments:
         command = [self.program, "run", preset, "--seed", str(seed), "-o", str(folder)]
         for item in sets:
             command += ["--set", item]
-        subprocess.run(command, check=True, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(done.stderr.splitlines()[-1])
         rows = list(csv.DictReader(open(folder / "history.csv"))) if (folder / "history.csv").exists() else []
         return json.load(open(folder / "run.json")), rows, folder
 

@@ -142,8 +142,7 @@ const Fault faults[] = {
     {"ReflectsTooOften", "surface.h", "!(choice < fresnel_reflectance", "!(0.9f * choice < fresnel_reflectance",
      "plate: Fresnel's transmittance"},
     {"PriorityIgnored", "media.h", "objects[candidate].priority", "0", "plate: air inside glass"},
-    {"OneIndexForAll", "interface.h", "n_of[far_material]", "(n_of[far_material] + 0.001f)",
-     "prism: wavelengths where Snell says"},
+    {"OneIndexForAll", "interface.h", "n_of[far_material]", "(n_of[far_material] + 0.001f)", "prism: wavelengths where Snell says"},
     {"SmoothNormalsMixed", "surface.h", "(1.0f - hit.u - hit.v) * vload3(corner.x, geometry->normals)",
      "(1.0f - hit.u) * vload3(corner.x, geometry->normals)", "ball lens: rays towards its focus"},
 };
