@@ -48,7 +48,7 @@ protected:
   {
     return "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" xvfb-run -a -f " + quoted("authority") + " -s '-screen 0 1600x1000x24' ";
   }
-  std::string quoted(const std::string& name) const { return "'" + (folder.path() / name).string() + "'"; }
+  std::string quoted(const std::string& name) const { return fmt::format("'{}'", (folder.path() / name).string()); }
   /// Opens a preset, drags with the left button from one place of the window to another, saves and quits, all by X events; needs xdotool.
   /// The program's exit code; its last frame is in screen.png, what it printed in `log`.
   int drag_and_save(const std::string& file, const std::string& options, const std::array<int, 2>& from, const std::array<int, 2>& to) const
