@@ -161,8 +161,9 @@ TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
   click("thesis");
   EXPECT_EQ(workbench.preset()->spectral.method, ClusterMethod::thesis);
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 41.0);
+  ASSERT_TRUE(workbench.preset()->spectral.jitter);
   click("Jitter");
-  EXPECT_TRUE(workbench.preset()->spectral.jitter);
+  EXPECT_FALSE(workbench.preset()->spectral.jitter);
   click("Sorted");
   move(panel().plot().to_screen({200, 1.95}));
   frames(2);
