@@ -31,10 +31,10 @@ std::vector<double> wavelengths_of_line(double low_nm, double high_nm)
   const double low = std::max(lowest_nm, std::min(low_nm, optics::first_nm - beyond_nm));
   const double high = std::min(highest_nm, std::max(high_nm, optics::last_nm + beyond_nm));
   std::vector<double> nm;
-  for (double l = optics::first_nm - 5; l >= low; l -= 5) nm.push_back(l);
+  for (int l = optics::first_nm - 5; l >= low; l -= 5) nm.push_back(l);
   std::reverse(nm.begin(), nm.end());
   for (int l = optics::first_nm; l <= optics::last_nm; ++l) nm.push_back(l);
-  for (double l = optics::last_nm + 5; l <= high; l += 5) nm.push_back(l);
+  for (int l = optics::last_nm + 5; l <= high; l += 5) nm.push_back(l);
   return nm;
 }
 

@@ -26,7 +26,7 @@ struct DeviceWorld {
   /// The number of 64-bit sums of a film of XYZ.
   std::size_t film_size() const
   {
-    return halves * 3 * static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
+    return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
   }
   compute::Buffer<std::int64_t> zeroed(const std::string& name, std::size_t count) const
   {

@@ -10,7 +10,7 @@
 namespace nephroid::spectral {
 namespace {
 
-constexpr std::size_t bins_x = GUIDE_BINS_X, bins_y = GUIDE_BINS_Y, bins_z = GUIDE_BINS_Z, cells = GUIDE_CELLS;
+constexpr std::size_t bins_x = GUIDE_BINS_X, bins_y = GUIDE_BINS_Y, bins_z = GUIDE_BINS_Z, cells = EmissionGuide::cells;
 
 /// The part of the photons that is spread evenly whatever was learned: a cell that looked dark may not be.
 constexpr double even_part = 0.15;

@@ -6,6 +6,7 @@
 #include "kernels/shared_types.h"
 #include "spectral/state_bytes.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +15,9 @@ namespace nephroid::spectral {
 
 class EmissionGuide {
 public:
+  static constexpr std::size_t cells = std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y * GUIDE_BINS_Z;
+  static constexpr std::size_t floats = GUIDE_BINS_X + std::size_t{GUIDE_BINS_X} * GUIDE_BINS_Y + cells; ///< of a light in table()
+
   /// Even for all lights. lights: how many.
   explicit EmissionGuide(std::size_t lights);
 

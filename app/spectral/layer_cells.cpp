@@ -110,8 +110,8 @@ LayerBudget layer_budget(const shared::DeviceCamera& camera, std::span<const sce
   };
   std::size_t bent = camera.inside.count > 0 ? pixels : 0;
   for (int pixel = 0; bent < pixels && pixel < camera.width * camera.height; ++pixel) {
-    const float x = 2 * (static_cast<float>(pixel % camera.width) + 0.5f) / width - 1,
-                y = 1 - 2 * (static_cast<float>(pixel / camera.width) + 0.5f) / height;
+    const int column = pixel % camera.width, row = pixel / camera.width;
+    const float x = 2 * (static_cast<float>(column) + 0.5f) / width - 1, y = 1 - 2 * (static_cast<float>(row) + 0.5f) / height;
     const glm::vec3 way = glm::normalize(forward + x * camera.tan_x * right + y * camera.tan_y * up);
     if (std::any_of(spheres.begin(), spheres.end(), [&](const scene::Sphere& sphere) { return may_see(way, sphere); })) ++bent;
   }

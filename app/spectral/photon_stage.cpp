@@ -19,7 +19,7 @@ public:
       : world_(world), by_variance_(settings.effort == preset::Spectral::Effort::variance), deal_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
-        guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * GUIDE_CELLS : 0)),
+        guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
         guide_table_(world.context, "guide of directions", std::span<const float>(guide_.table())),
         film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0)
   {

@@ -2,6 +2,7 @@
 // What engine 1 runs for a preset and what it leaves out.
 #include "spectral/device_scene.h"
 #include "spectral/effort.h"
+#include "spectral/emission_guide.h"
 #include "spectral/engine.h"
 #include "spectral/layer_light.h"
 #include "spectral/layer_plan.h"
@@ -205,8 +206,8 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
     plan.buffers.push_back({"film background", film_bytes(scene, halves)});
   }
   if (photons.runs && preset.spectral.effort == preset::Spectral::Effort::variance)
-    plan.buffers.push_back(
-        {"guide of directions", tables.lights.size() * (GUIDE_FLOATS * sizeof(float) + GUIDE_CELLS * sizeof(std::int64_t))});
+    plan.buffers.push_back({"guide of directions",
+                            tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
   if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);
