@@ -57,10 +57,7 @@ public:
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](int row) {
-      if (passes >= pixel_samples_) return halves_of(pixel_samples_, 0);
-      return halves_of(passes, done || rows_.is_done(row) ? 1 : 0);
-    };
+    const auto samples = [&](int row) { return rows_.samples(row, passes, done, pixel_samples_); };
     const std::vector<std::int64_t> sums = film_.read();
     const shared::DeviceCamera& camera = world_.tables.camera;
     add_layer("background", {sums, camera.width, camera.height, tables_.film_scale * world_.white / radiance_, samples}, picture);

@@ -31,10 +31,7 @@ public:
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](int row) {
-      if (passes >= pixel_samples_) return halves_of(pixel_samples_, 0);
-      return halves_of(passes, done || rows_.is_done(row) ? 1 : 0);
-    };
+    const auto samples = [&](int row) { return rows_.samples(row, passes, done, pixel_samples_); };
     const std::vector<std::int64_t> sums = film_.read();
     const DeviceTables& t = world_.tables;
     add_layer("direct", {sums, t.camera.width, t.camera.height, t.direct_scale * world_.white, samples}, picture);

@@ -44,7 +44,7 @@ public:
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](int row) { return halves_of(passes, done || eye_.rows().is_done(row) ? 1 : 0); };
+    const auto samples = [&](int row) { return eye_.rows().samples(row, passes, done); };
     const std::vector<std::int64_t> sums = film_.read();
     const DeviceTables& t = world_.tables;
     add_layer("caustic", {sums, t.camera.width, t.camera.height, t.caustic_scale * world_.white, samples}, picture);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixels of a pass in steps of about 50 ms, some rows at a time from the top.
 #pragma once
+#include "preset/preset.h"
 #include "spectral/device_world.h"
+#include "spectral/film.h"
 #include "spectral/state_bytes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -18,6 +21,14 @@ public:
   std::int64_t done() const { return row_; }
   /// Whether a row of the pass in hand is done.
   bool is_done(std::int64_t row) const { return row < row_; }
+
+  /// What the halves of a film have of a row (Film::samples) after `passes` complete passes and this one in hand, or all of it where it is
+  /// `done`. Passes from `most` on add nothing.
+  std::array<double, 2> samples(int row, std::int64_t passes, bool done, std::int64_t most = preset::max_passes) const
+  {
+    if (passes >= most) return halves_of(most, 0);
+    return halves_of(passes, done || is_done(row) ? 1 : 0);
+  }
 
   /// Calls work(first_row, rows) for the next rows. True when the pass is complete.
   template <class Work>
