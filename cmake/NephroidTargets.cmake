@@ -19,10 +19,16 @@ if(NEPHROID_SANITIZE)
   add_link_options(-fsanitize=${NEPHROID_SANITIZE})
 endif()
 
-# nephroid_library(NAME [LIBS lib...]): every .cpp of the current folder as the static library nephroid_NAME.
+# nephroid_library(NAME [FOLDERS folder...] [LIBS lib...]): every .cpp of the current folder, and of these folders in it, as the static library
+# nephroid_NAME.
 function(nephroid_library name)
-  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  cmake_parse_arguments(arg "" "" "FOLDERS;LIBS" ${ARGN})
+  set(patterns *.cpp)
+  foreach(folder IN LISTS arg_FOLDERS)
+    list(APPEND patterns ${folder}/*.cpp)
+  endforeach()
+  list(TRANSFORM patterns PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   if(sources)
     add_library(nephroid_${name} STATIC ${sources})
     target_link_libraries(nephroid_${name} PUBLIC nephroid_settings ${arg_LIBS})

@@ -2,19 +2,20 @@
 // Photons leave a light mostly where earlier ones have mattered: the three numbers that a photon's direction is made of (emission.h: target
 // and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly, and the photon counts as much less as it comes more often
 // (importance sampling in the space of random numbers, as in Lepage 1978, "A new algorithm for adaptive multidimensional integration").
-// app/spectral/emission_guide.h says how the histogram is learned.
+// app/spectral/effort/emission_guide.h says how the histogram is learned.
 #ifndef NEPHROID_GUIDE_H
 #define NEPHROID_GUIDE_H
 
-#include "shared_types.h"
 #include "choice.h"
+#include "shared_types.h"
 
 typedef struct {
   float density; // how much more often than evenly: the photon counts 1 / density
   uint cell;     // of the histogram
 } Guided;
 
-// Draws one of `count` bins and a place in it: *number in [0, 1) becomes another number in [0, 1). cdf: exact_cdf of the bins. Returns the bin.
+// Draws one of `count` bins and a place in it: *number in [0, 1) becomes another number in [0, 1). cdf: exact_cdf of the bins. Returns the
+// bin.
 static inline int draw_bin(__global const float* cdf, int count, float* number, float* density)
 {
   const int bin = choose(cdf, count, *number);

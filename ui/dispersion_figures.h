@@ -2,7 +2,7 @@
 // What a clustering means for a person: which stretches of the spectrum belong together, what it saves, how far it may bend light wrong.
 #pragma once
 #include "optics/wavelength.h"
-#include "spectral/clusters.h"
+#include "spectral/clusters/clusters.h"
 
 #include <array>
 #include <vector>

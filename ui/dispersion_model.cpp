@@ -6,7 +6,7 @@
 #include "optics/dispersion.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
-#include "spectral/scene_clusters.h"
+#include "spectral/clusters/scene_clusters.h"
 #include "ui/dispersion_edits.h"
 
 #include <algorithm>

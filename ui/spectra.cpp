@@ -7,10 +7,10 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/materials.h"
-#include "spectral/effort.h"
+#include "spectral/clusters/scene_clusters.h"
+#include "spectral/effort/effort.h"
 #include "spectral/omissions.h"
-#include "spectral/scene_clusters.h"
-#include "spectral/wavelength_tables.h"
+#include "spectral/tables/wavelength_tables.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "optics/wavelength.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
-#include "spectral/importance.h"
+#include "spectral/effort/importance.h"
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "check/render.h"
 #include "check/scene_parts.h"
 #include "check/subjects.h"
-#include "spectral/device_scene.h"
+#include "spectral/tables/device_scene.h"
 
 #include <fmt/format.h>
 

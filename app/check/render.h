@@ -6,7 +6,7 @@
 #include "job/job.h"
 #include "optics/colour.h"
 #include "preset/preset.h"
-#include "spectral/device_scene.h"
+#include "spectral/tables/device_scene.h"
 
 #include <string>
 

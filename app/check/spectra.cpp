@@ -6,7 +6,7 @@
 #include "check/subjects.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "spectral/device_scene.h"
+#include "spectral/tables/device_scene.h"
 
 #include <fmt/format.h>
 

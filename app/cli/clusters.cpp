@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid clusters`: the wavelength clusters of a preset's glass or of a dispersion file.
-#include "spectral/clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"

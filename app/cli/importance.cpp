@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid importance`: how much each wavelength matters in a preset's scene, and the iterations that its clusters get for it.
-#include "spectral/importance.h"
+#include "spectral/effort/importance.h"
 #include "base/json_output.h"
 #include "cli/verbs.h"
 #include "cli/wavelength_runs.h"
 #include "preset/read.h"
+#include "spectral/clusters/scene_clusters.h"
 #include "spectral/omissions.h"
-#include "spectral/scene_clusters.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": kernels/background.cl.
-#include "spectral/background_tables.h"
 #include "spectral/film.h"
 #include "spectral/pixel_rows.h"
 #include "spectral/stages.h"
+#include "spectral/tables/background_tables.h"
 
 #include <numeric>
 #include <span>

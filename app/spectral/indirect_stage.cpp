@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect": kernels/indirect.cl.
 #include "spectral/film.h"
-#include "spectral/indirect_tables.h"
 #include "spectral/photon_slices.h"
 #include "spectral/stages.h"
+#include "spectral/tables/indirect_tables.h"
 
 #include <span>
 

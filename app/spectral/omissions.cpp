@@ -2,8 +2,8 @@
 #include "spectral/omissions.h"
 
 #include "preset/choices.h"
-#include "spectral/device_scene.h"
-#include "spectral/targets.h"
+#include "spectral/tables/device_scene.h"
+#include "spectral/tables/targets.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The photons of a pass in steps of about 50 ms: slice s of n has the photons s, s + n, s + 2 n, ..., so that each is a fair sample of all.
 #pragma once
-#include "spectral/device_world.h"
 #include "spectral/state_bytes.h"
+#include "spectral/tables/device_world.h"
 
 #include <algorithm>
 #include <cmath>

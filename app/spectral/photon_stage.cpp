@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons that are splatted into the pixel that sees them: kernels/photons.cl.
-#include "spectral/emission_guide.h"
+#include "spectral/effort/emission_guide.h"
+#include "spectral/effort/variance_deal.h"
 #include "spectral/film.h"
-#include "spectral/photon_map.h"
+#include "spectral/maps/photon_map.h"
 #include "spectral/photon_slices.h"
 #include "spectral/stages.h"
-#include "spectral/variance_deal.h"
 
 #include <cmath>
 #include <numbers>

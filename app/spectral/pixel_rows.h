@@ -2,9 +2,9 @@
 // The pixels of a pass in steps of about 50 ms, some rows at a time from the top.
 #pragma once
 #include "preset/preset.h"
-#include "spectral/device_world.h"
 #include "spectral/film.h"
 #include "spectral/state_bytes.h"
+#include "spectral/tables/device_world.h"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 1 runs for a preset and what it leaves out.
-#include "spectral/device_scene.h"
-#include "spectral/effort.h"
-#include "spectral/emission_guide.h"
+#include "spectral/effort/effort.h"
+#include "spectral/effort/emission_guide.h"
 #include "spectral/engine.h"
-#include "spectral/layer_light.h"
-#include "spectral/layer_plan.h"
-#include "spectral/map_plan.h"
+#include "spectral/maps/map_plan.h"
 #include "spectral/omissions.h"
+#include "spectral/relight/layer_light.h"
+#include "spectral/relight/layer_plan.h"
+#include "spectral/tables/device_scene.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "preset/relight.h"
 #include "spectral/engine.h"
-#include "spectral/layer_light.h"
-#include "spectral/relighting.h"
+#include "spectral/relight/layer_light.h"
+#include "spectral/relight/relighting.h"
 #include "spectral/stages.h"
 
 #include <fmt/format.h>

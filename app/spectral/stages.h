@@ -3,9 +3,9 @@
 #pragma once
 #include "preset/preset.h"
 #include "scene/scene.h"
-#include "spectral/device_world.h"
-#include "spectral/photon_map.h"
+#include "spectral/maps/photon_map.h"
 #include "spectral/stage.h"
+#include "spectral/tables/device_world.h"
 
 #include <memory>
 

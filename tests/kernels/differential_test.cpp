@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in closed form.
-#include "spectral/device_world.h"
 #include "spectral/engine.h"
 #include "spectral/stretch.h"
+#include "spectral/tables/device_world.h"
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"

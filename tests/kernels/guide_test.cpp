@@ -2,7 +2,7 @@
 // kernels/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they count
 // less.
 #include "compute/compute.h"
-#include "spectral/emission_guide.h"
+#include "spectral/effort/emission_guide.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
 

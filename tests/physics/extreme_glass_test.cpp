@@ -6,7 +6,7 @@
 #include "optics/fresnel.h"
 #include "preset/read.h"
 #include "scene/scene.h"
-#include "spectral/clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "spectral/engine.h"
 #include "tests/support/extremes.h"
 #include "tests/support/temporary_folder.h"

@@ -6,7 +6,7 @@
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
-#include "spectral/targets.h"
+#include "spectral/tables/targets.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"

@@ -3,7 +3,7 @@
 // where Snell puts it, and no light is made or lost at the receiver's edge.
 #include "check/closed_forms.h"
 #include "optics/fresnel.h"
-#include "spectral/device_scene.h"
+#include "spectral/tables/device_scene.h"
 #include "tests/support/closed_form.h"
 
 #include <fmt/format.h>

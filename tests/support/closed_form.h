@@ -5,7 +5,7 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/scene.h"
-#include "spectral/targets.h"
+#include "spectral/tables/targets.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
 

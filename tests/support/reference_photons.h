@@ -4,7 +4,7 @@
 #pragma once
 #include "optics/fresnel.h"
 #include "scene/scene.h"
-#include "spectral/device_scene.h"
+#include "spectral/tables/device_scene.h"
 #include "tests/support/tracer.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // control points, files are loaded or refused.
 #include "optics/dispersion.h"
 #include "preset/read.h"
-#include "spectral/clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/dispersion_edits.h"

@@ -4,7 +4,7 @@
 #include "dispersion_fixture.h"
 #include "optics/dispersion.h"
 #include "preset/read.h"
-#include "spectral/clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "ui/dispersion_panel.h"
 
 #include <gmock/gmock.h>

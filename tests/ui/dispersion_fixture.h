@@ -3,7 +3,7 @@
 #pragma once
 #include "optics/dispersion.h"
 #include "preset/read.h"
-#include "spectral/clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "window_fixture.h"
 
 #include <map>

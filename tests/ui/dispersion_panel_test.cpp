@@ -5,7 +5,7 @@
 #include "optics/dispersion.h"
 #include "preset/read.h"
 #include "spectra_scene.h"
-#include "spectral/clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "ui/actions.h"
 
 #include <gmock/gmock.h>

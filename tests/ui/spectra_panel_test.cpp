@@ -3,7 +3,7 @@
 // wrong is a sentence in it.
 #include "scene/materials.h"
 #include "spectra_scene.h"
-#include "spectral/device_scene.h"
+#include "spectral/tables/device_scene.h"
 #include "ui/light_edits.h"
 #include "ui/spectra_panel.h"
 #include "window_fixture.h"

@@ -2,8 +2,8 @@
 // The two designed dispersion curves: they are what their files say, and sorting the wavelengths by n saves the clusters that it saves
 // in the thesis (section 4.1.1: 202 and 204 clusters sorted, 247 not sorted). Not here: clustering as such (clusters_test.cpp).
 #include "optics/dispersion.h"
-#include "spectral/clusters.h"
-#include "spectral/clusters_theta.h"
+#include "spectral/clusters/clusters.h"
+#include "spectral/clusters/clusters_theta.h"
 
 #include <gtest/gtest.h>
 

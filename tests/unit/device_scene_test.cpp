@@ -5,9 +5,9 @@
 #include "plan/plan.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "spectral/device_scene.h"
 #include "spectral/engine.h"
-#include "spectral/targets.h"
+#include "spectral/tables/device_scene.h"
+#include "spectral/tables/targets.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 

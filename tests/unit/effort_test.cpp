@@ -2,9 +2,9 @@
 // How spectral.effort deals the photons of a pass to lights and clusters, and what a cluster's iterations are.
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "spectral/device_scene.h"
+#include "spectral/effort/importance.h"
 #include "spectral/engine.h"
-#include "spectral/importance.h"
+#include "spectral/tables/device_scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 

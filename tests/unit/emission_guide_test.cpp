@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Learning where photons matter: even at the start, the optimum of cases worked out by hand, and what no moment can take away.
-#include "spectral/emission_guide.h"
+#include "spectral/effort/emission_guide.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons dealt to pairs of a light and a cluster: as many as were asked for, in proportion, and numbered without gaps.
-#include "spectral/emitters.h"
+#include "spectral/effort/emitters.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cdf in single precision whose differences are the chances to the bit.
-#include "spectral/exact_cdf.h"
+#include "spectral/effort/exact_cdf.h"
 
 #include <gmock/gmock.h>
 

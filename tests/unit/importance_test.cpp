@@ -5,7 +5,7 @@
 #include "optics/spectrum.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "spectral/importance.h"
+#include "spectral/effort/importance.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 

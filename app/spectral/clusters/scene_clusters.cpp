@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/clusters/scene_clusters.h"
+
+#include "spectral/clusters/clusters.h"
+#include "spectral/stretch.h"
+
+#include <algorithm>
+
+namespace nephroid::spectral {
+
+namespace {
+
+/// Neighbouring wavelengths, `step` in a group, the last group with what is left.
+std::vector<std::vector<int>> neighbours(int step)
+{
+  std::vector<std::vector<int>> groups;
+  for (int w = 0; w < optics::wavelength_count; ++w) {
+    if (w % step == 0) groups.emplace_back();
+    groups.back().push_back(w);
+  }
+  return groups;
+}
+
+} // namespace
+
+std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
+{
+  std::vector<optics::Spectrum> curves;
+  for (const scene::Object& object : scene.objects) {
+    const scene::Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    if (material.type != scene::Material::Type::dielectric) continue;
+    if (std::find(curves.begin(), curves.end(), material.n) == curves.end()) curves.push_back(material.n);
+  }
+  if (!curves.empty() && settings.method == ClusterMethod::brute_force) return neighbours(settings.step_nm);
+  std::vector<Clustering> clusterings;
+  for (const optics::Spectrum& curve : curves) clusterings.push_back(cluster_wavelengths(curve, settings.threshold_deg, settings.method));
+  std::vector<std::vector<int>> clusters = common_refinement(clusterings);
+  if (settings.differentials && stretch_parameter(scene) == StretchParameter::wavelength) clusters = split_into_runs(clusters);
+  return clusters;
+}
+
+} // namespace nephroid::spectral

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the work of a pass is dealt to lights and clusters (preset::Spectral::effort).
+#pragma once
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+#include "spectral/tables/device_scene.h"
+
+#include <vector>
+
+namespace nephroid::spectral {
+
+struct Effort {
+  std::vector<double> photons;    ///< [light][cluster] flat: photons of a pass are dealt in proportion; 0 only where there is no light
+  std::vector<double> importance; ///< [cluster]: 0..1, the largest 1, above 0 where there is light: part of the iterations that it has
+};
+
+/// watts: of each light of `tables` towards its targets.
+/// power, and variance to begin with: by what the eye makes of the watts, (X + Y + Z) / 3 of the cluster's share, plus a twentieth of
+/// the share. equal: every cluster that has light the same. importance, radziszewski: by cluster_importance. random: as equal. Within a
+/// cluster lights have their part by their watts in it.
+/// Where no caustic can be (no light, nothing that throws or receives one) importance is not asked for: every cluster has 1.
+/// Throws bad_input as wavelength_importance does.
+Effort make_effort(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<double>& watts,
+                   const WavelengthTables& tables);
+
+/// The plan's pass "importance": how photons are dealt to clusters, and what of equal work that leaves. importance: Effort::importance.
+plan::Pass effort_pass(const preset::Spectral& settings, const std::vector<double>& importance);
+
+} // namespace nephroid::spectral

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/effort/variance_deal.h"
+
+#include "spectral/effort/emitters.h"
+
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace nephroid::spectral {
+namespace {
+
+/// The part of the photons that stays as it was dealt first, whatever was measured: a variance that few photons measured may be far off.
+constexpr double kept = 0.1;
+
+} // namespace
+
+VarianceDeal::VarianceDeal(std::vector<shared::DeviceEmitter> emitters)
+    : emitters_(std::move(emitters)), squares_(emitters_.size(), 0), photons_(emitters_.size(), 0)
+{
+  double all = 0;
+  for (const shared::DeviceEmitter& emitter : emitters_) all += emitter.photon_count;
+  for (const shared::DeviceEmitter& emitter : emitters_) first_deal_.push_back(emitter.photon_count / all);
+}
+
+bool VarianceDeal::is_due(std::int64_t pass) const
+{
+  return pass >= 2 && pass > first_pass_ && std::has_single_bit(static_cast<std::uint64_t>(pass));
+}
+
+// A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a pass is Phi^2 E[f^2] / n, and n times
+// that estimates V = Phi^2 E[f^2].
+void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves)
+{
+  const double passes = static_cast<double>(pass - first_pass_);
+  std::vector<double> deviation(emitters_.size());
+  unsigned all = 0;
+  for (std::size_t e = 0; e < emitters_.size(); ++e) {
+    const double count = emitters_[e].photon_count;
+    squares_[e] += count * count * static_cast<double>(moments[e]);
+    photons_[e] += count * passes;
+    deviation[e] = std::sqrt(squares_[e] / photons_[e]);
+    all += emitters_[e].photon_count;
+  }
+  const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
+  std::vector<double> weights = first_deal_;
+  if (total > 0)
+    for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = kept * first_deal_[e] + (1 - kept) * deviation[e] / total;
+  const std::vector<unsigned> counts = deal_out(weights, all);
+  for (std::size_t e = 0; e < emitters_.size(); ++e) {
+    shared::DeviceEmitter& emitter = emitters_[e];
+    advance_sequence(emitter, static_cast<std::uint64_t>(pass - first_pass_) / halves * emitter.light_photon_count);
+    emitter.photon_count = counts[e];
+  }
+  number_photons(emitters_);
+  first_pass_ = pass;
+}
+
+void VarianceDeal::save(StateWriter& to) const
+{
+  to.value(first_pass_);
+  for (std::size_t e = 0; e < emitters_.size(); ++e) {
+    to.value(emitters_[e]);
+    to.value(squares_[e]);
+    to.value(photons_[e]);
+  }
+}
+
+void VarianceDeal::load(StateReader& from)
+{
+  from.value(first_pass_);
+  for (std::size_t e = 0; e < emitters_.size(); ++e) {
+    from.value(emitters_[e]);
+    from.value(squares_[e]);
+    from.value(photons_[e]);
+  }
+}
+
+} // namespace nephroid::spectral

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths from the eye in steps of some rows: kernels/view.cl finds where they end, the caller gathers photons there.
+#pragma once
+#include "kernels/photon_map_types.h"
+#include "spectral/pixel_rows.h"
+#include "spectral/tables/device_world.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace nephroid::spectral {
+
+class EyePaths {
+public:
+  explicit EyePaths(DeviceWorld& world)
+      : world_(world), points_(world.context, "visible points", point_count(world.tables.camera)),
+        view_(compute::Program(world.context, "view.cl", world.defines).kernel("view")), rows_(world.tables.camera.height)
+  {
+  }
+  /// What it takes on the device.
+  static std::uint64_t bytes(const shared::DeviceCamera& camera) { return point_count(camera) * sizeof(shared::VisiblePoint); }
+
+  /// One path for every pixel of the next rows, then gather(points, first_pixel, count), which queues kernels. cluster: see view.cl.
+  /// True when all rows are done.
+  template <class Gather>
+  bool step(shared::uint2 seed, std::uint32_t pass, int cluster, const Gather& gather)
+  {
+    const auto width = static_cast<std::uint32_t>(world_.tables.camera.width);
+    return rows_.step(static_cast<std::int64_t>(points_.size() / width), [&](int first_row, int rows) {
+      const std::uint32_t first_pixel = static_cast<std::uint32_t>(first_row) * width, count = static_cast<std::uint32_t>(rows) * width;
+      world_.run(view_, count, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, seed, pass, cluster,
+                 static_cast<int>(world_.tables.objects.size()), first_row, rows);
+      gather(points_, first_pixel, count);
+      world_.context.finish();
+    });
+  }
+
+  /// Stage::warm_up for its kernel.
+  void warm_up()
+  {
+    world_.run(view_, 1, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, world_.seed, 0u, 0,
+               static_cast<int>(world_.tables.objects.size()), 0, 0);
+  }
+  const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
+
+  const PixelRows& rows() const { return rows_; }
+
+  void save(StateWriter& to) const { rows_.save(to); }
+  void load(StateReader& from) { rows_.load(from); }
+
+private:
+  /// Whole rows, of at least one and about as many pixels as make work for a step.
+  static std::size_t point_count(const shared::DeviceCamera& camera)
+  {
+    const auto width = static_cast<std::size_t>(camera.width);
+    return width * std::clamp<std::size_t>((1 << 16) / width, 1, static_cast<std::size_t>(camera.height));
+  }
+
+  DeviceWorld& world_;
+  compute::Buffer<shared::VisiblePoint> points_;
+  compute::Kernel view_;
+  PixelRows rows_;
+};
+
+} // namespace nephroid::spectral

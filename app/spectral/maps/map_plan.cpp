@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/maps/map_plan.h"
+
+#include "base/error.h"
+#include "spectral/maps/eye_paths.h"
+#include "spectral/maps/map_radius.h"
+#include "spectral/maps/photon_map.h"
+#include "spectral/omissions.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::spectral {
+namespace {
+
+using Estimator = preset::Spectral::Estimator;
+
+plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene, bool caustics)
+{
+  if (!caustics) return {"photon maps", false, "there are no caustics to gather", "", false};
+  const std::string radius = fmt::format("from {:.3g} units around a visible point", first_map_radius(settings, scene));
+  if (settings.estimator == Estimator::sppm)
+    return {"photon maps", true,
+            fmt::format("spectral.estimator is sppm: every caustic is gathered, {}, {}", radius,
+                        settings.effort == preset::Spectral::Effort::random ? "one cluster a pass in shared statistics"
+                                                                            : "with statistics of each pixel in each cluster"),
+            "", false};
+  const bool sees = may_see_glass_or_mirror(scene);
+  if (settings.estimator == Estimator::splat) {
+    const std::string seen = sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror";
+    return {"photon maps", false, "spectral.estimator is splat: " + seen, "", false};
+  }
+  return omission("photon_maps", settings.leave_out.photon_maps, sees,
+                  sees ? "caustics seen through glass or in a mirror are gathered, " + radius + "; the others are splatted"
+                       : "the camera sees no glass and no mirror, so every caustic is splatted");
+}
+
+} // namespace
+
+MapPlan plan_maps(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool caustics,
+                  std::uint64_t film_bytes)
+{
+  MapPlan plan{map_pass(settings, scene, caustics), {}};
+  if (!plan.pass.runs) return plan;
+  const std::uint64_t clusters = tables.wavelengths.clusters.size(), groups = 2 * clusters * scene.objects.size();
+  if (groups > MAX_PHOTON_GROUPS)
+    throw bad_input(scene.source + "#/scene/objects", fmt::format("{} objects in {} wavelength clusters", scene.objects.size(), clusters),
+                    fmt::format("photon maps tell {} surfaces in clusters apart", int{MAX_PHOTON_GROUPS}),
+                    "choose spectral.estimator splat, or a larger threshold_deg");
+  const bool sppm = settings.estimator == Estimator::sppm;
+  const auto slots = sppm ? static_cast<std::uint32_t>(settings.photons_per_pass) : tables.photons_per_pass;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
+  const std::uint64_t stored = slots * sizeof(shared::StoredPhoton);
+  plan.buffers = {{"photons on surfaces", stored, true},
+                  {"photon grid", PhotonMap::bytes(slots) - stored, false},
+                  {"visible points", EyePaths::bytes(tables.camera), false}};
+  if (!sppm) {
+    plan.buffers.push_back({"film photon maps", film_bytes, false});
+    return plan;
+  }
+  const std::uint64_t runs = settings.effort == preset::Spectral::Effort::random ? 1 : clusters;
+  plan.buffers.push_back({"statistics of pixels", runs * pixels * sizeof(shared::PixelStatistics), true});
+  plan.buffers.push_back({"radiance", 3 * pixels * sizeof(float), false});
+  return plan;
+}
+
+} // namespace nephroid::spectral

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a run has photon maps, why, and what memory they take.
+#pragma once
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+#include "spectral/tables/device_scene.h"
+
+#include <vector>
+
+namespace nephroid::spectral {
+
+struct MapPlan {
+  plan::Pass pass;                          ///< "photon maps"
+  std::vector<plan::PlannedBuffer> buffers; ///< of MapStage or SppmStage; none where it does not run
+};
+
+/// caustics: whether there are any to estimate, by splats or maps. film_bytes: of one film.
+/// Throws bad_input at FILE#/scene/objects for more objects than photons in so many clusters can tell apart.
+MapPlan plan_maps(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool caustics,
+                  std::uint64_t film_bytes);
+
+} // namespace nephroid::spectral

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Caustics seen through glass or in a mirror: paths from the eye gather the photons that the photon stage has splatted elsewhere and
+// stored. The radius shrinks from pass to pass and is the same for all pixels (Knaus and Zwicker 2011), so each pass is an estimate of
+// its own, and the film adds them up like any other's.
+#include "spectral/film.h"
+#include "spectral/maps/eye_paths.h"
+#include "spectral/maps/map_radius.h"
+#include "spectral/maps/photon_map.h"
+#include "spectral/stages.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace nephroid::spectral {
+namespace {
+
+class MapStage final : public Stage {
+public:
+  MapStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings, PhotonMap& map)
+      : world_(world), map_(map), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha), eye_(world),
+        film_(world.zeroed("film photon maps", world.film_size())),
+        gather_(compute::Program(world.context, "gather.cl", world.defines).kernel("gather_to_film"))
+  {
+  }
+
+  const char* name() const override { return "photon maps"; }
+  double part() const override { return eye_.rows().part(); }
+
+  bool step(std::int64_t pass) override
+  {
+    const double radius = first_radius_ * map_radius_factor(pass, alpha_);
+    if (sorted_pass_ != pass) map_.build(radius, world_.tables.photons_per_pass);
+    sorted_pass_ = pass;
+    const DeviceTables& t = world_.tables;
+    const double quanta = photon_scale(t.photons_per_pass, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
+    const auto film_per_quantum = static_cast<float>(t.caustic_scale / quanta / std::pow(std::numbers::pi * metres, 2));
+    const auto pixels = static_cast<std::uint32_t>(t.camera.width * t.camera.height);
+    const auto number = static_cast<std::uint32_t>(pass);
+    return eye_.step(world_.seed, number, -1, [&](const auto& points, std::uint32_t first_pixel, std::uint32_t count) {
+      gather_.run(count, 64, map_.starts(), map_.positions(), map_.values(), map_.grid(), points, film_, world_.energy, pixels, number,
+                  first_pixel, count, static_cast<float>(radius), film_per_quantum);
+    });
+  }
+
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override
+  {
+    const auto samples = [&](int row) { return eye_.rows().samples(row, passes, done); };
+    const std::vector<std::int64_t> sums = film_.read();
+    const DeviceTables& t = world_.tables;
+    add_layer("caustic", {sums, t.camera.width, t.camera.height, t.caustic_scale * world_.white, samples}, picture);
+  }
+
+  void save(StateWriter& to) const override
+  {
+    eye_.save(to);
+    to.buffer(film_);
+    to.buffer(map_.stored());
+  }
+  void load(StateReader& from) override
+  {
+    eye_.load(from);
+    from.buffer(film_);
+    from.buffer(map_.stored());
+    sorted_pass_ = -1;
+  }
+
+private:
+  DeviceWorld& world_;
+  PhotonMap& map_;
+  double first_radius_, alpha_;
+  EyePaths eye_;
+  compute::Buffer<std::int64_t> film_;
+  compute::Kernel gather_;
+  std::int64_t sorted_pass_ = -1; ///< whose photons the grid has
+};
+
+} // namespace
+
+std::unique_ptr<Stage> make_map_stage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings, PhotonMap& map)
+{
+  return std::make_unique<MapStage>(world, scene, settings, map);
+}
+
+} // namespace nephroid::spectral

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film of layers on the device (kernels/layers.h), and the pictures that are weighed of it.
+#pragma once
+#include "compute/compute.h"
+#include "job/job.h"
+#include "spectral/relight/layer_cells.h"
+#include "spectral/state_bytes.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nephroid::spectral {
+
+/// How much of a layer's sums of one half goes into each of two pictures, as linear sRGB.
+struct LayerWeight {
+  std::array<float, 3> first{}, second{};
+};
+
+class LayerFilm {
+public:
+  LayerFilm() = default;
+  /// Holds halves x layers sums a cell, all 0.
+  LayerFilm(const compute::Context& context, const std::string& name, const LayerCells& cells, std::size_t layers, std::size_t halves,
+            const compute::Defines& defines);
+
+  std::size_t layers() const { return layers_; }
+  /// The kernel arguments LAYER_FILM_ARGUMENTS.
+  const compute::Buffer<int>& first() const { return first_; }
+  const compute::Buffer<shared::LayerCell>& cells() const { return cells_; }
+  const compute::Buffer<std::int64_t>& sums() const { return sums_; }
+  int layer_count() const { return static_cast<int>(layers_); }
+
+  /// Two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights [reflector][half][layer].
+  std::array<std::vector<float>, 2> weigh(std::span<const LayerWeight> weights);
+
+  void save(StateWriter& to) const { to.buffer(sums_); }
+  void load(StateReader& from) { from.buffer(sums_); }
+
+private:
+  compute::Context context_{};
+  std::size_t layers_ = 0, halves_ = 1, pixels_ = 0, cell_count_ = 0;
+  compute::Buffer<int> first_, reflector_of_block_;
+  compute::Buffer<shared::LayerCell> cells_;
+  compute::Buffer<std::int64_t> sums_; ///< [block][half][layer][cell of the block]
+  compute::Buffer<float> weights_, weighed_, pictures_;
+  compute::Kernel weigh_, gather_;
+};
+
+/// What the halves of one layer had: samples or photons.
+using HalfCounts = std::array<double, 2>;
+
+/// Weights for weigh(): the first picture is the mean over both halves of `colours` [layer][reflector] times what is in the film, the
+/// second the draw of its error (job::Picture::error_draw). counts: [layer]; a layer that had none counts nothing.
+std::vector<LayerWeight> mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts, int reflectors,
+                                       std::size_t halves, double quanta_per_unit);
+
+/// Weights for weigh(): the first picture is the sum over the first half, the second over the other.
+std::vector<LayerWeight> half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
+                                   double quanta_per_unit);
+
+} // namespace nephroid::spectral

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The direct layer, kept as layers: kernels/relight_direct.cl.
+#include "spectral/film.h"
+#include "spectral/pixel_rows.h"
+#include "spectral/relight/layer_film.h"
+#include "spectral/relight/relighting.h"
+
+#include <cmath>
+#include <utility>
+
+namespace nephroid::spectral {
+namespace {
+
+/// A sample through glass adds up to four times to one cell.
+constexpr double paths_through_glass = 4;
+
+class LayeredDirectStage final : public Stage {
+public:
+  LayeredDirectStage(DeviceWorld& world, const Relighting& relighting, const preset::Spectral& settings)
+      : world_(world), relighting_(relighting), pixel_samples_(settings.pixel_samples),
+        unbent_(world.context, "film direct", relighting.unbent, world.tables.lights.size(), world.halves, world.defines),
+        bent_(world.context, "film direct through glass", relighting.bent,
+              world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),
+        cluster_cdf_(world.context, "cluster choice", std::span<const float>(world.tables.wavelengths.cluster_cdf)),
+        kernel_(compute::Program(world.context, "relight_direct.cl", world.defines).kernel("direct")), rows_(world.tables.camera.height)
+  {
+  }
+
+  const char* name() const override { return "direct"; }
+  std::int64_t passes() const override { return pixel_samples_; }
+  double part() const override { return rows_.part(); }
+
+  bool step(std::int64_t pass) override
+  {
+    if (std::exchange(chosen_for_, relighting_.changes) != relighting_.changes)
+      cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
+    return rows_.step([&](int first_row, int rows) {
+      const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
+      world_.run(kernel_, pixels, 64, cluster_cdf_, relighting_.mean_reflectance, relighting_.luminance_share, unbent_.first(),
+                 unbent_.cells(), unbent_.sums(), unbent_.layer_count(), bent_.first(), bent_.cells(), bent_.sums(), bent_.layer_count(),
+                 world_.energy, world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), first_row, rows,
+                 world_.on_device(world_.tables.direct_scale), static_cast<float>(world_.tables.direct_limit / paths_through_glass));
+    });
+  }
+
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override
+  {
+    const int reflectors = world_.tables.wavelengths.reflector_count;
+    const double quanta = world_.tables.direct_scale;
+    const std::array<std::vector<float>, 2> straight = unbent_.weigh(half_sums(relighting_.weights.all, reflectors, world_.halves, quanta)),
+                                            through =
+                                                bent_.weigh(half_sums(relighting_.weights.clusters, reflectors, world_.halves, quanta));
+    std::vector<float>& rgb = layer_of(picture, "direct").rgb;
+    const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
+      const bool sampled = done || rows_.is_done(static_cast<std::int64_t>(row));
+      const auto [a, b] = passes >= pixel_samples_ ? halves_of(pixel_samples_, 0) : halves_of(passes, sampled ? 1 : 0);
+      if (a <= 0 || b <= 0 || world_.halves == 1) picture.error_draw.clear();
+      const double mean = a + b > 0 ? 1 / (a + b) : 0, of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
+      for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
+        const double first = straight[0][i] + through[0][i], second = straight[1][i] + through[1][i];
+        rgb[i] += static_cast<float>(mean * (first + second));
+        if (!picture.error_draw.empty()) picture.error_draw[i] += static_cast<float>(of_a * first - of_b * second);
+      }
+    }
+  }
+
+  void save(StateWriter& to) const override
+  {
+    rows_.save(to);
+    unbent_.save(to);
+    bent_.save(to);
+  }
+  void load(StateReader& from) override
+  {
+    rows_.load(from);
+    unbent_.load(from);
+    bent_.load(from);
+  }
+
+private:
+  DeviceWorld& world_;
+  const Relighting& relighting_;
+  std::int64_t pixel_samples_;
+  LayerFilm unbent_, bent_;
+  compute::Buffer<float> cluster_cdf_;
+  std::uint64_t chosen_for_ = 0; ///< Relighting::changes of the light that cluster_cdf_ is for
+  compute::Kernel kernel_;
+  PixelRows rows_;
+};
+
+} // namespace
+
+std::unique_ptr<Stage> make_layered_direct_stage(DeviceWorld& world, const Relighting& relighting, const preset::Spectral& settings)
+{
+  return std::make_unique<LayeredDirectStage>(world, relighting, settings);
+}
+
+} // namespace nephroid::spectral

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// The caustic layer, kept as layers: kernels/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt anew when
+// the light changes, and what was sent before stays as good as it was.
+#include "spectral/effort/emitters.h"
+#include "spectral/film.h"
+#include "spectral/photon_slices.h"
+#include "spectral/relight/layer_film.h"
+#include "spectral/relight/relighting.h"
+
+#include <algorithm>
+
+namespace nephroid::spectral {
+namespace {
+
+class LayeredPhotonStage final : public Stage {
+public:
+  LayeredPhotonStage(DeviceWorld& world, const Relighting& relighting)
+      : world_(world), relighting_(relighting), emitters_(world.tables.emitters), sent_(emitters_.size()),
+        film_(world.context, "film caustic", relighting.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
+        // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
+        scale_(world.tables.caustic_scale / world.tables.photons_per_pass)
+  {
+    kernel_ = compute::Program(world.context, "relight_photons.cl", world.photon_defines()).kernel("photons");
+  }
+
+  const char* name() const override { return "photons"; }
+  double part() const override { return slices_.part(); }
+  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass; }
+
+  bool step(std::int64_t pass) override
+  {
+    take_light(pass);
+    at_.half = static_cast<std::size_t>(pass) % world_.halves;
+    const bool complete =
+        slices_.step(world_.tables.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
+          world_.run_photons(kernel_, count, world_.buffers.targets, world_.buffers.emitters, film_.first(), film_.cells(), film_.sums(),
+                             film_.layer_count(), relighting_.mean_reflectance, world_.energy, world_.tables.camera, world_.seed,
+                             static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(at_.first_pass), offset, stride, count,
+                             world_.on_device(scale_), static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest()));
+        });
+    if (complete)
+      for (std::size_t e = 0; e < emitters_.size(); ++e) sent_[e][at_.half] += emitters_[e].photon_count;
+    return complete;
+  }
+
+  void develop(std::int64_t, bool, job::Picture& picture) override
+  {
+    std::vector<HalfCounts> counts(film_.layers(), HalfCounts{0, 0});
+    for (std::size_t e = 0; e < emitters_.size(); ++e) {
+      HalfCounts& layer = counts[layer_of_emitter(e)];
+      layer = {static_cast<double>(sent_[e][0]), static_cast<double>(sent_[e][1])};
+      layer[at_.half] += sent_in_hand(emitters_[e]);
+      if (layer[0] <= 0 || layer[1] <= 0) picture.error_draw.clear();
+    }
+    if (world_.halves == 1) picture.error_draw.clear();
+    const int reflectors = world_.tables.wavelengths.reflector_count;
+    const auto [mean, draw] = film_.weigh(mean_and_draw(relighting_.weights.clusters, counts, reflectors, world_.halves, scale_));
+    std::vector<float>& rgb = layer_of(picture, "caustic").rgb;
+    for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] += mean[i];
+    for (std::size_t i = 0; i < picture.error_draw.size(); ++i) picture.error_draw[i] += draw[i];
+  }
+
+  void save(StateWriter& to) const override
+  {
+    to.value(at_);
+    to.value(dealt_ == relighting_.changes);
+    slices_.save(to);
+    for (std::size_t e = 0; e < emitters_.size(); ++e) {
+      to.value(sent_[e]);
+      to.value(emitters_[e]);
+    }
+    film_.save(to);
+  }
+  void load(StateReader& from) override
+  {
+    from.value(at_);
+    bool dealt = true;
+    from.value(dealt);
+    dealt_ = relighting_.changes - (dealt ? 0 : 1);
+    slices_.load(from);
+    for (std::size_t e = 0; e < emitters_.size(); ++e) {
+      from.value(sent_[e]);
+      from.value(emitters_[e]);
+    }
+    film_.load(from);
+    world_.buffers.emitters.write(emitters_);
+  }
+
+private:
+  struct Position {
+    std::size_t half = 0;        ///< of the film, that the pass in hand adds to
+    std::int64_t first_pass = 0; ///< from which on photons are dealt as they are
+  };
+
+  std::size_t cluster_count() const { return world_.tables.wavelengths.clusters.size(); }
+  std::size_t layer_of_emitter(std::size_t emitter) const
+  {
+    return static_cast<std::size_t>(emitters_[emitter].light) * cluster_count() + static_cast<std::size_t>(emitters_[emitter].cluster);
+  }
+
+  /// How many of an emitter's photons of the pass in hand are done.
+  double sent_in_hand(const shared::DeviceEmitter& emitter) const
+  {
+    return slices_.done_of(emitter.first_photon + emitter.photon_count) - slices_.done_of(emitter.first_photon);
+  }
+
+  /// Photons of a light to one half of the film, in the complete passes.
+  std::uint64_t sent_by(int light, std::size_t half) const
+  {
+    std::uint64_t sum = 0;
+    for (std::size_t e = 0; e < emitters_.size(); ++e)
+      if (emitters_[e].light == light) sum += sent_[e][half];
+    return sum;
+  }
+
+  /// A new light's powers count in the energy balance at once; photons are dealt by it from the next pass on.
+  void take_light(std::int64_t pass)
+  {
+    const bool deals = slices_.at_start() && dealt_ != relighting_.changes;
+    if (!deals && shared_ == relighting_.changes) return;
+    const std::vector<shared::DeviceEmitter> now = layer_emitters(relighting_.light, world_.tables, world_.tables.photons_per_pass);
+    for (std::size_t e = 0; e < emitters_.size(); ++e) {
+      emitters_[e].share = now[e].share;
+      if (!deals) continue;
+      emitters_[e].photon_count = now[e].photon_count;
+      emitters_[e].sequence_start = emitters_[e].sequence_start_high = 0;
+      advance_sequence(emitters_[e], std::max(sent_by(emitters_[e].light, 0), sent_by(emitters_[e].light, 1)));
+    }
+    if (deals) number_photons(emitters_);
+    shared_ = relighting_.changes;
+    if (deals) {
+      dealt_ = relighting_.changes;
+      at_.first_pass = pass;
+    }
+    world_.buffers.emitters.write(emitters_);
+  }
+
+  DeviceWorld& world_;
+  const Relighting& relighting_;
+  std::vector<shared::DeviceEmitter> emitters_;
+  std::vector<std::array<std::uint64_t, 2>> sent_; ///< [emitter]: photons of the complete passes to each half of the film
+  std::uint64_t shared_ = 0, dealt_ = 0;           ///< Relighting::changes when shares and counts were last taken
+  LayerFilm film_;
+  double scale_; ///< quanta per W m^-2 sr^-1, of one photon that has a layer's whole power
+  compute::Kernel kernel_;
+  Position at_;
+  PhotonSlices slices_;
+};
+
+} // namespace
+
+std::unique_ptr<Stage> make_layered_photon_stage(DeviceWorld& world, const Relighting& relighting)
+{
+  return std::make_unique<LayeredPhotonStage>(world, relighting);
+}
+
+} // namespace nephroid::spectral

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of device_scene.h on a device.
+#pragma once
+#include "compute/compute.h"
+#include "scene/bvh.h"
+#include "spectral/tables/device_scene.h"
+
+namespace nephroid::spectral {
+
+struct DeviceBuffers {
+  compute::Buffer<float> nodes, blocks, positions, normals;
+  compute::Buffer<std::uint32_t> corners, object_of_triangle;
+  compute::Buffer<shared::DeviceObject> objects;
+  compute::Buffer<shared::DeviceMaterial> materials;
+  compute::Buffer<shared::DeviceLight> lights;
+  compute::Buffer<shared::DeviceTarget> targets;
+  compute::Buffer<shared::DeviceEmitter> emitters;
+  compute::Buffer<float> index_of_cluster, index_of_wavelength, wavelength_cdf, index_slope, coefficient, reflectance, cluster_cdf;
+  compute::Buffer<int> cluster_first, cluster_wavelengths;
+  compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all, stretch_place, stretch_span;
+};
+
+/// Throws failed where the device has not enough memory.
+DeviceBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const DeviceTables& tables);
+
+} // namespace nephroid::spectral
