@@ -8,15 +8,19 @@
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
+#include "spectral/clusters/scene_clusters.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/statistics.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
+#include <fstream>
 
 using namespace nephroid;
 using namespace nephroid::test;
@@ -85,13 +89,14 @@ std::vector<double> both_layers(const job::Snapshot& snapshot)
   return all;
 }
 
-/// Both have the same expectations: the Sidak-corrected chance of the worst figure, where each may be off by `bias` besides.
-double same(const std::vector<Estimate>& a, const std::vector<Estimate>& b, double bias = 0)
+/// Both have the same expectations: the Sidak-corrected chance of the worst figure, where each may be off by its `bias` besides.
+double same(const std::vector<Estimate>& a, const std::vector<Estimate>& b, std::vector<double> bias = {})
 {
+  bias.resize(a.size(), 0);
   double smallest = 1;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Estimate difference{a[i].mean - b[i].mean, a[i].variance + b[i].variance, std::min(a[i].degrees, b[i].degrees)};
-    if (difference.variance > 0) smallest = std::min(smallest, p_value(difference, 0, bias * std::abs(b[i].mean)));
+    if (difference.variance > 0) smallest = std::min(smallest, p_value(difference, 0, bias[i]));
   }
   return sidak(smallest, static_cast<double>(a.size()));
 }
@@ -101,6 +106,39 @@ double largest(const std::vector<Estimate>& estimates)
   double most = 0;
   for (const Estimate& e : estimates) most = std::max(most, e.mean);
   return most;
+}
+
+/// Of a run whose passes go on under its own light; only the figures are of the other one.
+std::vector<Estimate> relit_passes(const preset::Preset& own, const preset::Preset& other)
+{
+  return step_passes(*job_of(own), [&](job::Job& job) {
+    EXPECT_TRUE(job.adopt(other));
+    const std::vector<double> figures = both_layers(job.snapshot());
+    EXPECT_TRUE(job.adopt(own));
+    return figures;
+  });
+}
+
+/// The same without layers, by other random numbers.
+preset::Preset fresh_run(preset::Preset p)
+{
+  p.spectral.relight = false;
+  p.seed = 1000;
+  return p;
+}
+
+/// The ball's glass bends all wavelengths alike and is from clear at 380 nm to exp(-9) over its radius at 780 nm.
+preset::Preset dyed_scene(const std::filesystem::path& folder)
+{
+  preset::Preset p = tiled_scene();
+  const double k = 9 * 780e-9 / (4 * M_PI * p.scene.objects[0].shape->radius);
+  std::ofstream(folder / "dye.yml") << "DATA:\n  - type: tabulated nk\n    data: |\n        0.38 1.5 0\n        0.78 1.5 " << k << "\n";
+  preset::Material& material = p.scene.materials["glass"];
+  material.dispersion = {};
+  material.dispersion.type = preset::Dispersion::Type::file;
+  material.dispersion.file = (folder / "dye.yml").string();
+  material.absorption = true;
+  return p;
 }
 
 TEST(Relighting, UnderItsOwnLightThePictureIsThatOfARunWithoutLayers)
@@ -121,18 +159,7 @@ TEST(Relighting, UnderAnotherLightItIsThatOfARunWithThatLight)
   other.scene.lights[1].power_w = 20;
   other.white = 0.25;
   const preset::Preset own = layered(tiled_scene());
-  const auto job = job_of(own);
-  // The passes go on under the run's own light; only the figures are of the other one.
-  const std::vector<Estimate> relit = step_passes(*job, [&](job::Job& j) {
-    EXPECT_TRUE(j.adopt(other));
-    const std::vector<double> figures = both_layers(j.snapshot());
-    EXPECT_TRUE(j.adopt(own));
-    return figures;
-  });
-  preset::Preset fresh = other;
-  fresh.spectral.relight = false;
-  fresh.seed = 1000;
-  const std::vector<Estimate> truth = render_passes(fresh, both_layers);
+  const std::vector<Estimate> relit = relit_passes(own, other), truth = render_passes(fresh_run(other), both_layers);
   EXPECT_GT(same(relit, truth), false_alarm);
 
   // The test sees as little as one colour taken for another: the picture under the old light is not that.
@@ -140,6 +167,27 @@ TEST(Relighting, UnderAnotherLightItIsThatOfARunWithThatLight)
   old.scene.lights[1] = other.scene.lights[1];
   old.white = other.white;
   EXPECT_LT(same(render_passes(old, both_layers), truth), false_alarm);
+}
+
+TEST(Relighting, ThroughADyeItIsThatOfARunWithThatLight)
+{
+  const TemporaryFolder folder;
+  preset::Preset own = layered(dyed_scene(folder.path()));
+  own.scene.camera.resolution = {12, 12};
+  for (const double wavelength_nm : {0.0, 390.0, 420.0}) { // 0: a spectrum as smooth as the run's own
+    preset::Preset other = own;
+    other.scene.lights[0].spectrum = wavelength_nm > 0 ? line(wavelength_nm) : illuminant("A");
+    preset::Preset clear = fresh_run(other);
+    clear.scene.materials["glass"].absorption = false;
+    const std::vector<Estimate> relit = relit_passes(own, other), truth = render_passes(fresh_run(other), both_layers),
+                                undyed = render_passes(clear, both_layers);
+    // Clusters promise that a line is not off by more than this share of what arrives without the dye, and smooth light by far less.
+    const double share = wavelength_nm > 0 ? spectral::largest_loss_difference : 0.005;
+    std::vector<double> bias;
+    for (const Estimate& e : undyed) bias.push_back(share * std::abs(e.mean));
+    EXPECT_GT(same(relit, truth, bias), false_alarm) << wavelength_nm;
+    EXPECT_LT(same(undyed, truth, bias), false_alarm) << "the dye is seen";
+  }
 }
 
 TEST(Relighting, TheRunGoesOnUnderTheNewLightAndItsEnergyIsThatLights)

@@ -2,12 +2,13 @@
 #include "spectral/clusters/scene_clusters.h"
 
 #include "spectral/clusters/clusters.h"
+#include "spectral/clusters/losses.h"
 #include "spectral/stretch.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nephroid::spectral {
-
 namespace {
 
 /// Neighbouring wavelengths, `step` in a group, the last group with what is left.
@@ -21,9 +22,8 @@ std::vector<std::vector<int>> neighbours(int step)
   return groups;
 }
 
-} // namespace
-
-std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
+/// As scene_clusters, by refraction alone.
+std::vector<std::vector<int>> refraction_clusters(const preset::Spectral& settings, const scene::Scene& scene)
 {
   std::vector<optics::Spectrum> curves;
   for (const scene::Object& object : scene.objects) {
@@ -34,7 +34,15 @@ std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, c
   if (!curves.empty() && settings.method == ClusterMethod::brute_force) return neighbours(settings.step_nm);
   std::vector<Clustering> clusterings;
   for (const optics::Spectrum& curve : curves) clusterings.push_back(cluster_wavelengths(curve, settings.threshold_deg, settings.method));
-  std::vector<std::vector<int>> clusters = common_refinement(clusterings);
+  return common_refinement(clusterings);
+}
+
+} // namespace
+
+std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
+{
+  std::vector<std::vector<int>> clusters = refraction_clusters(settings, scene);
+  if (settings.relight) return split_by_losses(std::move(clusters), scene, settings.max_surfaces, largest_loss_difference);
   if (settings.differentials && stretch_parameter(scene) == StretchParameter::wavelength) clusters = split_into_runs(clusters);
   return clusters;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/relight/layer_plan.h"
 
+#include "spectral/clusters/scene_clusters.h"
 #include "spectral/omissions.h"
 #include "spectral/relight/layer_cells.h"
 
@@ -17,12 +18,15 @@ void plan_layers(const DeviceTables& tables, bool direct, bool photons, int halv
 {
   const std::size_t lights = tables.lights.size(), clusters = tables.wavelengths.clusters.size();
   std::erase_if(plan.passes, [](const plan::Pass& p) { return p.name == "dark lights" || p.name == "unlit wavelengths"; });
+  const std::string split =
+      fmt::format("; in a cluster, what a material leaves of two wavelengths differs by at most {}", largest_loss_difference);
   plan.passes.push_back({"relighting", true,
                          fmt::format("{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
-                                     "half of the photons go to every cluster alike",
+                                     "half of the photons go to every cluster alike{}",
                                      counted(static_cast<std::int64_t>(lights * clusters), "layer", "layers"),
                                      counted(static_cast<std::int64_t>(lights), "light", "lights"),
-                                     counted(static_cast<std::int64_t>(clusters), "wavelength cluster", "wavelength clusters")),
+                                     counted(static_cast<std::int64_t>(clusters), "wavelength cluster", "wavelength clusters"),
+                                     tables.wavelengths.attenuator_count > 0 ? split : ""),
                          "/spectral/relight", true});
 
   std::erase_if(plan.buffers, [](const plan::PlannedBuffer& b) { return b.name == "film direct" || b.name == "film caustic"; });

@@ -2,13 +2,12 @@
 #include "spectral/tables/wavelength_tables.h"
 
 #include "optics/colour.h"
+#include "spectral/clusters/losses.h"
 #include "spectral/effort/exact_cdf.h"
 #include "spectral/effort/worth.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 
 namespace nephroid::spectral {
@@ -19,9 +18,6 @@ using optics::wavelength_count;
 using shared::float4;
 
 static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the same wavelengths");
-
-/// A mirror that reflects nothing: exp(-200) is 0 in single precision.
-constexpr double blackest = 200;
 
 float4 to_float4(const std::array<double, 4>& v)
 {
@@ -50,16 +46,9 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std:
     if (material.type == scene::Material::Type::diffuse) {
       row.reflector = tables.reflector_count++;
       tables.reflectance.insert(tables.reflectance.end(), material.reflectance.begin(), material.reflectance.end());
-    } else if (material.type == scene::Material::Type::dielectric && material.absorbs) {
+    } else if (const std::vector<double> coefficients = loss_coefficients(material); !coefficients.empty()) {
       row.attenuator = tables.attenuator_count++;
-      for (int w = 0; w < wavelength_count; ++w)
-        tables.coefficient.push_back(
-            static_cast<float>(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9)));
-    } else if (material.type == scene::Material::Type::mirror) {
-      if (std::all_of(material.reflectance.begin(), material.reflectance.end(), [](double r) { return r == 1; })) continue;
-      row.attenuator = tables.attenuator_count++;
-      for (const double r : material.reflectance)
-        tables.coefficient.push_back(static_cast<float>(r > 0 ? std::min(-std::log(r), blackest) : blackest));
+      for (const double a : coefficients) tables.coefficient.push_back(static_cast<float>(a));
     }
   }
 }

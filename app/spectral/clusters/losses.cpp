@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral/clusters/losses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace nephroid::spectral {
+namespace {
+
+/// A mirror that reflects nothing: exp(-200) is 0 in single precision.
+constexpr double blackest = 200;
+
+/// Of the box about all objects of a material, in metres.
+double diagonal_m(const scene::Scene& scene, std::size_t material)
+{
+  glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+  for (const scene::Object& object : scene.objects) {
+    if (static_cast<std::size_t>(object.material) != material) continue;
+    for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
+      for (int corner = 0; corner < 3; ++corner) {
+        const glm::vec3& p = scene.geometry.positions[scene.geometry.triangles[t][corner]];
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+      }
+  }
+  return low.x <= high.x ? static_cast<double>(glm::length(high - low)) * scene.metres_per_unit : 0;
+}
+
+/// By rising coefficient, a new part where the difference to the first of the part gets too large. That difference rises with the
+/// coefficient, so a part cannot reach farther, and there are no fewer parts (packed_from_the_left in clusters.cpp says why).
+void split(std::vector<int> cluster, const std::vector<double>& coefficients, double longest, double most,
+           std::vector<std::vector<int>>& parts)
+{
+  const auto a = [&](int w) { return coefficients[static_cast<std::size_t>(w)]; };
+  std::stable_sort(cluster.begin(), cluster.end(), [&](int v, int w) { return a(v) < a(w); });
+  auto first = cluster.begin();
+  while (first != cluster.end()) {
+    const auto end = std::find_if(first, cluster.end(), [&](int w) { return largest_difference(a(*first), a(w), longest) > most; });
+    parts.emplace_back(first, end);
+    std::sort(parts.back().begin(), parts.back().end());
+    first = end;
+  }
+}
+
+} // namespace
+
+std::vector<double> loss_coefficients(const scene::Material& material)
+{
+  std::vector<double> a;
+  if (material.type == scene::Material::Type::dielectric && material.absorbs)
+    for (int w = 0; w < optics::wavelength_count; ++w)
+      a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
+  if (material.type == scene::Material::Type::mirror &&
+      std::any_of(material.reflectance.begin(), material.reflectance.end(), [](double r) { return r != 1; }))
+    for (const double r : material.reflectance) a.push_back(r > 0 ? std::min(-std::log(r), blackest) : blackest);
+  return a;
+}
+
+double largest_difference(double a, double b, double longest)
+{
+  if (a == b) return 0;
+  // The derivative by s is 0 where a exp(-a s) = b exp(-b s); the difference rises up to there.
+  const double s = a > 0 && b > 0 ? std::min(std::log(b / a) / (b - a), longest) : longest;
+  return std::abs(std::exp(-a * s) - std::exp(-b * s));
+}
+
+std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clusters, const scene::Scene& scene, int reflections,
+                                              double most)
+{
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    const bool used = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                  [&](const scene::Object& object) { return static_cast<std::size_t>(object.material) == m; });
+    const std::vector<double> coefficients = used ? loss_coefficients(scene.materials[m]) : std::vector<double>{};
+    if (coefficients.empty()) continue;
+    const double longest = scene.materials[m].type == scene::Material::Type::mirror ? reflections : 2 * diagonal_m(scene, m);
+    std::vector<std::vector<int>> parts;
+    for (std::vector<int>& cluster : clusters) split(std::move(cluster), coefficients, longest, most, parts);
+    clusters = std::move(parts);
+  }
+  return clusters;
+}
+
+} // namespace nephroid::spectral
