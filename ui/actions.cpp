@@ -125,7 +125,7 @@ const Action table[] = {
      [](W w, C) { ImGui::SetClipboardText(measure::to_csv(*w.error_history()).c_str()); }, not_measured},
     {"Edit", "Copy plot as CSV", 0, false, "Every number of the plot of error against time", has_plot,
      [](W w, C) { ImGui::SetClipboardText(plot_as_csv(w).c_str()); }, not_measured},
-    {"Edit", "Copy plan as JSON", 0, false, "As nephroid plan --json prints it", has_plan,
+    {"Edit", "Copy plan as JSON", 0, false, "As a run writes it to plan.json", has_plan,
      [](W w, C) { ImGui::SetClipboardText(plan::to_json(*w.plan()).c_str()); }},
     {"Run", "Start again", ImGuiKey_F5, false, "Start the run from its beginning", has_preset,
      [](W, C c) { c.push_back(command::Restart{}); }},

@@ -95,9 +95,13 @@ void print_json(const Answer& answer)
     const spectral::Surrounding& s = answer.importance.surroundings[i];
     surroundings.push_back({{"material", answer.materials[i]}, {"share", s.share}, {"lightness", s.lightness}});
   }
-  const Json object{{"method", word(answer.method)},         {"passes", answer.passes},
-                    {"wavelengths_nm", wavelengths_nm(all)}, {"importance", answer.importance.u},
-                    {"iterations", std::move(iterations)},   {"surroundings", std::move(surroundings)}};
+  const Json object{{"name", answer.name},
+                    {"method", word(answer.method)},
+                    {"passes", answer.passes},
+                    {"wavelengths_nm", wavelengths_nm(all)},
+                    {"importance", answer.importance.u},
+                    {"iterations", std::move(iterations)},
+                    {"surroundings", std::move(surroundings)}};
   fmt::print("{}\n", json_text(object));
 }
 
@@ -147,7 +151,7 @@ void add_importance(CLI::App& program, Session&)
                    "thesis (4.15) or radziszewski; default: thesis, unless the preset's effort is radziszewski")
       ->check(CLI::IsMember({"thesis", "radziszewski"}))
       ->type_name("METHOD");
-  verb->add_flag("--json", options->json, "One JSON object a run instead of text");
+  verb->add_flag("--json", options->json, "One JSON object a run, a line each, instead of text");
   verb->callback([options] { print_importance(*options); });
 }
 

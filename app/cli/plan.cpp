@@ -24,7 +24,7 @@ void print_plans(const PlanOptions& options)
   for (const preset::Preset& preset : presets) {
     const plan::Plan plan = run::prepare(preset).plan;
     if (!options.json && presets.size() > 1) fmt::print("{}\n", preset.name);
-    fmt::print("{}\n", options.json ? plan::to_json(plan) : plan::to_text(plan));
+    fmt::print("{}\n", options.json ? plan::to_json_line(plan, preset.name) : plan::to_text(plan));
   }
 }
 
@@ -39,7 +39,7 @@ void add_plan(CLI::App& program, Session&)
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  verb->add_flag("--json", options->json, "One JSON object a run instead of text");
+  verb->add_flag("--json", options->json, "One JSON object a run, a line each, instead of text");
   verb->callback([options] { print_plans(*options); });
 }
 

@@ -21,6 +21,8 @@ std::string readable_bytes(std::uint64_t bytes)
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 template <class Items, class Name>
 std::size_t widest(const Items& items, Name name)
 {
@@ -38,11 +40,8 @@ std::string way_back(const Pass& pass)
   return fmt::format("; to compute it: --set {}={}", key, pass.run_value);
 }
 
-} // namespace
-
-std::string to_json(const Plan& plan)
+Json json_of(const Plan& plan)
 {
-  using Json = nlohmann::ordered_json;
   Json passes = Json::array(), buffers = Json::array(), defines = Json::object();
   for (const Pass& pass : plan.passes) {
     Json entry{{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}};
@@ -54,8 +53,18 @@ std::string to_json(const Plan& plan)
   }
   for (const PlannedBuffer& buffer : plan.buffers) buffers.push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
   for (const auto& [name, value] : plan.defines) defines[name] = value;
-  const Json all{{"engine", plan.engine}, {"passes", passes}, {"buffers", buffers}, {"defines", defines}, {"notes", plan.notes}};
-  return json_text(all, 2);
+  return {{"engine", plan.engine}, {"passes", passes}, {"buffers", buffers}, {"defines", defines}, {"notes", plan.notes}};
+}
+
+} // namespace
+
+std::string to_json(const Plan& plan) { return json_text(json_of(plan), 2); }
+
+std::string to_json_line(const Plan& plan, const std::string& name)
+{
+  Json line{{"name", name}};
+  line.update(json_of(plan));
+  return json_text(line);
 }
 
 std::string to_text(const Plan& plan)

@@ -32,8 +32,10 @@ struct Plan {
 };
 
 /// contract.md: {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes";
-/// "field" and "run_value" only where a field decides.
+/// "field" and "run_value" only where a field decides. Over several lines, as plan.json has it.
 std::string to_json(const Plan& plan);
+/// The same on one line, with the run's "name" before it: a sweep is a line a run.
+std::string to_json_line(const Plan& plan, const std::string& name);
 /// For a terminal.
 std::string to_text(const Plan& plan);
 /// "1.50 MiB": three figures are enough for a person.

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 namespace {
 
@@ -45,6 +46,7 @@ TEST_F(ImportanceVerb, AnswersInTheContractsShape)
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const json answer = json::parse(ended.out);
   ASSERT_EQ(answer["wavelengths_nm"].size(), 401u);
+  EXPECT_EQ(answer["name"], "ball");
   EXPECT_EQ(answer["wavelengths_nm"][0], 380);
   EXPECT_EQ(answer["wavelengths_nm"][400], 780);
   const auto u = answer["importance"].get<std::vector<double>>();
@@ -91,6 +93,19 @@ TEST_F(ImportanceVerb, PrintsTablesForPeople)
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.out, testing::AllOf(HasSubstr("1.0000   91.7  the \"floor\"\n"), HasSubstr(" 1000  "),
                                         HasSubstr("32 clusters alike: 32000"), HasSubstr("401 wavelengths one by one: 401000")));
+}
+
+// Lines of a sweep are told apart by their names.
+TEST_F(ImportanceVerb, ASweepIsALineARun)
+{
+  for (const char* verb : {"importance", "plan"}) {
+    const Ended ended = run({verb, "ball.json", "--json", "--set", R"(sweep={"seed": [1, 2]})"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    std::vector<std::string> names;
+    std::istringstream lines(ended.out);
+    for (std::string line; std::getline(lines, line);) names.push_back(json::parse(line)["name"]);
+    EXPECT_THAT(names, testing::ElementsAre("ball,seed=1", "ball,seed=2")) << verb;
+  }
 }
 
 struct Wrong {

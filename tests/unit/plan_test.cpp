@@ -31,6 +31,17 @@ TEST(Plan, JsonIsTheContract)
   EXPECT_EQ(json.size(), 5u);
 }
 
+// Lines of a sweep are told apart by their names.
+TEST(Plan, AJsonLineHasTheNameToo)
+{
+  const std::string line = to_json_line(example(), "a,seed=2");
+  EXPECT_THAT(line, testing::Not(HasSubstr("\n")));
+  EXPECT_TRUE(line.starts_with(R"({"name":"a,seed=2","engine":"spectral",)")) << line;
+  auto json = nlohmann::json::parse(line);
+  json.erase("name");
+  EXPECT_EQ(json, nlohmann::json::parse(to_json(example())));
+}
+
 // What a panel draws its check box from, and what a person types.
 TEST(Plan, APassNamesTheFieldThatTurnsItBackOn)
 {
