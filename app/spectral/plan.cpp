@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 1 runs for a preset and what it leaves out.
+#include "preset/choices.h"
 #include "spectral/effort/effort.h"
 #include "spectral/effort/emission_guide.h"
 #include "spectral/engine.h"
 #include "spectral/maps/map_plan.h"
+#include "spectral/maps/map_radius.h"
 #include "spectral/omissions.h"
 #include "spectral/relight/layer_light.h"
 #include "spectral/relight/layer_plan.h"
@@ -161,6 +163,21 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
   return list;
 }
 
+/// Settings that do nothing, or not what they are for.
+std::vector<std::string> setting_notes(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool splats,
+                                       bool maps)
+{
+  std::vector<std::string> notes;
+  if (settings.step_nm > 1 && settings.method != preset::Spectral::Method::brute_force)
+    notes.push_back(fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",
+                                settings.step_nm, preset::word(settings.method)));
+  if (const std::string note = map_radius_note(settings, scene); maps && !note.empty()) notes.push_back(note);
+  if (splats && tables.photons_per_pass > static_cast<unsigned>(settings.photons_per_pass))
+    notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light",
+                                settings.photons_per_pass, tables.photons_per_pass));
+  return notes;
+}
+
 } // namespace
 
 plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
@@ -221,9 +238,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   plan.notes = scene.warnings;
   if (!direct.runs && !caustics && !indirect.runs && !background.runs)
     plan.notes.push_back(fmt::format("there is nothing to render: {}", direct.reason));
-  if (photons.runs && tables.photons_per_pass > static_cast<unsigned>(preset.spectral.photons_per_pass))
-    plan.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light",
-                                     preset.spectral.photons_per_pass, tables.photons_per_pass));
+  std::ranges::move(setting_notes(preset.spectral, scene, tables, photons.runs, maps.pass.runs), std::back_inserter(plan.notes));
   return plan;
 }
 

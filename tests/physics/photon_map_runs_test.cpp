@@ -154,6 +154,26 @@ TEST(MapPlan, SaysWhichEstimatorRunsAndWhy)
   EXPECT_TRUE(pass_of(plan_of(away), "photon maps").runs);
 }
 
+TEST(MapPlan, SaysWhereARadiusLosesTheCaustics)
+{
+  // Pixels cover some 0.1 units, and the scene is 8 units across.
+  const auto notes = [](double radius, Estimator estimator) {
+    preset::Preset p = glass_in_view(estimator);
+    p.spectral.sppm.radius = radius;
+    std::vector<std::string> all = plan_of(p).notes;
+    std::erase_if(all, [](const std::string& note) { return !note.starts_with("spectral."); }); // N-SF66 starts at 390 nm
+    return all;
+  };
+  for (const Estimator estimator : {Estimator::automatic, Estimator::sppm}) {
+    EXPECT_THAT(notes(1e7, estimator), testing::ElementsAre(testing::AllOf(testing::StartsWith("spectral.sppm.radius: 10000000 units are "),
+                                                                           testing::HasSubstr("blurred away"))));
+    EXPECT_THAT(notes(1e-6, estimator), testing::ElementsAre(testing::AllOf(testing::StartsWith("spectral.sppm.radius: 1e-06 units are "),
+                                                                            testing::HasSubstr("hardly a photon"))));
+    for (const double usual : {0.03, 0.1, 0.5}) EXPECT_THAT(notes(usual, estimator), testing::IsEmpty()) << usual;
+  }
+  EXPECT_THAT(notes(1e7, Estimator::splat), testing::IsEmpty());
+}
+
 TEST(MapPlan, SppmTakesTwentyBytesForEachPixelInEachCluster)
 {
   preset::Preset p = glass_in_view(Estimator::sppm);

@@ -198,4 +198,15 @@ TEST(SpectralPlan, SaysWhenAPassNeedsMorePhotons)
   EXPECT_THAT(plan_of(p).notes, testing::Contains(testing::HasSubstr("raised from 1 to 401")));
 }
 
+TEST(SpectralPlan, SaysThatStepsDoNothingWithoutBruteForce)
+{
+  preset::Preset p = scene_with({}, glass(1.5));
+  EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
+  p.spectral.step_nm = 4;
+  EXPECT_THAT(plan_of(p).notes,
+              testing::ElementsAre("spectral.step_nm: 4 does nothing here: spectral.method is optimal, and only brute_force has steps"));
+  p.spectral.method = preset::Spectral::Method::brute_force;
+  EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
+}
+
 } // namespace

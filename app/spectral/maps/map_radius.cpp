@@ -3,17 +3,41 @@
 
 #include "spectral/tables/scales.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace nephroid::spectral {
+namespace {
+
+/// Width of what a pixel covers at the distance of the scene's middle.
+double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds)
+{
+  const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
+  return 2 * distance * camera.tan_y / camera.height;
+}
+
+} // namespace
 
 double first_map_radius(const preset::Spectral& settings, const scene::Scene& scene)
 {
-  if (settings.sppm.radius) return *settings.sppm.radius;
+  return settings.sppm.radius ? *settings.sppm.radius : 2 * pixel_width(scene.camera, scene_bounds(scene));
+}
+
+std::string map_radius_note(const preset::Spectral& settings, const scene::Scene& scene)
+{
+  if (!settings.sppm.radius) return "";
+  const double radius = *settings.sppm.radius;
   const scene::Sphere bounds = scene_bounds(scene);
-  const double distance = std::max<double>(glm::length(scene.camera.position - bounds.centre), 0.25 * bounds.radius);
-  return 2 * (2 * distance * scene.camera.tan_y / scene.camera.height);
+  const double pixel = pixel_width(scene.camera, bounds);
+  const auto note = [&](const char* consequence) {
+    return fmt::format("spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out", radius,
+                       radius / pixel, consequence, 2 * pixel);
+  };
+  if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
+    return note("caustics are blurred away, and gathering is slow");
+  return radius < pixel / 16 ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
 }
 
 double map_radius_factor(std::int64_t pass, double alpha)
