@@ -106,9 +106,12 @@ std::vector<unsigned char> shown_bytes(const std::vector<float>& rgb, double exp
 
 Image read_image(const fs::path& file)
 {
-  constexpr const char* unreadable = "is no picture that can be read: {}";
   // Reading it says what is wrong with the file itself, OpenImageIO what is wrong with the picture.
-  if (is_cut_png(read_file(file))) throw bad_input(file.string(), fmt::format(unreadable, "its end is missing"));
+  const auto refuse = [&file](const char* reason) {
+    throw bad_input(file.string(), fmt::format("is no picture that can be read: {}", reason),
+                    "expected a whole EXR, HDR, PNG, JPEG or another picture that OpenImageIO reads", "save it anew, or name another file");
+  };
+  if (is_cut_png(read_file(file))) refuse("its end is missing");
   Image image;
   const auto take = [](void* to, const NephroidPicture* picture) {
     Image& result = *static_cast<Image*>(to);
@@ -121,7 +124,7 @@ Image read_image(const fs::path& file)
     for (std::size_t i = 0; i < picture->attribute_count; ++i)
       result.attributes[picture->attributes[i].name] = picture->attributes[i].value;
   };
-  if (const char* reason = module().read(file.c_str(), take, &image)) throw bad_input(file.string(), fmt::format(unreadable, reason));
+  if (const char* reason = module().read(file.c_str(), take, &image)) refuse(reason);
   return image;
 }
 

@@ -17,7 +17,9 @@ namespace {
 using namespace nephroid;
 using namespace nephroid::scene;
 using test::refusal_of;
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -94,7 +96,9 @@ TEST_F(SceneEnvironment, ABadTexelIsNamed)
 
 TEST_F(SceneEnvironment, WhatIsNoSuchPictureIsRefused)
 {
-  EXPECT_THAT(refusal_of([&] { load(temporary.write("sky.hdr", "not a picture")); }), HasSubstr("sky.hdr: is no picture that can be read"));
+  EXPECT_THAT(refusal_of([&] { load(temporary.write("sky.hdr", "not a picture")); }),
+              AllOf(HasSubstr("sky.hdr: is no picture that can be read: "), HasSubstr("; expected a whole EXR, HDR, PNG, JPEG or another"),
+                    EndsWith("; save it anew, or name another file")));
   EXPECT_THAT(refusal_of([&] { load(write_exr({1, 2}, 1, {"R", "G"})); }), HasSubstr("has the channels"));
   EXPECT_THAT(refusal_of([&] { load("no-such-sky.exr"); }), HasSubstr("p.json#/scene/environment/file"));
 }
