@@ -2,13 +2,10 @@
 // Bad command lines: each is answered by one line on standard error that says what is wrong, the exit code of the contract, nothing
 // on standard output and no file.
 #include "base/files.h"
-#include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/program_test.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-
-#include <algorithm>
 
 namespace {
 
@@ -17,32 +14,10 @@ using namespace nephroid::test;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-class CommandLine : public testing::Test {
-protected:
-  TemporaryFolder scratch;
-  fs::path folder = scratch.path() / "here", logs = scratch.path();
-  void SetUp() override { fs::create_directory(folder); }
-  Ended run(const std::vector<std::string>& arguments, const Environment& environment = {}) const
-  {
-    return nephroid::test::nephroid(arguments, folder, logs, environment);
-  }
-};
-
-void expect_one_line(const Ended& ended)
-{
-  EXPECT_THAT(ended.err, StartsWith("nephroid: "));
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  EXPECT_EQ(ended.out, "");
-}
-
-struct Case {
-  std::vector<std::string> arguments;
-  std::string says; ///< part of the line
-  int exit_code = 2;
-};
+class CommandLine : public ProgramTest {};
 
 // "spectral/plate" needs no mesh file.
-const std::vector<Case> cases{
+const std::vector<Wrong> cases{
     {{"--nonsense"}, "unknown option '--nonsense'"},
     {{"--verzion"}, "did you mean '--version'?"},
     {{"-q"}, "unknown option '-q'"},
@@ -97,14 +72,9 @@ const std::vector<Case> cases{
 TEST_F(CommandLine, BadOnesAreAnsweredInOneLine)
 {
   ASSERT_GE(cases.size(), 25u);
-  for (const Case& wrong : cases) {
-    std::string line;
-    for (const std::string& argument : wrong.arguments) line += " '" + argument + "'";
-    SCOPED_TRACE(line);
-    const Ended ended = run(wrong.arguments);
-    EXPECT_EQ(ended.exit_code, wrong.exit_code) << ended.err;
-    expect_one_line(ended);
-    EXPECT_THAT(ended.err, HasSubstr(wrong.says));
+  for (const Wrong& wrong : cases) {
+    SCOPED_TRACE(wrong.says);
+    expect_refused(run(wrong.arguments), wrong);
     EXPECT_TRUE(fs::is_empty(folder)) << "something was written";
     fs::remove_all(folder / "out"); // only this case is to fail
   }

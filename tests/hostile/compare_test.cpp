@@ -3,9 +3,8 @@
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/metrics.h"
-#include "tests/support/child.h"
 #include "tests/support/pictures.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/program_test.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -20,17 +19,13 @@ using namespace nephroid;
 using namespace nephroid::test;
 using json = nlohmann::ordered_json;
 using testing::HasSubstr;
-using testing::StartsWith;
 
-class Compare : public testing::Test {
+class Compare : public ProgramTest {
 protected:
-  TemporaryFolder scratch;
-  fs::path folder = scratch.path() / "here", logs = scratch.path();
-  void SetUp() override { fs::create_directory(folder); }
   Ended run(std::vector<std::string> arguments) const
   {
     arguments.insert(arguments.begin(), "compare");
-    return nephroid::test::nephroid(arguments, folder, logs);
+    return ProgramTest::run(arguments);
   }
   json compared(std::vector<std::string> arguments) const
   {
@@ -147,11 +142,6 @@ TEST_F(Compare, DifferencePicturesAreWritten)
   EXPECT_EQ(run({"a.exr", "b.exr", "-o", "no/d.png"}).exit_code, 1);
 }
 
-struct Wrong {
-  std::vector<std::string> arguments;
-  std::string says;
-};
-
 TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
 {
   const Picture good = flat(6, 4, 0.5);
@@ -196,14 +186,7 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
       {{"good.exr", "good.exr", "--metric", "lab"}, "--metric requires --output"},
       {{"good.exr", "good.exr", "--masks", "m.png"}, "unknown option '--masks'; did you mean '--mask'?"},
   };
-  for (const Wrong& wrong : cases) {
-    SCOPED_TRACE(wrong.says);
-    const Ended ended = run(wrong.arguments);
-    EXPECT_EQ(ended.exit_code, 2);
-    EXPECT_EQ(ended.out, "");
-    EXPECT_THAT(ended.err, testing::AllOf(StartsWith("nephroid: "), HasSubstr(wrong.says)));
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  }
+  for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
 } // namespace

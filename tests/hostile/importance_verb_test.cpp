@@ -1,33 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid importance` as scripts use it, and one line for whatever is wrong, here and with spectral.effort elsewhere.
-#include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/program_test.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace nephroid::test;
 using nlohmann::json;
 using testing::HasSubstr;
-using testing::StartsWith;
 
-class ImportanceVerb : public testing::Test {
+class ImportanceVerb : public ProgramTest {
 protected:
-  TemporaryFolder scratch;
-  fs::path folder = scratch.path() / "here", logs = scratch.path();
   void SetUp() override
   {
-    fs::create_directory(folder);
-    std::ofstream(folder / "ball.json") << R"({
+    write("ball.json", R"({
       "engine": "spectral", "unit": "m",
       "scene": {
         "materials": {"glass": {"type": "dielectric", "dispersion": "materials/N-SF66.yml"}, "the \"floor\"": {"type": "diffuse"}},
@@ -35,9 +28,8 @@ protected:
                     {"name": "floor", "shape": {"type": "quad", "size": [9, 1, 9]}, "material": "the \"floor\"",
                      "transform": {"translate": [0, -1, 0]}}],
         "lights": [{"type": "point", "spectrum": "D65", "position": [0, 3, 0]}]},
-      "stop": {"passes": 200}})";
+      "stop": {"passes": 200}})");
   }
-  Ended run(const std::vector<std::string>& arguments) const { return nephroid::test::nephroid(arguments, folder, logs); }
 };
 
 TEST_F(ImportanceVerb, AnswersInTheContractsShape)
@@ -108,11 +100,6 @@ TEST_F(ImportanceVerb, ASweepIsALineARun)
   }
 }
 
-struct Wrong {
-  std::vector<std::string> arguments;
-  std::string says;
-};
-
 TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine)
 {
   const std::string zero = "ball.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: ";
@@ -132,14 +119,7 @@ TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine)
       {{"plan", "ball.json", "--set", R"(reference={"type": "recipe", "spectral": {"effort": "random"}})"},
        "random needs the estimator sppm"},
   };
-  for (const Wrong& wrong : cases) {
-    SCOPED_TRACE(wrong.says);
-    const Ended ended = run(wrong.arguments);
-    EXPECT_EQ(ended.exit_code, 2);
-    EXPECT_EQ(ended.out, "");
-    EXPECT_THAT(ended.err, testing::AllOf(StartsWith("nephroid: "), HasSubstr(wrong.says)));
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  }
+  for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
 } // namespace

@@ -2,12 +2,10 @@
 // What the spectral engine is given that is wrong or odd: dispersion curves, lights without visible power, glass whose mesh is damaged.
 // Each gives one line that says where and what, or a finite answer and a word about it. Not here: malformed JSON (preset_test.cpp) and
 // malformed dispersion files (tests/unit/dispersion_file_test.cpp).
-#include "base/files.h"
 #include "preset/read.h"
 #include "scene/scene.h"
-#include "tests/support/child.h"
 #include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/program_test.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <set>
 #include <string>
@@ -23,7 +20,6 @@
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace nephroid;
 using nlohmann::json;
 using test::refusal_of;
@@ -35,15 +31,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-class SpectralInput : public testing::Test {
+class SpectralInput : public test::ProgramTest {
 protected:
-  test::TemporaryFolder scratch;
-  fs::path folder = scratch.path() / "here";
-  void SetUp() override { fs::create_directory(folder); }
-
-  void write(const std::string& name, const std::string& text) const { write_file_whole(folder / name, text); }
-  test::Ended run(const std::vector<std::string>& arguments) const { return test::nephroid(arguments, folder, scratch.path()); }
-
   scene::Scene load(const std::string& scene_fields) const
   {
     return scene::load_scene(preset::parse_preset(R"({"engine":"spectral","scene":{)" + scene_fields + "}}", (folder / "p.json").string()));

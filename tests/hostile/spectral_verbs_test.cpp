@@ -1,33 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid dispersion` and `nephroid clusters` as scripts use them: JSON as the contract has it, good files among bad ones, odd
 // names, and one line for whatever is wrong.
-#include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/program_test.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 namespace {
 
-namespace fs = std::filesystem;
 using namespace nephroid::test;
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-class SpectralVerbs : public testing::Test {
-protected:
-  TemporaryFolder scratch;
-  fs::path folder = scratch.path() / "here", logs = scratch.path();
-  void SetUp() override { fs::create_directory(folder); }
-  Ended run(const std::vector<std::string>& arguments) const { return nephroid::test::nephroid(arguments, folder, logs); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
-};
+class SpectralVerbs : public ProgramTest {};
 
 std::vector<json> lines(const std::string& text)
 {
@@ -122,11 +111,6 @@ TEST_F(SpectralVerbs, APresetWithSeveralGlassesAsksForOne)
   EXPECT_THAT(run({"clusters", "two.json", "--material", "dense/flint"}).err, HasSubstr("#/scene/materials/dense~1flint/dispersion: "));
 }
 
-struct Wrong {
-  std::vector<std::string> arguments;
-  std::string says;
-};
-
 TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
 {
   write("empty.yml", "");
@@ -160,14 +144,7 @@ TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
       {{"clusters", "--ior", "N-BK7", "--method", "best"}, "best not in"},
       {{"clusters", "--ior", "N-SF66", "--outside", "refuse"}, "N-SF66 has no n at 380 nm"},
   };
-  for (const Wrong& wrong : cases) {
-    SCOPED_TRACE(wrong.says);
-    const Ended ended = run(wrong.arguments);
-    EXPECT_EQ(ended.exit_code, 2);
-    EXPECT_EQ(ended.out, "");
-    EXPECT_THAT(ended.err, testing::AllOf(StartsWith("nephroid: "), HasSubstr(wrong.says)));
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  }
+  for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
 } // namespace

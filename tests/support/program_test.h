@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// A test that runs the program in an empty folder, and what every refusal of it has in common.
+#pragma once
+#include "tests/support/child.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nephroid::test {
+
+class ProgramTest : public testing::Test {
+protected:
+  ProgramTest() { std::filesystem::create_directory(folder); }
+
+  TemporaryFolder scratch;
+  std::filesystem::path folder = scratch.path() / "here", logs = scratch.path();
+
+  Ended run(const std::vector<std::string>& arguments, const Environment& environment = {}) const
+  {
+    return nephroid(arguments, folder, logs, environment);
+  }
+  void write(const std::string& name, std::string_view bytes) const { std::ofstream(folder / name, std::ios::binary) << bytes; }
+};
+
+/// A command line that is refused.
+struct Wrong {
+  std::vector<std::string> arguments;
+  std::string says; ///< part of the line
+  int exit_code = 2;
+};
+
+/// One line on standard error, nothing on standard output.
+inline void expect_one_line(const Ended& ended)
+{
+  EXPECT_THAT(ended.err, testing::StartsWith("nephroid: "));
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  EXPECT_EQ(ended.out, "");
+}
+
+/// ended: of wrong.arguments.
+inline void expect_refused(const Ended& ended, const Wrong& wrong)
+{
+  std::string line = wrong.says + ":";
+  for (const std::string& argument : wrong.arguments) line += " '" + argument + "'";
+  SCOPED_TRACE(line);
+  EXPECT_EQ(ended.exit_code, wrong.exit_code) << ended.err;
+  expect_one_line(ended);
+  EXPECT_THAT(ended.err, testing::HasSubstr(wrong.says));
+}
+
+} // namespace nephroid::test
