@@ -39,17 +39,6 @@ static inline Emission emit_everywhere(DeviceLight light, __global const DeviceT
   return emit(&light, everything, scene, random, place);
 }
 
-// What makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl lights the surface: the ratio of both
-// cosines (Veach 1997, 5.3.2); 0 behind the shading normal's horizon.
-static inline float shading_ratio(const Surface* surface, float3 arriving)
-{
-#if NEPHROID_SMOOTH
-  return max(dot(arriving, surface->shading) / dot(arriving, surface->geometric), 0.0f);
-#else
-  return 1.0f;
-#endif
-}
-
 typedef struct {
   volatile __global long* film;
   float scale; // quanta per unit of radiance
@@ -62,7 +51,7 @@ typedef struct {
   Band band;
   int light;
   float watts;   // as if the band had all of the light's power
-  float shading; // product of shading_ratio over the diffuse surfaces behind it
+  float shading; // product of shading_ratio over the diffuse surfaces that it has left
 } Photon;
 
 // Adds what a diffuse surface reflects of a photon to the pixel that sees it. False where the film refused it.
@@ -89,9 +78,9 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     lose_in_medium(world, path, hit.t);
     const float4 random = random4(seed, pass, number, 2u + (uint)surface_number, STREAM_INDIRECT);
     if (material.type == MATERIAL_DIFFUSE) {
-      photon->shading *= shading_ratio(&surface, path->direction);
       if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w)) ++*refused;
       met_diffuse = true;
+      photon->shading *= shading_ratio(&surface, path->direction);
       if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + photon->band.wavelength]) return OUTCOME_ABSORBED;
       const float side = dot(path->direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
       path->direction = cosine_direction(side * surface.geometric, random.y, random.z);

@@ -37,7 +37,8 @@ static inline long squared(float3 xyz, float scale)
   return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass.
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. energy counts what photons carry, whatever a smooth
+// receiver makes of it by its shading normals.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                       volatile __global long* moments,       // with NEPHROID_MOMENTS: [emitter]
@@ -80,9 +81,12 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
     const PhotonEnd end = trace_photon(&world, emitter.light, &band, share, &path, seed, pass, photon);
 #if NEPHROID_STORE
-    if (end.outcome == OUTCOME_DEPOSITED && !store_photon(stored + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count,
-                                                          end.xyz * watts, stored_scale, start.emission.w))
-      ++outcomes[OUTCOME_REFUSED];
+    if (end.outcome == OUTCOME_DEPOSITED) {
+      const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
+      if (!store_photon(stored + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count, xyz, stored_scale,
+                        start.emission.w))
+        ++outcomes[OUTCOME_REFUSED];
+    }
 #endif
     if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
       const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);

@@ -47,7 +47,7 @@ static inline int project_to_pixel(const DeviceCamera* camera, float3 position, 
 // Where a splat goes, and by what factor the light there becomes the pixel's radiance.
 typedef struct {
   int pixel;    // -1: no pixel sees it
-  float weight; // m^-2, see project_to_pixel
+  float weight; // m^-2, see project_to_pixel; with shading_ratio
 } Splat;
 
 // The pixel that sees a place of a surface that light arrives at.
@@ -55,6 +55,7 @@ static inline Splat splat_at(const World* world, const DeviceCamera* camera, con
 {
   Splat splat = {-1, 0.0f};
   splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit, &splat.weight);
+  splat.weight *= shading_ratio(surface, arriving);
 #if NEPHROID_OCCLUSION
   if (splat.pixel < 0) return splat;
   const float3 from = start_on_side(surface, dot(arriving, surface->geometric) < 0.0f ? 1.0f : -1.0f);

@@ -58,6 +58,22 @@ static inline Surface surface_at(const Geometry* geometry, __global const Device
 // A start for a ray that leaves on the outer (side 1) or inner (side -1) side.
 static inline float3 start_on_side(const Surface* surface, float side) { return surface->position + side * surface->offset * surface->geometric; }
 
+// A photon near grazing may count as so many: where a facet gets next to nothing, and its shading normal says otherwise, single photons would
+// be bright specks. What is cut off is less than the light on a facet that arrives within 3.6 degrees of it.
+#define SHADING_RATIO_LIMIT 16.0f
+
+// What makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl lights the surface: the ratio of both
+// cosines (Veach 1997, 5.3.2); 0 behind the shading normal's horizon.
+static inline float shading_ratio(const Surface* surface, float3 arriving)
+{
+#if NEPHROID_SMOOTH
+  const float ratio = dot(arriving, surface->shading) / dot(arriving, surface->geometric);
+  return ratio > 0.0f ? (ratio < SHADING_RATIO_LIMIT ? ratio : SHADING_RATIO_LIMIT) : 0.0f;
+#else
+  return 1.0f;
+#endif
+}
+
 // What a mirror or dielectric does to a ray: the new direction, and whether the ray went through.
 typedef struct {
   float3 direction;

@@ -89,18 +89,6 @@ std::vector<double> both_layers(const job::Snapshot& snapshot)
   return all;
 }
 
-/// Both have the same expectations: the Sidak-corrected chance of the worst figure, where each may be off by its `bias` besides.
-double same(const std::vector<Estimate>& a, const std::vector<Estimate>& b, std::vector<double> bias = {})
-{
-  bias.resize(a.size(), 0);
-  double smallest = 1;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Estimate difference{a[i].mean - b[i].mean, a[i].variance + b[i].variance, std::min(a[i].degrees, b[i].degrees)};
-    if (difference.variance > 0) smallest = std::min(smallest, p_value(difference, 0, bias[i]));
-  }
-  return sidak(smallest, static_cast<double>(a.size()));
-}
-
 double largest(const std::vector<Estimate>& estimates)
 {
   double most = 0;
@@ -147,7 +135,7 @@ TEST(Relighting, UnderItsOwnLightThePictureIsThatOfARunWithoutLayers)
   plain.seed = 1000;
   const std::vector<Estimate> layers = render_passes(layered(tiled_scene()), both_layers), without = render_passes(plain, both_layers);
   EXPECT_GT(largest(without), 0);
-  EXPECT_GT(same(layers, without), false_alarm);
+  EXPECT_GT(same_expectations(layers, without), false_alarm);
 }
 
 TEST(Relighting, UnderAnotherLightItIsThatOfARunWithThatLight)
@@ -160,13 +148,13 @@ TEST(Relighting, UnderAnotherLightItIsThatOfARunWithThatLight)
   other.white = 0.25;
   const preset::Preset own = layered(tiled_scene());
   const std::vector<Estimate> relit = relit_passes(own, other), truth = render_passes(fresh_run(other), both_layers);
-  EXPECT_GT(same(relit, truth), false_alarm);
+  EXPECT_GT(same_expectations(relit, truth), false_alarm);
 
   // The test sees as little as one colour taken for another: the picture under the old light is not that.
   preset::Preset old = tiled_scene();
   old.scene.lights[1] = other.scene.lights[1];
   old.white = other.white;
-  EXPECT_LT(same(render_passes(old, both_layers), truth), false_alarm);
+  EXPECT_LT(same_expectations(render_passes(old, both_layers), truth), false_alarm);
 }
 
 TEST(Relighting, ThroughADyeItIsThatOfARunWithThatLight)
@@ -185,8 +173,8 @@ TEST(Relighting, ThroughADyeItIsThatOfARunWithThatLight)
     const double share = wavelength_nm > 0 ? spectral::largest_loss_difference : 0.005;
     std::vector<double> bias;
     for (const Estimate& e : undyed) bias.push_back(share * std::abs(e.mean));
-    EXPECT_GT(same(relit, truth, bias), false_alarm) << wavelength_nm;
-    EXPECT_LT(same(undyed, truth, bias), false_alarm) << "the dye is seen";
+    EXPECT_GT(same_expectations(relit, truth, bias), false_alarm) << wavelength_nm;
+    EXPECT_LT(same_expectations(undyed, truth, bias), false_alarm) << "the dye is seen";
   }
 }
 

@@ -4,6 +4,7 @@
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -57,6 +58,18 @@ inline std::vector<Estimate> render_passes(const preset::Preset& preset,
 inline double p_value(const Estimate& e, double truth, double bias = 0)
 {
   return bernstein(std::max(std::abs(e.mean - truth) - bias, 0.0), e.variance, 0, e.degrees);
+}
+
+/// The chance that figures with the same expectations, each but for its `bias`, are as different somewhere, after Sidak.
+inline double same_expectations(const std::vector<Estimate>& a, const std::vector<Estimate>& b, std::vector<double> bias = {})
+{
+  bias.resize(a.size(), 0);
+  double smallest = 1;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Estimate difference{a[i].mean - b[i].mean, a[i].variance + b[i].variance, std::min(a[i].degrees, b[i].degrees)};
+    if (difference.variance > 0) smallest = std::min(smallest, p_value(difference, 0, bias[i]));
+  }
+  return sidak(smallest, static_cast<double>(a.size()));
 }
 
 /// How far off such an estimate may be before its p-value is a false alarm: bernstein() turned round.
