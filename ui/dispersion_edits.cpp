@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "optics/dispersion.h"
-#include "preset/describe_limits.h"
 #include "scene/materials.h"
 
 #include <fmt/format.h>
@@ -16,19 +15,6 @@
 #include <map>
 
 namespace nephroid::ui {
-namespace {
-
-bool is_finite(const ControlPoint& point) { return std::isfinite(point[0]) && std::isfinite(point[1]); }
-
-double inside(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
-
-std::size_t index_after(const std::vector<ControlPoint>& points, double nm)
-{
-  return static_cast<std::size_t>(
-      std::upper_bound(points.begin(), points.end(), nm, [](double x, const ControlPoint& p) { return x < p[0]; }) - points.begin());
-}
-
-} // namespace
 
 std::vector<std::string> dielectrics(const preset::Preset& preset)
 {
@@ -60,9 +46,7 @@ preset::Preset with_dispersion(const preset::Preset& preset, const std::string& 
 std::vector<ControlPoint> sorted_points(const preset::Dispersion& dispersion)
 {
   if (dispersion.type != preset::Dispersion::Type::points) return {};
-  std::vector<ControlPoint> points = dispersion.table;
-  std::stable_sort(points.begin(), points.end(), [](const ControlPoint& a, const ControlPoint& b) { return a[0] < b[0]; });
-  return points;
+  return sorted_rows(dispersion.table);
 }
 
 preset::Dispersion with_points(const preset::Dispersion& before, std::vector<ControlPoint> points)
@@ -72,50 +56,6 @@ preset::Dispersion with_points(const preset::Dispersion& before, std::vector<Con
   dispersion.table = std::move(points);
   dispersion.outside = before.outside;
   return dispersion;
-}
-
-void move_point(std::vector<ControlPoint>& points, std::size_t index, ControlPoint to)
-{
-  if (index >= points.size() || !is_finite(to)) return;
-  ControlPoint& point = points[index];
-  point[1] = inside(to[1], preset::index_bounds);
-  const double low = index > 0 ? points[index - 1][0] + least_gap_nm : preset::wavelength_bounds.low;
-  const double high = index + 1 < points.size() ? points[index + 1][0] - least_gap_nm : preset::wavelength_bounds.high;
-  if (low <= high) point[0] = std::clamp(to[0], low, high); // neighbours of a file may be nearer than that: then it stays between them
-}
-
-std::optional<std::size_t> add_point(std::vector<ControlPoint>& points, ControlPoint at)
-{
-  if (!is_finite(at)) return std::nullopt;
-  at = {inside(at[0], preset::wavelength_bounds), inside(at[1], preset::index_bounds)};
-  const std::size_t index = index_after(points, at[0]);
-  if (index > 0 && at[0] - points[index - 1][0] < least_gap_nm) return std::nullopt;
-  if (index < points.size() && points[index][0] - at[0] < least_gap_nm) return std::nullopt;
-  points.insert(points.begin() + static_cast<std::ptrdiff_t>(index), at);
-  return index;
-}
-
-bool remove_point(std::vector<ControlPoint>& points, std::size_t index)
-{
-  if (points.size() <= 2 || index >= points.size()) return false;
-  points.erase(points.begin() + static_cast<std::ptrdiff_t>(index));
-  return true;
-}
-
-double middle_of_widest_gap(const std::vector<ControlPoint>& points)
-{
-  double from = optics::first_nm, widest = 0, middle = from;
-  const auto look = [&](double to) {
-    if (to - from > widest) {
-      widest = to - from;
-      middle = (from + to) / 2;
-    }
-    from = to;
-  };
-  for (const ControlPoint& point : points)
-    if (point[0] > optics::first_nm && point[0] < optics::last_nm) look(point[0]);
-  look(optics::last_nm);
-  return middle;
 }
 
 ControlPoint snapped(ControlPoint point, ControlPoint step)
@@ -130,7 +70,8 @@ FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t
   const auto point = [&](int index) {
     // Seven decimals are as much as any table has.
     const double value = std::round(n[static_cast<std::size_t>(index)] * 1e7) / 1e7;
-    return ControlPoint{static_cast<double>(optics::wavelength_nm(index)), inside(value, preset::index_bounds)};
+    return ControlPoint{static_cast<double>(optics::wavelength_nm(index)),
+                        std::clamp(value, preset::index_bounds.low, preset::index_bounds.high)};
   };
   FittedPoints fitted;
   fitted.points = {point(0), point(optics::wavelength_count - 1)};
@@ -143,7 +84,7 @@ FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t
       if (deviation > fitted.greatest_deviation) fitted.greatest_deviation = deviation, worst = i;
     }
     if (fitted.greatest_deviation <= tolerance || fitted.points.size() >= std::max<std::size_t>(most, 2)) return fitted;
-    if (!add_point(fitted.points, point(worst))) return fitted; // it is a point already: nothing gets better
+    if (!add_row(fitted.points, point(worst), point_rules)) return fitted; // it is a point already: nothing gets better
   }
 }
 

@@ -3,19 +3,20 @@
 // No Dear ImGui here.
 #pragma once
 #include "optics/wavelength.h"
+#include "preset/describe_limits.h"
 #include "preset/preset.h"
+#include "ui/sorted_rows.h"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace nephroid::ui {
 
-using ControlPoint = std::array<double, 2>; ///< (nm, n)
+using ControlPoint = Row; ///< (nm, n)
 
-/// Control points keep this distance, so that a drag never gives one wavelength two values.
-inline constexpr double least_gap_nm = 0.5;
+/// A curve needs two of them.
+inline constexpr RowRules point_rules{"control point", preset::index_bounds, 0.5, 2};
 
 /// The dielectrics of a preset: those that objects are made of, in the order of the objects, then the others by name.
 std::vector<std::string> dielectrics(const preset::Preset& preset);
@@ -30,14 +31,6 @@ preset::Preset with_dispersion(const preset::Preset& preset, const std::string& 
 std::vector<ControlPoint> sorted_points(const preset::Dispersion& dispersion);
 /// Control points, nothing else of `before` but its rule for wavelengths outside.
 preset::Dispersion with_points(const preset::Dispersion& before, std::vector<ControlPoint> points);
-/// One point to a new place: between its neighbours, and n inside what a preset may have. A place that is not finite changes nothing.
-void move_point(std::vector<ControlPoint>& points, std::size_t index, ControlPoint to);
-/// The new point's index; nothing, and no change, where another point is nearer than least_gap_nm or the place is not finite.
-std::optional<std::size_t> add_point(std::vector<ControlPoint>& points, ControlPoint at);
-/// False, and no change, where only two are left: a curve of control points needs as many.
-bool remove_point(std::vector<ControlPoint>& points, std::size_t index);
-/// The middle of the widest gap between neighbouring points within 380..780 nm, whose ends count as points.
-double middle_of_widest_gap(const std::vector<ControlPoint>& points);
 /// The nearest place on a grid.
 ControlPoint snapped(ControlPoint point, ControlPoint step);
 

@@ -115,6 +115,7 @@ void DispersionModel::update(const preset::Preset& preset, const std::string& ma
   used_ = std::move(used);
   changed |= std::exchange(step_nm_, preset.spectral.step_nm) != preset.spectral.step_nm;
   changed |= std::exchange(differentials_, preset.spectral.differentials) != preset.spectral.differentials;
+  changed |= std::exchange(relight_, preset.spectral.relight) != preset.spectral.relight;
   if (changed) combine(preset.spectral);
 }
 
@@ -138,7 +139,7 @@ void DispersionModel::combine(const preset::Spectral& settings)
   scene::Scene outline;
   for (const std::string& name : used_) {
     const GlassCurve& glass = glasses_.at(name).curve;
-    if (!glass.error.empty()) return;
+    if (!glass.error.empty() || (settings.relight && glass.has_k)) return; // layers also hang on the lengths of paths in what absorbs
     outline.objects.emplace_back().material = static_cast<int>(outline.materials.size());
     scene::Material& material = outline.materials.emplace_back();
     material.type = scene::Material::Type::dielectric;

@@ -41,7 +41,7 @@ public:
   const std::vector<Band>& bands() const { return bands_; }
   const std::array<std::size_t, optics::wavelength_count>& cluster_of() const { return cluster_of_; }
   /// How many the run has: of all glasses that objects are made of, by brute force of step_nm neighbours, with differentials as they
-  /// need them. Nothing where no object is made of glass or one of the curves has an error.
+  /// need them. Nothing where no object is made of glass, one of the curves has an error, or layers for another light absorb.
   std::optional<std::size_t> clusters_of_run() const { return clusters_of_run_; }
 
   /// How often each was made, for tests.
@@ -65,7 +65,7 @@ private:
   double threshold_deg_ = 0;
   spectral::ClusterMethod method_ = spectral::ClusterMethod::optimal;
   int step_nm_ = 1;
-  bool differentials_ = false;
+  bool differentials_ = false, relight_ = false;
 
   const GlassCurve* curve_ = nullptr; ///< in glasses_
   std::string error_;

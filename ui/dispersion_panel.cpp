@@ -4,7 +4,6 @@
 #include "base/files.h"
 #include "ui/theme.h"
 #include "ui/wavelength_axis.h"
-#include "ui/widgets.h"
 #include "ui/workbench.h"
 
 #include <fmt/format.h>
@@ -91,16 +90,10 @@ void DispersionPanel::follow(const Workbench& workbench)
   points_ = sorted_points(preset.scene.materials.at(material).dispersion);
   const bool another = material != shown_;
   shown_ = material;
-  if (another || (selected_ && *selected_ >= points_.size())) selected_.reset();
+  editor_.keep(points_.size());
   if (!another) return;
+  editor_.unmark();
   fitted_text_.clear();
-  dragging_ = false;
-}
-
-void DispersionPanel::remember(const char* widget)
-{
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  widgets_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
 }
 
 void DispersionPanel::draw_toolbar(const Frame& frame, const std::vector<std::string>& names)
@@ -118,7 +111,7 @@ void DispersionPanel::draw_toolbar(const Frame& frame, const std::vector<std::st
   const bool editable = frame.material.dispersion.type == Type::points;
   ImGui::BeginDisabled(editable || !model_.curve().error.empty());
   if (ImGui::Button("Make editable")) make_editable(frame);
-  remember("Make editable");
+  places_.note("Make editable");
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled | ImGuiHoveredFlags_DelayNormal))
     ImGui::SetTooltip("%s", editable ? "It is made of control points: drag them"
@@ -133,7 +126,7 @@ void DispersionPanel::draw_load(const Frame& frame)
     shipped_ = shipped_materials();
     ImGui::OpenPopup("load");
   }
-  remember("Load...");
+  places_.note("Load...");
   ImGui::SetItemTooltip("Any file of refractiveindex.info; dropping it on the window does the same");
   if (!ImGui::BeginPopup("load")) return;
   const auto load = [&](const std::string& file) {
@@ -176,28 +169,28 @@ void DispersionPanel::draw_points_row(const Frame& frame)
   ImGui::SameLine();
   ImGui::BeginDisabled(!model_.error().empty());
   ImGui::Checkbox("Sorted", &sorted_);
-  remember("Sorted");
+  places_.note("Sorted");
   ImGui::EndDisabled();
   ImGui::SetItemTooltip("Wavelengths in the order in which they are clustered: by falling n");
   if (points_.empty() || sorted_) return;
   ImGui::SameLine();
   ImGui::Checkbox("Snap", &snap_);
-  remember("Snap");
+  places_.note("Snap");
   ImGui::SetItemTooltip("%s", fmt::format("Dragged points keep to a grid: 1 nm, and {:.6g} of n at this zoom", plot_.grid()[1]).c_str());
   ImGui::SameLine();
   if (ImGui::Button("Add")) {
     const double nm = middle_of_widest_gap(points_);
     const auto index = static_cast<std::size_t>(std::clamp(std::lround(nm) - optics::first_nm, 0L, optics::wavelength_count - 1L));
-    add(frame, {nm, model_.curve().error.empty() ? model_.curve().n[index] : points_.front()[1]});
+    const double n = model_.curve().error.empty() ? model_.curve().n[index] : points_.front()[1];
+    edit_points(frame, editor_.add(points_, {nm, n}, point_rules, frame.commands));
   }
-  remember("Add");
+  places_.note("Add");
   ImGui::SetItemTooltip("A control point on the curve in the widest gap; a double click on the plot adds one at the mouse");
   ImGui::SameLine();
-  ImGui::BeginDisabled(!selected_);
-  const bool key = selected_ && ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::GetIO().WantTextInput &&
-                   ImGui::IsKeyPressed(ImGuiKey_Delete, false);
-  if (ImGui::Button("Remove") || key) remove(frame, *selected_);
-  remember("Remove");
+  ImGui::BeginDisabled(!editor_.marked());
+  if (ImGui::Button("Remove") || (editor_.marked() && delete_pressed()))
+    edit_points(frame, editor_.remove(points_, *editor_.marked(), point_rules, frame.commands));
+  places_.note("Remove");
   ImGui::EndDisabled();
   ImGui::SetItemTooltip("The selected point; Delete, or a right click on a point, does the same");
   draw_place(frame);
@@ -206,100 +199,50 @@ void DispersionPanel::draw_points_row(const Frame& frame)
 /// The selected point in figures. Without one the row stays all the same, or the plot would move while a point is grabbed.
 void DispersionPanel::draw_place(const Frame& frame)
 {
-  ControlPoint place = selected_ ? points_[*selected_] : ControlPoint{0, 0};
-  ImGui::BeginDisabled(!selected_);
+  const std::optional<std::size_t> marked = editor_.marked();
+  ControlPoint place = marked ? points_[*marked] : ControlPoint{0, 0};
+  ImGui::BeginDisabled(!marked);
   const char* const names[] = {"nm", "n"};
   const char* const formats[] = {"%.6g", "%.7g"};
+  const char* const help[] = {"Wavelength of the selected point; it stays between its neighbours", "Index of refraction there"};
   for (std::size_t i = 0; i < 2; ++i) {
     if (i > 0) ImGui::SameLine();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
-    ImGui::InputDouble(names[i], &place[i], 0, 0, selected_ ? formats[i] : "");
-    remember(names[i]);
-    if (!ImGui::IsItemDeactivatedAfterEdit() || !selected_) continue;
+    ImGui::InputDouble(names[i], &place[i], 0, 0, marked ? formats[i] : "");
+    ImGui::SetItemTooltip("%s", help[i]);
+    places_.note(names[i]);
+    if (!ImGui::IsItemDeactivatedAfterEdit() || !marked) continue;
     std::vector<ControlPoint> points = points_;
-    move_point(points, *selected_, place);
-    edit_points(frame, "place a control point", std::move(points));
+    move_row(points, *marked, place, point_rules);
+    edit_points(frame, RowsEdit{"place a control point", std::move(points)});
   }
   ImGui::EndDisabled();
   ImGui::SameLine();
-  ImGui::TextDisabled("%s", selected_ ? "selected point" : "no point is selected");
+  ImGui::TextDisabled("%s", marked ? "selected point" : "no point is selected");
 }
 
 void DispersionPanel::draw_plot(const Frame& frame)
 {
   const float em = ImGui::GetFontSize(), free = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
   const float below = below_plot_ > 0 ? below_plot_ : 11 * em;
-  const DispersionContents contents{&model_, points_, selected_, sorted_, frame.material.absorption};
-  use_gesture(frame, plot_.draw(contents, axis_, std::max(free - below, 10 * em)));
+  const DispersionContents contents{&model_, points_, editor_.marked(), sorted_, frame.material.absorption};
+  RowGesture gesture = plot_.draw(contents, axis_, std::max(free - below, 10 * em));
+  gesture.to = place(gesture.to);
+  edit_points(frame, editor_.follow(gesture, points_, point_rules, frame.commands));
 }
 
 /// On the grid, if it is wanted; else in figures that a person can read in the preset, finer than a pixel.
-ControlPoint DispersionPanel::place(const PointGesture& gesture) const
+ControlPoint DispersionPanel::place(const ControlPoint& mouse) const
 {
-  const ControlPoint to = snap_ ? snapped(gesture.to, plot_.grid()) : gesture.to;
+  const ControlPoint to = snap_ ? snapped(mouse, plot_.grid()) : mouse;
   return {std::round(to[0] * 100) / 100, std::round(to[1] * 1e6) / 1e6};
 }
 
-void DispersionPanel::use_gesture(const Frame& frame, const PointGesture& gesture)
+void DispersionPanel::edit_points(const Frame& frame, const std::optional<RowsEdit>& edit) const
 {
-  using Kind = PointGesture::Kind;
-  switch (gesture.kind) {
-  case Kind::none:
-    return;
-  case Kind::select:
-    selected_ = gesture.point;
-    return;
-  case Kind::move: {
-    if (gesture.point >= points_.size()) return;
-    // Where the mouse rests, what was undone meanwhile stays undone.
-    if (const ImVec2 step = ImGui::GetIO().MouseDelta; step.x == 0 && step.y == 0) return;
-    if (!std::exchange(dragging_, true)) gestures_.begin();
-    selected_ = gesture.point;
-    std::vector<ControlPoint> points = points_;
-    move_point(points, gesture.point, place(gesture));
-    if (points != points_) edit_points(frame, "move a control point", std::move(points), gestures_.number(), true);
-    return;
-  }
-  case Kind::release:
-    if (std::exchange(dragging_, false)) frame.commands.push_back(command::EndGesture{});
-    return;
-  case Kind::add:
-    add(frame, place(gesture));
-    return;
-  case Kind::remove:
-    remove(frame, gesture.point);
-    return;
-  }
-}
-
-void DispersionPanel::add(const Frame& frame, const ControlPoint& at)
-{
-  std::vector<ControlPoint> points = points_;
-  const auto index = add_point(points, at);
-  if (!index) {
-    frame.commands.push_back(
-        command::Report{fmt::format("no control point was added: another is less than {} nm from {:.6g} nm", least_gap_nm, at[0]), false});
-    return;
-  }
-  edit_points(frame, "add a control point", std::move(points));
-  selected_ = index;
-}
-
-void DispersionPanel::remove(const Frame& frame, std::size_t point)
-{
-  std::vector<ControlPoint> points = points_;
-  if (!remove_point(points, point)) {
-    frame.commands.push_back(command::Report{"the last two control points stay: a curve needs as many", false});
-    return;
-  }
-  edit_points(frame, "remove a control point", std::move(points));
-  selected_.reset();
-}
-
-void DispersionPanel::edit_points(const Frame& frame, const char* what, std::vector<ControlPoint> points, std::uint64_t gesture, bool live)
-{
-  preset::Preset edited = with_dispersion(frame.preset, shown_, with_points(frame.material.dispersion, std::move(points)));
-  frame.commands.push_back(command::Edit{fmt::format("{} of {}", what, shown_), std::move(edited), gesture, live});
+  if (!edit) return;
+  preset::Preset edited = with_dispersion(frame.preset, shown_, with_points(frame.material.dispersion, edit->rows));
+  frame.commands.push_back(command::Edit{fmt::format("{} of {}", edit->label, shown_), std::move(edited), edit->gesture, edit->live});
 }
 
 void DispersionPanel::make_editable(const Frame& frame)
@@ -307,10 +250,10 @@ void DispersionPanel::make_editable(const Frame& frame)
   FittedPoints fitted = fit_points(model_.curve().n);
   fitted_text_ = fmt::format("they reproduce {} within {:.1g} of n", model_.curve().name, fitted.greatest_deviation);
   const std::string note = fmt::format("{} is made of {} control points now: {}", shown_, fitted.points.size(), fitted_text_);
-  edit_points(frame, "make control points", std::move(fitted.points));
+  edit_points(frame, RowsEdit{"make control points", std::move(fitted.points)});
   fitted_ = std::get<command::Edit>(frame.commands.back()).preset.scene.materials.at(shown_).dispersion;
   frame.commands.push_back(command::Report{note, false});
-  selected_.reset();
+  editor_.unmark();
 }
 
 } // namespace nephroid::ui

@@ -4,11 +4,11 @@
 #pragma once
 #include "ui/dispersion_model.h"
 #include "ui/dispersion_plot.h"
-#include "ui/gestures.h"
 #include "ui/panel.h"
+#include "ui/row_editor.h"
 #include "ui/spectra.h"
+#include "ui/widgets.h"
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -29,7 +29,7 @@ public:
   const DispersionPlot& plot() const { return plot_; }
   /// 401 N over the iterations of all clusters, where the effort gives clusters different ones.
   std::optional<double> saving_by_effort() const { return saving_by_effort_; }
-  std::array<double, 2> widget(const std::string& name) const { return widgets_.at(name); }
+  std::array<double, 2> widget(const std::string& name) const { return places_.of(name).value(); }
 
 private:
   /// What one frame's parts read: the preset, the material, and where edits go.
@@ -47,39 +47,34 @@ private:
   void draw_points_row(const Frame& frame);
   void draw_place(const Frame& frame);
   void draw_plot(const Frame& frame);
-  ControlPoint place(const PointGesture& gesture) const;
-  void use_gesture(const Frame& frame, const PointGesture& gesture);
+  ControlPoint place(const ControlPoint& mouse) const;
   void draw_threshold(const Frame& frame);
   void draw_methods(const Frame& frame);
   void draw_bias(const Frame& frame);
   void draw_effort(const Frame& frame);
 
   void make_editable(const Frame& frame);
-  void add(const Frame& frame, const ControlPoint& at);
-  void remove(const Frame& frame, std::size_t point);
-  /// The control points as they shall be: one edit, of a gesture (number not 0) that may go on.
-  void edit_points(const Frame& frame, const char* what, std::vector<ControlPoint> points, std::uint64_t gesture = 0, bool live = false);
+  /// The control points as they shall be; nothing where there is no edit.
+  void edit_points(const Frame& frame, const std::optional<RowsEdit>& edit) const;
   void edit_spectral(const Frame& frame, const std::string& label, const preset::Spectral& spectral, std::uint64_t gesture = 0,
                      bool live = false);
-  void remember(const char* widget);
 
   WavelengthAxis& axis_;
   Gestures gestures_{title};
+  RowEditor editor_{gestures_};
   DispersionModel model_;
   DispersionPlot plot_;
   SpectraMaker work_; ///< iterations a cluster, where the effort gives each its own
   std::optional<double> saving_by_effort_;
-  std::string shown_;                   ///< the material
-  std::vector<ControlPoint> points_;    ///< of this frame, by rising wavelength
-  std::optional<std::size_t> selected_; ///< one of them
+  std::string shown_;                ///< the material
+  std::vector<ControlPoint> points_; ///< of this frame, by rising wavelength
   bool sorted_ = false, snap_ = false;
-  bool dragging_ = false;            ///< the gesture that is under way has begun its entry
   std::string file_;                 ///< in the popup "load"
   std::vector<std::string> shipped_; ///< the names of materials in it
   preset::Dispersion fitted_;        ///< what "Make editable" made,
   std::string fitted_text_;          ///< and what it said about it
   float below_plot_ = 0;             ///< height of what was drawn there last
-  std::map<std::string, std::array<double, 2>> widgets_;
+  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

@@ -58,7 +58,7 @@ void DispersionPanel::draw_threshold(const Frame& frame)
   const bool changed =
       ImGui::SliderScalar("##threshold", ImGuiDataType_Double, &spectral.threshold_deg, &least_threshold_deg, &greatest_threshold_deg,
                           "%.3g degrees", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  remember("Threshold");
+  places_.note("Threshold");
   if (ImGui::IsItemActivated()) gestures_.begin();
   spectral.threshold_deg = std::clamp(three_digits(spectral.threshold_deg), least_threshold_deg, greatest_threshold_deg);
   if (changed && spectral != frame.preset.spectral) edit_spectral(frame, "threshold of the clusters", spectral, gestures_.number(), true);
@@ -87,7 +87,7 @@ void DispersionPanel::draw_methods(const Frame& frame)
       spectral.method = choice.value;
       edit_spectral(frame, "method of the clusters: " + name, spectral);
     }
-    remember(name.c_str());
+    places_.note(name.c_str());
     ImGui::SetItemTooltip("%s", std::string(choice.sentence).c_str());
     cell(fmt::format("{}", figures.clustering.clusters.size()));
     cell(fmt::format("{:.3g}", figures.saving));
@@ -102,7 +102,7 @@ void DispersionPanel::draw_bias(const Frame& frame)
   preset::Spectral spectral = frame.preset.spectral;
   if (ImGui::Checkbox("Jitter", &spectral.jitter))
     edit_spectral(frame, spectral.jitter ? "jitter wavelengths" : "do not jitter wavelengths", spectral);
-  remember("Jitter");
+  places_.note("Jitter");
   ImGui::SetItemTooltip("Each photon takes one wavelength of its cluster (spectral.jitter)");
   ImGui::SameLine();
   const Spread& spread = model_.chosen().at_45;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/dispersion_plot.h"
 
+#include "ui/plots.h"
 #include "ui/theme.h"
 #include "ui/wavelength_axis.h"
 
@@ -17,13 +18,9 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr ImU32 outline = IM_COL32(20, 20, 20, 255); ///< about lines and points, which lie on bands of any colour
-constexpr ImU32 beyond = IM_COL32(0, 0, 0, 70);      ///< over wavelengths that are not rendered
-constexpr float point_radius = 5, grab_radius = 9;   ///< pixels at scale 1
-constexpr double least_span = 1e-4;                  ///< of the axis of n
+constexpr ImU32 beyond = IM_COL32(0, 0, 0, 70); ///< over wavelengths that are not rendered
+constexpr double least_span = 1e-4;             ///< of the axis of n
 constexpr double ranks_margin = 6;
-
-float scale() { return ImGui::GetStyle().FontScaleDpi; }
 
 /// What is drawn at one place of the x axis: a wavelength where it stands, or in its rank.
 struct Columns {
@@ -66,12 +63,10 @@ std::array<double, 2> ends_of_n(const DispersionContents& contents, const std::v
   return {low - 1.5 * margin, high + margin}; // more room below, where the bands are
 }
 
-ImPlotSpec line_spec(ImU32 colour, float weight)
+ImPlotSpec curve_spec(ImU32 colour, float width)
 {
-  ImPlotSpec spec;
-  spec.LineColor = ImGui::ColorConvertU32ToFloat4(colour);
-  spec.LineWeight = weight * scale();
-  spec.Flags = ImPlotItemFlags_NoFit | ImPlotItemFlags_NoLegend | ImPlotLineFlags_SkipNaN;
+  ImPlotSpec spec = line_spec(colour, width);
+  spec.Flags |= int{ImPlotItemFlags_NoLegend} | ImPlotLineFlags_SkipNaN;
   return spec;
 }
 
@@ -79,8 +74,8 @@ void plot_line(const char* label, const std::vector<double>& x, const std::vecto
                std::size_t count)
 {
   const std::string under = std::string(label) + " outline";
-  ImPlot::PlotLine(under.c_str(), x.data() + first, y.data() + first, static_cast<int>(count), line_spec(outline, 4));
-  ImPlot::PlotLine(label, x.data() + first, y.data() + first, static_cast<int>(count), line_spec(colour, 2));
+  ImPlot::PlotLine(under.c_str(), x.data() + first, y.data() + first, static_cast<int>(count), curve_spec(colour::outline, 4));
+  ImPlot::PlotLine(label, x.data() + first, y.data() + first, static_cast<int>(count), curve_spec(colour, 2));
 }
 
 /// The line in full colour where there is data and a quiet one where it is extrapolated or held.
@@ -93,8 +88,6 @@ void plot_curve(const char* label, const GlassCurve& curve, const std::vector<do
   if (last - first > 1)
     plot_line(inside.c_str(), x, y, colour, static_cast<std::size_t>(first - x.begin()), static_cast<std::size_t>(last - first));
 }
-
-ImU32 with_alpha(ImU32 colour, float alpha) { return (colour & ~IM_COL32_A_MASK) | (static_cast<ImU32>(255 * alpha) << IM_COL32_A_SHIFT); }
 
 /// Below the curve in each cluster's colour, and an opaque strip at the foot. Where the mouse is at a wavelength (not -1), the other
 /// clusters are pale.
@@ -170,6 +163,8 @@ int wavelength_under_mouse(const Columns& columns)
   return column >= 0 && column < optics::wavelength_count ? columns.wavelength[static_cast<std::size_t>(column)] : -1;
 }
 
+std::string point_text(const ControlPoint& point) { return fmt::format("{:.6g} nm, n = {:.6g}", point[0], point[1]); }
+
 /// k is not negative; the axis goes on below 0 to keep its line off the bands' strip.
 int write_k(double value, char* text, int size, void*)
 {
@@ -204,7 +199,7 @@ std::uint32_t cluster_colour(std::size_t cluster)
   return ImGui::ColorConvertFloat4ToU32({r, g, b, 1});
 }
 
-PointGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAxis& axis, float height)
+RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAxis& axis, float height)
 {
   const DispersionModel& model = *contents.model;
   const GlassCurve& curve = model.curve();
@@ -227,7 +222,7 @@ PointGesture DispersionPlot::draw(const DispersionContents& contents, Wavelength
     x_ends_ = {axis.low_nm(), axis.high_nm()};
     axis.set_up();
   }
-  if (!held_) n_ends_ = ends_of_n(contents, x, n, x_ends_); // else the axis would run away below the mouse
+  if (!handles_.held()) n_ends_ = ends_of_n(contents, x, n, x_ends_); // else the axis would run away below the mouse
   ImPlot::SetupAxis(ImAxis_Y1, "index of refraction n", ImPlotAxisFlags_NoMenus);
   ImPlot::SetupAxisLimits(ImAxis_Y1, n_ends_[0], n_ends_[1], ImPlotCond_Always);
   if (has_k) set_up_k(contents);
@@ -242,60 +237,19 @@ PointGesture DispersionPlot::draw(const DispersionContents& contents, Wavelength
     plot_curve("k", curve, curve.line_k, contents.absorbs ? colour::note : colour::quiet_text);
     ImPlot::SetAxes(ImAxis_X1, ImAxis_Y1);
   }
-  PointGesture gesture;
-  if (sorted) {
+  RowGesture gesture;
+  if (sorted)
     plot_line("n", x, n, colour::text, 0, x.size());
-    held_ = over_point_ = false;
-  } else {
+  else
     plot_curve("n", curve, curve.line_n, colour::text);
-    gesture = draw_points(contents);
-  }
-  if (under_mouse >= 0 && !over_point_) draw_values(model, under_mouse);
+  if (sorted || contents.points.empty())
+    handles_.leave();
+  else
+    gesture = handles_.draw(contents.points, contents.selected, {colour::text, colour::note, point_text});
+  if (under_mouse >= 0 && !handles_.over_row()) draw_values(model, under_mouse);
   const bool hovered = ImPlot::IsPlotHovered();
   ImPlot::EndPlot();
   if (hovered && !sorted && contents.points.empty() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) axis.show_all();
-  return gesture;
-}
-
-/// The points as far as they are in sight; the mouse on them, or twice beside them.
-PointGesture DispersionPlot::draw_points(const DispersionContents& contents)
-{
-  PointGesture gesture;
-  bool any_held = false, any_hovered = false;
-  ImDrawList& list = *ImPlot::GetPlotDrawList();
-  for (std::size_t i = 0; i < contents.points.size(); ++i) {
-    const ControlPoint& point = contents.points[i];
-    if (!held_ && (point[0] < x_ends_[0] || point[0] > x_ends_[1])) continue;
-    ControlPoint to = point;
-    bool hovered = false, held = false;
-    const bool is_selected = contents.selected == i;
-    // What can be grabbed is wider than what is seen.
-    const bool moved = ImPlot::DragPoint(static_cast<int>(i), &to[0], &to[1], {0, 0, 0, 0}, grab_radius * scale(),
-                                         ImPlotDragToolFlags_NoFit | ImPlotDragToolFlags_Delayed, nullptr, &hovered, &held);
-    const ImVec2 at = ImPlot::PlotToPixels(point[0], point[1]);
-    const float radius = point_radius * (hovered || held ? 1.3f : 1) * scale();
-    ImPlot::PushPlotClipRect();
-    list.AddCircleFilled(at, radius + 2 * scale(), outline);
-    list.AddCircleFilled(at, radius, is_selected ? colour::note : colour::text);
-    ImPlot::PopPlotClipRect();
-    any_held |= held;
-    any_hovered |= hovered;
-    if (moved)
-      gesture = {PointGesture::Kind::move, i, to};
-    else if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
-      gesture = {PointGesture::Kind::remove, i, to};
-    else if (held && !is_selected)
-      gesture = {PointGesture::Kind::select, i, to};
-    if (hovered || held) ImGui::SetTooltip("%s", fmt::format("{:.6g} nm, n = {:.6g}", point[0], point[1]).c_str());
-  }
-  if (held_ && !any_held) gesture.kind = PointGesture::Kind::release;
-  held_ = any_held;
-  over_point_ = any_hovered || any_held;
-  const bool beside = ImPlot::IsPlotHovered() && !over_point_ && !contents.points.empty();
-  if (beside && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-    const ImPlotPoint mouse = ImPlot::GetPlotMousePos();
-    gesture = {PointGesture::Kind::add, 0, {mouse.x, mouse.y}};
-  }
   return gesture;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 #include "ui/dispersion_edits.h"
 #include "ui/dispersion_model.h"
+#include "ui/row_handles.h"
 
 #include <array>
 #include <cstdint>
@@ -22,18 +23,10 @@ struct DispersionContents {
   bool absorbs = true;                    ///< whether k is used
 };
 
-/// What the mouse did to the points in this frame.
-struct PointGesture {
-  enum class Kind { none, select, move, release, add, remove };
-  Kind kind = Kind::none;
-  std::size_t point = 0; ///< of select, move, remove
-  ControlPoint to{0, 0}; ///< of move, add: where the mouse is
-};
-
 class DispersionPlot {
 public:
   /// In the window's free width; height in pixels.
-  PointGesture draw(const DispersionContents& contents, WavelengthAxis& axis, float height);
+  RowGesture draw(const DispersionContents& contents, WavelengthAxis& axis, float height);
   /// A grid that suits the part that is shown: whole nanometres, and n in steps of 1, 2 or 5 of a decimal.
   ControlPoint grid() const;
 
@@ -42,11 +35,9 @@ public:
   std::array<double, 2> to_screen(const ControlPoint& point) const;
 
 private:
-  PointGesture draw_points(const DispersionContents& contents);
   void keep_area();
 
-  bool held_ = false;                  ///< a point is dragged: the axes stay
-  bool over_point_ = false;            ///< the mouse is on one
+  RowHandles handles_;                 ///< the points; while one is dragged the axes stay
   std::array<double, 2> n_ends_{1, 2}; ///< of the y axis,
   std::array<double, 2> x_ends_{0, 1}; ///< and of the x axis, as drawn last
   std::array<double, 4> area_{};

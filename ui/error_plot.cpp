@@ -2,6 +2,7 @@
 #include "ui/error_plot.h"
 
 #include "measure/report_metrics.h"
+#include "ui/plots.h"
 #include "ui/theme.h"
 
 #include <fmt/format.h>
@@ -15,17 +16,6 @@ namespace nephroid::ui {
 namespace {
 
 constexpr float dash = 6, gap = 4; ///< pixels at scale 1
-
-float scale() { return ImGui::GetStyle().FontScaleDpi; }
-
-ImPlotSpec spec_of(std::uint32_t colour, float weight)
-{
-  ImPlotSpec spec;
-  spec.LineColor = ImGui::ColorConvertU32ToFloat4(colour);
-  spec.LineWeight = weight * scale();
-  spec.Flags = ImPlotItemFlags_NoFit;
-  return spec;
-}
 
 /// A polyline in dashes of equal length on the screen: ImPlot has none. Inside of a plot.
 void plot_dashed(const char* label, const measure::Curve& curve, ImPlotSpec spec)
@@ -73,7 +63,7 @@ std::string label_of(const std::string& name, const ErrorLine& line, std::size_t
 void plot_line(const std::string& label, const ErrorLine& line, const PlottedRun& run, bool dashed)
 {
   if (line.drawn.seconds.empty()) return;
-  ImPlotSpec spec = spec_of(run.colour, dashed ? 0.75f * run.weight : run.weight);
+  ImPlotSpec spec = line_spec(run.colour, dashed ? 0.75f * run.weight : run.weight);
   if (line.drawn.seconds.size() == 1) { // no line yet
     spec.Marker = ImPlotMarker_Circle;
     spec.MarkerSize = 3 * scale();
@@ -89,9 +79,9 @@ void plot_level(const std::string& label, double error, std::uint32_t colour, bo
   const ImPlotRange x = ImPlot::GetPlotLimits().X;
   const measure::Curve level{{x.Min, x.Max}, {error, error}};
   if (dashed)
-    plot_dashed(label.c_str(), level, spec_of(colour, 1));
+    plot_dashed(label.c_str(), level, line_spec(colour, 1));
   else
-    ImPlot::PlotLine(label.c_str(), level.seconds.data(), level.errors.data(), 2, spec_of(colour, 1));
+    ImPlot::PlotLine(label.c_str(), level.seconds.data(), level.errors.data(), 2, line_spec(colour, 1));
 }
 
 /// The value of every line at the row nearest to the cursor's time.

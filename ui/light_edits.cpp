@@ -5,10 +5,10 @@
 #include "optics/wavelength.h"
 #include "preset/describe_limits.h"
 #include "scene/materials.h"
-#include "ui/dispersion_edits.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -16,7 +16,6 @@ namespace {
 using preset::LightSpectrum;
 using Type = LightSpectrum::Type;
 
-constexpr double nearest_nm = 0.1; ///< that two rows come to each other
 constexpr int table_step_nm = 20;
 
 /// A preset is read by people: so many figures that nobody sees the rest.
@@ -27,8 +26,6 @@ double to_figures(double value, int figures)
   // Of a unit below 1 the reciprocal is the exact number: 123 / 1000 and not 123 * 0.001, which is written with 17 figures.
   return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
 }
-
-double to_tenths(double nm) { return std::round(10 * nm) / 10; }
 
 double legal_power(double power) { return to_figures(std::clamp(power, preset::power_bounds.low, preset::power_bounds.high), 4); }
 
@@ -87,47 +84,30 @@ LightSpectrum as_type(const LightSpectrum& spectrum, Type type)
 
 LightSpectrum sorted(LightSpectrum spectrum)
 {
-  std::stable_sort(spectrum.table.begin(), spectrum.table.end(), [](const PowerRow& a, const PowerRow& b) { return a[0] < b[0]; });
+  spectrum.table = sorted_rows(std::move(spectrum.table));
   return spectrum;
 }
 
-void move_row(LightSpectrum& spectrum, std::size_t index, const PowerRow& to)
+RowRules row_rules(const LightSpectrum& spectrum)
 {
-  if (!std::isfinite(to[0]) || !std::isfinite(to[1])) return;
-  std::vector<PowerRow>& rows = spectrum.table;
-  const double low = index == 0 ? preset::wavelength_bounds.low : to_tenths(rows[index - 1][0]) + nearest_nm;
-  const double high = index + 1 == rows.size() ? preset::wavelength_bounds.high : to_tenths(rows[index + 1][0]) - nearest_nm;
-  if (low <= high) rows[index][0] = to_tenths(std::clamp(to[0], low, high));
-  rows[index][1] = legal_power(to[1]);
+  return {spectrum.type == Type::lines ? "line" : "row", preset::power_bounds, 0.1, spectrum.type == Type::table ? 2u : 1u};
 }
 
-std::optional<std::size_t> add_row(LightSpectrum& spectrum, const PowerRow& row)
+PowerRow readable(const PowerRow& row)
 {
-  std::vector<PowerRow>& rows = spectrum.table;
-  const double nm = to_tenths(std::clamp(row[0], preset::wavelength_bounds.low, preset::wavelength_bounds.high));
-  const auto near = [&](const PowerRow& other) { return std::abs(other[0] - nm) < 2 * nearest_nm; };
-  if (rows.size() >= preset::max_rows || std::any_of(rows.begin(), rows.end(), near)) return std::nullopt;
-  const auto at = std::find_if(rows.begin(), rows.end(), [&](const PowerRow& other) { return other[0] > nm; });
-  const auto added = rows.insert(at, {nm, legal_power(row[1])});
-  return static_cast<std::size_t>(added - rows.begin());
+  if (!std::isfinite(row[0]) || !std::isfinite(row[1])) return row;
+  return {std::round(10 * row[0]) / 10, legal_power(row[1])};
 }
 
-std::optional<std::size_t> add_in_widest_gap(LightSpectrum& spectrum)
+PowerRow in_widest_gap(const LightSpectrum& spectrum)
 {
   const double nm = middle_of_widest_gap(spectrum.table);
   const std::vector<PowerRow>& rows = spectrum.table;
-  if (spectrum.type == Type::lines) return add_row(spectrum, {nm, largest_power(spectrum) / 2});
+  if (spectrum.type == Type::lines) return readable({nm, largest_power(spectrum) / 2});
   const auto right = std::find_if(rows.begin(), rows.end(), [&](const PowerRow& row) { return row[0] > nm; });
-  if (right == rows.begin() || right == rows.end()) return add_row(spectrum, {nm, 0}); // a table has nothing outside
+  if (right == rows.begin() || right == rows.end()) return readable({nm, 0}); // a table has nothing outside
   const PowerRow a = *std::prev(right), b = *right;
-  return add_row(spectrum, {nm, a[1] + (b[1] - a[1]) * (nm - a[0]) / (b[0] - a[0])});
-}
-
-bool can_remove_row(const LightSpectrum& spectrum) { return spectrum.table.size() > (spectrum.type == Type::table ? 2u : 1u); }
-
-void remove_row(LightSpectrum& spectrum, std::size_t index)
-{
-  spectrum.table.erase(spectrum.table.begin() + static_cast<std::ptrdiff_t>(index));
+  return readable({nm, a[1] + (b[1] - a[1]) * (nm - a[0]) / (b[0] - a[0])});
 }
 
 } // namespace nephroid::ui

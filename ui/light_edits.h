@@ -2,15 +2,12 @@
 // Edits of a light's spectrum as pure functions from one to the next: its type, and the rows of a table or of lines. No Dear ImGui.
 #pragma once
 #include "preset/preset.h"
-
-#include <array>
-#include <cstddef>
-#include <optional>
+#include "ui/sorted_rows.h"
 
 namespace nephroid::ui {
 
 /// (nm, relative power)
-using PowerRow = std::array<double, 2>;
+using PowerRow = Row;
 
 /// Whether its rows can be dragged: lines and tables.
 bool has_rows(const preset::LightSpectrum& spectrum);
@@ -22,16 +19,13 @@ double largest_power(const preset::LightSpectrum& spectrum);
 /// body or an illuminant cannot be near to anything: 6500 K and D65. What has no power, or is wrong, becomes rows of power 1.
 preset::LightSpectrum as_type(const preset::LightSpectrum& spectrum, preset::LightSpectrum::Type type);
 
-/// The rows by rising wavelength, as every function below expects them.
+/// The rows by rising wavelength, as ui/sorted_rows.h expects them.
 preset::LightSpectrum sorted(preset::LightSpectrum spectrum);
-/// Row `index` at another place: between its neighbours, to 0.1 nm, and 0 or more, to 4 figures. It stays where there is no room.
-void move_row(preset::LightSpectrum& spectrum, std::size_t index, const PowerRow& to);
-/// One more row; nothing where there is one within 0.2 nm already. Returns its index.
-std::optional<std::size_t> add_row(preset::LightSpectrum& spectrum, const PowerRow& row);
-/// A row between those that are farthest apart within 380..780 nm, with the power that a table has there; a line with half the largest.
-std::optional<std::size_t> add_in_widest_gap(preset::LightSpectrum& spectrum);
-/// False where so few are left that none may go: a table has two rows, lines one.
-bool can_remove_row(const preset::LightSpectrum& spectrum);
-void remove_row(preset::LightSpectrum& spectrum, std::size_t index);
+/// A table has two rows at least, lines one.
+RowRules row_rules(const preset::LightSpectrum& spectrum);
+/// A row in figures that a person reads: to 0.1 nm, the power to 4 figures.
+PowerRow readable(const PowerRow& row);
+/// Between those rows that are farthest apart within 380..780 nm, with the power that a table has there; a line with half the largest.
+PowerRow in_widest_gap(const preset::LightSpectrum& spectrum);
 
 } // namespace nephroid::ui

@@ -10,15 +10,23 @@
 
 namespace nephroid::ui {
 
+ImPlotSpec line_spec(std::uint32_t colour, float width)
+{
+  ImPlotSpec spec;
+  spec.LineColor = ImGui::ColorConvertU32ToFloat4(colour);
+  spec.LineWeight = width * scale();
+  spec.Flags = ImPlotItemFlags_NoFit;
+  return spec;
+}
+
 PlotContext::PlotContext() : context_(ImPlot::CreateContext()) { ImPlot::SetCurrentContext(context_); }
 
 PlotContext::~PlotContext() { ImPlot::DestroyContext(context_); }
 
 void PlotContext::follow_scale()
 {
-  const float scale = ImGui::GetStyle().FontScaleDpi;
-  if (scale == std::exchange(scale_, scale)) return;
-  const auto scaled = [&](ImVec2& size) { size = {size.x * scale, size.y * scale}; };
+  if (scale() == std::exchange(scale_, scale())) return;
+  const auto scaled = [&](ImVec2& size) { size = {size.x * scale_, size.y * scale_}; };
   ImPlotStyle style;
   style.PlotPadding = {4, 6};
   style.LegendPadding = {8, 8};

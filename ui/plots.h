@@ -2,9 +2,15 @@
 // ImPlot's context, which plots of every panel share, and its sizes at the display's scale.
 #pragma once
 
+#include <cstdint>
+
 struct ImPlotContext;
+struct ImPlotSpec;
 
 namespace nephroid::ui {
+
+/// A line of this colour (IM_COL32) and width in pixels at scale 1, which does not decide what axes show.
+ImPlotSpec line_spec(std::uint32_t colour, float width);
 
 class PlotContext {
 public:

@@ -93,6 +93,12 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline)
   }
 }
 
+/// What the clusters of a scene hang on.
+auto grouping(const preset::Spectral& settings)
+{
+  return std::tuple(settings.method, settings.threshold_deg, settings.step_nm, settings.differentials, settings.relight);
+}
+
 /// Of each cluster, as the engine deals out its work.
 std::vector<double> importance_of(const preset::Spectral& settings, const Spectrum& u, const spectral::WavelengthTables& tables,
                                   const scene::Scene& outline, const std::vector<double>& watts)
@@ -110,6 +116,8 @@ std::shared_ptr<const SeenByGlass> look_around(const preset::Preset& preset, con
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
   seen->whereabouts = spectral::whereabouts(preset.spectral, scene, bvh);
+  seen->settings = preset.spectral;
+  seen->clusters = spectral::scene_clusters(preset.spectral, scene);
   return seen;
 }
 
@@ -180,13 +188,19 @@ void SpectraMaker::make_materials(const preset::Preset& now)
 
 void SpectraMaker::make_groups(const preset::Preset& now)
 {
-  const auto settings = [](const preset::Preset& p) { return std::tuple(p.spectral.method, p.spectral.threshold_deg, p.spectral.step_nm); };
-  if (preset_ && settings(*preset_) == settings(now) && preset_->scene.materials == now.scene.materials &&
-      preset_->scene.objects == now.scene.objects)
+  if (preset_ && !now.spectral.relight && grouping(preset_->spectral) == grouping(now.spectral) &&
+      preset_->scene.materials == now.scene.materials && preset_->scene.objects == now.scene.objects)
     return;
   groups_.clear();
   groups_error_.clear();
   if (!materials_error_.empty()) return;
+  if (now.spectral.relight) { // they hang on the lengths of paths in what absorbs, which the outline does not know
+    if (seen_ && seen_->materials == spectra_.materials && grouping(seen_->settings) == grouping(now.spectral))
+      groups_ = seen_->clusters;
+    else
+      groups_error_ = "the clusters are not known before a run of this preset is ready";
+    return;
+  }
   try {
     groups_ = spectral::scene_clusters(now.spectral, outline_);
   } catch (const Error& error) {

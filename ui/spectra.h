@@ -16,10 +16,13 @@
 
 namespace nephroid::ui {
 
-/// What u(lambda) hangs on of where a loaded scene's things are. It takes rays, so it comes with a run; panels do the rest.
+/// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with a run; panels do
+/// the rest.
 struct SeenByGlass {
   std::vector<std::string> materials; ///< names of Scene::materials, in whose order the shares are
   spectral::Whereabouts whereabouts;
+  preset::Spectral settings;              ///< of the run,
+  std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
   bool operator==(const SeenByGlass&) const = default;
 };
 /// On the thread that made the run ready. Rays are traced only where the preset's effort asks for them.

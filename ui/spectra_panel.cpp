@@ -6,7 +6,6 @@
 #include "ui/choice_combo.h"
 #include "ui/theme.h"
 #include "ui/wavelength_axis.h"
-#include "ui/widgets.h"
 #include "ui/workbench.h"
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -30,15 +30,6 @@ void same_line_if_room(float width)
 {
   ImGui::SameLine();
   if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-}
-
-void sentence(std::uint32_t colour, const std::string& text)
-{
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
 }
 
 /// A box with a piece of its curve: the switches are the plot's legend. first: it begins a line.
@@ -95,19 +86,19 @@ void SpectraPanel::choose_light(const preset::Preset& preset)
   if (source_ != preset.source || light_ >= preset.scene.lights.size()) light_ = 0;
   source_ = preset.source;
   spectrum_ = preset.scene.lights.empty() ? preset::LightSpectrum{} : sorted(preset.scene.lights[light_].spectrum);
-  if (row_ && (!has_rows(spectrum_) || *row_ >= spectrum_.table.size())) row_.reset();
+  editor_.keep(has_rows(spectrum_) ? spectrum_.table.size() : 0);
 }
 
 void SpectraPanel::draw_light(const Workbench& workbench, Commands& commands)
 {
   if (workbench.preset()->scene.lights.empty()) {
-    sentence(colour::note, "The scene has no light");
+    draw_wrapped(colour::note, "The scene has no light");
     return;
   }
   draw_light_choice(*workbench.preset());
   draw_spectrum_controls(workbench, commands);
   if (has_rows(spectrum_)) draw_row_controls(workbench, commands);
-  if (const std::string& error = maker_.spectra().lights[light_].error; !error.empty()) sentence(colour::error, error);
+  if (const std::string& error = maker_.spectra().lights[light_].error; !error.empty()) draw_wrapped(colour::error, error);
 }
 
 void SpectraPanel::draw_light_choice(const preset::Preset& preset)
@@ -123,12 +114,12 @@ void SpectraPanel::draw_light_choice(const preset::Preset& preset)
     for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
       if (ImGui::Selectable(name(i).c_str(), i == light_)) {
         light_ = i;
-        row_.reset();
+        editor_.unmark();
         spectrum_ = sorted(preset.scene.lights[i].spectrum);
       }
     ImGui::EndCombo();
   }
-  note_place("light");
+  places_.note("light");
 }
 
 void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& commands)
@@ -137,10 +128,10 @@ void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& 
   Type type = spectrum_.type;
   if (choice_combo("##type", type)) {
     gestures_.begin();
-    row_.reset();
+    editor_.unmark();
     edit_spectrum(workbench, as_type(spectrum_, type), "kind of spectrum", false, commands);
   }
-  note_place("type");
+  places_.note("type");
   same_line_if_room(7 * em());
   preset::LightSpectrum edited = spectrum_;
   if (spectrum_.type == Type::illuminant) {
@@ -152,22 +143,25 @@ void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& 
           gestures_.begin();
           edit_spectrum(workbench, edited, "illuminant " + name, false, commands);
         }
-        note_place("illuminant " + name);
+        places_.note("illuminant " + name);
       }
       ImGui::EndCombo();
-    }
-    note_place("illuminant");
+    } else
+      ImGui::SetItemTooltip(
+          "CIE illuminant: A is a light bulb, D50 and D65 daylight, F1 to F12 fluorescent lamps, E the same at every wavelength");
+    places_.note("illuminant");
   } else if (spectrum_.type == Type::blackbody) {
     ImGui::SetNextItemWidth(9 * em());
     auto kelvin = static_cast<float>(edited.temperature_k);
     constexpr ImGuiSliderFlags flags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat;
     const bool changed = ImGui::SliderFloat("##kelvin", &kelvin, 1000, 20000, "%.0f K", flags);
+    ImGui::SetItemTooltip("Temperature of the black body: 2856 K is a light bulb, 6500 K about daylight. Ctrl+click and type");
     follow_widget(commands);
     if (changed) {
       edited.temperature_k = std::clamp(std::round(static_cast<double>(kelvin)), 300.0, 1e6);
       edit_spectrum(workbench, edited, "temperature", true, commands);
     }
-    note_place("temperature");
+    places_.note("temperature");
   } else {
     ImGui::TextDisabled("%s", fmt::format("{} {}", spectrum_.table.size(), spectrum_.table.size() == 1 ? "row" : "rows").c_str());
     ImGui::SetItemTooltip("Drag a point. A double click adds one, a click with the right button removes one.");
@@ -177,61 +171,60 @@ void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& 
 /// The marked row in numbers, and buttons for what the mouse does too.
 void SpectraPanel::draw_row_controls(const Workbench& workbench, Commands& commands)
 {
-  preset::LightSpectrum edited = spectrum_;
-  if (row_) {
-    const double before = edited.table[*row_][1], unit = largest_power(spectrum_);
-    PowerRow to = edited.table[*row_];
+  const std::vector<PowerRow>& rows = spectrum_.table;
+  const RowRules rules = row_rules(spectrum_);
+  const std::optional<std::size_t> marked = editor_.marked();
+  if (marked) {
+    PowerRow to = rows[*marked];
     ImGui::SetNextItemWidth(6.5f * em());
     bool changed = ImGui::DragScalar("##nm", ImGuiDataType_Double, &to[0], 0.5f, nullptr, nullptr, "%.1f nm");
+    ImGui::SetItemTooltip("Wavelength of the marked row. Drag it, or Ctrl+click and type");
     follow_widget(commands);
-    note_place("wavelength");
+    places_.note("wavelength");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(6.5f * em());
-    changed |= ImGui::DragScalar("##power", ImGuiDataType_Double, &to[1], static_cast<float>(0.005 * unit), nullptr, nullptr, "%.4g");
-    ImGui::SetItemTooltip("Relative power");
+    const auto speed = static_cast<float>(0.005 * largest_power(spectrum_));
+    changed |= ImGui::DragScalar("##power", ImGuiDataType_Double, &to[1], speed, nullptr, nullptr, "%.4g");
+    ImGui::SetItemTooltip(
+        "Power of the marked row, relative to the others: the light's watts are spread like that. Drag it, or Ctrl+click and type");
     follow_widget(commands);
-    note_place("power");
+    places_.note("power");
     ImGui::SameLine();
-    if (changed) {
-      move_row(edited, *row_, to);
-      edit_spectrum(workbench, edited, to[1] == before ? "wavelength of a row" : "power of a row", true, commands);
-    }
+    if (changed) edit_rows(workbench, editor_.follow({RowGesture::Kind::move, *marked, readable(to)}, rows, rules, commands), commands);
   }
-  if (ImGui::Button("Add")) {
-    gestures_.begin();
-    row_ = add_in_widest_gap(edited);
-    edit_spectrum(workbench, edited, "add a row", false, commands);
-  }
-  note_place("add");
+  if (ImGui::Button("Add")) edit_rows(workbench, editor_.add(rows, in_widest_gap(spectrum_), rules, commands), commands);
+  places_.note("add");
   ImGui::SetItemTooltip("One more row, in the widest gap; a double click in the plot adds one there.");
   ImGui::SameLine();
-  ImGui::BeginDisabled(!row_ || !can_remove_row(spectrum_));
-  const bool deleted = row_ && ImGui::IsWindowFocused() && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGuiKey_Delete, false);
-  if (ImGui::Button("Remove") || deleted) follow({RowGesture::Kind::remove, *row_, {}}, workbench, commands);
-  note_place("remove");
+  ImGui::BeginDisabled(!marked || rows.size() <= rules.fewest);
+  if (ImGui::Button("Remove") || (marked && delete_pressed()))
+    edit_rows(workbench, editor_.remove(rows, *marked, rules, commands), commands);
+  places_.note("remove");
   ImGui::EndDisabled();
-  if (!row_) {
-    same_line_if_room(12 * em());
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("click a point to mark it");
-  }
+  if (marked) return;
+  same_line_if_room(12 * em());
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("click a point to mark it");
 }
 
 void SpectraPanel::draw_switches()
 {
   const Spectra& spectra = maker_.spectra();
   draw_switch("light", spectra_colour::light, switches_.light, true);
+  ImGui::SetItemTooltip("Power a nanometre of each light, relative to its largest; the one that is edited is filled");
   draw_switch("luminosity", spectra_colour::luminosity, switches_.luminosity);
+  ImGui::SetItemTooltip("How bright the eye sees each wavelength: CIE 1931 y, 1 at 555 nm");
   draw_switch("u", spectra_colour::u, switches_.u);
   ImGui::SetItemTooltip("How much a wavelength matters: (4.15) of the thesis where the effort is importance");
   draw_switch("iterations", spectra_colour::iterations, switches_.iterations);
-  note_place("iterations");
+  ImGui::SetItemTooltip("How many of the preset's passes each cluster has, in the plot below");
+  places_.note("iterations");
   ImGui::PushID("reflectances"); // a material may be called "light"
   for (const ReflectanceCurve& curve : spectra.reflectances) {
     bool on = !switches_.hidden.contains(curve.material);
     const bool changed = draw_switch(curve.material, spectra_colour::of(curve.srgb), on);
     ImGui::SetItemTooltip("%s", fmt::format("Reflectance of {}, in its colour under D65", curve.material).c_str());
-    note_place("reflectance " + curve.material);
+    places_.note("reflectance " + curve.material);
     if (!changed) continue;
     if (on)
       switches_.hidden.erase(curve.material);
@@ -245,48 +238,27 @@ void SpectraPanel::draw_copy()
 {
   same_line_if_room(4 * em());
   if (ImGui::Button("Copy")) ImGui::SetClipboardText(to_csv(maker_.spectra()).c_str());
-  note_place("copy");
+  places_.note("copy");
   ImGui::SetItemTooltip("Every curve as CSV, a row a wavelength");
 }
 
 void SpectraPanel::draw_plot(const Workbench& workbench, Commands& commands, float height)
 {
-  SpectraPlotContents contents{&maker_.spectra(), &switches_, nullptr, light_, row_};
+  SpectraPlotContents contents{&maker_.spectra(), &switches_, nullptr, light_, editor_.marked()};
   if (!workbench.preset()->scene.lights.empty()) contents.edited = &spectrum_;
-  follow(plot_.draw(contents, axis_, height), workbench, commands);
+  RowGesture gesture = plot_.draw(contents, axis_, height);
+  gesture.to = readable(gesture.to);
+  edit_rows(workbench, editor_.follow(gesture, spectrum_.table, row_rules(spectrum_), commands), commands);
 }
 
-void SpectraPanel::follow(const RowGesture& gesture, const Workbench& workbench, Commands& commands)
+void SpectraPanel::edit_rows(const Workbench& workbench, const std::optional<RowsEdit>& edit, Commands& commands)
 {
-  using Kind = RowGesture::Kind;
-  preset::LightSpectrum edited = spectrum_;
-  switch (gesture.kind) {
-  case Kind::none:
-    return;
-  case Kind::take:
-    row_ = gesture.row;
-    gestures_.begin();
-    return;
-  case Kind::move:
-    move_row(edited, gesture.row, gesture.to);
-    edit_spectrum(workbench, edited, "drag a row", true, commands);
-    return;
-  case Kind::let_go:
-    commands.push_back(command::EndGesture{});
-    return;
-  case Kind::add:
-    gestures_.begin();
-    if (const auto added = add_row(edited, gesture.to)) row_ = added;
-    edit_spectrum(workbench, edited, "add a row", false, commands);
-    return;
-  case Kind::remove:
-    if (!can_remove_row(edited)) return;
-    gestures_.begin();
-    remove_row(edited, gesture.row);
-    row_.reset();
-    edit_spectrum(workbench, edited, "remove a row", false, commands);
-    return;
-  }
+  if (!edit) return;
+  preset::Preset edited = *workbench.preset();
+  preset::LightSpectrum& spectrum = edited.scene.lights[light_].spectrum;
+  spectrum = spectrum_;
+  spectrum.table = edit->rows;
+  commands.push_back(command::Edit{fmt::format("{} of light {}", edit->label, light_ + 1), std::move(edited), edit->gesture, edit->live});
 }
 
 /// What the clusters cost, and what of brute force that is.
@@ -294,7 +266,7 @@ void SpectraPanel::draw_numbers() const
 {
   const Spectra& s = maker_.spectra();
   if (!s.why_no_u.empty()) {
-    sentence(colour::note, "No u: " + s.why_no_u);
+    draw_wrapped(colour::note, "No u: " + s.why_no_u);
     return;
   }
   const std::int64_t sum = s.iterations();
@@ -323,16 +295,16 @@ void SpectraPanel::draw_effort(const Workbench& workbench, Commands& commands)
   ImGui::TextUnformatted("Effort by");
   ImGui::SameLine();
   if (choice_combo("##effort", settings.effort)) push("effort");
-  note_place("effort");
+  places_.note("effort");
   if (settings.effort != Effort::importance && settings.effort != Effort::radziszewski) return;
   same_line_if_room(7 * em());
   if (choice_combo("##cluster", settings.importance.cluster)) push("importance of a cluster");
-  note_place("importance of a cluster");
+  places_.note("importance of a cluster");
   if (settings.effort != Effort::importance) return;
   same_line_if_room(7 * em());
   if (ImGui::Checkbox("geometry", &settings.importance.geometry)) push("importance by geometry");
   ImGui::SetItemTooltip("Weigh materials by how much of them the caustic objects see");
-  note_place("geometry");
+  places_.note("geometry");
 }
 
 /// The sum of (4.15), material by material.
@@ -345,7 +317,15 @@ void SpectraPanel::draw_surroundings() const
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("seen from the glass", ImGuiTableColumnFlags_WidthStretch, 2);
   for (const char* column : {"part", "L*", "part x L*"}) ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthStretch, 1);
-  ImGui::TableHeadersRow();
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  const std::array<const char*, 4> help{
+      "What the caustic objects see around them, by material", "Part of the rays from the glass that hit it; 100 % each without geometry",
+      "Lightness of the material under the scene's light: 0 black, 100 white", "Its weight in u, (4.15) of the thesis"};
+  for (int column = 0; column < 4; ++column) {
+    ImGui::TableSetColumnIndex(column);
+    ImGui::TableHeader(ImGui::TableGetColumnName(column));
+    ImGui::SetItemTooltip("%s", help[static_cast<std::size_t>(column)]);
+  }
   for (const spectral::Surrounding& seen : s.importance.surroundings) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -372,19 +352,6 @@ void SpectraPanel::follow_widget(Commands& commands)
 {
   if (ImGui::IsItemActivated()) gestures_.begin();
   if (ImGui::IsItemDeactivated()) commands.push_back(command::EndGesture{});
-}
-
-void SpectraPanel::note_place(const std::string& widget)
-{
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  places_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
-}
-
-std::optional<std::array<double, 2>> SpectraPanel::place_of(const std::string& widget) const
-{
-  const auto found = places_.find(widget);
-  if (found == places_.end()) return std::nullopt;
-  return found->second;
 }
 
 } // namespace nephroid::ui

@@ -3,13 +3,13 @@
 // of each cluster, on the wavelength axis that the panel "Dispersion" has too. A light's spectrum and what deals out the work are edited
 // here.
 #pragma once
-#include "ui/gestures.h"
 #include "ui/panel.h"
+#include "ui/row_editor.h"
 #include "ui/spectra.h"
 #include "ui/spectra_plot.h"
+#include "ui/widgets.h"
 
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -28,7 +28,7 @@ public:
   /// For tests: what was drawn last, and the middle of a widget on the screen; nothing where there is no such widget.
   const SpectraMaker& maker() const { return maker_; }
   const SpectraPlot& plot() const { return plot_; }
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const;
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   void choose_light(const preset::Preset& preset);
@@ -43,24 +43,24 @@ private:
   void draw_effort(const Workbench& workbench, Commands& commands);
   void draw_surroundings() const;
 
-  void follow(const RowGesture& gesture, const Workbench& workbench, Commands& commands);
+  /// The rows as they shall be; nothing where there is no edit.
+  void edit_rows(const Workbench& workbench, const std::optional<RowsEdit>& edit, Commands& commands);
   /// An edit of the light's spectrum by the mouse or the widget drawn last; nothing where it is as it was.
   void edit_spectrum(const Workbench& workbench, const preset::LightSpectrum& spectrum, const std::string& label, bool live,
                      Commands& commands) const;
   /// The gesture of the widget drawn last: it begins, and it ends.
   void follow_widget(Commands& commands);
-  void note_place(const std::string& widget);
 
   WavelengthAxis& axis_;
   SpectraMaker maker_;
   SpectraPlot plot_;
   SpectraSwitches switches_;
   Gestures gestures_{title};
+  RowEditor editor_{gestures_};
   std::string source_;             ///< the preset that light_ is of
   std::size_t light_ = 0;          ///< the one that is edited
   preset::LightSpectrum spectrum_; ///< of it, rows sorted
-  std::optional<std::size_t> row_; ///< the one that is marked
-  std::map<std::string, std::array<double, 2>> places_;
+  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

@@ -2,6 +2,7 @@
 #include "ui/spectra_plot.h"
 
 #include "optics/colour.h"
+#include "ui/plots.h"
 #include "ui/theme.h"
 #include "ui/wavelength_axis.h"
 
@@ -43,24 +44,10 @@ namespace {
 using optics::wavelength_count;
 using optics::wavelength_nm;
 
-constexpr double top = 1.1;              ///< of the upper axis: room to drag the largest point up
-constexpr std::size_t most_points = 400; ///< in sight: more would lie on each other
-constexpr float curves_part = 0.6f;      ///< of the height, where both plots are shown
+constexpr double top = 1.1;         ///< of the upper axis: room to drag the largest point up
+constexpr float curves_part = 0.6f; ///< of the height, where both plots are shown
 constexpr ImPlotFlags plot_flags =
     ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText | ImPlotFlags_NoLegend | ImPlotFlags_NoBoxSelect;
-
-float scale() { return ImGui::GetStyle().FontScaleDpi; }
-
-std::uint32_t faded(std::uint32_t colour, unsigned alpha) { return (colour & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT); }
-
-ImPlotSpec spec_of(std::uint32_t colour, float weight)
-{
-  ImPlotSpec spec;
-  spec.LineColor = ImGui::ColorConvertU32ToFloat4(colour);
-  spec.LineWeight = weight * scale();
-  spec.Flags = ImPlotItemFlags_NoFit;
-  return spec;
-}
 
 ImPlotSpec filled(ImPlotSpec spec)
 {
@@ -90,14 +77,14 @@ void plot_rows(const preset::LightSpectrum& light, double unit)
     y.push_back(row[1] / unit);
   }
   if (light.type == preset::LightSpectrum::Type::lines) {
-    ImPlot::PlotStems("light", x.data(), y.data(), static_cast<int>(x.size()), 0, spec_of(spectra_colour::light, 2));
+    ImPlot::PlotStems("light", x.data(), y.data(), static_cast<int>(x.size()), 0, line_spec(spectra_colour::light, 2));
     return;
   }
   x.insert(x.begin(), x.front()); // nothing outside
   y.insert(y.begin(), 0);
   x.push_back(x.back());
   y.push_back(0);
-  ImPlot::PlotLine("light", x.data(), y.data(), static_cast<int>(x.size()), filled(spec_of(spectra_colour::light, 2)));
+  ImPlot::PlotLine("light", x.data(), y.data(), static_cast<int>(x.size()), filled(line_spec(spectra_colour::light, 2)));
 }
 
 void plot_lights(const SpectraPlotContents& contents, double unit)
@@ -107,9 +94,9 @@ void plot_lights(const SpectraPlotContents& contents, double unit)
     if (i == contents.light && contents.edited && has_rows(*contents.edited) && !contents.edited->table.empty())
       plot_rows(*contents.edited, unit);
     else if (light.error.empty() && i == contents.light)
-      plot_spectrum("light", light.spectrum, light.largest, filled(spec_of(spectra_colour::light, 2)));
+      plot_spectrum("light", light.spectrum, light.largest, filled(line_spec(spectra_colour::light, 2)));
     else if (light.error.empty())
-      plot_spectrum(fmt::format("light {}", i + 1), light.spectrum, light.largest, spec_of(faded(spectra_colour::light, 110), 1));
+      plot_spectrum(fmt::format("light {}", i + 1), light.spectrum, light.largest, line_spec(with_alpha(spectra_colour::light, 0.43f), 1));
   }
 }
 
@@ -118,8 +105,8 @@ void plot_reflectances(const SpectraPlotContents& contents)
   for (const ReflectanceCurve& curve : contents.spectra->reflectances) {
     if (contents.switches->hidden.contains(curve.material)) continue;
     const std::uint32_t own = spectra_colour::of(curve.srgb);
-    if (spectra_colour::is_dark(own)) plot_spectrum("rim of " + curve.material, curve.reflectance, 1, spec_of(spectra_colour::rim, 4));
-    plot_spectrum("reflectance of " + curve.material, curve.reflectance, 1, spec_of(own, 2));
+    if (spectra_colour::is_dark(own)) plot_spectrum("rim of " + curve.material, curve.reflectance, 1, line_spec(spectra_colour::rim, 4));
+    plot_spectrum("reflectance of " + curve.material, curve.reflectance, 1, line_spec(own, 2));
   }
 }
 
@@ -140,6 +127,8 @@ std::optional<int> pointed_wavelength()
   if (index < 0 || index >= wavelength_count) return std::nullopt;
   return static_cast<int>(index);
 }
+
+std::string row_text(const PowerRow& row) { return fmt::format("{:.6g} nm, relative power {:.4g}", row[0], row[1]); }
 
 void value_line(std::uint32_t colour, const std::string& text)
 {
@@ -207,7 +196,7 @@ void draw_bars(const Spectra& spectra)
 RowGesture SpectraPlot::draw(const SpectraPlotContents& contents, WavelengthAxis& axis, float height)
 {
   RowGesture gesture;
-  if (!held_) unit_ = contents.edited ? largest_power(*contents.edited) : 1;
+  if (!handles_.held()) unit_ = contents.edited ? largest_power(*contents.edited) : 1;
   const bool both = contents.switches->iterations;
   const float upper = both ? curves_part * height : height;
   if (!ImPlot::BeginAlignedPlots("spectra")) return gesture;
@@ -226,12 +215,15 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
   set_up_value_axis("relative", top);
   ImPlot::SetupFinish();
   if (shown.light) plot_lights(contents, unit_);
-  if (shown.luminosity) plot_spectrum("luminosity", optics::cie_1931().y, 1, spec_of(spectra_colour::luminosity, 1.5f));
+  if (shown.luminosity) plot_spectrum("luminosity", optics::cie_1931().y, 1, line_spec(spectra_colour::luminosity, 1.5f));
   plot_reflectances(contents);
   if (shown.u && contents.spectra->why_no_u.empty())
-    plot_spectrum("u", contents.spectra->importance.u, 1, spec_of(spectra_colour::u, 2.5f));
+    plot_spectrum("u", contents.spectra->importance.u, 1, line_spec(spectra_colour::u, 2.5f));
   const bool rows = shown.light && contents.edited && has_rows(*contents.edited);
-  if (rows) gesture = draw_rows(contents);
+  if (rows)
+    gesture = draw_rows(contents);
+  else
+    handles_.leave();
   const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
   const ImPlotRange nm = ImPlot::GetPlotLimits().X;
   area_ = {corner.x, corner.y, size.x, size.y};
@@ -245,40 +237,11 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
   return gesture;
 }
 
-/// A point a row. A row that is dragged follows the mouse; a double click adds one, the right button removes one.
+/// A point a row, up to the top of the plot.
 RowGesture SpectraPlot::draw_rows(const SpectraPlotContents& contents)
 {
-  RowGesture gesture;
-  const std::vector<PowerRow>& rows = contents.edited->table;
-  const ImPlotRange nm = ImPlot::GetPlotLimits().X;
-  const auto in_sight =
-      static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const PowerRow& row) { return nm.Contains(row[0]); }));
-  const auto mouse = [&]() -> PowerRow {
-    const ImPlotPoint at = ImPlot::GetPlotMousePos();
-    return {at.x, std::clamp(at.y, 0.0, top) * unit_};
-  };
-  bool over_a_point = false;
-  for (std::size_t i = 0; i < rows.size() && in_sight <= most_points; ++i) {
-    double x = rows[i][0], y = rows[i][1] / unit_;
-    if (!nm.Contains(x) && held_ != i) continue;
-    const bool marked = contents.selected == i;
-    bool hovered = false, held = false;
-    const bool moved =
-        ImPlot::DragPoint(static_cast<int>(i), &x, &y, ImGui::ColorConvertU32ToFloat4(marked ? colour::text : spectra_colour::light),
-                          (marked ? 5.5f : 4) * scale(), ImPlotDragToolFlags_NoFit | ImPlotDragToolFlags_Delayed, nullptr, &hovered, &held);
-    over_a_point |= hovered;
-    if (held && !held_) {
-      held_ = i;
-      gesture = {RowGesture::Kind::take, i, {}};
-    } else if (held && moved && held_ == i)
-      gesture = {RowGesture::Kind::move, i, mouse()};
-    if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) gesture = {RowGesture::Kind::remove, i, {}};
-  }
-  if (held_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    gesture = {RowGesture::Kind::let_go, *held_, {}};
-    held_.reset();
-  } else if (!over_a_point && !held_ && double_clicked())
-    gesture = {RowGesture::Kind::add, 0, mouse()};
+  RowGesture gesture = handles_.draw(contents.edited->table, contents.selected, {spectra_colour::light, colour::text, row_text, unit_});
+  gesture.to[1] = std::clamp(gesture.to[1], 0.0, top * unit_);
   return gesture;
 }
 
@@ -299,12 +262,12 @@ void SpectraPlot::draw_iterations(const SpectraPlotContents& contents, Wavelengt
 /// A line at the wavelength under the mouse, in both plots, and the values there.
 void SpectraPlot::draw_pointer(const SpectraPlotContents& contents, std::optional<int>& pointed)
 {
-  if (held_) return;
+  if (handles_.held()) return;
   const std::optional<int> here = pointed_wavelength();
   if (here) pointed = here;
   if (const std::optional<int> at = here ? here : pointed_) {
     const double nm = wavelength_nm(*at);
-    ImPlot::PlotInfLines("pointer", &nm, 1, spec_of(faded(colour::text, 110), 1));
+    ImPlot::PlotInfLines("pointer", &nm, 1, line_spec(with_alpha(colour::text, 0.43f), 1));
   }
   if (here) draw_values(contents, *here);
 }

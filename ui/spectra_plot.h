@@ -3,6 +3,7 @@
 // axis. The rows of the light that is edited are points that can be dragged.
 #pragma once
 #include "ui/light_edits.h"
+#include "ui/row_handles.h"
 #include "ui/spectra.h"
 
 #include <array>
@@ -40,14 +41,6 @@ struct SpectraPlotContents {
   std::optional<std::size_t> selected;           ///< the row of it that is marked
 };
 
-/// What the mouse does with a row in this frame.
-struct RowGesture {
-  enum class Kind { none, take, move, let_go, add, remove };
-  Kind kind = Kind::none;
-  std::size_t row = 0; ///< but for add
-  PowerRow to{};       ///< move and add: the mouse, in the preset's units
-};
-
 class SpectraPlot {
 public:
   /// In the window's free width; height in pixels.
@@ -64,7 +57,7 @@ private:
   void draw_iterations(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
   void draw_pointer(const SpectraPlotContents& contents, std::optional<int>& pointed);
 
-  std::optional<std::size_t> held_;  ///< the row that is being dragged
+  RowHandles handles_;               ///< of the light that is edited
   double unit_ = 1;                  ///< stays while a row is held, or the others would move against it
   std::optional<int> pointed_;       ///< the wavelength (index) under the mouse, in either plot
   std::array<double, 4> area_{};     ///< of the upper plot: x, y, width, height

@@ -41,4 +41,23 @@ void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint
   ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour::quiet_text, hint.c_str(), nullptr, wrap);
 }
 
+bool delete_pressed()
+{
+  return ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::GetIO().WantTextInput &&
+         ImGui::IsKeyPressed(ImGuiKey_Delete, false);
+}
+
+void WidgetPlaces::note(const std::string& widget)
+{
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
+}
+
+std::optional<std::array<double, 2>> WidgetPlaces::of(const std::string& widget) const
+{
+  const auto found = places_.find(widget);
+  if (found == places_.end()) return std::nullopt;
+  return found->second;
+}
+
 } // namespace nephroid::ui

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be done to a dispersion without a window: control points keep apart and inside what a preset may have, a glass becomes
-// control points, files are loaded or refused.
+// What can be done to a dispersion without a window: places snap to a grid, a glass becomes control points, files are loaded or refused.
 #include "optics/dispersion.h"
 #include "preset/read.h"
 #include "spectral/clusters/clusters.h"
@@ -12,7 +11,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace nephroid::ui {
@@ -22,74 +20,11 @@ using spectral::ClusterMethod;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::vector<ControlPoint> three{{400, 1.6}, {500, 1.55}, {700, 1.5}};
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-
 std::string shipped(const std::string& name) { return std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"; }
 
 optics::Spectrum glass(const std::string& name)
 {
   return optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic);
-}
-
-TEST(DispersionEdits, PointsKeepApart)
-{
-  std::vector<ControlPoint> points = three;
-  move_point(points, 1, {300, 1.7});
-  EXPECT_EQ(points[1], (ControlPoint{400 + least_gap_nm, 1.7})) << "not over its neighbour, nor to its wavelength";
-  move_point(points, 1, {1e9, 1.4});
-  EXPECT_EQ(points[1], (ControlPoint{700 - least_gap_nm, 1.4}));
-  move_point(points, 0, {400, -5});
-  move_point(points, 2, {2000, 1e6});
-  EXPECT_EQ(points[0], (ControlPoint{400, 0.01})) << "what a preset may have at least";
-  EXPECT_EQ(points[2], (ControlPoint{2000, 100}));
-  EXPECT_NO_THROW(optics::control_points(points));
-}
-
-TEST(DispersionEdits, PlacesThatAreNoneChangeNothing)
-{
-  std::vector<ControlPoint> points = three;
-  for (const ControlPoint& to :
-       {ControlPoint{nan, 1.5}, ControlPoint{500, nan}, ControlPoint{infinity, 1.5}, ControlPoint{500, -infinity}}) {
-    move_point(points, 1, to);
-    EXPECT_FALSE(add_point(points, to));
-  }
-  move_point(points, 3, {600, 1.5});
-  EXPECT_EQ(points, three);
-}
-
-TEST(DispersionEdits, NeighboursOfAFileMayBeNearerThanADragCanBringThem)
-{
-  std::vector<ControlPoint> points{{400, 1.6}, {400.2, 1.5}, {400.4, 1.4}};
-  move_point(points, 1, {410, 1.55});
-  EXPECT_EQ(points[1], (ControlPoint{400.2, 1.55})) << "it stays between them";
-}
-
-TEST(DispersionEdits, AddsInOrderAndNotTwiceAtAWavelength)
-{
-  std::vector<ControlPoint> points = three;
-  EXPECT_EQ(add_point(points, {600, 1.52}), 2u);
-  EXPECT_EQ(add_point(points, {390, 1.52}), 0u);
-  EXPECT_EQ(add_point(points, {800, 1.52}), 5u);
-  const std::vector<ControlPoint> before = points;
-  for (const double nm : {600.0, 600.4, 599.6}) EXPECT_FALSE(add_point(points, {nm, 1.7})) << nm;
-  EXPECT_EQ(points, before);
-}
-
-TEST(DispersionEdits, TwoPointsStay)
-{
-  std::vector<ControlPoint> points = three;
-  EXPECT_FALSE(remove_point(points, 3));
-  EXPECT_TRUE(remove_point(points, 1));
-  EXPECT_FALSE(remove_point(points, 0));
-  EXPECT_EQ(points, (std::vector<ControlPoint>{three[0], three[2]}));
-}
-
-TEST(DispersionEdits, TheWidestGapIsWithinTheVisible)
-{
-  EXPECT_EQ(middle_of_widest_gap({{200, 1.6}, {300, 1.5}}), 580);
-  EXPECT_EQ(middle_of_widest_gap({{400, 1.6}, {500, 1.5}, {700, 1.5}}), 600);
-  EXPECT_EQ(middle_of_widest_gap({{500, 1.6}, {2000, 1.5}}), 640) << "from 500 to 780 nm";
 }
 
 TEST(DispersionEdits, SnapsToAGrid)

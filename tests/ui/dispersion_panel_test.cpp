@@ -73,7 +73,7 @@ TEST_F(DispersionPanelTest, APointDraggedOverItsNeighbourStaysBeforeIt)
 {
   open_glass({{"glass", from_points(five)}});
   drag_point(five[2], {760, 1.56});
-  EXPECT_EQ(points()[2][0], 650 - least_gap_nm);
+  EXPECT_EQ(points()[2][0], 650 - point_rules.least_gap_nm);
   EXPECT_EQ(points()[3], five[3]);
   expect_true_counts();
   EXPECT_TRUE(workbench.messages().empty());
@@ -101,7 +101,7 @@ TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved)
   }
   EXPECT_THAT(points(), SizeIs(2)) << "as many as a curve needs";
   ASSERT_FALSE(workbench.messages().empty());
-  EXPECT_THAT(workbench.messages().back().line, HasSubstr("the last two control points stay"));
+  EXPECT_THAT(workbench.messages().back().line, HasSubstr("the last 2 stay"));
   EXPECT_FALSE(workbench.messages().back().error);
 }
 
@@ -118,7 +118,7 @@ TEST_F(DispersionPanelTest, TheSelectedPointIsPlacedByItsFigures)
   frame();
   press(ImGuiKey_Enter);
   frames(2);
-  EXPECT_EQ(points()[2], (ControlPoint{450 + least_gap_nm, 1.55})) << "there is a point at 450 nm";
+  EXPECT_EQ(points()[2], (ControlPoint{450 + point_rules.least_gap_nm, 1.55})) << "there is a point at 450 nm";
 }
 
 TEST_F(DispersionPanelTest, SnappedPointsLieOnTheGrid)

@@ -6,6 +6,7 @@
 #include "preset/read.h"
 #include "scene/materials.h"
 #include "spectra_scene.h"
+#include "spectral/clusters/scene_clusters.h"
 #include "ui/light_edits.h"
 
 #include <gmock/gmock.h>
@@ -53,46 +54,28 @@ TEST(LightEdits, WhatHasNoPowerStillBecomesALight)
   EXPECT_EQ(largest_power({Type::blackbody, "", 5000, {}}), 1);
 }
 
-TEST(LightEdits, ARowMovesBetweenItsNeighbours)
+TEST(LightEdits, FiguresAreWhatAPersonReads)
 {
-  LightSpectrum light = table({{400, 1}, {500, 2}, {600, 3}});
-  move_row(light, 1, {523.4567, 1.234567});
-  EXPECT_EQ(light.table[1], (PowerRow{523.5, 1.235})) << "figures that a person reads";
-  move_row(light, 1, {900, -3});
-  EXPECT_EQ(light.table[1], (PowerRow{599.9, 0}));
-  move_row(light, 1, {-20, 123456});
-  EXPECT_EQ(light.table[1], (PowerRow{400.1, 123500}));
-  move_row(light, 0, {-20, 1e300});
-  EXPECT_EQ(light.table[0], (PowerRow{1, 1e9})) << "what a preset may have";
-  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    const LightSpectrum before = light;
-    move_row(light, 1, {bad, 1});
-    move_row(light, 1, {500, bad});
-    EXPECT_EQ(light, before);
-  }
-  LightSpectrum close = table({{400, 1}, {400.05, 2}, {400.1, 3}});
-  move_row(close, 1, {450, 7});
-  EXPECT_EQ(close.table[1], (PowerRow{400.05, 7})) << "no room";
+  EXPECT_EQ(readable({523.4567, 1.234567}), (PowerRow{523.5, 1.235}));
+  EXPECT_EQ(readable({523.4567, 123456}), (PowerRow{523.5, 123500}));
+  EXPECT_EQ(readable({400, -3}), (PowerRow{400, 0}));
+  EXPECT_EQ(readable({400, 1e300}), (PowerRow{400, 1e9})) << "what a preset may have";
+  EXPECT_TRUE(std::isnan(readable({400, std::nan("")})[1])) << "no place, which edits refuse";
 }
 
-TEST(LightEdits, RowsComeAndGoInOrder)
+TEST(LightEdits, TheWidestGapTakesARow)
 {
-  LightSpectrum light = sorted(table({{700, 1}, {400, 3}, {500, 2}}));
+  const LightSpectrum light = sorted(table({{700, 1}, {400, 3}, {500, 2}}));
   EXPECT_THAT(light.table, ElementsAre(PowerRow{400, 3}, PowerRow{500, 2}, PowerRow{700, 1}));
-  EXPECT_EQ(add_row(light, {600, 4}), 2u);
-  EXPECT_EQ(add_row(light, {600.1, 4}), std::nullopt) << "there is one";
-  EXPECT_EQ(add_row(light, {800, 1}), 4u);
-  EXPECT_THAT(light.table, SizeIs(5));
-  remove_row(light, 4);
-  remove_row(light, 2);
-  EXPECT_EQ(add_in_widest_gap(light), 2u);
-  EXPECT_EQ(light.table[2], (PowerRow{600, 1.5})) << "on the line that the table is";
-  LightSpectrum lines{Type::lines, "", 0, {{546.1, 4}}};
-  EXPECT_FALSE(can_remove_row(lines));
-  EXPECT_TRUE(add_in_widest_gap(lines));
-  EXPECT_TRUE(can_remove_row(lines));
-  EXPECT_FALSE(can_remove_row(table({{400, 1}, {500, 1}})));
-  EXPECT_TRUE(add_in_widest_gap(light)) << "every gap";
+  EXPECT_EQ(in_widest_gap(light), (PowerRow{600, 1.5})) << "on the line that the table is";
+  EXPECT_EQ(in_widest_gap(table({{600, 1}, {700, 2}})), (PowerRow{490, 0})) << "a table has nothing outside";
+  EXPECT_EQ(in_widest_gap({Type::lines, "", 0, {{546.1, 4}}})[1], 2) << "half of the largest";
+}
+
+TEST(LightEdits, ATableKeepsTwoRowsAndLinesOne)
+{
+  EXPECT_EQ(row_rules(table({{400, 1}, {500, 1}})).fewest, 2u);
+  EXPECT_EQ(row_rules({Type::lines, "", 0, {{546.1, 4}}}).fewest, 1u);
 }
 
 /// What the program would bring along with a run.
@@ -135,6 +118,27 @@ TEST(SpectraMaker, LeavesOutWavelengthsThatNoLightHas)
   EXPECT_EQ(spectra.clusters[1].iterations, 100) << "600 nm matters most of the two";
   EXPECT_EQ(spectra.equal_effort(), 200);
   EXPECT_EQ(spectra.brute_force(), 40100);
+}
+
+// Layers for another light split clusters by what absorbing glass takes on a path as long as the object is, which the preset does not say.
+TEST(SpectraMaker, LayersHaveTheClustersOfTheRun)
+{
+  preset::Preset preset = preset::parse_preset(test::room_text(R"("D65")", "power"), "room.json");
+  preset.spectral.relight = true;
+  preset::Dispersion& glass = preset.scene.materials["glass"].dispersion;
+  glass.type = preset::Dispersion::Type::file;
+  glass.file = "rhodamine-6G-Seckin";
+  SpectraMaker maker;
+  EXPECT_THAT(maker.update(preset, nullptr).why_no_u, HasSubstr("not known before a run"));
+  const auto seen = seen_of(preset);
+  const Spectra& spectra = maker.update(preset, seen);
+  const scene::Scene scene = scene::load_scene(preset);
+  EXPECT_EQ(spectra.why_no_u, "");
+  EXPECT_THAT(spectra.clusters, SizeIs(spectral::scene_clusters(preset.spectral, scene).size()));
+  preset.scene.lights[0].spectrum.illuminant = "A"; // no new run
+  EXPECT_EQ(maker.update(preset, seen).why_no_u, "");
+  preset.spectral.threshold_deg = 1;
+  EXPECT_THAT(maker.update(preset, seen).why_no_u, HasSubstr("not known before a run"));
 }
 
 TEST(SpectraMaker, WeighsSeveralLightsByTheirWattsAsTheyAreNow)
