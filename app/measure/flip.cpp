@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/flip.h"
 
-#include "measure/parallel.h"
+#include "base/parallel.h"
 
 #include <FLIP.h>
 

@@ -4,7 +4,7 @@
 #include "measure/information_weights.h"
 #include "measure/lab.h"
 #include "measure/laplacian_pyramid.h"
-#include "measure/parallel.h"
+#include "base/parallel.h"
 #include "measure/pixels.h"
 
 #include <algorithm>

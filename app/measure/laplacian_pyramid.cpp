@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/laplacian_pyramid.h"
 
-#include "measure/parallel.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <array>

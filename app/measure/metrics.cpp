@@ -4,7 +4,7 @@
 #include "measure/flip.h"
 #include "measure/iw_ssim.h"
 #include "measure/lab.h"
-#include "measure/parallel.h"
+#include "base/parallel.h"
 #include "measure/pixels.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "measure/pixels.h"
 
 #include "base/error.h"
-#include "measure/parallel.h"
+#include "base/parallel.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "measure/read_picture.h"
 
 #include "image/rgb.h"
-#include "measure/parallel.h"
+#include "base/parallel.h"
 #include "measure/pixels.h"
 
 #include <utility>

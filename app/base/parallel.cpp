@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/parallel.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace nephroid::measure {
+namespace nephroid {
 
 void for_blocks(std::size_t count, const std::function<void(std::size_t)>& work)
 {
@@ -33,4 +33,4 @@ void for_blocks(std::size_t count, const std::function<void(std::size_t)>& work)
   if (thrown) std::rethrow_exception(thrown);
 }
 
-} // namespace nephroid::measure
+} // namespace nephroid

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace nephroid::measure {
+namespace nephroid {
 
 /// Calls work(block) once for each block 0..count-1, on several threads at once; returns when all are done. Rethrows what a call
 /// threw, if any; blocks that were not begun by then are left out.
@@ -26,4 +26,4 @@ void for_ranges(std::size_t items, std::size_t size, const Work& work)
   });
 }
 
-} // namespace nephroid::measure
+} // namespace nephroid
