@@ -4,6 +4,7 @@
 #define NEPHROID_CAMERA_H
 
 #include "shared_types.h"
+#include "choice.h"
 #include "random.h"
 
 // jitter: the place in the pixel's square, [0, 1) each way.
@@ -23,13 +24,10 @@ static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, 
   return (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
 }
 
-// Which cluster a path takes. cdf: [cluster + 1].
+// Which cluster a path takes. cdf: [cluster + 1], the first 0.
 static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream)
 {
-  const float place = golden_place(seed, frame, path, paths, pixel, stream);
-  int cluster = 0;
-  while (cluster + 1 < count && place >= cdf[cluster + 1]) ++cluster;
-  return cluster;
+  return choose(cdf + 1, count, golden_place(seed, frame, path, paths, pixel, stream));
 }
 
 #endif

@@ -11,10 +11,7 @@ namespace nephroid::check {
 
 using shared::float4;
 
-struct Uint2 {
-  std::uint32_t x = 0, y = 0;
-};
-inline Uint2 device_seed(std::uint64_t seed) { return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}; }
+inline shared::uint2 device_seed(std::uint64_t seed) { return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}; }
 
 /// As the engine's kernels: a device that cannot run groups of so many cannot run those.
 inline constexpr std::size_t local_size = 64;

@@ -18,21 +18,15 @@ std::vector<int> all_wavelengths()
   return all;
 }
 
-template <class T>
-compute::Buffer<T> upload_vector(const DeviceWorld& world, const char* name, const std::vector<T>& items)
-{
-  return compute::Buffer<T>(world.context, name, std::span<const T>(items));
-}
-
 class BackgroundStage final : public Stage {
 public:
   BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
       : world_(world), pixel_samples_(settings.pixel_samples), radiance_(scene.environment->radiance),
         tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
-        texels_(upload_vector(world, "environment", scene.environment->rgb)),
-        primary_xyz_(upload_vector(world, "colours of the primaries", tables_.primary_xyz)),
-        wavelengths_(upload_vector(world, "wavelengths", all_wavelengths())),
-        spectrum_cdf_(upload_vector(world, "wavelengths of the environment", tables_.spectrum_cdf)),
+        texels_(upload_vector(world.context, "environment", scene.environment->rgb)),
+        primary_xyz_(upload_vector(world.context, "colours of the primaries", tables_.primary_xyz)),
+        wavelengths_(upload_vector(world.context, "wavelengths", all_wavelengths())),
+        spectrum_cdf_(upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf)),
         film_(world.zeroed("film background", world.film_size())), rows_(world.tables.camera.height)
   {
     compute::Defines defines = world.defines;

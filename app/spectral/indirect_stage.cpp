@@ -4,6 +4,7 @@
 #include "spectral/photon_slices.h"
 #include "spectral/stages.h"
 #include "spectral/tables/indirect_tables.h"
+#include "spectral/tables/scales.h"
 
 #include <span>
 
@@ -26,6 +27,7 @@ public:
 
   const char* name() const override { return "indirect"; }
   double part() const override { return slices_.part(); }
+  std::uint64_t photons_per_pass() const override { return tables_.photons_per_pass; }
 
   bool step(std::int64_t pass) override
   {
@@ -48,9 +50,7 @@ public:
   {
     const std::vector<std::int64_t> sums = energy_.read();
     const double all = static_cast<double>(passes) + (done ? 1 : part());
-    const auto watts = [&](int outcome) {
-      return all > 0 ? static_cast<double>(sums[static_cast<std::size_t>(outcome)]) / (tables_.energy_scale * all) : 0;
-    };
+    const auto watts = [&](int outcome) { return mean_watts(sums[static_cast<std::size_t>(outcome)], tables_.energy_scale, all); };
     snapshot.indirect_energy = {watts(OUTCOME_EMITTED), watts(OUTCOME_ABSORBED), watts(OUTCOME_ESCAPED), watts(OUTCOME_LOST)};
     snapshot.energy.refused_contributions += static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
   }

@@ -33,6 +33,7 @@ public:
   const char* name() const override { return "photons"; }
   double part() const override { return slices_.part(); }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass; }
+  bool counts_energy() const override { return true; }
 
   bool step(std::int64_t pass) override
   {

@@ -7,8 +7,8 @@
 #include "spectral/maps/map_plan.h"
 #include "spectral/maps/map_radius.h"
 #include "spectral/omissions.h"
-#include "spectral/relight/layer_light.h"
 #include "spectral/relight/layer_plan.h"
+#include "spectral/relight/layer_tables.h"
 #include "spectral/tables/device_scene.h"
 
 #include <fmt/format.h>

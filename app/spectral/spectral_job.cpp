@@ -3,9 +3,10 @@
 #include "base/error.h"
 #include "preset/relight.h"
 #include "spectral/engine.h"
-#include "spectral/relight/layer_light.h"
+#include "spectral/relight/layer_tables.h"
 #include "spectral/relight/relighting.h"
 #include "spectral/stages.h"
+#include "spectral/tables/scales.h"
 
 #include <fmt/format.h>
 
@@ -192,11 +193,11 @@ private:
     return static_cast<double>(at_.pass) + (count > 0 ? part / count : 0);
   }
 
-  /// With the part of the one in hand.
+  /// Of those that DeviceWorld::energy is about, with the part of the one in hand.
   double photon_passes() const
   {
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (stages_[s].stage->photons_per_pass() > 0) return static_cast<double>(at_.pass) + part_of(s);
+      if (stages_[s].stage->counts_energy()) return static_cast<double>(at_.pass) + part_of(s);
     return 0;
   }
 
@@ -204,9 +205,7 @@ private:
   {
     const std::vector<std::int64_t> sums = world_.energy.read();
     const double passes = photon_passes() - at_.energy_from;
-    const auto watts = [&](int outcome) {
-      return passes > 0 ? static_cast<double>(sums[static_cast<std::size_t>(outcome)]) / (world_.tables.energy_scale * passes) : 0;
-    };
+    const auto watts = [&](int outcome) { return mean_watts(sums[static_cast<std::size_t>(outcome)], world_.tables.energy_scale, passes); };
     job::EnergyBalance e;
     e.emitted_w = watts(OUTCOME_EMITTED);
     e.deposited_w = watts(OUTCOME_DEPOSITED);

@@ -39,8 +39,10 @@ public:
   virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
   /// Adds to the snapshot what else there is to say of the same passes: an energy balance of its own, refused contributions.
   virtual void report(std::int64_t /*passes*/, bool /*done*/, job::Snapshot& /*snapshot*/) {}
-  /// Photons sent in one pass towards glass and mirrors; 0 where it sends none.
+  /// Photons sent in one pass; 0 where it sends none.
   virtual std::uint64_t photons_per_pass() const { return 0; }
+  /// Whether theirs is the power in DeviceWorld::energy.
+  virtual bool counts_energy() const { return false; }
   /// Everything that it needs to go on with the same bits. load() gets what save() wrote.
   virtual void save(StateWriter& to) const = 0;
   virtual void load(StateReader& from) = 0;

@@ -37,9 +37,6 @@ kernel void emissions(DeviceLight light, global const DeviceTarget* targets, Dev
 }
 )";
 
-struct Uint2 {
-  std::uint32_t x, y;
-};
 struct Sent {
   float4 origin_watts, direction;
 };
@@ -71,7 +68,7 @@ std::vector<Sent> emit(const DeviceLight& light)
   scene.outside_distance = 20;
   const compute::Buffer<DeviceTarget> on_device(kernels.context(), "targets", std::span<const DeviceTarget>(targets));
   const compute::Buffer<Sent> out(kernels.context(), "out", count);
-  kernels.kernel("emissions").run(count, 64, with_targets, on_device, scene, Uint2{8, 15}, out, count);
+  kernels.kernel("emissions").run(count, 64, with_targets, on_device, scene, shared::uint2{8, 15}, out, count);
   return out.read();
 }
 

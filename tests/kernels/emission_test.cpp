@@ -30,16 +30,12 @@ kernel void sample(global const DeviceTarget* targets, int target_count, float4 
 }
 )";
 
-struct Uint2 {
-  std::uint32_t x, y;
-};
-
 std::vector<float4> sample(const std::vector<DeviceTarget>& targets, std::size_t count)
 {
   const test::TestKernels kernels(source);
   const compute::Buffer<DeviceTarget> on_device(kernels.context(), "targets", std::span<const DeviceTarget>(targets));
   compute::Buffer<float4> out(kernels.context(), "out", count);
-  kernels.kernel("sample").run(count, 64, on_device, static_cast<int>(targets.size()), float4{0, 0, 0, 0}, Uint2{7, 0}, out,
+  kernels.kernel("sample").run(count, 64, on_device, static_cast<int>(targets.size()), float4{0, 0, 0, 0}, shared::uint2{7, 0}, out,
                                static_cast<std::uint32_t>(count));
   return out.read();
 }

@@ -65,12 +65,8 @@ kernel void reflections(global const float4* interfaces, int interface_count, ui
 }
 )";
 
-struct Uint2 {
-  std::uint32_t x, y;
-};
-
 constexpr std::uint32_t count = 1 << 20;
-constexpr Uint2 seed{20'26, 4};
+constexpr shared::uint2 seed{20'26, 4};
 
 const TestKernels& kernels()
 {
@@ -147,7 +143,7 @@ void expect_distribution(const std::vector<double>& counts, const std::vector<do
 TEST(Uniforms, ArePairwiseIndependent)
 {
   std::vector<Column> columns;
-  const auto add = [&](Uint2 key, std::uint32_t pass, std::uint32_t block, std::uint32_t stream) {
+  const auto add = [&](shared::uint2 key, std::uint32_t pass, std::uint32_t block, std::uint32_t stream) {
     for (Column& column : columns_of(draw<float4>("uniforms", key, pass, block, stream))) columns.push_back(std::move(column));
   };
   add(seed, 0, 0, 0);

@@ -261,6 +261,7 @@ TEST(Indirect, AccountsForItsEnergy)
   EXPECT_GT(e.escaped_w, 0.1 * e.emitted_w);
   EXPECT_LT(e.lost_w, 1e-3 * e.emitted_w);
   EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+  EXPECT_EQ(snapshot.progress.photons, 3u << 16) << "those of this layer are counted as sent";
 }
 
 // However long a step is, and where a run is taken up again, the bits are the same.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that layers are weighed by (kernels/layers.h), which may change while a run goes on, and what a run that keeps layers does
-// differently. On the host, without OpenCL.
+// The light that layers are weighed by (kernels/layers.h), which may change while a run goes on, and by how much. On the host, without
+// OpenCL.
 #pragma once
 #include "optics/colour.h"
 #include "preset/preset.h"
@@ -24,13 +24,6 @@ LayerLight layer_light(const scene::Scene& scene, double white);
 /// Of a preset with the same lights but for these. Throws bad_input at FILE#/scene/lights/INDEX/spectrum.
 LayerLight layer_light(const preset::Preset& preset);
 
-/// make_device_tables of what a run renders: where it keeps layers, every light has 1 W (W m^-2), none and no wavelength is left out for
-/// being dark, and photons and paths through glass are dealt as layer_emitters and layer_cluster_cdf say. Throws as make_device_tables.
-DeviceTables make_run_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
-
-/// Energy quanta per W (W m^-2) as DeviceTables::energy_scale, for the light's power rather than the tables' unit lights.
-double layer_energy_scale(const LayerLight& light, const DeviceTables& tables);
-
 /// Linear sRGB over white of what a layer of value 1 adds to the picture where a reflector is seen.
 struct LayerWeights {
   std::vector<optics::Colour> clusters; ///< [light][cluster][reflector]
@@ -44,12 +37,5 @@ struct FlatLight {
   std::vector<float> luminance_share;  ///< [cluster]; of light that has the same power at every wavelength
 };
 FlatLight flat_light(const WavelengthTables& tables);
-
-/// Half of the work goes by what the eye makes of the present light, and half to every cluster alike, for lights to come.
-/// DeviceEmitter::share is the cluster's part of the light's power, in units of LayerLight::strongest(). tables: of unit lights. Every
-/// light that reaches a target has an emitter for every cluster, whatever its power.
-std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const DeviceTables& tables, unsigned photons);
-/// [cluster + 1]: which cluster a path through glass takes.
-std::vector<float> layer_cluster_cdf(const LayerLight& light, const WavelengthTables& tables);
 
 } // namespace nephroid::spectral

@@ -3,6 +3,7 @@
 #include "spectral/film.h"
 #include "spectral/pixel_rows.h"
 #include "spectral/relight/layer_film.h"
+#include "spectral/relight/layer_tables.h"
 #include "spectral/relight/relighting.h"
 
 #include <cmath>

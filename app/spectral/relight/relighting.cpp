@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/relight/relighting.h"
 
+#include "spectral/relight/layer_tables.h"
+
 #include <utility>
 
 namespace nephroid::spectral {

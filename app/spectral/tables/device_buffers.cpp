@@ -4,12 +4,6 @@
 namespace nephroid::spectral {
 namespace {
 
-template <class T>
-compute::Buffer<T> upload_vector(const compute::Context& context, const char* name, const std::vector<T>& items)
-{
-  return compute::Buffer<T>(context, name, std::span<const T>(items));
-}
-
 /// glm vectors of three floats or unsigned are three plain numbers in a row.
 template <class T, class V>
 compute::Buffer<T> upload_triples(const compute::Context& context, const char* name, const std::vector<V>& items)

@@ -5,6 +5,9 @@
 #include "scene/bvh.h"
 #include "spectral/tables/device_scene.h"
 
+#include <span>
+#include <vector>
+
 namespace nephroid::spectral {
 
 struct DeviceBuffers {
@@ -19,6 +22,13 @@ struct DeviceBuffers {
   compute::Buffer<int> cluster_first, cluster_wavelengths;
   compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all, stretch_place, stretch_span;
 };
+
+/// One table. Throws as upload.
+template <class T>
+compute::Buffer<T> upload_vector(const compute::Context& context, const char* name, const std::vector<T>& items)
+{
+  return compute::Buffer<T>(context, name, std::span<const T>(items));
+}
 
 /// Throws failed where the device has not enough memory.
 DeviceBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const DeviceTables& tables);

@@ -31,4 +31,9 @@ double splat_scale(const scene::Scene& scene, unsigned photons, double watts)
 
 double energy_scale(double watts) { return power_of_two_below(std::exp2(40) / watts); }
 
+double mean_watts(std::int64_t quanta, double quanta_per_watt, double passes)
+{
+  return passes > 0 ? static_cast<double>(quanta) / (quanta_per_watt * passes) : 0;
+}
+
 } // namespace nephroid::spectral

@@ -4,6 +4,8 @@
 #pragma once
 #include "scene/scene.h"
 
+#include <cstdint>
+
 namespace nephroid::spectral {
 
 /// 1 for what is not positive or not finite.
@@ -18,5 +20,7 @@ double splat_scale(const scene::Scene& scene, unsigned photons, double watts);
 
 /// Of energy counters, quanta per watt: 2^40 for the power of one pass; 2^20 passes fit into 63 bits.
 double energy_scale(double watts);
+/// What such a counter has in the mean of so many passes (with the part of the one in hand); 0 before the first.
+double mean_watts(std::int64_t quanta, double quanta_per_watt, double passes);
 
 } // namespace nephroid::spectral
