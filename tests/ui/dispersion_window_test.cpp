@@ -2,9 +2,8 @@
 // The panel "Dispersion" in the real window: a control point is dragged by real X events, and the preset that is saved has moved it.
 // Skipped where there is no xvfb-run or no xdotool.
 #include "base/files.h"
-#include "fake_job.h"
-#include "headless.h"
 #include "image/image.h"
+#include "places.h"
 #include "preset/read.h"
 #include "real_window.h"
 #include "ui/dispersion_panel.h"
@@ -16,7 +15,7 @@ namespace {
 
 using test::bytes_at, test::there_is;
 
-constexpr int width = 1100, height = 760;
+constexpr std::array<int, 2> size{1100, 760};
 
 preset::Preset with_glass()
 {
@@ -32,22 +31,14 @@ preset::Preset with_glass()
   return made;
 }
 
-/// Where a window draws these points of a preset: its own code, without a display, says so.
+/// Where a window draws these points of a preset.
 std::vector<std::array<int, 2>> on_screen(const std::string& file, const std::vector<ControlPoint>& points)
 {
-  test::Headless imgui;
-  ImGui::GetIO().DisplaySize = {width, height};
-  test::FakeRuns runs;
-  Workbench workbench{runs};
-  Workspace workspace("dispersion");
-  workbench.open(file);
-  for (int i = 0; i < 5; ++i) imgui.frame(workspace, workbench);
-  std::vector<std::array<int, 2>> pixels;
-  for (const ControlPoint& point : points) {
-    const auto at = workspace.dispersion().plot().to_screen(point);
-    pixels.push_back({static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1]))});
-  }
-  return pixels;
+  return test::in_window_like(size, "dispersion", file, [&](const Workspace& workspace, auto&, auto) {
+    std::vector<std::array<int, 2>> pixels;
+    for (const ControlPoint& point : points) pixels.push_back(test::pixel(workspace.dispersion().plot().to_screen(point)));
+    return pixels;
+  });
 }
 
 /// Of pixels of exactly this colour (IM_COL32), one above the other in a column of the screen.
@@ -72,7 +63,7 @@ TEST_F(DispersionWindowTest, ADraggedPointIsInThePresetThatIsSaved)
   const std::vector<ControlPoint> before = sorted_points(opened.scene.materials.at("glass").dispersion);
   const std::string file = folder.write("glass.json", preset::to_json(opened));
   const auto way = on_screen(file, {before[2], {570, 1.59}});
-  const std::string options = fmt::format("--layout dispersion --size {}x{}", width, height);
+  const std::string options = fmt::format("--layout dispersion --size {}x{}", size[0], size[1]);
   ASSERT_EQ(drag_and_save(file, options, way[0], way[1]), 0) << read_file(log);
   const std::vector<ControlPoint> after = sorted_points(preset::read_preset(file).scene.materials.at("glass").dispersion);
   ASSERT_EQ(after.size(), before.size());

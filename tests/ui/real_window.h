@@ -49,34 +49,42 @@ protected:
     return "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" xvfb-run -a -f " + quoted("authority") + " -s '-screen 0 1600x1000x24' ";
   }
   std::string quoted(const std::string& name) const { return fmt::format("'{}'", (folder.path() / name).string()); }
-  /// Opens a preset, drags with the left button from one place of the window to another, saves and quits, all by X events; needs xdotool.
+  /// Opens a preset and plays lines of shell to the window, by X events and until it is closed; needs xdotool. Beside the shell's own
+  /// words there are, in pixels of the window:
+  ///   at X Y           the mouse goes there
+  ///   press, let_go    the left button
+  ///   glide X Y X Y    from one place to another in eight moves
+  ///   drag X Y X Y     the same with the left button held
+  ///   click X Y
+  ///   chord KEY        Ctrl and a key
+  ///   picture FILE     what the window shows now; needs ImageMagick
   /// The program's exit code; its last frame is in screen.png, what it printed in `log`.
-  int drag_and_save(const std::string& file, const std::string& options, const std::array<int, 2>& from, const std::array<int, 2>& to) const
+  int play(const std::string& preset, const std::string& options, const std::string& events) const
   {
-    std::string moves;
-    for (int step = 1; step <= 8; ++step)
-      moves += fmt::format("xdotool mousemove --window $id {} {}; sleep 0.1\n", from[0] + (to[0] - from[0]) * step / 8,
-                           from[1] + (to[1] - from[1]) * step / 8);
     // Keys slower than one frame: where Ctrl goes up before the key within a frame, Dear ImGui sees the key alone.
     write_file_whole(folder.path() / "events.sh", fmt::format(R"(#!/bin/sh
+at() {{ xdotool mousemove --window $id $1 $2; sleep 0.1; }}
+press() {{ sleep 0.9; xdotool mousedown 1; sleep 0.5; }}
+let_go() {{ sleep 0.5; xdotool mouseup 1; sleep 0.5; }}
+glide() {{ for i in 1 2 3 4 5 6 7 8; do at $(($1 + ($3 - $1) * i / 8)) $(($2 + ($4 - $2) * i / 8)); done; }}
+drag() {{ at $1 $2; press; glide $1 $2 $3 $4; let_go; }}
+click() {{ at $1 $2; press; let_go; }}
 chord() {{ xdotool keydown ctrl; sleep 0.4; xdotool keydown $1; sleep 0.4; xdotool keyup $1; sleep 0.4; xdotool keyup ctrl; sleep 0.4; }}
+picture() {{ import -window $id "png24:$1"; }}
 {} '{}' {} --frames 100000 --screenshot {} &
 id=$(timeout 20 xdotool search --sync --onlyvisible --name Nephroid | head -n 1)
 xdotool windowfocus $id
 sleep 3
-xdotool mousemove --window $id {} {}
-sleep 1
-xdotool mousedown 1
-sleep 0.5
-{}sleep 0.5
-xdotool mouseup 1
-sleep 1
-chord s
-chord q
+{}
 wait
 )",
-                                                              program, file, options, quoted("screen.png"), from[0], from[1], moves));
+                                                              program, preset, options, quoted("screen.png"), events));
     return shell(on_display() + "timeout 60 sh " + quoted("events.sh"), log);
+  }
+  /// Opens a preset, drags with the left button from one place of the window to another, saves and quits.
+  int drag_and_save(const std::string& file, const std::string& options, const std::array<int, 2>& from, const std::array<int, 2>& to) const
+  {
+    return play(file, options, fmt::format("drag {} {} {} {}\nchord s\nchord q", from[0], from[1], to[0], to[1]));
   }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Spectra and importance" in the real window: a row of a light's table is dragged by real X events, and the preset that is
 // saved has moved it. Skipped where there is no xvfb-run or no xdotool.
-#include "headless.h"
+#include "places.h"
 #include "preset/read.h"
 #include "real_window.h"
 #include "spectra_scene.h"
@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <vector>
 
 namespace nephroid::ui {
@@ -17,25 +16,16 @@ namespace {
 
 using test::bytes_at;
 
-constexpr int width = 1280, height = 860;
+constexpr std::array<int, 2> size{1280, 860};
 
-/// Where a window draws these values of the upper plot: its own code, without a display, says so.
+/// Where a window draws these values of the upper plot.
 std::vector<std::array<int, 2>> on_screen(const std::string& file, const std::vector<PowerRow>& values)
 {
-  test::Headless imgui;
-  ImGui::GetIO().DisplaySize = {width, height};
-  test::SeeingRuns runs;
-  Workbench workbench{runs};
-  Workspace workspace("spectra");
-  workbench.open(file);
-  test::eventually([&] { imgui.frame(workspace, workbench); }, [&] { return workbench.seen_by_glass() != nullptr; });
-  for (int i = 0; i < 5; ++i) imgui.frame(workspace, workbench);
-  std::vector<std::array<int, 2>> pixels;
-  for (const PowerRow& value : values) {
-    const auto at = workspace.spectra().plot().place(value[0], value[1]);
-    pixels.push_back({static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1]))});
-  }
-  return pixels;
+  return test::in_window_like<test::SeeingRuns>(size, "spectra", file, [&](const Workspace& workspace, auto&, auto) {
+    std::vector<std::array<int, 2>> pixels;
+    for (const PowerRow& value : values) pixels.push_back(test::pixel(workspace.spectra().plot().place(value[0], value[1])));
+    return pixels;
+  });
 }
 
 class SpectraWindowTest : public test::RealWindow {};
@@ -46,7 +36,7 @@ TEST_F(SpectraWindowTest, ADraggedRowIsInThePresetThatIsSaved)
   const std::string file =
       folder.write("room.json", test::room_text(R"({"type": "table", "table": [[400, 0.2], [500, 1], [600, 0.5], [700, 0.8]]})"));
   const auto way = on_screen(file, {{600, 0.5}, {650, 0.9}});
-  ASSERT_EQ(drag_and_save(file, fmt::format("--layout spectra --size {}x{}", width, height), way[0], way[1]), 0) << read_file(log);
+  ASSERT_EQ(drag_and_save(file, fmt::format("--layout spectra --size {}x{}", size[0], size[1]), way[0], way[1]), 0) << read_file(log);
   const std::vector<PowerRow> after = preset::read_preset(file).scene.lights[0].spectrum.table;
   ASSERT_EQ(after.size(), 4u);
   EXPECT_NEAR(after[2][0], 650, 3);
@@ -58,7 +48,7 @@ TEST_F(SpectraWindowTest, ADraggedRowIsInThePresetThatIsSaved)
   const image::Image screen = image::read_image(folder.path() / "screen.png");
   const auto at = on_screen(file, {{460, 0}, {620, 0}});
   const auto has = [&](int x, auto is_wanted) {
-    for (int y = at[0][1] + 20; y < height; ++y)
+    for (int y = at[0][1] + 20; y < size[1]; ++y)
       if (is_wanted(bytes_at(screen, x, y))) return true;
     return false;
   };

@@ -3,8 +3,8 @@
 // what it says where there is no display. Skipped where there is no xvfb-run (or, for events, no xdotool).
 #include "base/files.h"
 #include "fake_job.h"
-#include "headless.h"
 #include "image/image.h"
+#include "places.h"
 #include "preset/read.h"
 #include "real_window.h"
 #include "ui/placement.h"
@@ -21,16 +21,11 @@ using ::testing::StartsWith;
 
 using test::bytes_at, test::program, test::shell, test::there_is;
 
-/// Where a window of this size draws the picture: the window's own code, without a display, says so.
+/// Where a window of this size draws the picture.
 Placement placement_in_window(int width, int height, const std::array<int, 2>& picture)
 {
-  test::Headless imgui;
-  ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
-  test::FakeRuns runs;
-  Workbench workbench{runs};
-  Workspace workspace;
-  for (int i = 0; i < 5; ++i) imgui.frame(workspace, workbench);
-  return place(Look{}, workspace.view().canvas(), picture);
+  return test::in_window_like({width, height}, "", "",
+                              [&](const Workspace& workspace, auto&, auto) { return place(Look{}, workspace.view().canvas(), picture); });
 }
 
 class WindowTest : public test::RealWindow {};
@@ -127,29 +122,15 @@ TEST_F(WindowTest, FollowsRealEvents)
   endless.stop.passes.reset();
   endless.stop.seconds = 3600;
   const std::string file = folder.write("test.json", preset::to_json(endless));
-  const std::string options =
-      " --size 900x700 --frames 100000 --screenshot " + quoted("screen.png") + " --frame-times " + quoted("times.csv");
-  write_file_whole(folder.path() / "events.sh", fmt::format(R"(#!/bin/sh
-# Slower than one frame: where Ctrl goes up before the key within a frame, Dear ImGui sees the key alone.
-chord() {{ xdotool keydown ctrl; sleep 0.4; xdotool keydown $1; sleep 0.4; xdotool keyup $1; sleep 0.4; xdotool keyup ctrl; sleep 0.4; }}
-{} '{}' {} &
-id=$(timeout 20 xdotool search --sync --onlyvisible --name Nephroid | head -n 1)
-xdotool windowfocus $id
-sleep 3
-xdotool mousemove --window $id 450 350 mousedown 1
-for x in 470 490 510 530 550 570 590 610; do xdotool mousemove --window $id $x 350; sleep 0.05; done
-xdotool mouseup 1
-sleep 1
+  const std::string options = "--size 900x700 --frame-times " + quoted("times.csv");
+  const std::string events = R"(drag 450 350 610 350
 xdotool windowsize $id 1000 800
 sleep 1
 chord s
 xdotool key Escape
 sleep 1
-chord q
-wait
-)",
-                                                            program, file, options));
-  ASSERT_EQ(shell(on_display() + "timeout 60 sh " + quoted("events.sh"), log), 0) << read_file(log);
+chord q)";
+  ASSERT_EQ(play(file, options, events), 0) << read_file(log);
   const preset::Preset saved = preset::read_preset(file);
   EXPECT_LT(saved.scene.camera.position[0], -0.5) << "the scene was turned to the right, the camera to the left";
   EXPECT_NEAR(saved.scene.camera.position[1], 0, 0.05);
