@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace nephroid::scene {
@@ -30,6 +31,22 @@ void check_texels(const std::vector<float>& rgb, int width, const std::string& f
                   "expected radiances of 0 or more", "mend the picture");
 }
 
+/// The film has 2^24 quanta for a mean texel (spectral/tables/background_tables.cpp). Says where one or few texels are so much brighter
+/// than half of the others that those get fewer than 16.
+void check_range(std::vector<float> rgb, const std::string& name, std::vector<std::string>& warnings)
+{
+  const double mean = std::accumulate(rgb.begin(), rgb.end(), 0.0) / static_cast<double>(rgb.size());
+  std::erase(rgb, 0.0f);
+  if (rgb.empty()) return;
+  const auto middle = rgb.begin() + static_cast<std::ptrdiff_t>(rgb.size() / 2);
+  std::nth_element(rgb.begin(), middle, rgb.end());
+  if (const double share = double(*middle) / mean; share < 0x1p-20)
+    warnings.push_back(
+        fmt::format("environment {}: half of it is below {:.1g} of its mean, less than the film's numbers resolve, and looks black "
+                    "or is noise; clip its brightest texels",
+                    name, share));
+}
+
 /// The picture alone, without how bright it is and how it is turned.
 Environment read_environment(const std::filesystem::path& file, std::vector<std::string>& warnings)
 {
@@ -44,6 +61,7 @@ Environment read_environment(const std::filesystem::path& file, std::vector<std:
   check_texels(result.rgb, result.width, file.string());
   if (picture.integers)
     for (float& value : result.rgb) value = static_cast<float>(image::decoded_srgb(value));
+  check_range(result.rgb, file.filename().string(), warnings);
   if (result.width != 2 * result.height)
     warnings.push_back(fmt::format("environment {}: has {} x {} texels; a latitude-longitude picture is twice as wide as high, "
                                    "so it is stretched to that",

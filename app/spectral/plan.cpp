@@ -25,20 +25,26 @@ plan::Pass not_asked_for(const std::string& name, const std::string& field)
   return {name, false, fmt::format("spectral.{} is false", field), "/spectral/" + field, true};
 }
 
-std::string no_light_reason(const scene::Scene& scene)
+/// Lights that shine, or, where layers are kept, may shine when the light changes.
+std::ptrdiff_t shining_lights(const preset::Spectral& settings, const scene::Scene& scene)
+{
+  return settings.relight ? std::ssize(scene.lights) : std::count_if(scene.lights.begin(), scene.lights.end(), has_power);
+}
+
+std::string no_light_reason(const preset::Spectral& settings, const scene::Scene& scene)
 {
   if (scene.lights.empty()) return "the scene has no light";
-  return std::any_of(scene.lights.begin(), scene.lights.end(), has_power) ? "" : "no light has power";
+  return shining_lights(settings, scene) > 0 ? "" : "no light has power";
 }
 
 plan::Pass direct_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects)
 {
   if (!settings.direct) return not_asked_for("direct", "direct");
-  const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(scene);
+  const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(settings, scene);
   if (!none.empty()) return omission("direct", settings.leave_out.direct, false, none);
   return omission("direct", settings.leave_out.direct, true,
                   fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object", "diffuse objects"),
-                              counted(std::count_if(scene.lights.begin(), scene.lights.end(), has_power), "light", "lights"),
+                              counted(shining_lights(settings, scene), "light", "lights"),
                               counted(settings.pixel_samples, "sample", "samples")));
 }
 
@@ -46,7 +52,7 @@ plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& sce
 {
   if (!settings.caustic) return not_asked_for("photons", "caustic");
   // No field brings these back: there is nothing to send.
-  if (const std::string none = no_light_reason(scene); !none.empty()) return {"photons", false, none, "", false};
+  if (const std::string none = no_light_reason(settings, scene); !none.empty()) return {"photons", false, none, "", false};
   const std::string none = objects.dielectrics + objects.mirrors == 0 ? "no object is of glass or a mirror"
                            : objects.diffuse == 0                     ? "no diffuse surface can receive a caustic"
                                                                       : "";
@@ -60,7 +66,7 @@ plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& sce
 plan::Pass indirect_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects)
 {
   if (!settings.indirect) return not_asked_for("indirect", "indirect");
-  const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(scene);
+  const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(settings, scene);
   if (!none.empty()) return {"indirect", false, none, "", false};
   std::string reason = counted(settings.indirect_photons_per_pass, "photon a pass", "photons a pass");
   if (objects.dielectrics + objects.mirrors > 0)

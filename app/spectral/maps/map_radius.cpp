@@ -27,17 +27,22 @@ double first_map_radius(const preset::Spectral& settings, const scene::Scene& sc
 
 std::string map_radius_note(const preset::Spectral& settings, const scene::Scene& scene)
 {
-  if (!settings.sppm.radius) return "";
-  const double radius = *settings.sppm.radius;
+  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha, shrunk = radius * std::sqrt(alpha);
   const scene::Sphere bounds = scene_bounds(scene);
-  const double pixel = pixel_width(scene.camera, bounds);
+  const double pixel = pixel_width(scene.camera, bounds), least = pixel / 16;
+  if (settings.estimator == preset::Spectral::Estimator::sppm && radius >= least && shrunk < least)
+    return fmt::format(
+        "spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first photons, and hardly another one "
+        "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
+        alpha, radius / pixel, shrunk / pixel);
+  if (!settings.sppm.radius) return "";
   const auto note = [&](const char* consequence) {
     return fmt::format("spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out", radius,
                        radius / pixel, consequence, 2 * pixel);
   };
   if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
     return note("caustics are blurred away, and gathering is slow");
-  return radius < pixel / 16 ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
+  return radius < least ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
 }
 
 double map_radius_factor(std::int64_t pass, double alpha)

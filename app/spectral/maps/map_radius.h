@@ -14,7 +14,8 @@ namespace nephroid::spectral {
 double first_map_radius(const preset::Spectral& settings, const scene::Scene& scene);
 
 /// What the plan says of a spectral.sppm.radius that loses the caustics: wider than 32 pixels or than the whole scene, or below 1/16 pixel,
-/// where a pass of as many photons as pixels finds one in some hundred pixels. Empty for any other.
+/// where a pass of as many photons as pixels finds one in some hundred pixels; and of an alpha that makes it so small by the first photons
+/// that a pixel of the estimator sppm finds. Empty for any other.
 std::string map_radius_note(const preset::Spectral& settings, const scene::Scene& scene);
 
 /// What the first radius is multiplied with in pass p (from 0): r_(p+1)^2 = r_p^2 (p + alpha) / (p + 1), counted from 1 (Knaus and Zwicker
