@@ -67,37 +67,12 @@ protected:
       EXPECT_EQ(shown_count(method), true_count(method));
   }
 
-  void move(const std::array<double, 2>& at)
-  {
-    imgui.move(at[0], at[1]);
-    frame();
-  }
-  void press_at(const std::array<double, 2>& at, int button = 0)
-  {
-    move(at);
-    frame(); // a point is known to be under the mouse from the second frame on
-    imgui.button(button, true);
-    frame();
-  }
-  void let_go(int button = 0)
-  {
-    imgui.button(button, false);
-    frame();
-  }
-  void click(const std::array<double, 2>& at, int button = 0)
-  {
-    press_at(at, button);
-    let_go(button);
-    frame();
-  }
+  using WindowFixture::click;
   void click(const std::string& widget) { click(panel().widget(widget)); }
   /// In the plot, as wavelength and n.
   void drag_point(const ControlPoint& from, const ControlPoint& to, int steps = 5)
   {
-    const auto begin = panel().plot().to_screen(from), end = panel().plot().to_screen(to);
-    press_at(begin);
-    for (int i = 1; i <= steps; ++i) move({begin[0] + (end[0] - begin[0]) * i / steps, begin[1] + (end[1] - begin[1]) * i / steps});
-    let_go();
+    drag_between(panel().plot().to_screen(from), panel().plot().to_screen(to), steps);
     frame();
   }
 };

@@ -10,8 +10,6 @@
 
 #include <gmock/gmock.h>
 
-#include <ctime>
-
 namespace nephroid::ui {
 namespace {
 
@@ -277,13 +275,6 @@ TEST_F(DispersionEffortTest, UnequalWorkSavesMore)
 
 // ------------------------------------------------------------------------------------------- what follows the mouse
 
-double processor_ms()
-{
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 /// Twelve points that meet every n between 1.5 and 1.9 many times.
 std::vector<ControlPoint> wild()
 {
@@ -311,10 +302,10 @@ TEST_F(DispersionPanelTest, AStepOfADragTakesLessThanAFrame)
     std::vector<double> milliseconds;
     const int clusterings = panel().model().clusterings_made();
     for (int step = 1; step <= steps; ++step) {
-      const double begin = processor_ms();
+      const double begin = test::thread_ms();
       move({at[0] + 8 * std::sin(0.07 * step), at[1] - std::min(step, steps - step)}); // a pixel a step, up and down
       frame();
-      milliseconds.push_back(processor_ms() - begin);
+      milliseconds.push_back(test::thread_ms() - begin);
     }
     let_go();
     EXPECT_GT(panel().model().clusterings_made() - clusterings, steps * 9 / 10) << "every step was a new curve";

@@ -7,7 +7,17 @@
 
 #include <imgui.h>
 
+#include <ctime>
+
 namespace nephroid::test {
+
+/// Processor time of this thread: other work of the machine does not count.
+inline double thread_ms()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
 
 class Headless {
 public:

@@ -30,12 +30,8 @@ protected:
   {
     const auto at = workspace.plan().box_of(pass);
     if (!at) return std::nullopt;
-    imgui.move((*at)[0], (*at)[1]);
-    frame();
-    imgui.button(0, true);
-    frame();
-    imgui.button(0, false);
-    frame();
+    press_at(*at);
+    let_go();
     const auto* edit = imgui.pushed<command::Edit>();
     return edit ? std::optional(*edit) : std::nullopt;
   }

@@ -11,7 +11,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <ctime>
 #include <vector>
 
 namespace nephroid::ui {
@@ -41,38 +40,12 @@ protected:
   const SpectraPanel& panel() const { return workspace.spectra(); }
   const Spectra& spectra() const { return panel().maker().spectra(); }
   const preset::LightSpectrum& light() const { return workbench.preset()->scene.lights[0].spectrum; }
-  void move_to(const std::array<double, 2>& place)
-  {
-    imgui.move(place[0], place[1]);
-    frame();
-  }
-  void click(const std::array<double, 2>& place, int button = 0)
-  {
-    move_to(place);
-    imgui.button(button, true);
-    frame();
-    imgui.button(button, false);
-    frames(2);
-  }
+  using WindowFixtureOf::click;
   void click(const std::string& widget)
   {
     const auto place = panel().place_of(widget);
     ASSERT_TRUE(place) << widget;
     click(*place);
-  }
-  /// From one place to another in `steps` moves of the mouse, each a frame.
-  void drag_to(const std::array<double, 2>& from, const std::array<double, 2>& to, int steps = 10)
-  {
-    move_to(from);
-    imgui.button(0, true);
-    frame();
-    for (int i = 1; i <= steps; ++i) {
-      const double part = double(i) / steps;
-      imgui.move(from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1]));
-      frame();
-    }
-    imgui.button(0, false);
-    frames(2);
   }
 };
 
@@ -93,7 +66,7 @@ TEST_F(SpectraPanelTest, AnIlluminantIsChosenByTheMouse)
 TEST_F(SpectraPanelTest, ARowThatIsDraggedFollowsTheMouseAndIsOneEntry)
 {
   open_room(table);
-  drag_to(panel().plot().place(600, 0.5), panel().plot().place(640, 0.9));
+  drag_between(panel().plot().place(600, 0.5), panel().plot().place(640, 0.9));
   const preset::LightSpectrum dragged = light();
   ASSERT_THAT(dragged.table, SizeIs(4));
   EXPECT_NEAR(dragged.table[2][0], 640, 2);
@@ -107,7 +80,7 @@ TEST_F(SpectraPanelTest, ARowThatIsDraggedFollowsTheMouseAndIsOneEntry)
 TEST_F(SpectraPanelTest, ARowStopsAtItsNeighboursAndTheOthersStayWhereTheyAre)
 {
   open_room(table);
-  drag_to(panel().plot().place(500, 1), panel().plot().place(650, 0.25));
+  drag_between(panel().plot().place(500, 1), panel().plot().place(650, 0.25));
   EXPECT_NEAR(light().table[1][0], 599.9, 1e-9);
   EXPECT_NEAR(light().table[1][1], 0.25, 0.02) << "the largest row sets the scale: it stays while it is held";
   EXPECT_EQ(light().table[0], (PowerRow{400, 0.2}));
@@ -118,7 +91,7 @@ TEST_F(SpectraPanelTest, GesturesOfTwoPanelsAreTwoEntries)
 {
   open_room(table);
   drag(0, 40, 0); // the View's first gesture, then the panel's first
-  drag_to(panel().plot().place(600, 0.5), panel().plot().place(640, 0.9));
+  drag_between(panel().plot().place(600, 0.5), panel().plot().place(640, 0.9));
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(light().table[2], (PowerRow{600, 0.5}));
   EXPECT_NE(camera().position[0], 0);
@@ -153,7 +126,7 @@ TEST_F(SpectraPanelTest, RowsAreAddedAndRemoved)
 TEST_F(SpectraPanelTest, LinesAreDraggedAndATemperatureIsOneEntry)
 {
   open_room(R"({"type": "lines", "table": [[450, 2], [546.1, 4]]})");
-  drag_to(panel().plot().place(450, 0.5), panel().plot().place(480, 0.25));
+  drag_between(panel().plot().place(450, 0.5), panel().plot().place(480, 0.25));
   EXPECT_NEAR(light().table[0][0], 480, 2);
   EXPECT_NEAR(light().table[0][1], 1, 0.08) << "of 4";
   preset::Preset edited = *workbench.preset();
@@ -162,7 +135,7 @@ TEST_F(SpectraPanelTest, LinesAreDraggedAndATemperatureIsOneEntry)
   frames(2);
   const auto slider = panel().place_of("temperature");
   ASSERT_TRUE(slider);
-  drag_to(*slider, {(*slider)[0] + 40, (*slider)[1]});
+  drag_between(*slider, {(*slider)[0] + 40, (*slider)[1]});
   EXPECT_NE(light().temperature_k, 6500);
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(light().temperature_k, 6500) << "one entry";
@@ -223,10 +196,10 @@ TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
   const std::uint64_t made = panel().maker().made();
   frames(20);
   EXPECT_EQ(panel().maker().made(), made);
-  move_to(panel().plot().place(600, 0.5));
+  move(panel().plot().place(600, 0.5));
   imgui.button(0, true);
   frame();
-  move_to(panel().plot().place(620, 0.7));
+  move(panel().plot().place(620, 0.7));
   frames(2);
   const std::uint64_t dragged = panel().maker().made();
   EXPECT_GT(dragged, made);
@@ -283,17 +256,10 @@ TEST_F(SpectraPanelTest, NothingThatMattersIsASentence)
   EXPECT_THAT(spectra().clusters, IsEmpty());
 }
 
-double processor_ms()
-{
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 TEST_F(SpectraPanelTest, AStepOfADragIsTimed)
 {
   open_room(table);
-  move_to(panel().plot().place(600, 0.5));
+  move(panel().plot().place(600, 0.5));
   imgui.button(0, true);
   frame();
   std::vector<double> steps_ms;
@@ -301,10 +267,10 @@ TEST_F(SpectraPanelTest, AStepOfADragIsTimed)
   for (int i = 1; i <= 200; ++i) {
     const auto to = panel().plot().place(510 + 11 * i % 167, 0.2 + 0.003 * (37 * i % 211));
     imgui.move(to[0], to[1]);
-    const double begin = processor_ms();
+    const double begin = test::thread_ms();
     frame(); // pushes the edit
     frame(); // shows it
-    steps_ms.push_back(processor_ms() - begin);
+    steps_ms.push_back(test::thread_ms() - begin);
   }
   imgui.button(0, false);
   frame();

@@ -47,19 +47,38 @@ protected:
     const ui::Canvas& canvas = workspace.view().canvas();
     return {canvas.corner[0] + canvas.size[0] / 2, canvas.corner[1] + canvas.size[1] / 2};
   }
-  void drag(int button, double dx, double dy)
+  void move(const ui::Point& at)
   {
-    imgui.move(middle()[0], middle()[1]);
+    imgui.move(at[0], at[1]);
     frame();
+  }
+  void press_at(const ui::Point& at, int button = 0)
+  {
+    move(at);
+    frame(); // a point of a plot is known to be under the mouse from the second frame on
     imgui.button(button, true);
     frame();
-    for (int step = 1; step <= 5; ++step) {
-      imgui.move(middle()[0] + dx * step / 5, middle()[1] + dy * step / 5);
-      frame();
-    }
+  }
+  void let_go(int button = 0)
+  {
     imgui.button(button, false);
     frame();
   }
+  void click(const ui::Point& at, int button = 0)
+  {
+    press_at(at, button);
+    let_go(button);
+    frame();
+  }
+  /// In `steps` moves of the mouse, each a frame.
+  void drag_between(const ui::Point& from, const ui::Point& to, int steps = 10, int button = 0)
+  {
+    press_at(from, button);
+    for (int i = 1; i <= steps; ++i) move({from[0] + (to[0] - from[0]) * i / steps, from[1] + (to[1] - from[1]) * i / steps});
+    let_go(button);
+  }
+  /// In the View.
+  void drag(int button, double dx, double dy) { drag_between(middle(), {middle()[0] + dx, middle()[1] + dy}, 5, button); }
   void press(ImGuiKey key, ImGuiKey modifier = ImGuiKey_None)
   {
     if (modifier) imgui.key(modifier, true);
