@@ -83,6 +83,19 @@ TEST_P(MapEstimators, FloorSeenInAMirror)
   EXPECT_LT(tolerance(figure), 0.25 * truth);
 }
 
+// A sheet has two sides: what lights one does not show on the other. A camera above the plate and one below the floor see the same places,
+// the lower one through a window of its own, which no light reaches.
+TEST_P(MapEstimators, ASheetIsDarkOnItsOtherSide)
+{
+  preset::Preset p = lit_floor(1.6);
+  p.spectral.estimator = GetParam();
+  p.stop.passes = 2;
+  p.scene.objects.push_back(object("window", box(1, 0.02, 1), "glass", at({0, -2, 0})));
+  EXPECT_GT(mean_luminance(render(p))[0], 0.1);
+  p.scene.camera.position = {0, -3, 0};
+  EXPECT_EQ(mean_luminance(render(p))[0], 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Estimators, MapEstimators, testing::Values(Estimator::automatic, Estimator::sppm),
                          [](const auto& e) { return e.param == Estimator::sppm ? "sppm" : "automatic"; });
 

@@ -126,4 +126,42 @@ TEST(SmoothReceiver, PhotonMapsKnowTheNormalsToo)
   expect_lit_as_directly("leaning square, photon maps", with_plate, without, 0.01);
 }
 
+/// A horizontal tile whose normals all lean by 45 degrees.
+preset::Object leaning_tile(const std::filesystem::path& folder)
+{
+  std::ofstream(folder / "tile.obj") << "v -0.4 0 -0.4\nv -0.4 0 0.4\nv 0.4 0 0.4\nv 0.4 0 -0.4\nvn 1 1 0\n"
+                                        "f 1//1 2//1 3//1\nf 1//1 3//1 4//1\n";
+  preset::Object tile;
+  tile.name = "tile";
+  tile.mesh = (folder / "tile.obj").string();
+  tile.material = "white";
+  return tile;
+}
+
+// Light from straight above meets the tile at cos(45 degrees) by its normals, and at 1 by its facets: that much less is what it sends on to
+// a wall beside it.
+TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals)
+{
+  const TemporaryFolder folder;
+  preset::Preset p = empty_preset(24);
+  p.scene.materials = {{"white", white(0.8)}};
+  p.scene.objects = {leaning_tile(folder.path()), object("wall", quad(1, 1), "white", at({0.6, 0.5, 0}, {0, 0, 90}))};
+  p.scene.lights = {parallel_light({0, -1, 0})};
+  p.scene.camera.position = {-2, 1, 0};
+  p.scene.camera.target = {0.6, 0.5, 0};
+  p.scene.camera.fov_deg = 15; // of the wall alone
+  p.spectral.caustic = false;
+  p.spectral.indirect = true;
+  p.spectral.photons_per_pass = 1 << 13;
+  p.stop.passes = 24;
+  const Estimate faceted = render_passes(p, blocks_of).back();
+  p.scene.objects[0].normals = preset::Object::Normals::smooth;
+  p.seed = 2;
+  const Estimate smooth = render_passes(p, blocks_of).back();
+  const double ratio = smooth.mean / faceted.mean, truth = std::cos(45 * degree);
+  const double error = (tolerance(smooth) + truth * tolerance(faceted)) / faceted.mean;
+  expect_truth("leaning tile: light that it sends on, over a flat one's", ratio, truth, error);
+  EXPECT_LT(error, 0.15);
+}
+
 } // namespace
