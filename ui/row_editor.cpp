@@ -54,7 +54,7 @@ std::optional<RowsEdit> RowEditor::add(std::vector<Row> rows, const Row& row, co
 std::optional<RowsEdit> RowEditor::remove(std::vector<Row> rows, std::size_t index, const RowRules& rules, Commands& commands)
 {
   if (!remove_row(rows, index, rules)) {
-    commands.push_back(command::Report{fmt::format("no {} was removed: the last {} stay", rules.noun, rules.fewest), false});
+    commands.push_back(command::Report{fmt::format("no {} was removed: at least {} must stay", rules.noun, rules.fewest), false});
     return std::nullopt;
   }
   marked_.reset();

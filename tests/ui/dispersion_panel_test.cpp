@@ -99,7 +99,7 @@ TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved)
   }
   EXPECT_THAT(points(), SizeIs(2)) << "as many as a curve needs";
   ASSERT_FALSE(workbench.messages().empty());
-  EXPECT_THAT(workbench.messages().back().line, HasSubstr("the last 2 stay"));
+  EXPECT_THAT(workbench.messages().back().line, HasSubstr("at least 2 must stay"));
   EXPECT_FALSE(workbench.messages().back().error);
 }
 

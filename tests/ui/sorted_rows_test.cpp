@@ -137,7 +137,7 @@ TEST_F(RowEditorTest, WhatCannotBeIsSaid)
   EXPECT_FALSE(editor.remove({three[0], three[1]}, 0, point_rules, commands));
   ASSERT_THAT(commands, SizeIs(2));
   EXPECT_THAT(std::get<command::Report>(commands[0]).line, HasSubstr("another is less than 0.5 nm from 500.2 nm"));
-  EXPECT_THAT(std::get<command::Report>(commands[1]).line, HasSubstr("the last 2 stay"));
+  EXPECT_THAT(std::get<command::Report>(commands[1]).line, HasSubstr("at least 2 must stay"));
 }
 
 } // namespace
