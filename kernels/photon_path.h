@@ -82,10 +82,9 @@ typedef struct {
   float3 xyz; // of a deposit: reflected light, as if the photon carried the light's whole power
 } PhotonEnd;
 
-// Follows a photon of a light to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on its last way.
-// share: of the light's power, that the photon's band began with.
-static inline PhotonEnd trace_photon(const World* world, int light, const Band* band, float share, Path* path, uint2 seed, uint pass,
-                                     uint photon)
+// Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on its last way, with
+// what it has lost; what is left of the photon is not worked out.
+static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint pass, uint photon)
 {
   PhotonEnd end;
   end.outcome = OUTCOME_LOST;
@@ -104,11 +103,7 @@ static inline PhotonEnd trace_photon(const World* world, int light, const Band* 
     lose_in_medium(world, path, hit.t);
     if (material.type == MATERIAL_DIFFUSE) {
       end.outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
-      if (!met_caustic_object) return end;
-      const float4 carried = carried_light(world, &path->losses, light, band, material.reflector);
-      end.xyz = carried.xyz;
-      if (path->losses.any) end.left = carried.w / share;
-      return end;
+      break;
     }
     if (surface_number == NEPHROID_MAX_SURFACES) break;
     met_caustic_object = true;
@@ -117,7 +112,21 @@ static inline PhotonEnd trace_photon(const World* world, int light, const Band* 
     if (!bend_path(world, path, hit.primitive, &end.surface, &material, band, choices.x, &n_ratio)) break;
     choices = choices.yzwx;
   }
-  if (path->losses.any) end.left = carried_light(world, &path->losses, light, band, -1).w / share;
+  return end;
+}
+
+// The same for a photon of a light, with what is left of it and its colour. share: of the light's power, that the photon's band began with.
+static inline PhotonEnd trace_photon(const World* world, int light, const Band* band, float share, Path* path, uint2 seed, uint pass,
+                                     uint photon)
+{
+  PhotonEnd end = trace_way(world, band, path, seed, pass, photon);
+  const bool deposited = end.outcome == OUTCOME_DEPOSITED;
+  if (deposited || path->losses.any) {
+    const int reflector = deposited ? material_of(world, end.surface.object).reflector : -1;
+    const float4 carried = carried_light(world, &path->losses, light, band, reflector);
+    end.xyz = carried.xyz;
+    if (path->losses.any) end.left = carried.w / share;
+  }
   return end;
 }
 

@@ -32,7 +32,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     if (emission.watts == 0.0f) continue;
     const Band band = whole_cluster(emitter.cluster);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
-    const PhotonEnd end = trace_photon(&world, emitter.light, &band, 1.0f, &path, seed, pass, photon);
+    const PhotonEnd end = trace_way(&world, &band, &path, seed, pass, photon);
     const float left = cluster_left(&world.tables, &path.losses, emitter.cluster);
     if (end.outcome == OUTCOME_DEPOSITED) {
       const Splat splat = splat_at(&world, &camera, &end.surface, end.triangle, path.direction);
