@@ -9,6 +9,7 @@
 #include "spectral/omissions.h"
 #include "spectral/relight/layer_plan.h"
 #include "spectral/relight/layer_tables.h"
+#include "spectral/smoothing.h"
 #include "spectral/tables/device_scene.h"
 
 #include <fmt/format.h>
@@ -121,6 +122,20 @@ plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Sce
           field, true};
 }
 
+/// halves: whether films are kept in two, which tells how noisy they are.
+plan::Pass smoothing_pass(const preset::Spectral& settings, bool halves)
+{
+  const std::string field = "/spectral/smoothing";
+  if (!settings.smoothing) return not_asked_for("smoothing", "smoothing");
+  if (settings.estimator == preset::Spectral::Estimator::sppm)
+    return {"smoothing", false, "spectral.estimator is sppm, which has radii of its own", "/spectral/estimator", false};
+  if (!halves) return {"smoothing", false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", false};
+  return {"smoothing", true,
+          fmt::format("a pixel's caustics are spread until {} photons share a kernel; the estimated error knows their noise alone",
+                      Smoothing::enough_photons),
+          field, false};
+}
+
 std::uint64_t film_bytes(const scene::Scene& scene, int halves)
 {
   return static_cast<std::uint64_t>(halves) * 3 * sizeof(std::int64_t) * static_cast<std::uint64_t>(scene.camera.width) *
@@ -205,6 +220,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   if (caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
     photons = {"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false};
   const plan::Pass differentials = differentials_pass(preset.spectral, scene, photons.runs);
+  const plan::Pass smoothing = smoothing_pass(preset.spectral, estimate.runs);
   const plan::Pass jitter = jitter_pass(preset.spectral, tables.wavelengths);
   plan.passes = {direct, photons};
   if (caustics) {
@@ -213,6 +229,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
     plan.passes.push_back(jitter);
     plan.passes.push_back(low_discrepancy_pass(preset.spectral));
     plan.passes.push_back(differentials);
+    plan.passes.push_back(smoothing);
   }
   const std::vector<plan::Pass> code = code_omissions(leave_out, scene, attenuators);
   for (const std::vector<plan::Pass>& passes : {data_omissions(leave_out, scene, tables.spheres), code})
@@ -231,6 +248,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   if (photons.runs && preset.spectral.effort == preset::Spectral::Effort::variance)
     plan.buffers.push_back({"guide of directions",
                             tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
+  if (caustics && smoothing.runs) plan.buffers.push_back({"surfaces in pixels", Smoothing::bytes(scene.camera)});
   if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);

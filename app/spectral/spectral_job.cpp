@@ -3,8 +3,10 @@
 #include "base/error.h"
 #include "preset/relight.h"
 #include "spectral/engine.h"
+#include "spectral/film.h"
 #include "spectral/relight/layer_tables.h"
 #include "spectral/relight/relighting.h"
+#include "spectral/smoothing.h"
 #include "spectral/stages.h"
 #include "spectral/tables/scales.h"
 
@@ -31,6 +33,7 @@ bool runs(const plan::Plan& plan, const std::string& name)
 /// A stage with the seconds it has worked.
 struct TimedStage {
   std::unique_ptr<Stage> stage;
+  bool caustics = false; ///< its layer is "caustic"
   double seconds = 0;
 };
 
@@ -49,6 +52,7 @@ public:
   {
     world_.buffers = upload(context, scene, bvh, world_.tables);
     world_.tables.scene.root = bvh.root;
+    if (runs(plan, "smoothing")) smoothing_.emplace(scene, bvh);
     world_.seed = {static_cast<std::uint32_t>(preset.seed), static_cast<std::uint32_t>(preset.seed >> 32)};
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     if (preset.spectral.relight && (runs(plan, "direct") || runs(plan, "photons"))) {
@@ -62,9 +66,10 @@ public:
     if (maps && !sppm) map_ = std::make_unique<PhotonMap>(context, world_.tables.photons_per_pass, world_.defines);
     if (runs(plan, "photons"))
       stages_.push_back(
-          {relighting_ ? make_layered_photon_stage(world_, *relighting_) : make_photon_stage(world_, preset.spectral, map_.get())});
+          {relighting_ ? make_layered_photon_stage(world_, *relighting_) : make_photon_stage(world_, preset.spectral, map_.get()), true});
     if (maps)
-      stages_.push_back({sppm ? make_sppm_stage(world_, scene, preset.spectral) : make_map_stage(world_, scene, preset.spectral, *map_)});
+      stages_.push_back(
+          {sppm ? make_sppm_stage(world_, scene, preset.spectral) : make_map_stage(world_, scene, preset.spectral, *map_), true});
     if (runs(plan, "indirect")) stages_.push_back({make_indirect_stage(world_, scene, preset.spectral)});
     if (runs(plan, "background")) stages_.push_back({make_background_stage(world_, scene, preset.spectral)});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
@@ -112,16 +117,13 @@ public:
 
   job::Snapshot snapshot() override
   {
-    auto picture = std::make_shared<job::Picture>();
-    picture->width = world_.tables.camera.width;
-    picture->height = world_.tables.camera.height;
-    picture->rgb.assign(3 * static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height), 0.0f);
-    if (!stages_.empty() && world_.halves == 2) picture->error_draw = picture->rgb;
+    auto picture = std::make_shared<job::Picture>(black());
     job::Snapshot snapshot;
     for (std::size_t s = 0; s < stages_.size(); ++s) {
-      stages_[s].stage->develop(at_.pass, s < at_.stage, *picture);
+      if (!smoothing_ || !stages_[s].caustics) stages_[s].stage->develop(at_.pass, s < at_.stage, *picture);
       snapshot.phases.emplace_back(stages_[s].stage->name(), stages_[s].seconds);
     }
+    if (smoothing_) add_smooth_caustics(*picture);
     for (const job::Layer& layer : picture->layers)
       for (std::size_t i = 0; i < layer.rgb.size(); ++i) picture->rgb[i] += layer.rgb[i];
     snapshot.picture = std::move(picture);
@@ -181,6 +183,28 @@ private:
     double energy_from = 0; ///< passes of photons when the energy counters began
   };
 
+  job::Picture black() const
+  {
+    job::Picture picture;
+    picture.width = world_.tables.camera.width;
+    picture.height = world_.tables.camera.height;
+    picture.rgb.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 0.0f);
+    if (!stages_.empty() && world_.halves == 2) picture.error_draw = picture.rgb;
+    return picture;
+  }
+
+  void add_smooth_caustics(job::Picture& picture)
+  {
+    job::Picture caustics = black();
+    for (std::size_t s = 0; s < stages_.size(); ++s)
+      if (stages_[s].caustics) stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
+    std::vector<float>& rgb = layer_of(caustics, "caustic").rgb;
+    smoothing_->spread(rgb, caustics.error_draw);
+    layer_of(picture, "caustic").rgb = std::move(rgb);
+    if (caustics.error_draw.empty()) picture.error_draw.clear();
+    for (std::size_t i = 0; i < picture.error_draw.size(); ++i) picture.error_draw[i] += caustics.error_draw[i];
+  }
+
   /// How much of the pass in hand a stage has done.
   double part_of(std::size_t stage) const { return stage < at_.stage ? 1 : stage > at_.stage ? 0 : stages_[stage].stage->part(); }
 
@@ -221,6 +245,7 @@ private:
   preset::Preset preset_; ///< where layers are kept: what the light is of
   std::unique_ptr<Relighting> relighting_;
   std::unique_ptr<PhotonMap> map_;
+  std::optional<Smoothing> smoothing_;
   std::optional<double> stop_seconds_;
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
   std::vector<TimedStage> stages_;

@@ -12,25 +12,28 @@ namespace nephroid::spectral {
 
 class EyePaths {
 public:
-  explicit EyePaths(DeviceWorld& world)
-      : world_(world), points_(world.context, "visible points", point_count(world.tables.camera)),
+  /// paths: for each pixel in a pass, at least 1.
+  EyePaths(DeviceWorld& world, std::uint32_t paths)
+      : world_(world), paths_(paths), points_(world.context, "visible points", point_count(world.tables.camera)),
         view_(compute::Program(world.context, "view.cl", world.defines).kernel("view")), rows_(world.tables.camera.height)
   {
   }
   /// What it takes on the device.
   static std::uint64_t bytes(const shared::DeviceCamera& camera) { return point_count(camera) * sizeof(shared::VisiblePoint); }
 
-  /// One path for every pixel of the next rows, then gather(points, first_pixel, count), which queues kernels. cluster: see view.cl.
-  /// True when all rows are done.
+  /// The paths of every pixel of the next rows, one after the other: gather(points, first_pixel, count) queues kernels for each. cluster:
+  /// see view.cl. True when all rows are done.
   template <class Gather>
   bool step(shared::uint2 seed, std::uint32_t pass, int cluster, const Gather& gather)
   {
     const auto width = static_cast<std::uint32_t>(world_.tables.camera.width);
     return rows_.step(static_cast<std::int64_t>(points_.size() / width), [&](int first_row, int rows) {
       const std::uint32_t first_pixel = static_cast<std::uint32_t>(first_row) * width, count = static_cast<std::uint32_t>(rows) * width;
-      world_.run(view_, count, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, seed, pass, cluster,
-                 static_cast<int>(world_.tables.objects.size()), first_row, rows);
-      gather(points_, first_pixel, count);
+      for (std::uint32_t path = 0; path < paths_; ++path) {
+        world_.run(view_, count, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, seed, pass, path, paths_, cluster,
+                   static_cast<int>(world_.tables.objects.size()), first_row, rows);
+        gather(points_, first_pixel, count);
+      }
       world_.context.finish();
     });
   }
@@ -38,7 +41,7 @@ public:
   /// Stage::warm_up for its kernel.
   void warm_up()
   {
-    world_.run(view_, 1, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, world_.seed, 0u, 0,
+    world_.run(view_, 1, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, world_.seed, 0u, 0u, 1u, 0,
                static_cast<int>(world_.tables.objects.size()), 0, 0);
   }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
@@ -57,6 +60,7 @@ private:
   }
 
   DeviceWorld& world_;
+  std::uint32_t paths_;
   compute::Buffer<shared::VisiblePoint> points_;
   compute::Kernel view_;
   PixelRows rows_;

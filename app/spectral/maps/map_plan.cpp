@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace nephroid::spectral {
 namespace {
 
@@ -35,6 +37,12 @@ plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene,
 }
 
 } // namespace
+
+std::uint32_t eye_paths_a_pass(const DeviceTables& tables)
+{
+  const auto pixels = static_cast<std::uint32_t>(tables.camera.width * tables.camera.height);
+  return std::clamp(tables.photons_per_pass / pixels, 1u, 16u);
+}
 
 MapPlan plan_maps(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool caustics,
                   std::uint64_t film_bytes)

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "spectral/tables/device_scene.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace nephroid::spectral {
@@ -14,6 +15,10 @@ struct MapPlan {
   plan::Pass pass;                          ///< "photon maps"
   std::vector<plan::PlannedBuffer> buffers; ///< of MapStage or SppmStage; none where it does not run
 };
+
+/// Paths from the eye that a pixel has in a pass of MapStage, 1..16: as many in the whole picture as there are photons, so that neither
+/// takes most of the time and neither most of the noise.
+std::uint32_t eye_paths_a_pass(const DeviceTables& tables);
 
 /// caustics: whether there are any to estimate, by splats or maps. film_bytes: of one film.
 /// Throws bad_input at FILE#/scene/objects for more objects than photons in so many clusters can tell apart.

@@ -4,6 +4,7 @@
 // its own, and the film adds them up like any other's.
 #include "spectral/film.h"
 #include "spectral/maps/eye_paths.h"
+#include "spectral/maps/map_plan.h"
 #include "spectral/maps/map_radius.h"
 #include "spectral/maps/photon_map.h"
 #include "spectral/stages.h"
@@ -17,8 +18,8 @@ namespace {
 class MapStage final : public Stage {
 public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings, PhotonMap& map)
-      : world_(world), map_(map), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha), eye_(world),
-        film_(world.zeroed("film photon maps", world.film_size())),
+      : world_(world), map_(map), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
+        eye_(world, eye_paths_a_pass(world.tables)), film_(world.zeroed("film photon maps", world.film_size())),
         gather_(compute::Program(world.context, "gather.cl", world.defines).kernel("gather_to_film"))
   {
   }

@@ -38,7 +38,7 @@ public:
   SppmStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
         random_(settings.effort == preset::Spectral::Effort::random), alpha_(settings.sppm.alpha),
-        first_radius_(first_map_radius(settings, scene)), map_(world.context, photons_, world.defines), eye_(world),
+        first_radius_(first_map_radius(settings, scene)), map_(world.context, photons_, world.defines), eye_(world, 1),
         unused_(world.context, "unused", 0), no_guide_(world.context, "unused", 0)
   {
     compute::Defines defines = world.photon_defines();

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Caustics of few photons made smooth: the light of every pixel is spread over as many pixels around it as together hold enough photons.
+//
+// Photons on a surface are a sample of a density, and a histogram over pixels is the noisiest estimate of it. This is the sample-point
+// estimate with adaptive kernels (Abramson 1982, "On bandwidth variation in kernel estimates"): narrow where photons are dense, so that
+// bright lines stay sharp, wide where they are few. A pixel that holds enough photons by itself is left alone, and in the end
+// all do: the limit is that of the plain film. Power is neither lost nor made.
+#pragma once
+#include "scene/bvh.h"
+#include "scene/scene.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nephroid::spectral {
+
+class Smoothing {
+public:
+  /// Photons that a kernel holds: noise of a quarter of the light. Kernels of 4 times as many halve that, and blur where 16 do not.
+  static constexpr double enough_photons = 16;
+
+  /// Looks once through the middle of every pixel: light is spread within one nearly flat part of one surface.
+  Smoothing(const scene::Scene& scene, const scene::Bvh& bvh);
+
+  /// What it keeps, in bytes.
+  static std::uint64_t bytes(const scene::Camera& camera);
+
+  /// rgb: of caustics alone, [pixel][3] of the camera's size, and a draw of its error (Picture::error_draw), which is spread alike. How
+  /// many photons a pixel holds is what that draw tells. Nothing changes where the draw is empty.
+  void spread(std::vector<float>& rgb, std::vector<float>& error_draw) const;
+
+private:
+  /// What a pixel shows.
+  struct Seen {
+    glm::vec3 position{0}, normal{0}; ///< scene units; unit, of the triangle
+    int object = -1;                  ///< -1: none
+  };
+  static bool are_level(const Seen& a, const Seen& b);
+  /// Where a pixel's light goes: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step.
+  struct Kernel {
+    std::vector<std::size_t> pixels; ///< nearest first
+    std::size_t inside = 0;          ///< of `pixels`, those before the outermost ring
+    double ring_weight = 1;          ///< of a pixel of that ring, 0..1
+  };
+  /// The one of pixel i that holds `wanted` of `light`, or reaches as far as any may.
+  void find_kernel(std::size_t i, double wanted, std::span<const double> light, Kernel& kernel) const;
+
+  int width_, height_;
+  std::vector<Seen> seen_; ///< [pixel]
+};
+
+} // namespace nephroid::spectral

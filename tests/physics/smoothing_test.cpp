@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs with smoothed caustics beside the same runs without: the same power, less error.
+#include "compute/compute.h"
+#include "plan/plan.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/loaded_scenes.h"
+#include "tests/support/render.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+namespace nephroid {
+namespace {
+
+preset::Preset ball(int passes, bool smoothing)
+{
+  preset::Preset p = test::ball_over_floor();
+  p.scene.camera.position = {0, 2, 4};
+  p.scene.camera.target = {0, -2, 0};
+  p.scene.camera.resolution = {64, 64};
+  p.scene.lights[0].position = {1, 3, 1};
+  p.scene.objects[0].normals = preset::Object::Normals::smooth; // facets would cast a pattern of dots
+  p.scene.objects[1].transform.translate = {0, -2, 0};          // beyond the focus: a disc, not a spot
+  p.spectral.photons_per_pass = 4096;
+  p.spectral.direct = false;
+  p.spectral.smoothing = smoothing;
+  p.stop.passes = passes;
+  return p;
+}
+
+double sum(const std::vector<float>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
+
+double mean_distance(const std::vector<float>& a, const std::vector<float>& b)
+{
+  double all = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) all += std::abs(static_cast<double>(a[i]) - b[i]);
+  return all / static_cast<double>(a.size());
+}
+
+plan::Pass smoothing_pass(const preset::Preset& preset)
+{
+  const scene::Scene scene = scene::load_scene(preset);
+  for (const plan::Pass& pass : spectral::make_plan(preset, scene, scene::build_bvh(scene.geometry)).passes)
+    if (pass.name == "smoothing") return pass;
+  throw std::runtime_error("the plan does not tell of smoothing");
+}
+
+TEST(SmoothedRun, has_the_power_of_the_plain_one_and_less_error)
+{
+  const job::Snapshot plain = test::render(ball(4, false)), smooth = test::render(ball(4, true)), truth = test::render(ball(256, false));
+  const std::vector<float>& caustic = test::layer(smooth, "caustic").rgb;
+  const double power = sum(test::layer(plain, "caustic").rgb);
+  ASSERT_GT(power, 0);
+  EXPECT_NEAR(sum(caustic), power, 1e-4 * power);
+  EXPECT_LT(mean_distance(caustic, truth.picture->rgb), 0.8 * mean_distance(plain.picture->rgb, truth.picture->rgb));
+  // The run's own estimate sees less noise, too.
+  const auto squares = [](const std::vector<float>& v) { return std::inner_product(v.begin(), v.end(), v.begin(), 0.0); };
+  EXPECT_LT(squares(smooth.picture->error_draw), squares(plain.picture->error_draw));
+}
+
+TEST(SmoothedRun, leaves_other_layers_alone)
+{
+  preset::Preset plain = ball(2, false), smooth = ball(2, true);
+  plain.spectral.direct = smooth.spectral.direct = true;
+  const job::Snapshot a = test::render(plain), b = test::render(smooth);
+  EXPECT_EQ(test::layer(a, "direct").rgb, test::layer(b, "direct").rgb);
+  EXPECT_NE(test::layer(a, "caustic").rgb, test::layer(b, "caustic").rgb);
+}
+
+TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
+{
+  EXPECT_TRUE(smoothing_pass(ball(1, true)).runs);
+  EXPECT_FALSE(smoothing_pass(ball(1, false)).runs);
+  preset::Preset whole = ball(1, true), sppm = ball(1, true);
+  whole.measure.estimate = false;
+  EXPECT_FALSE(smoothing_pass(whole).runs);
+  EXPECT_EQ(smoothing_pass(whole).field, "/measure/estimate");
+  sppm.spectral.estimator = preset::Spectral::Estimator::sppm;
+  EXPECT_FALSE(smoothing_pass(sppm).runs);
+  EXPECT_EQ(smoothing_pass(sppm).field, "/spectral/estimator");
+}
+
+} // namespace
+} // namespace nephroid

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smoothed caustics on a floor that fills the lower part of the picture and a wall that fills the upper, from made pictures.
+#include "scene/bvh.h"
+#include "scene/scene.h"
+#include "spectral/smoothing.h"
+#include "tests/support/loaded_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace nephroid {
+namespace {
+
+constexpr int size = 48;
+
+struct FloorAndWall {
+  FloorAndWall()
+  {
+    preset::Preset p;
+    p.source = "p.json";
+    p.scene.materials["wall"];
+    p.scene.objects = {test::shape_object("floor", preset::Shape::Type::quad, "wall"),
+                       test::shape_object("wall", preset::Shape::Type::quad, "wall")};
+    for (preset::Object& object : p.scene.objects) object.transform.scale = {20, 1, 20};
+    p.scene.objects[1].transform.rotate_deg = {90, 0, 0};
+    p.scene.objects[1].transform.translate = {0, 0, -2};
+    p.scene.camera.position = {0, 2, 3};
+    p.scene.camera.target = {0, 0, -2};
+    p.scene.camera.resolution = {size, size};
+    scene = scene::load_scene(p);
+    bvh = scene::build_bvh(scene.geometry);
+  }
+  scene::Scene scene;
+  scene::Bvh bvh;
+};
+
+/// What two halves of a film would hold of grey photons, each of worth 1 in the mean of both, `density` of them a pixel.
+struct Photons {
+  std::vector<float> rgb, error_draw;
+};
+
+template <class Density>
+Photons scatter(const Density& density, unsigned seed)
+{
+  std::mt19937 random(seed);
+  Photons photons;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const double mean = density(x, y);
+      std::poisson_distribution<int> half(mean / 2);
+      const int a = mean > 0 ? half(random) : 0, b = mean > 0 ? half(random) : 0;
+      for (int c = 0; c < 3; ++c) {
+        photons.rgb.push_back(static_cast<float>(a + b));
+        photons.error_draw.push_back(static_cast<float>(a - b));
+      }
+    }
+  return photons;
+}
+
+double sum(const std::vector<float>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
+
+/// Of the pixels of rows [from, to) that are more than `margin` pixels from the picture's sides: their mean and variance in R.
+struct Moments {
+  double mean = 0, variance = 0;
+};
+Moments moments(const std::vector<float>& rgb, int from, int to, int margin)
+{
+  double n = 0, s = 0, s2 = 0;
+  for (int y = from; y < to; ++y)
+    for (int x = margin; x < size - margin; ++x) {
+      const double v = rgb[3 * static_cast<std::size_t>(y * size + x)];
+      n += 1, s += v, s2 += v * v;
+    }
+  return {s / n, s2 / n - s * s / (n * n)};
+}
+
+TEST(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
+{
+  const FloorAndWall room;
+  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  Photons photons = scatter([](int, int) { return 2.0; }, 1);
+  const double power = sum(photons.rgb), draw = sum(photons.error_draw);
+  const Moments before = moments(photons.rgb, size / 2 + 8, size - 8, 8);
+  smoothing.spread(photons.rgb, photons.error_draw);
+  EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
+  EXPECT_NEAR(sum(photons.error_draw), draw, 1e-5 * power);
+  // 16 photons lie in 8 pixels: the closest kernel of whole rings is of 9. The mean of 9 Poisson numbers of mean 2 has the variance 2 / 9.
+  // Those of neighbours hang together, so it is known to some 20 % only.
+  const Moments after = moments(photons.rgb, size / 2 + 8, size - 8, 8), error = moments(photons.error_draw, size / 2 + 8, size - 8, 8);
+  EXPECT_NEAR(before.variance, 2, 0.6);
+  EXPECT_LT(after.variance, before.variance / 4);
+  EXPECT_NEAR(after.mean, before.mean, 0.1);
+  // The draw still tells what noise there is.
+  EXPECT_NEAR(error.variance, after.variance, 0.5 * after.variance);
+}
+
+TEST(Smoothing, leaves_pixels_that_hold_enough_photons_alone)
+{
+  const FloorAndWall room;
+  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  Photons photons = scatter([](int, int) { return 400.0; }, 2);
+  const std::vector<float> before = photons.rgb;
+  smoothing.spread(photons.rgb, photons.error_draw);
+  EXPECT_EQ(photons.rgb, before);
+}
+
+TEST(Smoothing, does_not_carry_light_from_one_surface_to_another)
+{
+  const FloorAndWall room;
+  // Where the wall meets the floor: y = 0, z = -2 is the middle row.
+  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  Photons photons = scatter([](int, int y) { return y >= size / 2 ? 1.0 : 0.0; }, 3);
+  smoothing.spread(photons.rgb, photons.error_draw);
+  const auto row_sum = [&](int y) {
+    return std::accumulate(photons.rgb.begin() + 3 * size * y, photons.rgb.begin() + 3 * size * (y + 1), 0.0);
+  };
+  for (int y = 0; y < size / 2; ++y) EXPECT_EQ(row_sum(y), 0) << "row " << y;
+  EXPECT_GT(row_sum(size / 2), 0);
+}
+
+TEST(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
+{
+  const FloorAndWall room;
+  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  Photons photons = scatter([](int x, int) { return x == size / 2 ? 1000.0 : 1.0; }, 4);
+  const std::vector<float> before = photons.rgb;
+  smoothing.spread(photons.rgb, photons.error_draw);
+  double line = 0, was = 0;
+  for (int y = size / 2; y < size; ++y) {
+    const std::size_t at = 3 * static_cast<std::size_t>(y * size + size / 2);
+    line += photons.rgb[at], was += before[at];
+  }
+  EXPECT_NEAR(line, was, 0.02 * was);
+}
+
+TEST(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
+{
+  const FloorAndWall room;
+  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  Photons photons = scatter([](int, int) { return 1.0; }, 5);
+  photons.error_draw.clear();
+  const std::vector<float> before = photons.rgb;
+  smoothing.spread(photons.rgb, photons.error_draw);
+  EXPECT_EQ(photons.rgb, before);
+  EXPECT_TRUE(photons.error_draw.empty());
+  Photons dark = scatter([](int, int) { return 0.0; }, 6);
+  smoothing.spread(dark.rgb, dark.error_draw);
+  EXPECT_EQ(sum(dark.rgb), 0);
+}
+
+} // namespace
+} // namespace nephroid
