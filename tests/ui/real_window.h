@@ -61,6 +61,8 @@ protected:
   /// The program's exit code; its last frame is in screen.png, what it printed in `log`.
   int play(const std::string& preset, const std::string& options, const std::string& events) const
   {
+    // Kernels are compiled before the window's run needs them: the events wait three seconds for its first picture.
+    shell(program + " run '" + preset + "' --passes 1 -o " + quoted("first"), log);
     // Keys slower than one frame: where Ctrl goes up before the key within a frame, Dear ImGui sees the key alone.
     write_file_whole(folder.path() / "events.sh", fmt::format(R"(#!/bin/sh
 at() {{ xdotool mousemove --window $id $1 $2; sleep 0.1; }}
