@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons a second of engine 1 on the first-light scene, by phase: traced only (the camera looks away, so nothing is projected into a
-// pixel), traced and splatted, and samples a second of the direct layer. Start-up and compiling are not counted.
+// pixel), traced and splatted, samples a second of the direct layer, and the time of a picture of 512 x 512, without and with smoothing.
+// Start-up and compiling are not counted.
 #include "compute/compute.h"
 #include "job/job.h"
 #include "preset/read.h"
@@ -60,6 +61,21 @@ void direct_samples(benchmark::State& state)
   step_through(state, p, [&](const job::Progress& progress) { return progress.fraction * (1 << 20) * pixels; });
 }
 
+/// One picture from the films of 8 passes of the bunny. state.range(0): whether its caustics are smoothed.
+void picture(benchmark::State& state)
+{
+  preset::Preset p = preset::read_preset("spectral/thesis/bunny");
+  p.stop.passes = 8;
+  p.spectral.smoothing = state.range(0) != 0;
+  const scene::Scene scene = scene::load_scene(p);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  const compute::Context context = compute::Context::open();
+  const auto job = spectral::make_job(p, scene, bvh, spectral::make_plan(p, scene, bvh), context);
+  while (!job->finished()) job->step();
+  for (auto _ : state) benchmark::DoNotOptimize(job->snapshot());
+}
+
+BENCHMARK(picture)->ArgName("smoothing")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(photons_traced)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(4);
 BENCHMARK(photons_traced_and_splatted)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(4);
 BENCHMARK(direct_samples)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(4);

@@ -15,7 +15,8 @@ from pathlib import Path
 SIZE = 128
 SPEED_SIZE = 176  # IW-SSIM needs 161 pixels
 PHOTONS = 4096  # of one iteration of one cluster
-OURS = {"estimator": "automatic", "jitter": True, "low_discrepancy": True, "effort": "variance"}
+PLAIN = {"estimator": "automatic", "jitter": True, "low_discrepancy": True, "effort": "variance"}
+OURS = PLAIN | {"smoothing": True}
 THESIS = {"method": "thesis", "estimator": "sppm", "jitter": False, "low_discrepancy": False, "effort": "importance",
           "photons_per_pass": PHOTONS}
 BRUTE = THESIS | {"method": "brute_force", "effort": "equal"}
@@ -32,7 +33,7 @@ class Experiments:
                 f"stop.passes={passes or 'null'}", f"stop.seconds={seconds or 'null'}", *extra]
         sets += [f"spectral.{key}={json.dumps(value)}" for key, value in spectral.items()]
         if reference:
-            sets.append("reference=" + json.dumps({"type": "recipe", "passes": reference, "spectral": OURS | {"direct": False}}))
+            sets.append("reference=" + json.dumps({"type": "recipe", "passes": reference, "spectral": PLAIN | {"direct": False}}))
             sets.append("measure.perceptual=true")
         command = [self.program, "run", preset, "--seed", str(seed), "-o", str(folder)]
         for item in sets:
@@ -69,13 +70,14 @@ def reaches(rows, error, metric):
     return None
 
 
-def speed(e, scene="bunny", brute_passes=20, seconds=60):
+def speed(e, scene="bunny", brute_passes=20, seconds=120):
     """Figures 4.13 and 4.14, rows 1 to 3: brute force, the thesis' clusters with (4.15), with Radziszewski et al., and ours."""
     e.size = SPEED_SIZE
     preset = f"spectral/thesis/{scene}"
     settings = {"brute force": (BRUTE, brute_passes, None), "thesis, (4.15)": (THESIS, None, seconds),
-                "thesis, Radziszewski et al.": (THESIS | {"effort": "radziszewski"}, None, seconds), "ours": (OURS, None, seconds)}
-    runs = {name: e.run(f"speed-{scene}/{index}", preset, spectral, passes, limit, reference=150)
+                "thesis, Radziszewski et al.": (THESIS | {"effort": "radziszewski"}, None, seconds),
+                "ours, not smoothed": (PLAIN, None, seconds / 4), "ours": (OURS, None, seconds / 4)}
+    runs = {name: e.run(f"speed-{scene}/{index}", preset, spectral, passes, limit, reference=250)
             for index, (name, (spectral, passes, limit)) in enumerate(settings.items())}
     metric = "lab_mean"
     truth = float(runs["brute force"][1][-1][metric])
@@ -115,8 +117,8 @@ def figure_4_6(e):
 
 
 def figure_4_9(e):
-    differences(e, "figure-4-9", "spectral/thesis/bunny", {f"{n} iterations": BRUTE for n in (5, 10, 20)},
-                {f"{n} iterations": n for n in (5, 10, 20)})
+    differences(e, "figure-4-9", "spectral/thesis/bunny", {f"{n} iterations": BRUTE for n in (3, 6, 12)},
+                {f"{n} iterations": n for n in (3, 6, 12)})
 
 
 def figure_4_10(e):
@@ -154,7 +156,8 @@ def beyond(e):
     base = {"estimator": "automatic", "jitter": False, "low_discrepancy": False, "effort": "power", "differentials": False}
     steps = {"clusters alone": base, "jitter": base | {"jitter": True}, "low discrepancy": base | {"low_discrepancy": True},
              "variance": base | {"effort": "variance"}, "differentials": base | {"differentials": True},
-             "jitter, low discrepancy, variance": base | OURS}
+             "smoothing": base | {"smoothing": True},
+             "jitter, low discrepancy, variance": base | PLAIN, "all of these": base | OURS}
     for preset, seconds in (("spectral/thesis/bunny", 12), ("spectral/prism", 8), ("spectral/ball-lens", 8), ("spectral/brilliant", 8)):
         print(f"\n{preset}, {seconds} s each\n\n| with | photons, million | lab_mean | lab_rms | rel_l2 |\n|---|---|---|---|---|")
         for index, (name, spectral) in enumerate(steps.items()):
