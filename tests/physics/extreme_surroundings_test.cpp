@@ -159,16 +159,16 @@ const std::vector<Extreme> extremes = {
        const TemporaryFolder folder;
        return black(one_texel(folder, 0, 0));
      }},
-    {"BesideMillion", "one texel of 1e6, beside it", "1", [] { return beside(1e6f, 1e-4); }},
-    {"IntoMillion", "in its middle", "1 of it, bilinear", [] { return into(1e6f, 0.01); }},
+    {"BesideMillion", "one texel of 1e6 among 1, looking beside it", "their value", [] { return beside(1e6f, 1e-4); }},
+    {"IntoMillion", "looking into it", "its value, but for bilinear lookup", [] { return into(1e6f, 0.01); }},
     {"Beside1e30", "one texel of 1e30 among 1", "said: fixed point cannot hold both",
      [] {
        const TemporaryFolder folder;
        return warns(one_texel(folder, 1e30f), "environment sky.exr: half of it is below 2e-27 of its mean, less than the film's numbers "
                                               "resolve, and looks black or is noise; clip its brightest texels");
      }},
-    {"Into1e30", "in its middle", "1 of it", [] { return into(1e30f, 0.01); }},
-    {"Into3e38", "one texel of 3e38, in its middle", "1 of it", [] { return into(3e38f, 0.01); }},
+    {"Into1e30", "looking into it", "the same", [] { return into(1e30f, 0.01); }},
+    {"Into3e38", "looking into one of 3e38", "the same", [] { return into(3e38f, 0.01); }},
     {"TexelNaN", "a texel that is not a number", "refused",
      [] { return texel_refused(std::numeric_limits<float>::quiet_NaN(), "is not a number"); }},
     {"TexelInfinite", "an infinite texel", "refused", [] { return texel_refused(std::numeric_limits<float>::infinity(), "is infinite"); }},

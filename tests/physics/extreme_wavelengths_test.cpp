@@ -217,7 +217,7 @@ const std::vector<Extreme> extremes = {
            "a wavelength that the lights have; expected a light on the caustic objects and something around them that reflects "
            "it; change the scene, or choose another effort");
      }},
-    {"OnePhoton", "low discrepancy, one photon a pass, 16384 passes", "the same",
+    {"OnePhoton", "low discrepancy, one photon a pass, 16384 passes", "401 wavelengths one by one",
      [] {
        preset::Preset p = in_clusters(89.9);
        p.spectral.photons_per_pass = 1;
