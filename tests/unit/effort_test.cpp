@@ -113,7 +113,7 @@ TEST(DealtEffort, OfPowerIsWhatTheEyeMakesOfIt)
     const auto& w = tables.wavelengths;
     std::vector<double> weights;
     for (std::size_t l = 0; l < 2; ++l)
-      for (std::size_t c = 0; c < w.clusters.size(); ++c) weights.push_back((l == 1 ? 3 : 1) * (w.weight[l][c] + 0.05 * w.share[l][c]));
+      for (std::size_t c = 0; c < w.clusters.size(); ++c) weights.push_back((l == 1 ? 3 : 1) * (w.seen[l][c] + 0.05 * w.share[l][c]));
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const auto counts = dealt(tables);
     for (std::size_t i = 0; i < weights.size(); ++i)

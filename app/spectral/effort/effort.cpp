@@ -20,7 +20,7 @@ std::vector<double> by_power(const std::vector<double>& watts, const WavelengthT
 {
   std::vector<double> weights;
   for (std::size_t l = 0; l < watts.size(); ++l)
-    for (std::size_t c = 0; c < tables.clusters.size(); ++c) weights.push_back(watts[l] * worth(tables.weight[l][c], tables.share[l][c]));
+    for (std::size_t c = 0; c < tables.clusters.size(); ++c) weights.push_back(watts[l] * worth(tables.seen[l][c], tables.share[l][c]));
   return weights;
 }
 

@@ -11,6 +11,7 @@
 #include "spectral/maps/photon_map.h"
 #include "spectral/photon_slices.h"
 #include "spectral/stages.h"
+#include "spectral/tables/scales.h"
 
 #include <cmath>
 #include <numbers>
@@ -194,7 +195,7 @@ Sender SppmStage::make_sender(int cluster) const
   double weights = 0;
   for (std::size_t l = 0; l < t.lights.size(); ++l) {
     const double share = t.wavelengths.share[l][c];
-    sources.push_back({t.towards_targets_w[l] * worth(t.wavelengths.weight[l][c], share), static_cast<int>(l), cluster, share});
+    sources.push_back({t.towards_targets_w[l] * worth(t.wavelengths.seen[l][c], share), static_cast<int>(l), cluster, share});
     weights += sources.back().weight;
   }
   std::vector<shared::DeviceEmitter> emitters = make_emitters(sources, photons_);
@@ -279,8 +280,9 @@ void SppmStage::report(std::int64_t passes, bool done, job::Snapshot& snapshot)
     const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.part() : 0);
     if (count <= 0) continue;
     const std::vector<std::int64_t> quanta = runs_[static_cast<std::size_t>(run)].energy.read();
-    const double scale = (random_ ? cluster_count() : 1) / (world_.tables.energy_scale * count);
-    for (std::size_t i = 0; i < watts.size(); ++i) watts[i] += static_cast<double>(quanta[i]) * (i == OUTCOME_REFUSED ? 1 : scale);
+    const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
+    for (std::size_t i = 0; i < watts.size(); ++i)
+      watts[i] += i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : share * mean_watts(quanta[i], world_.tables.energy_scale, count);
   }
   snapshot.energy = {watts[OUTCOME_EMITTED],
                      watts[OUTCOME_DEPOSITED],

@@ -120,11 +120,11 @@ void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTa
   for (const scene::Light* light : lights) {
     for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(light->spectrum, nullptr, {w})));
     std::vector<double>& share = tables.share.emplace_back();
-    std::vector<double>& weight = tables.weight.emplace_back();
+    std::vector<double>& seen = tables.seen.emplace_back();
     for (const std::vector<int>& cluster : tables.clusters) {
       const std::array<double, 4> sum = reflected(light->spectrum, nullptr, cluster);
       share.push_back(sum[3]);
-      weight.push_back((sum[0] + sum[1] + sum[2]) / 3);
+      seen.push_back((sum[0] + sum[1] + sum[2]) / 3);
       for (int r = 0; r < tables.reflector_count; ++r)
         tables.reflected_xyz.push_back(to_float4(reflected(light->spectrum, reflectance_row(tables, r), cluster)));
     }
@@ -139,7 +139,7 @@ void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthT
 {
   std::vector<double> weights(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < lights.size(); ++l)
-    for (std::size_t c = 0; c < weights.size(); ++c) weights[c] += radiometric(*lights[l]) * worth(tables.weight[l][c], tables.share[l][c]);
+    for (std::size_t c = 0; c < weights.size(); ++c) weights[c] += radiometric(*lights[l]) * worth(tables.seen[l][c], tables.share[l][c]);
   tables.cluster_cdf = exact_cdf_from_zero(weights);
 }
 
