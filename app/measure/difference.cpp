@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/difference.h"
 
+#include "base/parallel.h"
 #include "measure/colour_bar.h"
 #include "measure/flip.h"
 #include "measure/lab.h"
-#include "base/parallel.h"
 #include "measure/pixels.h"
 
 #include <algorithm>

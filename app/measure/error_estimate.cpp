@@ -14,6 +14,7 @@
 // would make the truth negative is left out: CIELAB is steep there.
 #include "measure/error_estimate.h"
 
+#include "base/summed_area.h"
 #include "optics/colour.h"
 
 #include <algorithm>
@@ -24,41 +25,6 @@ namespace nephroid::measure {
 namespace {
 
 constexpr int reach = 3; ///< of the square, in pixels to each side: 49 pixels are enough for a mean, and few enough for detail
-
-/// Sums of one channel over any rectangle: entry (x, y) is the sum of all pixels left of x and above y.
-class SummedArea {
-public:
-  template <class Value>
-  SummedArea(int width, int height, Value value) : width_(width), height_(height)
-  {
-    const std::size_t stride = static_cast<std::size_t>(width) + 1;
-    sums_.assign(stride * (static_cast<std::size_t>(height) + 1), 0.0);
-    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
-      double row = 0;
-      for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
-        row += value(y * static_cast<std::size_t>(width) + x);
-        sums_[(y + 1) * stride + x + 1] = sums_[y * stride + x + 1] + row;
-      }
-    }
-  }
-
-  /// Of the square about a pixel, as much of it as is in the picture.
-  double mean(int x, int y) const
-  {
-    const int left = std::max(x - reach, 0), right = std::min(x + reach + 1, width_);
-    const int top = std::max(y - reach, 0), bottom = std::min(y + reach + 1, height_);
-    const double sum = at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
-    return sum / (static_cast<double>(right - left) * (bottom - top));
-  }
-
-private:
-  double at(int x, int y) const
-  {
-    return sums_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(x)];
-  }
-  int width_, height_;
-  std::vector<double> sums_;
-};
 
 /// XYZ, 3 a pixel.
 std::vector<double> to_xyz(const std::vector<float>& rgb)
@@ -81,7 +47,7 @@ void subtract_error(std::vector<double>& m, const std::vector<double>& d, std::s
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const std::size_t i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) + channel;
-      const double mean = sum.mean(x, y), variance = squares.mean(x, y) - mean * mean, n = noise.mean(x, y);
+      const double mean = sum.mean(x, y, reach), variance = squares.mean(x, y, reach) - mean * mean, n = noise.mean(x, y, reach);
       const double p = n > 0 ? mean * mean / n : 0;
       const double w = n > 0 ? 1 - std::min(n / variance, 1.0) / (1 + p * p) : 1;
       m[i] = std::max(m[i] - std::sqrt(w) * d[i] - (1 - w) * (m[i] - mean), 0.0);

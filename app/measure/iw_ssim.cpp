@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/iw_ssim.h"
 
+#include "base/parallel.h"
 #include "measure/information_weights.h"
 #include "measure/lab.h"
 #include "measure/laplacian_pyramid.h"
-#include "base/parallel.h"
 #include "measure/pixels.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/read_picture.h"
 
-#include "image/rgb.h"
 #include "base/parallel.h"
+#include "image/rgb.h"
 #include "measure/pixels.h"
 
 #include <utility>

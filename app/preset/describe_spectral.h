@@ -76,9 +76,11 @@ void describe(V& v, S& s)
           s.jitter);
   v.field({.name = "low_discrepancy", .sentence = "Photons leave the lights by a scrambled Sobol sequence."}, s.low_discrepancy);
   v.field({.name = "differentials", .sentence = "A splat is stretched along the way that it moves with wavelength."}, s.differentials);
-  v.field({.name = "smoothing",
-           .sentence = "Spread the light of caustics over as many pixels as hold enough photons; it ends where one pixel does."},
-          s.smoothing);
+  v.field(
+      {.name = "smoothing",
+       .sentence =
+           "Spread caustics over up to 6 pixels around, until their noise is a quarter of them. Needs measure.estimate; not with sppm."},
+      s.smoothing);
   v.field({.name = "relight", .sentence = "Keep a layer for each cluster, so that the spectrum of a light can change without a new run."},
           s.relight);
   v.field({.name = "photons_per_pass",

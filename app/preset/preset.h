@@ -191,7 +191,7 @@ struct Spectral {
   bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so clusters leave no bias
   bool low_discrepancy = true;             ///< photons leave the lights by a scrambled Sobol sequence
   bool differentials = false;              ///< a splat is stretched along the way that it moves with wavelength
-  bool smoothing = false;                  ///< spread caustics over as many pixels as hold enough photons; not with sppm
+  bool smoothing = false;                  ///< spread caustics over pixels around until their noise is small; not with sppm
   bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass

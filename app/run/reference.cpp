@@ -54,6 +54,7 @@ preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
   made.stop = {};
   made.stop.passes = recipe.passes;
   made.spectral = recipe.spectral ? *recipe.spectral : brute_force(preset.spectral);
+  made.spectral.smoothing = false;                                                    // it would be a bias
   made.spectral.pixel_samples = std::max(made.spectral.pixel_samples, recipe.passes); // the direct layer as well converged as the caustic
   return made;
 }

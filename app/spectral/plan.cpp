@@ -122,18 +122,19 @@ plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Sce
           field, true};
 }
 
-/// halves: whether films are kept in two, which tells how noisy they are.
-plan::Pass smoothing_pass(const preset::Spectral& settings, bool halves)
+/// halves: whether films are kept in two, which tells how noisy they are. passes: at most so many, if known.
+plan::Pass smoothing_pass(const preset::Spectral& settings, bool halves, std::optional<int> passes)
 {
   const std::string field = "/spectral/smoothing";
   if (!settings.smoothing) return not_asked_for("smoothing", "smoothing");
   if (settings.estimator == preset::Spectral::Estimator::sppm)
-    return {"smoothing", false, "spectral.estimator is sppm, which has radii of its own", "/spectral/estimator", false};
-  if (!halves) return {"smoothing", false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", false};
-  return {"smoothing", true,
-          fmt::format("a pixel's caustics are spread until {} photons share a kernel; the estimated error knows their noise alone",
-                      Smoothing::enough_photons),
-          field, false};
+    return {"smoothing", false, "spectral.estimator is sppm, which has radii of its own", "", false};
+  if (!halves) return {"smoothing", false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
+  if (passes == 1) return {"smoothing", false, "the run has one pass, and it takes two to tell how noisy a pixel is", "", false};
+  return {
+      "smoothing", true,
+      fmt::format("a pixel's caustics are spread until their noise is {} of them; the estimated error knows noise alone", Smoothing::noise),
+      field, true};
 }
 
 std::uint64_t film_bytes(const scene::Scene& scene, int halves)
@@ -150,7 +151,7 @@ plan::Pass jitter_pass(const preset::Spectral& settings, const WavelengthTables&
   if (!settings.jitter) return {"jitter", false, "spectral.jitter is false: every path of a cluster has the cluster's mean n", field, true};
   if (settings.relight) return {"jitter", false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
   if (!tables.clusters_spread) return {"jitter", false, "n is the same at all wavelengths of every cluster", "", false};
-  return {"jitter", true, "each path takes one wavelength of its cluster, so clusters leave no bias", field, false};
+  return {"jitter", true, "each path takes one wavelength of its cluster, so clusters leave no bias", field, true};
 }
 
 /// Wavelengths of a cluster in one pass, where photon maps need photons and eye paths of one wavelength: so many that a pass has 32 in all,
@@ -165,7 +166,7 @@ plan::Pass low_discrepancy_pass(const preset::Spectral& settings)
 {
   const std::string field = "/spectral/low_discrepancy";
   if (!settings.low_discrepancy) return {"low discrepancy", false, "spectral.low_discrepancy is false: plain random numbers", field, true};
-  return {"low discrepancy", true, "photons leave the lights by a scrambled Sobol sequence", field, false};
+  return {"low discrepancy", true, "photons leave the lights by a scrambled Sobol sequence", field, true};
 }
 
 std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene::Bvh& bvh, const DeviceTables& tables, bool direct,
@@ -185,13 +186,16 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
 }
 
 /// Settings that do nothing, or not what they are for.
-std::vector<std::string> setting_notes(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool splats,
-                                       bool maps)
+std::vector<std::string> setting_notes(const preset::Preset& preset, const scene::Scene& scene, const DeviceTables& tables, bool splats,
+                                       bool maps, bool smooths)
 {
+  const preset::Spectral& settings = preset.spectral;
   std::vector<std::string> notes;
   if (settings.step_nm > 1 && settings.method != preset::Spectral::Method::brute_force)
     notes.push_back(fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",
                                 settings.step_nm, preset::word(settings.method)));
+  if (smooths && preset.stop.error && !preset.reference)
+    notes.push_back("stop.error: the run's own estimate does not know how far spectral.smoothing moves light; a 'reference' does");
   if (const std::string note = map_radius_note(settings, scene); maps && !note.empty()) notes.push_back(note);
   if (splats && tables.photons_per_pass > static_cast<unsigned>(settings.photons_per_pass))
     notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light",
@@ -220,7 +224,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   if (caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
     photons = {"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false};
   const plan::Pass differentials = differentials_pass(preset.spectral, scene, photons.runs);
-  const plan::Pass smoothing = smoothing_pass(preset.spectral, estimate.runs);
+  const plan::Pass smoothing = smoothing_pass(preset.spectral, estimate.runs, preset.stop.passes);
   const plan::Pass jitter = jitter_pass(preset.spectral, tables.wavelengths);
   plan.passes = {direct, photons};
   if (caustics) {
@@ -248,7 +252,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   if (photons.runs && preset.spectral.effort == preset::Spectral::Effort::variance)
     plan.buffers.push_back({"guide of directions",
                             tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
-  if (caustics && smoothing.runs) plan.buffers.push_back({"surfaces in pixels", Smoothing::bytes(scene.camera)});
+  if (caustics && smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), false, true});
   if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);
@@ -262,7 +266,8 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   plan.notes = scene.warnings;
   if (!direct.runs && !caustics && !indirect.runs && !background.runs)
     plan.notes.push_back(fmt::format("there is nothing to render: {}", direct.reason));
-  std::ranges::move(setting_notes(preset.spectral, scene, tables, photons.runs, maps.pass.runs), std::back_inserter(plan.notes));
+  std::ranges::move(setting_notes(preset, scene, tables, photons.runs, maps.pass.runs, caustics && smoothing.runs),
+                    std::back_inserter(plan.notes));
   return plan;
 }
 

@@ -2,6 +2,7 @@
 #include "spectral/smoothing.h"
 
 #include "base/parallel.h"
+#include "base/summed_area.h"
 #include "scene/ray.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 
 /// How far a kernel may reach, and how far around a pixel its noise is asked for, in pixels.
 constexpr int reach = 6, noise_reach = 7;
+constexpr std::size_t block_rows = 64;
 
 /// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30 degrees of it.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
@@ -36,45 +38,21 @@ const std::vector<Offset>& offsets()
   return all;
 }
 
-/// A plane of numbers added up from its corner, so that the sum over any rectangle is four of them (Crow 1984, "Summed-area tables").
-class SummedArea {
-public:
-  SummedArea(std::span<const double> values, int width, int height) : width_(width), height_(height), table_(index(width, height) + 1)
-  {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        table_[index(x + 1, y + 1)] = values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] +
-                                      table_[index(x, y + 1)] + table_[index(x + 1, y)] - table_[index(x, y)];
-  }
-  /// Over the square that reaches r from (x, y), cut at the edges.
-  double around(int x, int y, int r) const
-  {
-    const int x0 = std::max(x - r, 0), x1 = std::min(x + r + 1, width_), y0 = std::max(y - r, 0), y1 = std::min(y + r + 1, height_);
-    return table_[index(x1, y1)] - table_[index(x0, y1)] - table_[index(x1, y0)] + table_[index(x0, y0)];
-  }
-
-private:
-  std::size_t index(int x, int y) const
-  {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 1) + static_cast<std::size_t>(x);
-  }
-  int width_, height_;
-  std::vector<double> table_;
-};
-
-/// What a photon is worth around each pixel, as a mean of R, G and B: Poisson noise has the variance mean times worth. 0 in the dark.
-std::vector<double> photon_worth(std::span<const double> light, std::span<const float> error_draw, int width, int height)
+/// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in the dark.
+std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height)
 {
-  std::vector<double> variance(light.size());
-  for (std::size_t i = 0; i < error_draw.size(); ++i) variance[i / 3] += std::pow(static_cast<double>(error_draw[i]), 2) / 3;
-  const SummedArea lights(light, width, height), variances(variance, width, height);
-  std::vector<double> worth(light.size());
-  for (std::size_t i = 0; i < worth.size(); ++i) {
+  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
+  const SummedArea variances(width, height, [&](std::size_t i) {
+    const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
+    return (r * r + g * g + b * b) / 3;
+  });
+  std::vector<double> portion(light.size());
+  for (std::size_t i = 0; i < portion.size(); ++i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double near = lights.around(x, y, noise_reach);
-    worth[i] = near > 0 ? std::max(variances.around(x, y, noise_reach), 0.0) / near : 0;
+    const double near = lights.mean(x, y, noise_reach);
+    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_reach), 0.0) / near : 0;
   }
-  return worth;
+  return portion;
 }
 
 } // namespace
@@ -142,24 +120,32 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) 
   if (error_draw.empty()) return;
   std::vector<double> light(seen_.size());
   for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
-  const std::vector<double> worth = photon_worth(light, error_draw, width_, height_);
+  const std::vector<double> portion = portions(light, error_draw, width_, height_);
   std::vector<float> rgb_spread(rgb.size()), draw_spread(rgb.size());
-  Kernel kernel;
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    const auto is_zero = [i](const std::vector<float>& v) { return v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0; };
-    if (is_zero(rgb) && is_zero(error_draw)) continue;
-    find_kernel(i, enough_photons * worth[i], light, kernel);
-    const std::size_t size = kernel.pixels.size();
-    const auto all = static_cast<double>(kernel.inside) + kernel.ring_weight * static_cast<double>(size - kernel.inside);
-    for (std::size_t k = 0; k < size; ++k) {
-      const auto part = static_cast<float>((k < kernel.inside ? 1 : kernel.ring_weight) / all);
-      const std::size_t j = kernel.pixels[k];
-      for (std::size_t c = 0; c < 3; ++c) {
-        rgb_spread[3 * j + c] += part * rgb[3 * i + c];
-        draw_spread[3 * j + c] += part * error_draw[3 * i + c];
+  const auto is_zero = [](const std::vector<float>& v, std::size_t i) { return v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0; };
+  // A block of rows takes what all pixels within reach of it spread, in their order: the same bits on any number of cores.
+  for_ranges(static_cast<std::size_t>(height_), block_rows, [&](std::size_t, Range rows) {
+    const std::size_t width = static_cast<std::size_t>(width_), first = rows.begin * width, end = rows.end * width;
+    const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
+    const std::size_t to = std::min<std::size_t>(rows.end + reach, static_cast<std::size_t>(height_)) * width;
+    Kernel kernel;
+    for (std::size_t i = from; i < to; ++i) {
+      if (is_zero(rgb, i) && is_zero(error_draw, i)) continue;
+      // Of n portions the noise is 1 / sqrt(n).
+      find_kernel(i, portion[i] / (noise * noise), light, kernel);
+      const std::size_t size = kernel.pixels.size();
+      const auto all = static_cast<double>(kernel.inside) + kernel.ring_weight * static_cast<double>(size - kernel.inside);
+      for (std::size_t k = 0; k < size; ++k) {
+        const std::size_t j = kernel.pixels[k];
+        if (j < first || j >= end) continue;
+        const auto part = static_cast<float>((k < kernel.inside ? 1 : kernel.ring_weight) / all);
+        for (std::size_t c = 0; c < 3; ++c) {
+          rgb_spread[3 * j + c] += part * rgb[3 * i + c];
+          draw_spread[3 * j + c] += part * error_draw[3 * i + c];
+        }
       }
     }
-  }
+  });
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics of few photons made smooth: the light of every pixel is spread over as many pixels around it as together hold enough photons.
+// Caustics of few photons made smooth: the light of every pixel is spread over as many pixels around it as make its noise small enough.
 //
 // Photons on a surface are a sample of a density, and a histogram over pixels is the noisiest estimate of it. This is the sample-point
 // estimate with adaptive kernels (Abramson 1982, "On bandwidth variation in kernel estimates"): narrow where photons are dense, so that
-// bright lines stay sharp, wide where they are few. A pixel that holds enough photons by itself is left alone, and in the end
-// all do: the limit is that of the plain film. Power is neither lost nor made.
+// bright lines stay sharp, wide where they are few. A pixel that is not noisy is left alone, and in the end none is: the limit is that
+// of the plain film. Power is neither lost nor made.
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -19,10 +19,12 @@ namespace nephroid::spectral {
 
 class Smoothing {
 public:
-  /// Photons that a kernel holds: noise of a quarter of the light. Kernels of 4 times as many halve that, and blur where 16 do not.
-  static constexpr double enough_photons = 16;
+  /// What is allowed of noise: the root of the mean variance of R, G and B over the mean of R, G and B. Of grey photons a kernel holds 1 /
+  /// noise^2 = 16. A smaller one blurs what need not be.
+  static constexpr double noise = 0.25;
 
-  /// Looks once through the middle of every pixel: light is spread within one nearly flat part of one surface.
+  /// Looks once through the middle of every pixel, on every core: light is spread within one nearly flat part of the surface that is met
+  /// first. What glass and mirrors show is spread within what they are, whatever is behind them.
   Smoothing(const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// What it keeps, in bytes.

@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 3;
+constexpr std::uint32_t checkpoint_version = 4;
 
 bool runs(const plan::Plan& plan, const std::string& name)
 {
@@ -119,11 +119,16 @@ public:
   {
     auto picture = std::make_shared<job::Picture>(black());
     job::Snapshot snapshot;
+    const bool smooths = smoothing_ && at_.pass >= 2; // with both halves whole: what a few photons of one tell of the noise makes blotches
     for (std::size_t s = 0; s < stages_.size(); ++s) {
-      if (!smoothing_ || !stages_[s].caustics) stages_[s].stage->develop(at_.pass, s < at_.stage, *picture);
+      if (smooths && stages_[s].caustics)
+        layer_of(*picture, "caustic"); // its place among the layers
+      else
+        stages_[s].stage->develop(at_.pass, s < at_.stage, *picture);
       snapshot.phases.emplace_back(stages_[s].stage->name(), stages_[s].seconds);
     }
-    if (smoothing_) add_smooth_caustics(*picture);
+    if (smooths) add_smooth_caustics(*picture);
+    if (smoothing_) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
     for (const job::Layer& layer : picture->layers)
       for (std::size_t i = 0; i < layer.rgb.size(); ++i) picture->rgb[i] += layer.rgb[i];
     snapshot.picture = std::move(picture);
@@ -183,6 +188,7 @@ private:
     double energy_from = 0; ///< passes of photons when the energy counters began
   };
 
+  /// A black picture without layers, with room for a draw of its error where films have halves.
   job::Picture black() const
   {
     job::Picture picture;
@@ -193,13 +199,16 @@ private:
     return picture;
   }
 
+  /// Adds the layer "caustic", spread, and its error.
   void add_smooth_caustics(job::Picture& picture)
   {
     job::Picture caustics = black();
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (stages_[s].caustics) stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
     std::vector<float>& rgb = layer_of(caustics, "caustic").rgb;
+    const auto begin = Clock::now();
     smoothing_->spread(rgb, caustics.error_draw);
+    smoothing_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
     layer_of(picture, "caustic").rgb = std::move(rgb);
     if (caustics.error_draw.empty()) picture.error_draw.clear();
     for (std::size_t i = 0; i < picture.error_draw.size(); ++i) picture.error_draw[i] += caustics.error_draw[i];
@@ -246,6 +255,7 @@ private:
   std::unique_ptr<Relighting> relighting_;
   std::unique_ptr<PhotonMap> map_;
   std::optional<Smoothing> smoothing_;
+  double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
   std::optional<double> stop_seconds_;
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
   std::vector<TimedStage> stages_;

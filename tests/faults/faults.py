@@ -102,6 +102,7 @@ FAULTS = [
     Fault("a sheet has one side", "photon_map.h", "* 2 + (front ? 1 : 0)", "* 2"),
     Fault("the eye's wavelength is of another pass", "view.cl", "band_of_pass(&world, cluster, part, seed, pass)",
           "band_of_pass(&world, cluster, part, seed, pass + 1u)"),
+    Fault("each of a pixel's paths counts in full", "view.cl", "float weight = 1.0f / (float)path_count;", "float weight = 1.0f;"),
     Fault("view's cluster without its probability", "view.cl", "(cluster_cdf[cluster + 1] - cluster_cdf[cluster])", "(1.0f / (float)scene.cluster_count)"),
     Fault("flux does not shrink with its radius", "gather.cl", "(pixel.flux[1] + flux.y) * shrink", "(pixel.flux[1] + flux.y)"),
     Fault("view without a mirror's losses", "view.cl", "if (!losses->any) return part;", "return part;"),

@@ -151,6 +151,16 @@ TEST_F(Runs, FinishedOnesSaySoAndCanBeExtended)
   EXPECT_TRUE(picture("a") == picture("b"));
 }
 
+TEST_F(Runs, MayBeSmoothedFromAPassOn)
+{
+  ASSERT_EQ(run("a", {"--passes", "3"}).exit_code, 0);
+  ASSERT_EQ(run("a", {"--passes", "6", "--resume", "--set", "spectral.smoothing=true"}).exit_code, 0);
+  ASSERT_EQ(run("b", {"--passes", "6", "--set", "spectral.smoothing=true"}).exit_code, 0);
+  ASSERT_EQ(run("c", {"--passes", "6"}).exit_code, 0);
+  EXPECT_TRUE(picture("a") == picture("b"));
+  EXPECT_FALSE(picture("a") == picture("c"));
+}
+
 TEST_F(Runs, RefuseCheckpointsOfAMeshThatHasChangedSince)
 {
   const auto mesh = [](double top) {

@@ -75,15 +75,17 @@ TEST(SmoothedRun, leaves_other_layers_alone)
 
 TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
 {
-  EXPECT_TRUE(smoothing_pass(ball(1, true)).runs);
-  EXPECT_FALSE(smoothing_pass(ball(1, false)).runs);
-  preset::Preset whole = ball(1, true), sppm = ball(1, true);
+  EXPECT_TRUE(smoothing_pass(ball(2, true)).runs);
+  EXPECT_FALSE(smoothing_pass(ball(2, false)).runs);
+  EXPECT_FALSE(smoothing_pass(ball(1, true)).runs);
+  preset::Preset whole = ball(2, true), sppm = ball(2, true);
   whole.measure.estimate = false;
   EXPECT_FALSE(smoothing_pass(whole).runs);
   EXPECT_EQ(smoothing_pass(whole).field, "/measure/estimate");
+  EXPECT_TRUE(smoothing_pass(whole).run_value);
   sppm.spectral.estimator = preset::Spectral::Estimator::sppm;
   EXPECT_FALSE(smoothing_pass(sppm).runs);
-  EXPECT_EQ(smoothing_pass(sppm).field, "/spectral/estimator");
+  EXPECT_EQ(smoothing_pass(sppm).field, "");
 }
 
 } // namespace

@@ -138,6 +138,41 @@ TEST(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
   EXPECT_NEAR(line, was, 0.02 * was);
 }
 
+TEST(Smoothing, leaves_a_picture_of_one_pixel_alone)
+{
+  preset::Preset p;
+  p.source = "p.json";
+  p.scene.camera.resolution = {1, 1};
+  const scene::Scene scene = scene::load_scene(p);
+  std::vector<float> rgb{3, -1, 2}, draw{1, 1, 1};
+  spectral::Smoothing(scene, scene::build_bvh(scene.geometry)).spread(rgb, draw);
+  EXPECT_EQ(rgb, (std::vector<float>{3, -1, 2}));
+  EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
+}
+
+TEST(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
+{
+  const FloorAndWall room;
+  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const auto spread_of = [&](bool green) {
+    Photons photons = scatter([](int, int) { return 2.0; }, 7);
+    if (green)
+      for (std::size_t i = 0; i < photons.rgb.size(); i += 3)
+        photons.rgb[i] = photons.rgb[i + 2] = photons.error_draw[i] = photons.error_draw[i + 2] = 0;
+    smoothing.spread(photons.rgb, photons.error_draw);
+    double s = 0, s2 = 0, n = 0;
+    for (int y = size / 2 + 8; y < size - 8; ++y)
+      for (int x = 8; x < size - 8; ++x) {
+        const double v = photons.rgb[3 * static_cast<std::size_t>(y * size + x) + 1];
+        s += v, s2 += v * v, n += 1;
+      }
+    return s2 / n - s * s / (n * n);
+  };
+  // The mean of R, G and B is a third of G, and the mean variance a third of G's: three times the relative variance, so three times the
+  // pixels.
+  EXPECT_LT(spread_of(true), 0.6 * spread_of(false));
+}
+
 TEST(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
 {
   const FloorAndWall room;

@@ -12,11 +12,18 @@
 #include <algorithm>
 
 namespace nephroid::spectral {
+
+std::uint32_t eye_paths_a_pass(const DeviceTables& tables)
+{
+  const auto pixels = static_cast<std::uint32_t>(tables.camera.width * tables.camera.height);
+  return std::clamp(tables.photons_per_pass / pixels, 1u, 16u);
+}
+
 namespace {
 
 using Estimator = preset::Spectral::Estimator;
 
-plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene, bool caustics)
+plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool caustics)
 {
   if (!caustics) return {"photon maps", false, "there are no caustics to gather", "", false};
   const std::string radius = fmt::format("from {:.3g} units around a visible point", first_map_radius(settings, scene));
@@ -31,23 +38,19 @@ plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene,
     const std::string seen = sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror";
     return {"photon maps", false, "spectral.estimator is splat: " + seen, "", false};
   }
-  return omission("photon_maps", settings.leave_out.photon_maps, sees,
-                  sees ? "caustics seen through glass or in a mirror are gathered, " + radius + "; the others are splatted"
-                       : "the camera sees no glass and no mirror, so every caustic is splatted");
+  return omission(
+      "photon_maps", settings.leave_out.photon_maps, sees,
+      sees ? fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
+                         radius, eye_paths_a_pass(tables) == 1 ? "1 path" : fmt::format("{} paths", eye_paths_a_pass(tables)))
+           : "the camera sees no glass and no mirror, so every caustic is splatted");
 }
 
 } // namespace
 
-std::uint32_t eye_paths_a_pass(const DeviceTables& tables)
-{
-  const auto pixels = static_cast<std::uint32_t>(tables.camera.width * tables.camera.height);
-  return std::clamp(tables.photons_per_pass / pixels, 1u, 16u);
-}
-
 MapPlan plan_maps(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool caustics,
                   std::uint64_t film_bytes)
 {
-  MapPlan plan{map_pass(settings, scene, caustics), {}};
+  MapPlan plan{map_pass(settings, scene, tables, caustics), {}};
   if (!plan.pass.runs) return plan;
   const std::uint64_t clusters = tables.wavelengths.clusters.size(), groups = 2 * clusters * scene.objects.size();
   if (groups > MAX_PHOTON_GROUPS)

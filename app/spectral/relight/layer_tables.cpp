@@ -4,6 +4,7 @@
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/exact_cdf.h"
 #include "spectral/effort/worth.h"
+#include "spectral/tables/scales.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +84,7 @@ double layer_energy_scale(const LayerLight& light, const DeviceTables& tables)
 {
   double watts = 0;
   for (std::size_t l = 0; l < light.power.size(); ++l) watts += tables.towards_targets_w[l] * light.power[l];
-  return watts > 0 ? std::exp2(40 - std::ceil(std::log2(watts))) : 1;
+  return energy_scale(watts);
 }
 
 DeviceTables make_run_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)

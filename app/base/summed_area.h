@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sums of one channel of a picture over any square, from four numbers each (Crow 1984, "Summed-area tables for texture mapping").
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace nephroid {
+
+class SummedArea {
+public:
+  /// value(pixel): the channel of a pixel, row by row from the top.
+  template <class Value>
+  SummedArea(int width, int height, const Value& value) : width_(width), height_(height)
+  {
+    const std::size_t stride = static_cast<std::size_t>(width) + 1;
+    sums_.assign(stride * (static_cast<std::size_t>(height) + 1), 0.0);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+      double row = 0;
+      for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+        row += value(y * static_cast<std::size_t>(width) + x);
+        sums_[(y + 1) * stride + x + 1] = sums_[y * stride + x + 1] + row;
+      }
+    }
+  }
+
+  /// Of the square that reaches so many pixels to each side of (x, y), as much of it as is in the picture.
+  double mean(int x, int y, int reach) const
+  {
+    const int left = std::max(x - reach, 0), right = std::min(x + reach + 1, width_);
+    const int top = std::max(y - reach, 0), bottom = std::min(y + reach + 1, height_);
+    const double sum = at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
+    return sum / (static_cast<double>(right - left) * (bottom - top));
+  }
+
+private:
+  /// Of all pixels left of x and above y.
+  double at(int x, int y) const
+  {
+    return sums_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) + static_cast<std::size_t>(x)];
+  }
+  int width_, height_;
+  std::vector<double> sums_;
+};
+
+} // namespace nephroid
