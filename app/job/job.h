@@ -68,7 +68,7 @@ public:
   virtual void step() = 0;
   virtual bool finished() const = 0;
   virtual Progress progress() const = 0;
-  /// Reads the device's state; costs a few milliseconds.
+  /// Reads the device's state and makes a picture of it: a few milliseconds; with smoothing a tenth of a second or more for large pictures.
   virtual Snapshot snapshot() = 0;
   /// Of its error so far, without a snapshot; null where nothing is measured.
   virtual std::shared_ptr<const History> history() const { return nullptr; }

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -21,6 +22,9 @@ using Clock = std::chrono::steady_clock;
 
 /// Longer than a frame of the window.
 constexpr std::chrono::milliseconds adoption_linger{25};
+
+/// After a snapshot the job works at least so many times as long as that took: large pictures may take longer than the interval.
+constexpr int work_a_snapshot = 4;
 
 bool is_over(State state)
 {
@@ -62,7 +66,9 @@ struct Worker::Impl {
   Status status;
   std::shared_ptr<const Snapshot> snapshot;
 
-  std::uint64_t adopted = 0; ///< the newest adoption that the job in hand knows of; the thread's own
+  // The thread's own
+  std::uint64_t adopted = 0;       ///< the newest adoption that the job in hand knows of
+  Clock::duration snapshot_took{}; ///< to make the newest one
   std::thread thread;
 
   bool must_stop(std::uint64_t generation) const { return cancelled || ending || status.generation != generation; }
@@ -110,8 +116,11 @@ struct Worker::Impl {
     });
   }
 
-  void publish(std::uint64_t generation, Snapshot&& made)
+  void publish(std::uint64_t generation, Job& job)
   {
+    const Clock::time_point begin = Clock::now();
+    Snapshot made = job.snapshot();
+    snapshot_took = Clock::now() - begin;
     made.adoption = adopted;
     auto shared = std::make_shared<const Snapshot>(std::move(made)); // the old one is freed after the lock: pictures are megabytes
     update(generation, [&] {
@@ -156,7 +165,7 @@ struct Worker::Impl {
         return true;
       }
       adopted = number;
-      publish(generation, job.snapshot());
+      publish(generation, job);
       update(generation, [&] { status.message.clear(); });
       return true;
     } catch (...) {
@@ -179,17 +188,17 @@ struct Worker::Impl {
         continue;
       }
       job.step();
-      std::chrono::milliseconds wait{};
+      Clock::duration wait{};
       update(generation, [&, progress = job.progress()] {
         status.progress = progress;
-        wait = interval;
+        wait = std::max<Clock::duration>(interval, work_a_snapshot * snapshot_took);
       });
       if (!shown || Clock::now() - *shown >= wait) {
-        publish(generation, job.snapshot());
+        publish(generation, job);
         shown = Clock::now();
       }
     }
-    if (is_wanted(generation)) publish(generation, job.snapshot());
+    if (is_wanted(generation)) publish(generation, job);
     return job.finished() ? State::finished : State::cancelled;
   }
 

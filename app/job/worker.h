@@ -42,7 +42,8 @@ public:
   /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first, so that a
   /// view does not flicker. Never waits for the device.
   std::shared_ptr<const Snapshot> snapshot() const;
-  /// How often snapshots are made while running (default 100 ms; the first after the first step).
+  /// How often snapshots are made while running (default 100 ms; the first after the first step). Where one takes so long that this
+  /// would be more than a fifth of the time, they are made less often.
   void set_snapshot_interval(std::chrono::milliseconds interval);
   /// Blocks until the job is finished, cancelled or failed; for tests.
   void wait();

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <thread>
@@ -111,6 +112,53 @@ TEST(Worker, SnapshotsComeAtTheirInterval)
       const auto snapshot = worker.snapshot();
       return snapshot && snapshot->picture->rgb[0] > last && (last = snapshot->picture->rgb[0]) > 0;
     }));
+}
+
+/// Its pictures take longer than its steps; it notes when they begin and end.
+class SlowPictureJob : public CountingJob {
+public:
+  using Clock = std::chrono::steady_clock;
+  struct Times {
+    std::atomic<int> begun{0};
+    Clock::time_point begin[8], end[8];
+  };
+  SlowPictureJob(int steps, Times& times) : CountingJob(steps), times_(times) {}
+  Snapshot snapshot() override
+  {
+    const auto i = static_cast<std::size_t>(std::min(times_.begun++, 7));
+    times_.begin[i] = Clock::now();
+    std::this_thread::sleep_for(5ms);
+    times_.end[i] = Clock::now();
+    return CountingJob::snapshot();
+  }
+
+private:
+  Times& times_;
+};
+
+// What the job measures of itself is less than what the worker does, and what lies between two snapshots is more: this holds however busy
+// the machine is.
+TEST(Worker, SlowSnapshotsLeaveTheJobFourFifthsOfTheTime)
+{
+  SlowPictureJob::Times times;
+  {
+    Worker worker;
+    worker.set_snapshot_interval(0ms);
+    worker.start([&] { return std::make_unique<SlowPictureJob>(endless, times); });
+    ASSERT_TRUE(eventually([&] { return times.begun > 4; }));
+  } // joined; the last one may be the one at the end, which does not wait
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_GE(times.begin[i] - times.end[i - 1], 4 * (times.end[i - 1] - times.begin[i - 1])) << i;
+}
+
+TEST(Worker, TheLastSnapshotDoesNotWait)
+{
+  SlowPictureJob::Times times;
+  Worker worker;
+  worker.set_snapshot_interval(0ms);
+  worker.start([&] { return std::make_unique<SlowPictureJob>(2, times); });
+  worker.wait();
+  EXPECT_EQ(times.begun, 2) << "after the first step and at the end";
+  EXPECT_EQ(worker.snapshot()->picture->rgb[0], 2);
 }
 
 TEST(Worker, CancelLeavesTheLastSnapshot)
