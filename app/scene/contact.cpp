@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/contact.h"
 
-#include "scene/place.h"
+#include "scene/corners.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nephroid::scene {
 namespace {
@@ -15,18 +14,6 @@ namespace {
 /// Of the largest coordinate of the two objects. Rays start 2^-21 of a triangle's coordinates off it (kernels/surface.h), so this is
 /// several times what either side's rays step over.
 constexpr double gap_share = 0x1p-18, touching_share = 0x1p-21;
-
-Bounds bounds_of(const Scene& scene, const Object& object)
-{
-  Bounds bounds{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(-std::numeric_limits<double>::max())};
-  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
-    for (int corner = 0; corner < 3; ++corner) {
-      const glm::dvec3 p = scene.geometry.positions[scene.geometry.triangles[t][corner]];
-      bounds.low = glm::min(bounds.low, p);
-      bounds.high = glm::max(bounds.high, p);
-    }
-  return bounds;
-}
 
 double largest_coordinate(const Bounds& a, const Bounds& b)
 {
@@ -56,11 +43,10 @@ template <class Change>
 void change_vertices(Scene& scene, const Object& object, int axis, const Change& change)
 {
   std::uint32_t first = ~0u, last = 0;
-  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
-    for (int corner = 0; corner < 3; ++corner) {
-      first = std::min(first, scene.geometry.triangles[t][corner]);
-      last = std::max(last, scene.geometry.triangles[t][corner]);
-    }
+  for_each_corner_index(scene, object, [&](std::uint32_t vertex) {
+    first = std::min(first, vertex);
+    last = std::max(last, vertex);
+  });
   for (std::uint32_t v = first; v <= last; ++v) {
     float& coordinate = scene.geometry.positions[v][axis];
     coordinate = static_cast<float>(change(coordinate));

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace nephroid::scene {
@@ -137,7 +136,7 @@ Placement make_placement(const preset::Transform& transform, const std::string& 
 
 Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const std::string& where)
 {
-  Bounds bounds{glm::dvec3(std::numeric_limits<double>::max()), glm::dvec3(-std::numeric_limits<double>::max())};
+  Bounds bounds;
   for (const glm::uvec3& triangle : mesh.triangles) {
     for (int i = 0; i < 3; ++i) {
       const glm::dvec3 p = placement.linear * glm::dvec3(mesh.positions[triangle[i]]) + placement.offset;
@@ -149,8 +148,6 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const std::st
   }
   return bounds;
 }
-
-Bounds enclosing(const Bounds& a, const Bounds& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
 
 Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const std::string& where)
 {

@@ -2,6 +2,7 @@
 // One object's mesh into the scene: transformed in double, moved to the scene's origin, rounded once, then checked. Private to scene/.
 #pragma once
 #include "preset/preset.h"
+#include "scene/corners.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
@@ -15,10 +16,6 @@ namespace nephroid::scene {
 struct Placement {
   glm::dmat3 linear{1};
   glm::dvec3 offset{0};
-};
-
-struct Bounds {
-  glm::dvec3 low{0}, high{0};
 };
 
 /// What is wrong with a dielectric's mesh, so that inside and outside are not clear; without the object's name.
@@ -39,7 +36,6 @@ struct Placed {
 Placement make_placement(const preset::Transform& transform, const std::string& where);
 /// In the preset's coordinates. Throws bad_input at where: they leave single precision.
 Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const std::string& where);
-Bounds enclosing(const Bounds& a, const Bounds& b);
 
 /// origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation matter then.
 /// Throws bad_input at where: too large, too small or too far away for single precision.

@@ -2,6 +2,7 @@
 #include "spectral/omissions.h"
 
 #include "preset/choices.h"
+#include "scene/corners.h"
 #include "spectral/tables/device_scene.h"
 #include "spectral/tables/targets.h"
 
@@ -44,13 +45,6 @@ bool anything_bends(const scene::Scene& scene)
   });
 }
 
-template <class Visit>
-void for_each_corner(const scene::Scene& scene, const scene::Object& object, const Visit& visit)
-{
-  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
-    for (int corner = 0; corner < 3; ++corner) visit(glm::dvec3(scene.geometry.positions[scene.geometry.triangles[t][corner]]));
-}
-
 /// False only where all of the object is beyond one side of the camera's pyramid, or behind the camera.
 bool may_be_in_view(const scene::Scene& scene, const scene::Object& object)
 {
@@ -58,7 +52,7 @@ bool may_be_in_view(const scene::Scene& scene, const scene::Object& object)
   const glm::dvec3 eye = c.position, right = c.right, up = c.up, forward = c.forward;
   std::array<bool, 5> beyond;
   beyond.fill(true);
-  for_each_corner(scene, object, [&](const glm::dvec3& p) {
+  scene::for_each_corner(scene, object, [&](const glm::dvec3& p) {
     const glm::dvec3 way = p - eye;
     const double z = glm::dot(way, forward), x = glm::dot(way, right), y = glm::dot(way, up);
     // Single precision decides which pixel a point is in: what is outside by less counts as inside.
@@ -79,11 +73,11 @@ struct Plane {
 std::optional<Plane> plane_of(const scene::Scene& scene, const scene::Object& object)
 {
   if (object.triangle_count == 0) return std::nullopt;
-  const glm::uvec3 first = scene.geometry.triangles[object.first_triangle];
+  const glm::uvec3 first = scene::triangles_of(scene, object).front();
   const auto corner = [&](std::uint32_t vertex) { return glm::dvec3(scene.geometry.positions[vertex]); };
   Plane plane{corner(first.x), glm::normalize(glm::cross(corner(first.y) - corner(first.x), corner(first.z) - corner(first.x))), 0};
   double largest = 0, highest = 0;
-  for_each_corner(scene, object, [&](const glm::dvec3& p) {
+  scene::for_each_corner(scene, object, [&](const glm::dvec3& p) {
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     highest = std::max(highest, std::abs(plane.height(p)));
   });
@@ -105,8 +99,8 @@ bool nothing_blocks_the_view(const scene::Scene& scene)
     if (side * plane->height(eye) <= plane->tolerance) return false;
     for (const std::size_t j : seen) {
       bool behind = false;
-      for_each_corner(scene, scene.objects[j],
-                      [&](const glm::dvec3& p) { behind = behind || side * plane->height(p) < -plane->tolerance; });
+      scene::for_each_corner(scene, scene.objects[j],
+                             [&](const glm::dvec3& p) { behind = behind || side * plane->height(p) < -plane->tolerance; });
       if (behind) return false;
     }
   }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/clusters/losses.h"
 
+#include "scene/corners.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace nephroid::spectral {
@@ -15,17 +16,10 @@ constexpr double blackest = 200;
 /// Of the box about all objects of a material, in metres.
 double diagonal_m(const scene::Scene& scene, std::size_t material)
 {
-  glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
-  for (const scene::Object& object : scene.objects) {
-    if (static_cast<std::size_t>(object.material) != material) continue;
-    for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
-      for (int corner = 0; corner < 3; ++corner) {
-        const glm::vec3& p = scene.geometry.positions[scene.geometry.triangles[t][corner]];
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-      }
-  }
-  return low.x <= high.x ? static_cast<double>(glm::length(high - low)) * scene.metres_per_unit : 0;
+  scene::Bounds bounds;
+  for (const scene::Object& object : scene.objects)
+    if (static_cast<std::size_t>(object.material) == material) bounds = scene::enclosing(bounds, scene::bounds_of(scene, object));
+  return bounds.low.x <= bounds.high.x ? glm::length(bounds.high - bounds.low) * scene.metres_per_unit : 0;
 }
 
 /// By rising coefficient, a new part where the difference to the first of the part gets too large. That difference rises with the

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "optics/colour.h"
+#include "scene/corners.h"
 #include "scene/ray.h"
 #include "spectral/omissions.h"
 #include "spectral/tables/targets.h"
@@ -13,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <string>
 
@@ -42,13 +42,7 @@ Spectrum reflectance_of(const scene::Material& material)
 /// a floor has corners of its box in the floor, and they are to see it.
 std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Object& object)
 {
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
-    for (int corner = 0; corner < 3; ++corner) {
-      const glm::dvec3 p = scene.geometry.positions[scene.geometry.triangles[t][corner]];
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
+  const auto [low, high] = scene::bounds_of(scene, object);
   const glm::dvec3 centre = 0.5 * (low + high), half = 0.999 * 0.5 * (high - low);
   std::array<glm::dvec3, 9> points;
   for (int i = 0; i < 8; ++i)
