@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -32,19 +33,22 @@ void check_texels(const std::vector<float>& rgb, int width, const std::string& f
 }
 
 /// The film has 2^24 quanta for a mean texel (spectral/tables/background_tables.cpp). Says where one or few texels are so much brighter
-/// than half of the others that those get fewer than 16.
-void check_range(std::vector<float> rgb, const std::string& name, std::vector<std::string>& warnings)
+/// than half of the others that those get fewer than 16. Values of 0 do not count: they are black in any film.
+void check_range(const std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings)
 {
-  const double mean = std::accumulate(rgb.begin(), rgb.end(), 0.0) / static_cast<double>(rgb.size());
-  std::erase(rgb, 0.0f);
-  if (rgb.empty()) return;
-  const auto middle = rgb.begin() + static_cast<std::ptrdiff_t>(rgb.size() / 2);
-  std::nth_element(rgb.begin(), middle, rgb.end());
-  if (const double share = double(*middle) / mean; share < 0x1p-20)
-    warnings.push_back(
-        fmt::format("environment {}: half of it is below {:.1g} of its mean, less than the film's numbers resolve, and looks black "
-                    "or is noise; clip its brightest texels",
-                    name, share));
+  const double mean = std::accumulate(rgb.begin(), rgb.end(), 0.0) / static_cast<double>(rgb.size()), least = 0x1p-20 * mean;
+  const auto lit = std::count_if(rgb.begin(), rgb.end(), [](float value) { return value > 0; });
+  const auto faint = std::count_if(rgb.begin(), rgb.end(), [&](float value) { return value > 0 && double(value) < least; });
+  if (faint <= lit / 2) return;
+  std::vector<float> values; // of a large map only where there is something to say
+  values.reserve(static_cast<std::size_t>(lit));
+  std::copy_if(rgb.begin(), rgb.end(), std::back_inserter(values), [](float value) { return value > 0; });
+  const auto middle = values.begin() + lit / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  warnings.push_back(
+      fmt::format("environment {}: half of its values above 0 are below {:.1g} of its mean, less than the film's numbers resolve, and "
+                  "look black or are noise; clip its brightest texels",
+                  name, double(*middle) / mean));
 }
 
 /// The picture alone, without how bright it is and how it is turned.

@@ -164,8 +164,9 @@ const std::vector<Extreme> extremes = {
     {"Beside1e30", "one texel of 1e30 among 1", "said: fixed point cannot hold both",
      [] {
        const TemporaryFolder folder;
-       return warns(one_texel(folder, 1e30f), "environment sky.exr: half of it is below 2e-27 of its mean, less than the film's numbers "
-                                              "resolve, and looks black or is noise; clip its brightest texels");
+       return warns(one_texel(folder, 1e30f),
+                    "environment sky.exr: half of its values above 0 are below 2e-27 of its mean, less than the film's numbers "
+                    "resolve, and look black or are noise; clip its brightest texels");
      }},
     {"Into1e30", "looking into it", "the same", [] { return into(1e30f, 0.01); }},
     {"Into3e38", "looking into one of 3e38", "the same", [] { return into(3e38f, 0.01); }},

@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -109,6 +110,27 @@ TEST_F(SceneEnvironment, AnotherShapeIsStretchedAndSaid)
   EXPECT_EQ(e.height, 4);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], HasSubstr("4 x 4 texels"));
+}
+
+// The film resolves 2^-20 of the mean. What is 0 is black whatever the film resolves.
+TEST_F(SceneEnvironment, ARangeThatTheFilmCannotHoldIsSaid)
+{
+  std::vector<float> sky(3 * 8, 1.0f);
+  sky[5] = 1e12f;
+  load(write_exr(sky, 4));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("sky.exr: half of its values above 0 are below 2e-11 of its mean"));
+  warnings.clear();
+  std::fill(sky.begin(), sky.end(), 0.0f);
+  for (const std::size_t i : {0, 1, 2, 3}) sky[i] = i < 2 ? 1e12f : 1;
+  load(write_exr(sky, 4));
+  EXPECT_THAT(warnings, IsEmpty()) << "half is not more than half";
+  sky[4] = 1;
+  load(write_exr(sky, 4));
+  EXPECT_EQ(warnings.size(), 1u);
+  warnings.clear();
+  load(write_exr(std::vector<float>(3 * 8, 0.0f), 4));
+  EXPECT_THAT(warnings, IsEmpty());
 }
 
 TEST_F(SceneEnvironment, TheSceneHasIt)
