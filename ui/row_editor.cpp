@@ -1,14 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/row_editor.h"
 
+#include "preset/describe_limits.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace nephroid::ui {
+namespace {
+
+/// Why add_row adds nothing.
+std::string refusal(const std::vector<Row>& rows, const Row& row, const RowRules& rules)
+{
+  if (rows.size() >= preset::max_rows) return fmt::format("a preset has at most {} rows", preset::max_rows);
+  if (!std::isfinite(row[0]) || !std::isfinite(row[1])) return "its place is not finite";
+  const double nm = std::clamp(row[0], preset::wavelength_bounds.low, preset::wavelength_bounds.high);
+  return fmt::format("another is less than {} nm from {:.6g} nm", rules.least_gap_nm, nm);
+}
+
+} // namespace
 
 void RowEditor::keep(std::size_t rows)
 {
+  removed_ = false;
   if (marked_ && *marked_ >= rows) marked_.reset();
 }
 
@@ -23,6 +40,7 @@ std::optional<RowsEdit> RowEditor::follow(const RowGesture& gesture, std::vector
     gestures_.begin();
     break;
   case Kind::move: {
+    if (removed_) break; // else the row would be back
     const std::vector<Row> before = rows;
     move_row(rows, gesture.row, gesture.to, rules);
     if (rows != before) return RowsEdit{fmt::format("move a {}", rules.noun), std::move(rows), gestures_.number(), true};
@@ -43,8 +61,7 @@ std::optional<RowsEdit> RowEditor::add(std::vector<Row> rows, const Row& row, co
 {
   const auto added = add_row(rows, row, rules);
   if (!added) {
-    commands.push_back(command::Report{
-        fmt::format("no {} was added: another is less than {} nm from {:.6g} nm", rules.noun, rules.least_gap_nm, row[0]), false});
+    commands.push_back(command::Report{fmt::format("no {} was added: {}", rules.noun, refusal(rows, row, rules)), false});
     return std::nullopt;
   }
   marked_ = added;
@@ -58,6 +75,7 @@ std::optional<RowsEdit> RowEditor::remove(std::vector<Row> rows, std::size_t ind
     return std::nullopt;
   }
   marked_.reset();
+  removed_ = true;
   return RowsEdit{fmt::format("remove a {}", rules.noun), std::move(rows)};
 }
 

@@ -48,6 +48,7 @@ public:
 private:
   Gestures& gestures_;
   std::optional<std::size_t> marked_;
+  bool removed_ = false; ///< a row, in this frame: what the mouse does is about rows as they were
 };
 
 } // namespace nephroid::ui

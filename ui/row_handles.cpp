@@ -40,6 +40,12 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
   const Row under_mouse{mouse.x, mouse.y * look.unit};
   const ImPlotRange nm = ImPlot::GetPlotLimits().X;
   const bool few = std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return nm.Contains(row[0]); }) <= most_in_sight;
+  waits_ = waits_ && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+  if (held_ && rows.size() != rows_at_take_) { // removed, or its addition undone: the row of that index is another one now
+    gesture = {Kind::let_go, *held_, {}};
+    held_.reset();
+    waits_ = true;
+  }
   over_row_ = false;
   for (std::size_t i = 0; i < rows.size() && few; ++i) {
     if (held_ != i && !nm.Contains(rows[i][0])) continue;
@@ -50,18 +56,19 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
     draw_point({rows[i][0], rows[i][1] / look.unit}, point_radius * (hovered || held ? 1.3f : 1) * scale(),
                marked == i ? look.marked : look.colour);
     over_row_ |= hovered || held;
-    if (held && !held_) {
+    if (held && !held_ && !waits_) {
       held_ = i;
+      rows_at_take_ = rows.size();
       gesture = {Kind::take, i, {}};
     } else if (held && held_ == i && moved && mouse_moves()) // where the mouse rests, what was undone meanwhile stays undone
       gesture = {Kind::move, i, under_mouse};
-    if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) gesture = {Kind::remove, i, {}};
+    if (hovered && !held_ && !waits_ && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) gesture = {Kind::remove, i, {}};
     if (hovered || held) ImGui::SetTooltip("%s", look.text(rows[i]).c_str());
   }
-  if (held_ && (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || *held_ >= rows.size())) {
+  if (held_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     gesture = {Kind::let_go, *held_, {}};
     held_.reset();
-  } else if (!held_ && !over_row_ && ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+  } else if (!held_ && !waits_ && !over_row_ && ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
     gesture = {Kind::add, 0, under_mouse};
   return gesture;
 }

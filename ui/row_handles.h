@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sorted rows as points of an ImPlot plot that the mouse takes hold of: drag one, click the right button on one, double click beside them.
+// A row that is dragged cannot be clicked; where rows come or go meanwhile, the drag ends.
 #pragma once
 #include "ui/row_editor.h"
 
@@ -30,6 +31,8 @@ public:
 
 private:
   std::optional<std::size_t> held_;
+  std::size_t rows_at_take_ = 0; ///< how many rows there were when the held one was taken
+  bool waits_ = false;           ///< what was held is gone: the mouse holds nothing until its button is let go
   bool over_row_ = false;
 };
 

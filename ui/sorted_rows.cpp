@@ -14,7 +14,7 @@ bool is_finite(const Row& row) { return std::isfinite(row[0]) && std::isfinite(r
 
 double inside(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
 
-/// A sum such as 500.3 + 0.1 as a person writes it, not with 17 figures.
+/// A sum or difference as a person writes it, not with 17 figures: 500.3 + 0.1 is 500.40000000000003, 500.4 - 500.3 is less than 0.1.
 double readable_nm(double nm) { return std::round(1e6 * nm) / 1e6; }
 
 bool before(const Row& a, const Row& b) { return a[0] < b[0]; }
@@ -41,8 +41,9 @@ std::optional<std::size_t> add_row(std::vector<Row>& rows, Row row, const RowRul
   if (!is_finite(row) || rows.size() >= preset::max_rows) return std::nullopt;
   row = {inside(row[0], preset::wavelength_bounds), inside(row[1], rules.value)};
   const auto right = std::upper_bound(rows.begin(), rows.end(), row, before);
-  if (right != rows.begin() && row[0] - (*std::prev(right))[0] < rules.least_gap_nm) return std::nullopt;
-  if (right != rows.end() && (*right)[0] - row[0] < rules.least_gap_nm) return std::nullopt;
+  const auto too_near = [&](const Row& a, const Row& b) { return readable_nm(b[0] - a[0]) < rules.least_gap_nm; };
+  if (right != rows.begin() && too_near(*std::prev(right), row)) return std::nullopt;
+  if (right != rows.end() && too_near(row, *right)) return std::nullopt;
   const auto added = rows.insert(right, row);
   return static_cast<std::size_t>(added - rows.begin());
 }

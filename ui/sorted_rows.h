@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace nephroid::ui {
@@ -18,7 +17,7 @@ using Row = std::array<double, 2>; ///< (nm, value)
 struct RowRules {
   const char* noun = "row"; ///< "control point", for labels and messages
   preset::Bounds value;     ///< of the second number
-  double least_gap_nm = 0;  ///< what rows are dragged to at most, so that no wavelength gets two values
+  double least_gap_nm = 0;  ///< the least distance of neighbours, in nm, so that no wavelength gets two values
   std::size_t fewest = 0;   ///< so many stay
 };
 

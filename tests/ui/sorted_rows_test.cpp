@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows by rising wavelength under edits: they keep apart and inside what a preset may have, drags are one entry, what cannot be is said.
 #include "optics/dispersion.h"
+#include "preset/describe_limits.h"
 #include "ui/dispersion_edits.h"
 #include "ui/light_edits.h"
 #include "ui/row_editor.h"
@@ -77,6 +78,18 @@ TEST(SortedRows, ComeInOrderAndNotTwiceAtAWavelength)
   EXPECT_EQ(rows, before);
 }
 
+// 500.4 - 500.3 is less than 0.1 by rounding.
+TEST(SortedRows, ARowIsAddedAsNearAsOneIsDragged)
+{
+  for (const double nm : {500.2, 500.4}) {
+    std::vector<Row> rows{{400, 1}, {500.3, 1}, {700, 1}};
+    EXPECT_TRUE(add_row(rows, {nm, 1}, powers)) << nm;
+  }
+  std::vector<Row> rows{{500.3, 1}};
+  EXPECT_FALSE(add_row(rows, {500.3999, 1}, powers));
+  EXPECT_FALSE(add_row(rows, {500.2001, 1}, powers));
+}
+
 TEST(SortedRows, TheFewestStay)
 {
   std::vector<Row> rows = three;
@@ -138,6 +151,31 @@ TEST_F(RowEditorTest, WhatCannotBeIsSaid)
   ASSERT_THAT(commands, SizeIs(2));
   EXPECT_THAT(std::get<command::Report>(commands[0]).line, HasSubstr("another is less than 0.5 nm from 500.2 nm"));
   EXPECT_THAT(std::get<command::Report>(commands[1]).line, HasSubstr("at least 2 must stay"));
+}
+
+TEST_F(RowEditorTest, WhyNothingIsAddedIsTrue)
+{
+  std::vector<Row> full(preset::max_rows);
+  for (std::size_t i = 0; i < full.size(); ++i) full[i] = {1000 + double(i), 1};
+  EXPECT_FALSE(editor.add(full, {500, 1.5}, point_rules, commands));
+  EXPECT_FALSE(editor.add(three, {500.2, nan}, point_rules, commands));
+  EXPECT_FALSE(editor.add({{1, 1.5}, {500, 1.5}}, {-3, 1.5}, point_rules, commands));
+  ASSERT_THAT(commands, SizeIs(3));
+  EXPECT_EQ(std::get<command::Report>(commands[0]).line, "no control point was added: a preset has at most 100000 rows");
+  EXPECT_EQ(std::get<command::Report>(commands[1]).line, "no control point was added: its place is not finite");
+  EXPECT_EQ(std::get<command::Report>(commands[2]).line, "no control point was added: another is less than 0.5 nm from 1 nm")
+      << "where it would be";
+}
+
+// Delete while the mouse drags: both edits would be of the rows as they were, and the later one would bring the row back.
+TEST_F(RowEditorTest, WhatIsRemovedIsNotMovedInTheSameFrame)
+{
+  editor.keep(3);
+  follow({Kind::take, 1, {}});
+  ASSERT_TRUE(editor.remove(three, 1, point_rules, commands));
+  EXPECT_FALSE(follow({Kind::move, 1, {510, 1.55}}));
+  editor.keep(2);
+  EXPECT_TRUE(follow({Kind::move, 1, {510, 1.55}}));
 }
 
 } // namespace

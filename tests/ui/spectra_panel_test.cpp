@@ -18,6 +18,7 @@ namespace {
 
 using test::eventually;
 using test::room_text;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -121,6 +122,24 @@ TEST_F(SpectraPanelTest, RowsAreAddedAndRemoved)
   click("copy");
   EXPECT_EQ(std::string(ImGui::GetClipboardText()), to_csv(spectra()));
   EXPECT_TRUE(workbench.messages().empty());
+}
+
+// row_drags_test.cpp has the other ways in which rows go while one is dragged.
+TEST_F(SpectraPanelTest, DeleteWhileARowIsDraggedMovesNoOther)
+{
+  open_room(table);
+  const auto held = panel().plot().place(600, 0.5);
+  press_at(held);
+  move({held[0] + 10, held[1] - 10});
+  frame();
+  ASSERT_NE(light().table[2], (PowerRow{600, 0.5}));
+  press(ImGuiKey_Delete);
+  move({held[0] + 20, held[1] - 40});
+  frames(2);
+  EXPECT_THAT(light().table, ElementsAre(PowerRow{400, 0.2}, PowerRow{500, 1}, PowerRow{700, 0.8}));
+  let_go();
+  frame();
+  EXPECT_THAT(light().table, SizeIs(3));
 }
 
 TEST_F(SpectraPanelTest, LinesAreDraggedAndATemperatureIsOneEntry)
