@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a plan says of the switch behind a pass is true: the field is a boolean of the preset, and its run_value turns the pass on, or at
+// least not off. The window draws a check box from it and the command line names it.
+#include "base/error.h"
+#include "preset/read.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/leaving_out_scenes.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+namespace {
+
+using nlohmann::json;
+using Estimator = preset::Spectral::Estimator;
+
+/// Nothing where presets may not have these values together.
+std::optional<preset::Preset> with_field(const preset::Preset& p, const std::string& pointer, bool value)
+{
+  json fields = json::parse(preset::to_json(p));
+  fields[json::json_pointer(pointer)] = value;
+  try {
+    return preset::parse_preset(fields.dump(), p.source);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// JSON pointers of the preset's booleans that are no part of its scene.
+std::vector<std::string> switches(const preset::Preset& p)
+{
+  std::vector<std::string> pointers;
+  const json fields = json::parse(preset::to_json(p)).flatten();
+  for (const auto& [pointer, value] : fields.items())
+    if (value.is_boolean() && (pointer.starts_with("/spectral/") || pointer == "/measure/estimate")) pointers.push_back(pointer);
+  return pointers;
+}
+
+preset::Preset named(const std::string& name)
+{
+  preset::Preset p = name == "ball"          ? ball_scene()
+                     : name == "lines"       ? line_light_scene()
+                     : name == "dark lights" ? dark_lights_scene()
+                                             : preset::read_preset(name);
+  for (preset::Object& object : p.scene.objects)
+    if (object.shape) object.shape->segments = std::min(object.shape->segments, 16); // a small tree is soon made
+  if (name == "ball") p.scene.environment = preset::Environment{preset::Environment::Type::constant, "", {1, 1, 1}};
+  p.spectral.jitter = p.spectral.low_discrepancy = p.spectral.smoothing = true;
+  p.stop.passes = 8;
+  return p;
+}
+
+class PlanFields : public testing::TestWithParam<std::string> {
+protected:
+  const preset::Preset preset_ = named(GetParam());
+  const scene::Scene scene_ = scene::load_scene(preset_);
+  const scene::Bvh bvh_ = scene::build_bvh(scene_.geometry);
+  std::set<std::string> found_; ///< the fields of all passes
+
+  /// Of a preset with this scene.
+  plan::Pass pass_of(const preset::Preset& p, const std::string& name) const
+  {
+    const std::vector<plan::Pass> passes = spectral::make_plan(p, scene_, bvh_).passes;
+    const auto found = std::find_if(passes.begin(), passes.end(), [&](const plan::Pass& pass) { return pass.name == name; });
+    return found == passes.end() ? plan::Pass{name, false, "there is no such pass"} : *found;
+  }
+  void expect_true_fields(const preset::Preset& p, const std::string& what)
+  {
+    const json fields = json::parse(preset::to_json(p));
+    for (const plan::Pass& pass : spectral::make_plan(p, scene_, bvh_).passes) {
+      if (pass.field.empty()) continue;
+      SCOPED_TRACE(what + ": " + pass.name + (pass.runs ? " runs: " : " is left out: ") + pass.reason);
+      found_.insert(pass.field);
+      const json::json_pointer pointer(pass.field);
+      ASSERT_TRUE(fields.contains(pointer) && fields[pointer].is_boolean()) << pass.field;
+      if (!pass.runs) {
+        EXPECT_NE(fields[pointer], pass.run_value) << "it is so already";
+      }
+      if (fields[pointer] == pass.run_value) continue; // it is the same preset
+      const auto switched = with_field(p, pass.field, pass.run_value);
+      if (switched && pass.runs) {
+        EXPECT_TRUE(pass_of(*switched, pass.name).runs) << pass.field << " = " << pass.run_value << " turns it off";
+      }
+    }
+  }
+  void expect_true_fields_whatever_is_switched(const preset::Preset& p, const std::string& what)
+  {
+    expect_true_fields(p, what);
+    const json fields = json::parse(preset::to_json(p));
+    for (const std::string& pointer : switches(p))
+      if (const auto other = with_field(p, pointer, !fields[json::json_pointer(pointer)]))
+        expect_true_fields(*other, what + ", " + pointer + " the other way");
+  }
+};
+
+// Every switch is turned, one at a time, where nothing is left out: then few passes have a field to try, and there are few plans to make.
+TEST_P(PlanFields, AreTrueWhateverIsSwitched)
+{
+  expect_true_fields(preset_, "as it is");
+  preset::Preset p = preset_;
+  for (const std::string& pointer : switches(preset_))
+    if (pointer.starts_with("/spectral/leave_out/")) p = with_field(p, pointer, false).value();
+  expect_true_fields_whatever_is_switched(p, "nothing left out");
+  for (const Estimator estimator : {Estimator::splat, Estimator::sppm}) {
+    p.spectral.estimator = estimator;
+    expect_true_fields_whatever_is_switched(p, "another estimator");
+  }
+  for (const char* field : {"/spectral/direct", "/spectral/background", "/spectral/jitter", "/spectral/low_discrepancy",
+                            "/spectral/smoothing", "/spectral/relight", "/measure/estimate", "/spectral/leave_out/mirrors"})
+    EXPECT_TRUE(found_.contains(field)) << field;
+}
+
+// These passes run where their switch says so and nowhere else: the scenes have caustics, and no scene every type of light.
+TEST_P(PlanFields, TurnTheirPassesOnAndOff)
+{
+  for (const char* name : {"smoothing", "low discrepancy", "error estimate", "light types"}) {
+    const plan::Pass pass = pass_of(preset_, name);
+    SCOPED_TRACE(std::string(name) + ": " + pass.reason);
+    ASSERT_NE(pass.field, "");
+    EXPECT_TRUE(pass_of(with_field(preset_, pass.field, pass.run_value).value(), name).runs);
+    EXPECT_FALSE(pass_of(with_field(preset_, pass.field, !pass.run_value).value(), name).runs);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PlanFields, testing::Values("ball", "lines", "dark lights", "spectral/prism", "spectral/F8BT-absorption"),
+                         [](const auto& parameter) {
+                           std::string name = parameter.param;
+                           std::replace_if(
+                               name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
+
+} // namespace
