@@ -115,7 +115,7 @@ plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Sce
     return {"differentials", false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
   if (!splats) return {"differentials", false, "nothing is splatted", "", false};
   const StretchParameter along = stretch_parameter(scene);
-  if (along == StretchParameter::none) return {"differentials", false, "no glass bends one wavelength otherwise than another", field, true};
+  if (along == StretchParameter::none) return {"differentials", false, "no glass bends one wavelength otherwise than another", "", false};
   return {"differentials", true,
           fmt::format("splats are stretched along the way that they move with the {}",
                       along == StretchParameter::index ? "index of refraction" : "wavelength, for there are several curves"),
