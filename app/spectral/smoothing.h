@@ -3,8 +3,8 @@
 //
 // Photons on a surface are a sample of a density, and a histogram over pixels is the noisiest estimate of it. This is the sample-point
 // estimate with adaptive kernels (Abramson 1982, "On bandwidth variation in kernel estimates"): narrow where photons are dense, so that
-// bright lines stay sharp, wide where they are few. A pixel that is not noisy is left alone, and in the end none is: the limit is that
-// of the plain film. Power is neither lost nor made.
+// bright lines stay sharp, wide where they are few. A pixel that is not noisy is left alone, and in the end none is noisy: the limit is
+// that of the plain film. Power is neither lost nor made.
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -30,8 +30,9 @@ public:
   /// What it keeps, in bytes.
   static std::uint64_t bytes(const scene::Camera& camera);
 
-  /// rgb: of caustics alone, [pixel][3] of the camera's size, and a draw of its error (Picture::error_draw), which is spread alike. How
-  /// many photons a pixel holds is what that draw tells. Nothing changes where the draw is empty.
+  /// rgb: of caustics alone, [pixel][3] of the camera's size. error_draw: a draw of its error (Picture::error_draw), which tells how noisy
+  /// a pixel is and is spread alike. Values below 0, of colours outside of sRGB, count as no light when kernels are chosen. Nothing changes
+  /// where the draw is empty.
   void spread(std::vector<float>& rgb, std::vector<float>& error_draw) const;
 
 private:
