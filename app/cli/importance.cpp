@@ -130,10 +130,10 @@ void print_text(const Answer& answer)
 
 void print_importance(const ImportanceOptions& options)
 {
-  for (const preset::Preset& preset : preset::read_presets(options.preset, options.overrides)) {
-    const Answer answer = answer_for(preset, options.method);
-    options.json ? print_json(answer) : print_text(answer);
-  }
+  std::vector<Answer> answers; // all before the first is printed: one of a sweep may be refused
+  for (const preset::Preset& preset : preset::read_presets(options.preset, options.overrides))
+    answers.push_back(answer_for(preset, options.method));
+  for (const Answer& answer : answers) options.json ? print_json(answer) : print_text(answer);
 }
 
 } // namespace

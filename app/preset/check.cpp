@@ -131,6 +131,9 @@ void check_effort(const Spectral& s, const std::string& pointer, const Where& wh
 /// What nothing can measure is refused before anything runs.
 void check_stop(const Preset& preset, const Where& where)
 {
+  if (preset.stop.error && !preset.reference && !preset.measure.estimate)
+    throw bad_input(where("/stop/error"), "nothing measures the error of this run: 'measure.estimate' is false",
+                    "expected a 'reference', or 'measure.estimate' true");
   if (preset.stop.error && !preset.reference && preset.spectral.estimator == Spectral::Estimator::sppm)
     throw bad_input(where("/stop/error"), "nothing measures the error of this run: the estimator sppm makes no estimate of its own error",
                     "expected a 'reference', or another 'spectral.estimator'");

@@ -29,7 +29,6 @@ preset::Preset settings_only(preset::Preset preset)
   preset.reference = {};
   preset.measure.perceptual = false;
   preset.measure.mask.reset();
-  preset.spectral.smoothing = false;
   for (preset::Object& object : preset.scene.objects)
     if (object.mesh) object.mesh = "mesh";
   for (auto& [name, material] : preset.scene.materials)

@@ -123,10 +123,11 @@ plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Sce
 }
 
 /// halves: whether films are kept in two, which tells how noisy they are. passes: at most so many, if known.
-plan::Pass smoothing_pass(const preset::Spectral& settings, bool halves, std::optional<int> passes)
+plan::Pass smoothing_pass(const preset::Spectral& settings, bool caustics, bool halves, std::optional<int> passes)
 {
   const std::string field = "/spectral/smoothing";
   if (!settings.smoothing) return not_asked_for("smoothing", "smoothing");
+  if (!caustics) return {"smoothing", false, "there are no caustics", "", false};
   if (settings.estimator == preset::Spectral::Estimator::sppm)
     return {"smoothing", false, "spectral.estimator is sppm, which has radii of its own", "", false};
   if (!halves) return {"smoothing", false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
@@ -187,14 +188,15 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
 
 /// Settings that do nothing, or not what they are for.
 std::vector<std::string> setting_notes(const preset::Preset& preset, const scene::Scene& scene, const DeviceTables& tables, bool splats,
-                                       bool maps, bool smooths)
+                                       bool maps, const plan::Pass& smoothing)
 {
   const preset::Spectral& settings = preset.spectral;
   std::vector<std::string> notes;
   if (settings.step_nm > 1 && settings.method != preset::Spectral::Method::brute_force)
     notes.push_back(fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",
                                 settings.step_nm, preset::word(settings.method)));
-  if (smooths && preset.stop.error && !preset.reference)
+  if (settings.smoothing && !smoothing.runs) notes.push_back("spectral.smoothing: true does nothing here: " + smoothing.reason);
+  if (smoothing.runs && preset.stop.error && !preset.reference)
     notes.push_back("stop.error: the run's own estimate does not know how far spectral.smoothing moves light; a 'reference' does");
   if (const std::string note = map_radius_note(settings, scene); maps && !note.empty()) notes.push_back(note);
   if (splats && tables.photons_per_pass > static_cast<unsigned>(settings.photons_per_pass))
@@ -224,7 +226,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   if (caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
     photons = {"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false};
   const plan::Pass differentials = differentials_pass(preset.spectral, scene, photons.runs);
-  const plan::Pass smoothing = smoothing_pass(preset.spectral, estimate.runs, preset.stop.passes);
+  const plan::Pass smoothing = smoothing_pass(preset.spectral, caustics, estimate.runs, preset.stop.passes);
   const plan::Pass jitter = jitter_pass(preset.spectral, tables.wavelengths);
   plan.passes = {direct, photons};
   if (caustics) {
@@ -252,7 +254,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   if (photons.runs && preset.spectral.effort == preset::Spectral::Effort::variance)
     plan.buffers.push_back({"guide of directions",
                             tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
-  if (caustics && smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), false, true});
+  if (smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), false, true});
   if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);
@@ -266,8 +268,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   plan.notes = scene.warnings;
   if (!direct.runs && !caustics && !indirect.runs && !background.runs)
     plan.notes.push_back(fmt::format("there is nothing to render: {}", direct.reason));
-  std::ranges::move(setting_notes(preset, scene, tables, photons.runs, maps.pass.runs, caustics && smoothing.runs),
-                    std::back_inserter(plan.notes));
+  std::ranges::move(setting_notes(preset, scene, tables, photons.runs, maps.pass.runs, smoothing), std::back_inserter(plan.notes));
   return plan;
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace nephroid::spectral {
@@ -15,6 +16,9 @@ namespace {
 /// How far a kernel may reach, and how far around a pixel its noise is asked for, in pixels.
 constexpr int reach = 6, noise_reach = 7;
 constexpr std::size_t block_rows = 64;
+
+/// Surfaces that are looked at, one mirror after the other.
+constexpr int most_mirrors = 8;
 
 /// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30 degrees of it.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
@@ -67,15 +71,50 @@ Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh)
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const double x = static_cast<double>(static_cast<int>(i) % width_) + 0.5, y = static_cast<double>(static_cast<int>(i) / width_) + 0.5;
       const glm::dvec3 way = forward + (2 * x / width_ - 1) * camera.tan_x * right + (1 - 2 * y / height_) * camera.tan_y * up;
-      const auto hit = scene::closest_hit(bvh, eye, way);
-      if (!hit) continue;
-      const glm::uvec3 corners = scene.geometry.triangles[hit->triangle];
-      const std::vector<glm::vec3>& at = scene.geometry.positions;
-      const glm::dvec3 a(at[corners.x]), b(at[corners.y]), c(at[corners.z]);
-      seen_[i] = {glm::vec3(eye + hit->t * way), glm::vec3(glm::normalize(glm::cross(b - a, c - a))),
-                  static_cast<int>(scene.object_of_triangle[hit->triangle])};
+      seen_[i] = look(scene, bvh, eye, way);
     }
   });
+  find_edges();
+}
+
+Smoothing::Seen Smoothing::look(const scene::Scene& scene, const scene::Bvh& bvh, glm::dvec3 from, glm::dvec3 way)
+{
+  Seen seen;
+  std::optional<std::uint32_t> left; // the triangle that the ray leaves
+  for (int surface = 0; surface < most_mirrors; ++surface) {
+    const auto hit =
+        left ? scene::closest_hit(bvh, from, way, [&](std::uint32_t t) { return t != *left; }) : scene::closest_hit(bvh, from, way);
+    if (!hit) return {glm::vec3(0), glm::vec3(0), seen.first};
+    const glm::uvec3 corners = scene.geometry.triangles[hit->triangle];
+    const std::vector<glm::vec3>& at = scene.geometry.positions;
+    const glm::dvec3 a(at[corners.x]), b(at[corners.y]), c(at[corners.z]), normal = glm::normalize(glm::cross(b - a, c - a));
+    from += hit->t * way;
+    seen.position = glm::vec3(from);
+    seen.normal = glm::vec3(normal);
+    seen.object = static_cast<int>(scene.object_of_triangle[hit->triangle]);
+    if (surface == 0) seen.first = seen.object;
+    const scene::Object& object = scene.objects[static_cast<std::size_t>(seen.object)];
+    if (scene.materials[static_cast<std::size_t>(object.material)].type != scene::Material::Type::mirror) break;
+    way = glm::reflect(way, normal);
+    left = hit->triangle;
+  }
+  return seen;
+}
+
+void Smoothing::find_edges()
+{
+  const auto differ = [&](std::size_t i, std::size_t j) {
+    if (seen_[i].first == seen_[j].first && seen_[i].object == seen_[j].object) return;
+    seen_[i].at_edge = seen_[j].at_edge = true;
+  };
+  const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t i = y * width + x;
+      if (x + 1 < width) differ(i, i + 1);
+      if (y + 1 < height) differ(i, i + width);
+      if (x + 1 < width && y + 1 < height) differ(i, i + width + 1), differ(i + 1, i + width);
+    }
 }
 
 std::uint64_t Smoothing::bytes(const scene::Camera& camera)
@@ -85,7 +124,7 @@ std::uint64_t Smoothing::bytes(const scene::Camera& camera)
 
 bool Smoothing::are_level(const Seen& a, const Seen& b)
 {
-  if (a.object != b.object || a.object < 0) return false;
+  if (a.first != b.first || a.object != b.object || a.at_edge != b.at_edge || a.object < 0) return false;
   const glm::vec3 way = b.position - a.position;
   return glm::dot(a.normal, b.normal) > least_cosine && std::abs(glm::dot(way, a.normal + b.normal)) <= 2 * most_rise * glm::length(way);
 }

@@ -23,8 +23,8 @@ public:
   /// noise^2 = 16. A smaller one blurs what need not be.
   static constexpr double noise = 0.25;
 
-  /// Looks once through the middle of every pixel, on every core: light is spread within one nearly flat part of the surface that is met
-  /// first. What glass and mirrors show is spread within what they are, whatever is behind them.
+  /// Looks once through the middle of every pixel, on every core. Light is spread within one nearly flat part of the object that is met
+  /// first, or that a mirror shows, and along its outline by itself. What glass shows is spread within the glass, whatever is behind it.
   Smoothing(const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// What it keeps, in bytes.
@@ -39,8 +39,13 @@ private:
   /// What a pixel shows.
   struct Seen {
     glm::vec3 position{0}, normal{0}; ///< scene units; unit, of the triangle
-    int object = -1;                  ///< -1: none
+    int first = -1;                   ///< the object that is met first; -1: none
+    int object = -1;                  ///< the same, or what it shows where it is a mirror; -1: none
+    bool at_edge = false;             ///< whether a neighbour shows something else: then the pixel may hold light of that
   };
+  /// What a ray meets; mirrors are followed.
+  static Seen look(const scene::Scene& scene, const scene::Bvh& bvh, glm::dvec3 from, glm::dvec3 way);
+  void find_edges();
   static bool are_level(const Seen& a, const Seen& b);
   /// Where a pixel's light goes: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step.
   struct Kernel {

@@ -191,6 +191,8 @@ EXPERIMENTS = {"speed": speed, "figure-4-6": figure_4_6, "figure-4-9": figure_4_
                "smoothing": smoothing}
 
 if __name__ == "__main__":
+    if len(sys.argv) > 1 and not Path(sys.argv[1]).is_file():
+        sys.exit(f"{sys.argv[1]}: is no file; expected the program, as build/release/bin/nephroid")
     if len(sys.argv) < 3 or not set(sys.argv[3:]) <= set(EXPERIMENTS):
         sys.exit(f"usage: thesis.py PROGRAM OUT [{' | '.join(EXPERIMENTS)}]...")
     for chosen in sys.argv[3:] or EXPERIMENTS:

@@ -166,7 +166,9 @@ TEST_F(Measured, WhatCannotBeAReferenceIsSaidBeforeTheRun)
             2);
   EXPECT_THAT(run("refused", {"--seed", "1000000007", "--set", recipe}).err,
               HasSubstr("--seed: 1000000007 and 1000000008 are the reference's seeds, and 1000000007 is the run's"));
-  EXPECT_EQ(refused("#/stop/error: nothing measures the error of this run in lab_mean", {"stop.error=1", "measure.estimate=false"}), 2);
+  EXPECT_EQ(refused("stop.error=1: nothing measures the error of this run: 'measure.estimate' is false",
+                    {"stop.error=1", "measure.estimate=false"}),
+            2);
   EXPECT_EQ(refused("#/reference/seconds: making the reference would take about",
                     {R"(reference={"type":"recipe","passes":1000000,"seconds":10})"}),
             1);

@@ -123,6 +123,47 @@ TEST(Smoothing, does_not_carry_light_from_one_surface_to_another)
   EXPECT_GT(row_sum(size / 2), 0);
 }
 
+TEST(Smoothing, keeps_the_light_of_an_outline_in_it)
+{
+  const FloorAndWall room;
+  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  // The floor's last row before the wall may hold light of both: it stays in that row.
+  Photons photons = scatter([](int, int y) { return y == size / 2 ? 1.0 : 0.0; }, 8);
+  const std::vector<float> before = photons.rgb;
+  smoothing.spread(photons.rgb, photons.error_draw);
+  EXPECT_NE(photons.rgb, before);
+  for (int y = 0; y < size; ++y) {
+    if (y == size / 2) continue;
+    for (int i = 3 * size * y; i < 3 * size * (y + 1); ++i) EXPECT_EQ(photons.rgb[static_cast<std::size_t>(i)], 0) << "row " << y;
+  }
+}
+
+/// A camera that looks down into a mirror, which shows a floor above, and a wall of another object on it.
+TEST(Smoothing, knows_what_a_mirror_shows)
+{
+  preset::Preset p;
+  p.source = "p.json";
+  p.scene.materials["wall"];
+  p.scene.materials["mirror"].type = preset::Material::Type::mirror;
+  for (const char* name : {"mirror", "left", "right"})
+    p.scene.objects.push_back(test::shape_object(name, preset::Shape::Type::quad, "wall"));
+  p.scene.objects[0].material = "mirror";
+  p.scene.objects[0].transform.scale = {20, 1, 20};
+  for (const int i : {1, 2}) {
+    p.scene.objects[static_cast<std::size_t>(i)].transform.scale = {40, 1, 80};
+    p.scene.objects[static_cast<std::size_t>(i)].transform.translate = {i == 1 ? -20.0 : 20.0, 10, 0};
+  }
+  p.scene.camera.position = {0, 5, 0.5};
+  p.scene.camera.target = {0, 0, 0};
+  p.scene.camera.resolution = {size, size};
+  const scene::Scene scene = scene::load_scene(p);
+  const spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry));
+  Photons photons = scatter([](int x, int) { return x >= size / 2 ? 1.0 : 0.0; }, 9);
+  smoothing.spread(photons.rgb, photons.error_draw);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size / 2; ++x) EXPECT_EQ(photons.rgb[3 * static_cast<std::size_t>(y * size + x)], 0) << x << ", " << y;
+}
+
 TEST(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
 {
   const FloorAndWall room;
