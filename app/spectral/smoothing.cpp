@@ -69,7 +69,8 @@ Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh)
   const glm::dvec3 eye(camera.position), right(camera.right), up(camera.up), forward(camera.forward);
   for_ranges(seen_.size(), 1 << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const double x = static_cast<double>(static_cast<int>(i) % width_) + 0.5, y = static_cast<double>(static_cast<int>(i) / width_) + 0.5;
+      const int column = static_cast<int>(i) % width_, row = static_cast<int>(i) / width_;
+      const double x = column + 0.5, y = row + 0.5;
       const glm::dvec3 way = forward + (2 * x / width_ - 1) * camera.tan_x * right + (1 - 2 * y / height_) * camera.tan_y * up;
       seen_[i] = look(scene, bvh, eye, way);
     }
