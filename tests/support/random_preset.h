@@ -147,7 +147,8 @@ inline preset::Preset random_preset(std::uint64_t seed)
     s.effort = Spectral::Effort::power;
     s.differentials = s.indirect = false;
   }
-  if (p.spectral.estimator == Spectral::Estimator::sppm && !p.reference) p.stop.error.reset(); // nothing would measure it
+  const bool estimates = p.measure.estimate && p.spectral.estimator != Spectral::Estimator::sppm;
+  if (!estimates && !p.reference) p.stop.error.reset(); // nothing would measure it
   p.scene.camera.target = {0, 0.1, 1.0 / 3};
   p.scene.camera.position = {3, 2, 1e-5};
   p.scene.camera.up = {0, 1, 0};
