@@ -53,8 +53,7 @@ public:
   {
     const auto samples = [&](int row) { return rows_.samples(row, passes, done, pixel_samples_); };
     const std::vector<std::int64_t> sums = film_.read();
-    const shared::DeviceCamera& camera = world_.tables.camera;
-    add_layer("background", {sums, camera.width, camera.height, tables_.film_scale * world_.white / radiance_, samples}, picture);
+    add_layer("background", {sums, tables_.film_scale * world_.white / radiance_, samples}, picture);
   }
 
   void save(StateWriter& to) const override

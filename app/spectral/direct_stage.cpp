@@ -33,8 +33,7 @@ public:
   {
     const auto samples = [&](int row) { return rows_.samples(row, passes, done, pixel_samples_); };
     const std::vector<std::int64_t> sums = film_.read();
-    const DeviceTables& t = world_.tables;
-    add_layer("direct", {sums, t.camera.width, t.camera.height, t.direct_scale * world_.white, samples}, picture);
+    add_layer("direct", {sums, world_.tables.direct_scale * world_.white, samples}, picture);
   }
 
   void save(StateWriter& to) const override

@@ -29,14 +29,14 @@ job::Layer& layer_of(job::Picture& picture, const std::string& name)
 
 void add_layer(const std::string& name, const Film& film, job::Picture& picture)
 {
-  const std::size_t row_length = 3 * static_cast<std::size_t>(film.width), size = row_length * static_cast<std::size_t>(film.height);
+  const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width), size = row_length * static_cast<std::size_t>(picture.height);
   job::Layer& layer = layer_of(picture, name);
   std::vector<float>& error_draw = picture.error_draw;
   const bool halves = film.sums.size() == 2 * size;
   const std::int64_t* first = film.sums.data();
   const std::int64_t* second = halves ? first + size : first; // where there is one image, its weight below is 0
   if (!halves) error_draw.clear();
-  for (std::size_t row = 0; row < static_cast<std::size_t>(film.height); ++row) {
+  for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
     const auto [a, b] = film.samples(static_cast<int>(row));
     const double mean = a + b > 0 ? 1 / ((a + b) * film.quanta_per_unit) : 0;
     if (a <= 0 || b <= 0) error_draw.clear();

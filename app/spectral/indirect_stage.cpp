@@ -42,8 +42,7 @@ public:
   {
     const auto samples = [&](int) { return halves_of(passes, done ? 1 : part()); };
     const std::vector<std::int64_t> sums = film_.read();
-    const DeviceTables& t = world_.tables;
-    add_layer("indirect", {sums, t.camera.width, t.camera.height, tables_.film_scale * world_.white, samples}, picture);
+    add_layer("indirect", {sums, tables_.film_scale * world_.white, samples}, picture);
   }
 
   void report(std::int64_t passes, bool done, job::Snapshot& snapshot) override

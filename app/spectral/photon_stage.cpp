@@ -52,8 +52,7 @@ public:
   {
     const auto samples = [&](int) { return halves_of(passes, done ? 1 : part()); };
     const std::vector<std::int64_t> sums = film_.read();
-    const DeviceTables& t = world_.tables;
-    add_layer("caustic", {sums, t.camera.width, t.camera.height, t.caustic_scale * world_.white, samples}, picture);
+    add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
   void save(StateWriter& to) const override
