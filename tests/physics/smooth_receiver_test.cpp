@@ -95,17 +95,22 @@ TEST(SmoothReceiver, ACoarseBallIsLitAsDirectly)
   }
 }
 
-/// A horizontal square whose normals lean outwards: on a flat surface, irradiance falls towards its corners.
-preset::Object leaning_square(const std::filesystem::path& folder)
+/// A horizontal square from (-0.4, -0.4) to (0.4, 0.4) with the normals of its corners, in OBJ's lines.
+preset::Object square_with_normals(const std::string& name, const std::filesystem::path& folder, const char* normals)
 {
-  std::ofstream(folder / "leaning.obj") << "v -0.4 0 -0.4\nv -0.4 0 0.4\nv 0.4 0 0.4\nv 0.4 0 -0.4\n"
-                                           "vn -1 1 -1\nvn -1 1 1\nvn 1 1 1\nvn 1 1 -1\n"
-                                           "f 1//1 2//2 3//3\nf 1//1 3//3 4//4\n";
+  const std::filesystem::path file = folder / (name + ".obj");
+  std::ofstream(file) << "v -0.4 0 -0.4\nv -0.4 0 0.4\nv 0.4 0 0.4\nv 0.4 0 -0.4\n" << normals << "f 1//1 2//2 3//3\nf 1//1 3//3 4//4\n";
   preset::Object square;
-  square.name = "receiver";
-  square.mesh = (folder / "leaning.obj").string();
+  square.name = name;
+  square.mesh = file.string();
   square.material = "white";
   return square;
+}
+
+/// Its normals lean outwards: on a flat surface, irradiance falls towards its corners.
+preset::Object leaning_square(const std::filesystem::path& folder)
+{
+  return square_with_normals("receiver", folder, "vn -1 1 -1\nvn -1 1 1\nvn 1 1 1\nvn 1 1 -1\n");
 }
 
 TEST(SmoothReceiver, ALeaningSquareIsLitAsDirectly)
@@ -126,16 +131,10 @@ TEST(SmoothReceiver, PhotonMapsKnowTheNormalsToo)
   expect_lit_as_directly("leaning square, photon maps", with_plate, without, 0.01);
 }
 
-/// A horizontal tile whose normals all lean by 45 degrees.
+/// Its normals all lean by 45 degrees.
 preset::Object leaning_tile(const std::filesystem::path& folder)
 {
-  std::ofstream(folder / "tile.obj") << "v -0.4 0 -0.4\nv -0.4 0 0.4\nv 0.4 0 0.4\nv 0.4 0 -0.4\nvn 1 1 0\n"
-                                        "f 1//1 2//1 3//1\nf 1//1 3//1 4//1\n";
-  preset::Object tile;
-  tile.name = "tile";
-  tile.mesh = (folder / "tile.obj").string();
-  tile.material = "white";
-  return tile;
+  return square_with_normals("tile", folder, "vn 1 1 0\nvn 1 1 0\nvn 1 1 0\nvn 1 1 0\n");
 }
 
 // Light from straight above meets the tile at cos(45 degrees) by its normals, and at 1 by its facets: that much less is what it sends on to
