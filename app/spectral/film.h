@@ -15,7 +15,7 @@ namespace nephroid::spectral {
 /// What a device added up.
 struct Film {
   std::span<const std::int64_t> sums; ///< [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples
-  double quanta_per_unit = 1; ///< quanta of what becomes 1 in the picture
+  double quanta_per_unit = 1;         ///< quanta of what becomes 1 in the picture
   /// How many samples, or passes of photons, the sums of a row hold: of the even and of the odd passes. A film of one image has all
   /// of them in it.
   std::function<std::array<double, 2>(int row)> samples;
