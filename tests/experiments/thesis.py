@@ -10,7 +10,10 @@ import csv
 import json
 import subprocess
 import sys
+from itertools import combinations
+from math import sqrt
 from pathlib import Path
+from statistics import mean, stdev
 
 SIZE = 128
 SPEED_SIZE = 176  # IW-SSIM needs 161 pixels
@@ -24,13 +27,14 @@ BRUTE = THESIS | {"method": "brute_force", "effort": "equal"}
 
 class Experiments:
     def __init__(self, program, out):
-        self.program, self.out, self.size = program, Path(out), SIZE
+        self.program, self.out, self.size = program, Path(out), SIZE  # None: the preset's own size
 
     def run(self, name, preset, spectral, passes=None, seconds=None, seed=1, reference=None, extra=()):
         """One run; returns its run.json, its history and its folder."""
         folder = self.out / name
-        sets = [f"scene.camera.resolution=[{self.size},{self.size}]", "sweep=null", "spectral.direct=false",
-                f"stop.passes={passes or 'null'}", f"stop.seconds={seconds or 'null'}", *extra]
+        sets = ["sweep=null", "spectral.direct=false", f"stop.passes={passes or 'null'}", f"stop.seconds={seconds or 'null'}", *extra]
+        if self.size:
+            sets.append(f"scene.camera.resolution=[{self.size},{self.size}]")
         sets += [f"spectral.{key}={json.dumps(value)}" for key, value in spectral.items()]
         if reference:
             sets.append("reference=" + json.dumps({"type": "recipe", "passes": reference, "spectral": PLAIN | {"direct": False}}))
@@ -97,17 +101,37 @@ def speed(e, scene="bunny", brute_passes=20, seconds=120):
               f"{', '.join(f'{slow / w:.1f}' if w else '-' for w in when)} |")
 
 
+SEEDS = (1, 2, 3)  # of every picture of a difference
+
+
+def without_noise(e, a, b, metric):
+    """How far two variants are apart without their noise: root of the mean square, and of one standard error less and more. a and b are pictures
+    by seed. The noise of a1 - b1 knows nothing of that of a2 - b2, so the mean of their product is the distance squared; the four squared
+    distances between pictures of different seeds give it, once for each pair of seeds. Below 0 is as good as none."""
+    def squared(x, y):
+        return e.compare(x, y)[metric] ** 2
+    products = [(squared(a[i], b[j]) + squared(b[i], a[j]) - squared(a[i], a[j]) - squared(b[i], b[j])) / 2
+                for i, j in combinations(range(len(SEEDS)), 2)]
+    error = stdev(products) / sqrt(len(products))
+    return [sqrt(max(mean(products) + times * error, 0)) for times in (0, -1, 1)]
+
+
 def differences(e, title, preset, variants, passes):
-    """Neighbouring variants against each other, and the noise: the same variant with another seed."""
-    runs = {name: (e.run(f"{title}/{index}", preset, spectral, passes.get(name) if isinstance(passes, dict) else passes)[2],
-                   e.run(f"{title}/{index}-again", preset, spectral, passes.get(name) if isinstance(passes, dict) else passes, seed=2)[2])
-            for index, (name, spectral) in enumerate(variants.items())}
-    print(f"\n{title}\n\n| pair | lab_mean | lab_rms | noise: lab_mean of two seeds, first, second |\n|---|---|---|---|")
+    """Neighbouring variants against each other, the noise, which is the same variant with another seed, and what is left without it."""
+    def pictures(index, name, spectral):
+        count = passes[name] if isinstance(passes, dict) else passes
+        return [e.run(f"{title}/{index}-seed-{seed}", preset, spectral, count, seed=seed)[2] for seed in SEEDS]
+    e.size = SPEED_SIZE
+    runs = {name: pictures(index, name, spectral) for index, (name, spectral) in enumerate(variants.items())}
+    print(f"\n{title}\n\n| pair | lab_mean | IW-SSIM | lab_rms | noise: lab_rms of two seeds, first, second | lab_rms without noise |\n"
+          "|---|---|---|---|---|---|")
     names = list(runs)
     for a, b in zip(names, names[1:]):
         m = e.compare(runs[a][0], runs[b][0])
-        noise = [e.compare(runs[n][0], runs[n][1])["lab_mean"] for n in (a, b)]
-        print(f"| {a} to {b} | {m['lab_mean']:.2f} | {m['lab_rms']:.2f} | {noise[0]:.2f}, {noise[1]:.2f} |")
+        noise = [e.compare(*runs[n][:2])["lab_rms"] for n in (a, b)]
+        left, least, most = without_noise(e, runs[a], runs[b], "lab_rms")
+        print(f"| {a} to {b} | {m['lab_mean']:.2f} | {m['iw_ssim']:.4f} | {m['lab_rms']:.2f} | {noise[0]:.2f}, {noise[1]:.2f} | "
+              f"{left:.2f} ({least:.2f} to {most:.2f}) |", flush=True)
 
 
 SPLAT = {"estimator": "splat", "jitter": False, "low_discrepancy": True, "photons_per_pass": 1 << 18}
@@ -116,7 +140,7 @@ SPLAT = {"estimator": "splat", "jitter": False, "low_discrepancy": True, "photon
 def figure_4_6(e):
     for scene, method in (("bunny", "thesis"), ("bunny-arbitrary-2", "thesis"), ("diamond-arbitrary-1", "thesis")):
         differences(e, f"figure-4-6-{scene}", f"spectral/thesis/{scene}",
-                    {f"{t} degrees": SPLAT | {"method": method, "threshold_deg": t} for t in (0.5, 0.1, 0.05, 0.01)}, 24)
+                    {f"{t} degrees": SPLAT | {"method": method, "threshold_deg": t} for t in (0.5, 0.1, 0.05, 0.01)}, 128)
 
 
 def figure_4_9(e):
@@ -127,7 +151,7 @@ def figure_4_9(e):
 def figure_4_10(e):
     for scene in ("bunny", "bunny-arbitrary-2"):
         differences(e, f"figure-4-10-{scene}", f"spectral/thesis/{scene}",
-                    {f"{s} nm": SPLAT | {"method": "brute_force", "step_nm": s} for s in (4, 2, 1)}, 24)
+                    {f"{s} nm": SPLAT | {"method": "brute_force", "step_nm": s} for s in (4, 2, 1)}, 128)
 
 
 def figure_4_11(e):
@@ -143,7 +167,7 @@ def figure_4_11(e):
 
 def figure_4_12(e):
     differences(e, "figure-4-12", "spectral/thesis/cylinders",
-                {"brute force": SPLAT | {"method": "brute_force"}, "clusters": SPLAT | {"method": "thesis"}}, 24)
+                {"brute force": SPLAT | {"method": "brute_force"}, "clusters": SPLAT | {"method": "thesis"}}, 128)
 
 
 def figure_1_5(e):
