@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Puts faults into copies of kernels/, one at a time, and says which tests notice; fails where none does. README.md says more."""
 import argparse
+import json
 import os
 import re
 import shutil
@@ -9,10 +10,20 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
-sys.dont_write_bytecode = True  # no __pycache__ in the source folder
-from faults import FAULTS, Fault  # noqa: E402
 
+class Fault(NamedTuple):
+    """One of faults.json, which README.md describes."""
+
+    name: str
+    file: str
+    right: str
+    wrong: str
+    check: str | None = None
+
+
+FAULTS_FILE = Path(__file__).with_name("faults.json")
 KERNELS = Path(__file__).resolve().parents[2] / "kernels"
 # Programs whose tests take their kernels from NEPHROID_TEST_KERNELS, the quick ones first.
 PROGRAMS = [
@@ -46,7 +57,7 @@ def check_texts(faults: list[Fault], kernels: Path) -> int:
     """Says which faults cannot be put in, because their kernel has changed; 1 where there are such."""
     stale = [f for f in faults if places(f, kernels) != 1 or f.wrong == f.right]
     for fault in stale:
-        print(f"run.py: faults.py, {fault.name!r}: {places(fault, kernels)} places in {fault.file} read {fault.right!r}; one is expected")
+        print(f"run.py: {FAULTS_FILE.name}, {fault.name!r}: {places(fault, kernels)} places in {fault.file} read {fault.right!r}; one is expected")
     return 1 if stale else 0
 
 
@@ -100,9 +111,10 @@ def main() -> int:
     parser.add_argument("--timeout", type=int, default=600, help="seconds after which a test program hangs (default: %(default)s)")
     arguments = parser.parse_args()
 
-    faults = [f for f in FAULTS if not arguments.only or any(text in f.name for text in arguments.only)]
+    all_faults = [Fault(**f) for group in json.loads(FAULTS_FILE.read_text()).values() for f in group]
+    faults = [f for f in all_faults if not arguments.only or any(text in f.name for text in arguments.only)]
     if not faults:
-        sys.exit("run.py: --only: no fault has such a name; see faults.py")
+        sys.exit(f"run.py: --only: no fault has such a name; see {FAULTS_FILE.name}")
     if arguments.check_texts:
         return check_texts(faults, arguments.kernels)
 

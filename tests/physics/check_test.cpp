@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid check` on every device there is: every check passes, with other seeds, too; and a wrong kernel makes the right check fail.
-// The faults are edits of one place in a copy of kernels/, as a slip of the hand or a wrong compiler would make them.
+// The faults are those of tests/faults/faults.json that name a check: edits of one place in a copy of kernels/, as a slip of the hand or a
+// wrong compiler would make them.
 #include "base/error.h"
 #include "base/files.h"
 #include "check/check.h"
@@ -9,12 +10,16 @@
 #include "tests/support/test_kernels.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <ostream>
 #include <set>
+#include <string>
+#include <vector>
 
 using namespace nephroid;
 namespace fs = std::filesystem;
@@ -82,14 +87,35 @@ TEST(Check, AKernelThatDoesNotCompileFailsWithItsPlace)
 }
 
 struct Fault {
-  const char* name;
-  const char* file;
-  const char* right;
-  const char* wrong;
-  const char* check; ///< that must fail
+  std::string name, file, right, wrong;
+  std::string check; ///< that must fail
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.file << ": " << fault.right << " -> " << fault.wrong; }
+void PrintTo(const Fault& fault, std::ostream* out)
+{
+  *out << fault.name << ", " << fault.file << ": " << fault.right << " -> " << fault.wrong;
+}
+
+/// Those that a check has to see. tests/faults/README.md describes them.
+std::vector<Fault> faults()
+{
+  const auto groups = nlohmann::json::parse(read_file(NEPHROID_SOURCE_DIR "/tests/faults/faults.json"));
+  std::vector<Fault> found;
+  for (const auto& group : groups)
+    for (const auto& fault : group)
+      if (fault.contains("check"))
+        found.push_back({fault.at("name"), fault.at("file"), fault.at("right"), fault.at("wrong"), fault.at("check")});
+  return found;
+}
+
+/// A fault's name in the form that a test's has: "no n^2" is No_n_2.
+std::string test_name(std::string name)
+{
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
 
 class CheckFault : public testing::TestWithParam<Fault> {};
 
@@ -101,52 +127,13 @@ TEST_P(CheckFault, IsSeen)
   std::string text = read_file(folder.path() / fault.file);
   const std::size_t place = text.find(fault.right);
   ASSERT_NE(place, std::string::npos) << fault.file << " has no " << fault.right;
-  text.replace(place, std::string(fault.right).size(), fault.wrong);
+  text.replace(place, fault.right.size(), fault.wrong);
   std::ofstream(folder.path() / fault.file) << text;
   const check::Result result = check::run_check(check_named(fault.check), compute::Context::open({{}, folder.path()}));
   EXPECT_FALSE(result.passed()) << line_of(result);
   EXPECT_FALSE(std::isnan(result.figure)) << "failed for another reason: " << result.detail;
 }
 
-const Fault faults[] = {
-    {"PhiloxMultiplier", "random.h", "0xD2511F53u", "0xD2511F55u", "random numbers: published vectors"},
-    {"UniformsUpToOne", "random.h", "bits >> 8", "bits >> 7", "random numbers: uniforms bit for bit"},
-    {"CarryForgotten", "film.h", "(uint)(value >> 32) + carry", "(uint)(value >> 32)", "sums: 32-bit halves with carry"},
-    {"FilmLimit", "film.h", "0x1p42f", "0x1p44f", "film: takes what fits, refuses the rest"},
-    {"QuantaRoundDown", "film.h", "add_exactly(sum + 1, convert_long_rte(", "add_exactly(sum + 1, convert_long_rtz(",
-     "film: takes what fits, refuses the rest"},
-    {"BoxesNotGrown", "bvh.h", "0x1p-20f * BVH_MAX", "-0x1p-10f * BVH_MAX", "rays: no gap between triangles"},
-    {"FarthestFirst", "bvh.h", "t[lane] > hit.t ||", "t[lane] < hit.t ||", "rays: closest hits"},
-    {"WrongBarycentric", "bvh.h", "*v = ec * scale", "*v = ea * scale", "rays: distance and place of hits"},
-    {"SkipIgnored", "bvh.h", "!= skip) return true", "!= skip + 1) return true", "rays: any hit"},
-    {"OnePolarisation", "fresnel.h", "0.5f * (s * s + p * p)", "p * p", "interface: Brewster's angle"},
-    {"IndicesSwapped", "fresnel.h", "(n_i * cos_i - n_t * cos_t)", "(n_t * cos_i - n_i * cos_t)", "interface: Fresnel's reflectance"},
-    {"RefractedBeyondNormal", "fresnel.h", "(eta * cos_i - cos_t)", "(eta * cos_i + cos_t)", "interface: Snell's directions"},
-    {"CriticalAngleByCancellation", "fresnel.h", "(1.0f - sin_t) * (1.0f + sin_t)", "1.0f - eta * eta * (0.99999f - cos_i * cos_i)",
-     "interface: critical angle"},
-    {"FirstOfEqualPriority", "media.h", "priority >= best_priority", "priority > best_priority", "media: nested dielectrics"},
-    {"WavelengthForgotten", "attenuation.h", "int i = tables->first[cluster]", "int i = tables->first[cluster] + 1",
-     "spectra: clusters add up to the light"},
-    {"GlassThatAmplifies", "attenuation.h", "exp(-exponent)", "exp(exponent)", "spectra: absorption after Beer and Lambert"},
-    {"OverlapCountedTwice", "emission.h", "2.0f * PI_F * sum / (float)count", "2.0f * PI_F * sum", "emission: point light"},
-    {"SpotOutsideItsCone", "light.h", "<= light->one_minus_cos", "<= 1.1f * light->one_minus_cos", "emission: spot"},
-    {"DirectionalOverlap", "emission.h", "square_metres / (float)count", "square_metres", "emission: directional light"},
-    {"AreaWithoutPi", "emission.h", "cosine / PI_F * steradians", "cosine / 3.0f * steradians", "emission: area light"},
-    {"InverseDistance", "eye_path.h", "cosine / (metres * metres)", "cosine / metres", "picture: direct light of a point"},
-    {"SplatOfOneMoreDepth", "splat.h", "(z * depth * depth * pixel_area)", "(depth * depth * pixel_area)",
-     "picture: photons through nothing"},
-    {"MirrorTakesTwice", "world.h", "lose(&path->losses, material->attenuator, 1.0f)", "lose(&path->losses, material->attenuator, 2.0f)",
-     "picture: a coloured mirror"},
-    {"EnergyCountedTwice", "photons.cl", "outcomes[OUTCOME_ABSORBED] += quanta - left", "outcomes[OUTCOME_ABSORBED] += quanta",
-     "picture: energy balance"},
-    {"ReflectsTooOften", "surface.h", "!(choice < fresnel_reflectance", "!(0.9f * choice < fresnel_reflectance",
-     "plate: Fresnel's transmittance"},
-    {"PriorityIgnored", "media.h", "objects[candidate].priority", "0", "plate: air inside glass"},
-    {"OneIndexForAll", "interface.h", "n_of[far_material]", "(n_of[far_material] + 0.001f)", "prism: wavelengths where Snell says"},
-    {"SmoothNormalsMixed", "surface.h", "(1.0f - hit.u - hit.v) * vload3(corner.x, geometry->normals)",
-     "(1.0f - hit.u) * vload3(corner.x, geometry->normals)", "ball lens: rays towards its focus"},
-};
-
-INSTANTIATE_TEST_SUITE_P(Kernels, CheckFault, testing::ValuesIn(faults), [](const auto& tested) { return std::string(tested.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kernels, CheckFault, testing::ValuesIn(faults()), [](const auto& tested) { return test_name(tested.param.name); });
 
 } // namespace
