@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/frame_clock.h"
 
-#include "base/files.h"
+#include "base/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace nephroid::ui {
@@ -16,15 +15,31 @@ double milliseconds(FrameClock::Clock::duration time) { return std::chrono::dura
 
 } // namespace
 
+FrameClock::FrameClock(bool keep, const std::filesystem::path& file) : keep_(keep), file_(file)
+{
+  if (file.empty()) return;
+  lines_.open(file, std::ios::binary);
+  write("frame,draw_ms,period_ms,state,fraction\n");
+}
+
+void FrameClock::write(const std::string& line)
+{
+  lines_ << line << std::flush;
+  if (!lines_) throw failed(file_.string(), "cannot be written", "", "choose another file for --frame-times");
+}
+
 void FrameClock::begin() { previous_ = std::exchange(began_, Clock::now()); }
 
 void FrameClock::end(const std::string& state, double fraction)
 {
+  const double draw_ms = milliseconds(Clock::now() - began_);
+  last_draw_s_ = draw_ms / 1000;
+  if (keep_) draw_ms_.push_back(draw_ms);
+  if (!file_.empty()) {
+    const double period_ms = frames_ == 0 ? 0 : milliseconds(began_ - previous_); // what a person sees
+    write(fmt::format("{},{:.3f},{:.3f},{},{:.4f}\n", frames_, draw_ms, period_ms, state, fraction));
+  }
   ++frames_;
-  last_draw_s_ = milliseconds(Clock::now() - began_) / 1000;
-  if (!keep_) return;
-  const double period = previous_ == Clock::time_point{} ? 0 : milliseconds(began_ - previous_);
-  times_.push_back({1000 * last_draw_s_, period, state, fraction});
 }
 
 double FrameClock::rest(Pace pace) const
@@ -37,21 +52,11 @@ double FrameClock::rest(Pace pace) const
 
 std::string FrameClock::summary() const
 {
-  if (times_.empty()) return "no frames";
-  std::vector<double> sorted;
-  for (const FrameTime& time : times_) sorted.push_back(time.draw_ms);
+  if (draw_ms_.empty()) return "no frames";
+  std::vector<double> sorted = draw_ms_;
   std::sort(sorted.begin(), sorted.end());
   const auto at = [&](double part) { return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))]; };
   return fmt::format("{} frames, draw median {:.1f} ms, 99 % {:.1f} ms, most {:.1f} ms", sorted.size(), at(0.5), at(0.99), sorted.back());
-}
-
-void FrameClock::write(const std::filesystem::path& file) const
-{
-  std::string text = "frame,draw_ms,period_ms,state,fraction\n";
-  for (std::size_t i = 0; i < times_.size(); ++i)
-    fmt::format_to(std::back_inserter(text), "{},{:.3f},{:.3f},{},{:.4f}\n", i, times_[i].draw_ms, times_[i].period_ms, times_[i].state,
-                   times_[i].fraction);
-  write_file_whole(file, text);
 }
 
 } // namespace nephroid::ui

@@ -62,7 +62,7 @@ class Loop {
 public:
   Loop(const Options& options, GlfwWindow& window, Workbench& workbench, Workspace& workspace)
       : options_(options), window_(window), workbench_(workbench), workspace_(workspace),
-        clock_(options.frames > 0 || !options.frame_times.empty())
+        clock_(options.frames > 0 || !options.frame_times.empty(), options.frame_times)
   {
     limit_ = options.frames > 0 ? options.frames : options.screenshot.empty() ? 0 : frames_before_screenshot;
   }
@@ -73,7 +73,6 @@ public:
       frame();
       if (!done_) rest();
     }
-    if (!options_.frame_times.empty()) clock_.write(options_.frame_times);
     if (clock_.keeps()) fmt::print(stderr, "window: {}; {}\n", clock_.summary(), window_.renderer());
   }
 
