@@ -57,14 +57,8 @@ function(nephroid_tests)
     target_link_libraries(${group}_${stem} PRIVATE nephroid_settings ${libs} ${ARGN} GTest::gmock GTest::gtest_main)
     target_compile_definitions(${group}_${stem} PRIVATE
       NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:nephroid>" $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
-    # Two xvfb-run -a at once may choose the same display number, and one of them fails.
-    file(STRINGS ${source} uses_display REGEX "xvfb-run")
-    set(lock "")
-    if(uses_display)
-      set(lock RESOURCE_LOCK display)
-    endif()
     gtest_discover_tests(${group}_${stem} TEST_PREFIX ${group}. DISCOVERY_MODE PRE_TEST
-      PROPERTIES TIMEOUT 600 LABELS ${group} ${lock})
+      PROPERTIES TIMEOUT 600 LABELS ${group})
   endforeach()
 endfunction()
 

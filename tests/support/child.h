@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the built program as a child process, the way a person or a script does: arguments, environment, folder, signals.
+// Runs the built program, or another, as a child process, the way a person or a script does: arguments, environment, folder, signals.
 #pragma once
-#include <chrono>
+#include "tests/support/eventually.h"
+
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -9,8 +10,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <sys/prctl.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -27,19 +28,21 @@ using Environment = std::map<std::string, std::optional<std::string>>;
 
 class Child {
 public:
-  /// Starts NEPHROID_PROGRAM in `folder`, with its output going to files in `logs`.
+  /// Starts the program in `folder`, with its output going to files in `logs`. It is killed where the test is.
   Child(const std::vector<std::string>& arguments, const std::filesystem::path& folder, const std::filesystem::path& logs,
-        const Environment& environment = {})
+        const Environment& environment = {}, const std::string& program = NEPHROID_PROGRAM)
       : out_(logs / "stdout"), err_(logs / "stderr")
   {
+    for (const auto& file : {out_, err_}) std::filesystem::remove(file); // what a child before this one printed
     pid_ = ::fork();
     if (pid_ != 0) return;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const auto& [name, value] : environment) value ? ::setenv(name.c_str(), value->c_str(), 1) : ::unsetenv(name.c_str());
-    std::vector<char*> argv{const_cast<char*>(NEPHROID_PROGRAM)};
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     const bool ready = std::freopen(out_.c_str(), "w", stdout) && std::freopen(err_.c_str(), "w", stderr) && ::chdir(folder.c_str()) == 0;
-    if (ready) ::execv(argv[0], argv.data());
+    if (ready) ::execvp(argv[0], argv.data());
     ::_exit(127);
   }
   ~Child()
@@ -53,18 +56,23 @@ public:
 
   void send(int signal) const { ::kill(pid_, signal); }
 
-  /// Until condition() holds or the child is gone or a minute is over.
+  /// Until condition() holds or the child is gone or a minute is over; says whether it holds.
   template <class Condition>
   bool until(Condition condition) const
   {
-    using namespace std::chrono;
-    for (const auto end = steady_clock::now() + minutes(1); steady_clock::now() < end; std::this_thread::sleep_for(milliseconds(5))) {
-      if (condition()) return true;
-      siginfo_t gone{};
-      if (::waitid(P_PID, static_cast<id_t>(pid_), &gone, WEXITED | WNOHANG | WNOWAIT) == 0 && gone.si_pid == pid_) return false;
-    }
-    return false;
+    bool holds = false;
+    eventually([&] { return (holds = condition()) || gone(); });
+    return holds;
   }
+
+  bool gone() const
+  {
+    siginfo_t ended{};
+    return ::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == pid_;
+  }
+
+  /// So far.
+  std::string out() const { return text_of(out_); }
 
   Ended wait()
   {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Dispersion" in the real window: a control point is dragged by real X events, and the preset that is saved has moved it.
-// Skipped where there is no xvfb-run or no xdotool.
-#include "base/files.h"
+// Skipped where there is no Xvfb or no xdotool.
 #include "image/image.h"
 #include "places.h"
 #include "preset/read.h"
@@ -13,7 +12,7 @@
 namespace nephroid::ui {
 namespace {
 
-using test::bytes_at, test::there_is;
+using test::bytes_at;
 
 constexpr std::array<int, 2> size{1100, 760};
 
@@ -58,13 +57,12 @@ class DispersionWindowTest : public test::RealWindow {};
 
 TEST_F(DispersionWindowTest, ADraggedPointIsInThePresetThatIsSaved)
 {
-  if (!there_is("xvfb-run") || !there_is("xdotool")) GTEST_SKIP() << "no xvfb-run or no xdotool";
   const preset::Preset opened = with_glass();
   const std::vector<ControlPoint> before = sorted_points(opened.scene.materials.at("glass").dispersion);
   const std::string file = folder.write("glass.json", preset::to_json(opened));
   const auto way = on_screen(file, {before[2], {570, 1.59}});
-  const std::string options = fmt::format("--layout dispersion --size {}x{}", size[0], size[1]);
-  ASSERT_EQ(drag_and_save(file, options, way[0], way[1]), 0) << read_file(log);
+  ASSERT_NO_FATAL_FAILURE(
+      drag_and_save(file, {"--layout", "dispersion", "--size", fmt::format("{}x{}", size[0], size[1])}, way[0], way[1]));
   const std::vector<ControlPoint> after = sorted_points(preset::read_preset(file).scene.materials.at("glass").dispersion);
   ASSERT_EQ(after.size(), before.size());
   EXPECT_NEAR(after[2][0], 570, 3);
@@ -72,10 +70,10 @@ TEST_F(DispersionWindowTest, ADraggedPointIsInThePresetThatIsSaved)
   for (const std::size_t i : {0u, 1u, 3u, 4u}) EXPECT_EQ(after[i], before[i]) << i;
 
   // What was saved is said at the foot for a while, which moves points up: their wavelengths are where they were.
-  const image::Image screen = image::read_image(folder.path() / "screen.png");
+  const image::Image picture = screen();
   const auto at = on_screen(file, {after[2], after[1]});
-  EXPECT_GE(longest_run(screen, at[0][0], colour::note), 8) << "the selected point, where the preset has it";
-  EXPECT_GE(longest_run(screen, at[1][0], colour::text), 8) << "one at its left; those at its right lie below its tooltip";
+  EXPECT_GE(longest_run(picture, at[0][0], colour::note), 8) << "the selected point, where the preset has it";
+  EXPECT_GE(longest_run(picture, at[1][0], colour::text), 8) << "one at its left; those at its right lie below its tooltip";
 }
 
 } // namespace

@@ -40,7 +40,7 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
 {
   Engine engine(options());
   Workbench workbench(engine);
-  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done, 60); };
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2"}));
   ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
   const double bright = sum(workbench.snapshot());
@@ -74,7 +74,7 @@ TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt)
 {
   Engine engine(options());
   Workbench workbench(engine);
-  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done, 60); };
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=null", "stop.seconds=3600"}));
   ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
   write(source() + "\n");
@@ -95,7 +95,7 @@ TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
 {
   Engine engine(options());
   Workbench workbench(engine);
-  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done, 60); };
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2", "spectral.relight=true"}));
   ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
   const double bright = sum(workbench.snapshot());

@@ -8,6 +8,7 @@
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "preset/relight.h"
+#include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/workbench.h"
 
@@ -131,18 +132,5 @@ public:
   std::atomic<int> made{0};
   std::atomic<bool> changed{false}, broken{false}; ///< the kernels
 };
-
-/// Calls step until done() or the time is over; says whether it was done.
-template <class Step, class Done>
-bool eventually(Step step, Done done, double seconds = 5)
-{
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (!done()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    step();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
 
 } // namespace nephroid::test

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pictures of docs/window.md: the panels "Dispersion" and "Spectra and importance" beside a picture that follows them, while real X
 // events drag a control point and choose another light. With the folder docs in NEPHROID_PICTURES they are written there. What they
-// are to show is tested all the same. Skipped where there is no xvfb-run, no xdotool or no ImageMagick.
-#include "base/files.h"
+// are to show is tested all the same. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
 #include "image/image.h"
 #include "optics/dispersion.h"
 #include "places.h"
@@ -14,9 +13,11 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <set>
-#include <sstream>
+#include <thread>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -27,11 +28,7 @@ constexpr std::array<int, 2> size{1200, 720};
 
 class PanelPictures : public test::RealWindow {
 protected:
-  void SetUp() override
-  {
-    for (const char* tool : {"xvfb-run", "xdotool", "import", "convert"})
-      if (!test::there_is(tool)) GTEST_SKIP() << "no " << tool;
-  }
+  PanelPictures() : RealWindow({"Xvfb", "xdotool", "import", "convert"}) {}
   /// Newton's prism, of N-SF66 as control points, and a board of which one half is painted. It is not over before its pictures are taken.
   static preset::Preset prism()
   {
@@ -55,35 +52,38 @@ protected:
     scene.camera.resolution = {480, 360};
     preset.spectral.differentials = false;
     preset.stop = {};
-    preset.stop.seconds = 3600;
+    preset.stop.seconds = 600;
     return preset;
   }
-  /// Plays events to a window of this layout.
-  void play_to(const std::string& file, const std::string& layout, const std::string& events)
+  test::PlayedWindow open(const std::string& file, const std::string& layout) const
   {
-    const std::string options = fmt::format("--layout {} --size {}x{} --frame-times {}", layout, size[0], size[1], quoted("times.csv"));
-    ASSERT_EQ(play(file, options, events), 0) << read_file(log);
+    return {file, {"--layout", layout, "--size", fmt::format("{}x{}", size[0], size[1])}, folder.path()};
   }
-  /// How often a run was made ready.
-  int runs_started() const
+  /// How often a run was begun: what is done of a run falls back to nothing when the next takes its place.
+  static int runs_begun(const test::PlayedWindow& window)
   {
-    int started = 0;
-    std::string before, line;
-    for (std::istringstream lines(read_file(folder.path() / "times.csv")); std::getline(lines, line); before = line)
-      started += before.find("preparing") == std::string::npos && line.find("preparing") != std::string::npos;
-    return started;
-  }
-  const char* kept = std::getenv("NEPHROID_PICTURES");
-  int seconds = kept ? 8 : 2; ///< that a run gets before its picture is taken
-
-  /// A picture that was taken; kept with 256 colours, which is a fifth of its bytes, where pictures are asked for.
-  image::Image taken(const std::string& name) const
-  {
-    if (kept) {
-      const std::string command = fmt::format("convert {} +dither -colors 256 'png8:{}/{}'", quoted(name), kept, name);
-      EXPECT_EQ(test::shell(command, log), 0) << read_file(log);
+    int begun = 0;
+    double before = 1;
+    for (const auto& [state, fraction] : window.states()) {
+      begun += fraction < before;
+      before = fraction;
     }
-    return image::read_image(folder.path() / name);
+    return begun;
+  }
+  /// A picture of the window as soon as it satisfies a condition. Where pictures are asked for it is taken when the run has had some
+  /// seconds more and is kept, with 256 colours, which is a fifth of its bytes.
+  template <class Condition>
+  image::Image taken(const test::PlayedWindow& window, const std::string& name, const std::string& what, Condition condition) const
+  {
+    image::Image picture;
+    window.until(what, [&] { return condition(picture = window.picture(name)); });
+    const char* kept = std::getenv("NEPHROID_PICTURES");
+    if (!kept) return picture;
+    std::this_thread::sleep_for(std::chrono::seconds(8));
+    picture = window.picture(name);
+    const std::string command = fmt::format("convert '{}' +dither -colors 256 'png8:{}/{}'", (folder.path() / name).string(), kept, name);
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    return picture;
   }
 };
 
@@ -112,39 +112,58 @@ std::size_t returns(const std::vector<std::array<int, 3>>& colours)
   return found;
 }
 
-TEST_F(PanelPictures, AControlPointIsDragged)
+/// Of the pixels of the View.
+std::vector<std::array<int, 3>> colours_in(const image::Image& screen, const Canvas& canvas)
 {
-  const preset::Preset preset = prism();
-  const std::string file = folder.write("prism.json", preset::to_json(preset));
-  std::array<std::array<int, 2>, 2> way;
-  const DispersionPlot plot = in_window_like(size, "dispersion", file, [&](const Workspace& workspace, auto&, auto) {
-    const std::vector<ControlPoint> points = sorted_points(preset.scene.materials.at("glass").dispersion);
-    const ControlPoint point = points[points.size() / 2];
-    way = {pixel(workspace.dispersion().plot().to_screen(point)),
-           pixel(workspace.dispersion().plot().to_screen({point[0] + 20, point[1] + 0.055}))};
-    return workspace.dispersion().plot();
-  });
-  play_to(file, "dispersion",
-          fmt::format("sleep {}\npicture {}\nat {} {}\npress\nglide {} {} {} {}\nsleep {}\npicture {}\nlet_go\nchord s\nchord q", seconds,
-                      quoted("window-dispersion.png"), way[0][0], way[0][1], way[0][0], way[0][1], way[1][0], way[1][1], seconds,
-                      quoted("window-dispersion-dragged.png")));
-  const auto before = strip(taken("window-dispersion.png"), plot), dragged = strip(taken("window-dispersion-dragged.png"), plot);
-  EXPECT_GT(count(before), 24u);
-  EXPECT_GT(runs_started(), 1) << "the picture followed";
-  EXPECT_GT(returns(dragged), returns(before) + 3) << "n is no longer monotone: clusters have parts on both sides of the bend";
+  std::vector<std::array<int, 3>> colours;
+  for (double y = canvas.corner[1]; y < canvas.corner[1] + canvas.size[1]; ++y)
+    for (double x = canvas.corner[0]; x < canvas.corner[0] + canvas.size[0]; ++x) colours.push_back(test::bytes_at(screen, x, y));
+  return colours;
+}
+
+/// Of what the View shows before there is a picture, a ground and a line of text, there are a few dozen colours.
+auto picture_in(const Canvas& canvas)
+{
+  return [&canvas](const image::Image& screen) { return count(colours_in(screen, canvas)) > 200; };
 }
 
 /// Red over blue of what the View shows.
 double warmth(const image::Image& screen, const Canvas& canvas)
 {
   double red = 0, blue = 0;
-  for (double y = canvas.corner[1]; y < canvas.corner[1] + canvas.size[1]; ++y)
-    for (double x = canvas.corner[0]; x < canvas.corner[0] + canvas.size[0]; ++x) {
-      const auto colour = test::bytes_at(screen, x, y);
-      red += colour[0];
-      blue += colour[2];
-    }
+  for (const auto& colour : colours_in(screen, canvas)) {
+    red += colour[0];
+    blue += colour[2];
+  }
   return red / blue;
+}
+
+TEST_F(PanelPictures, AControlPointIsDragged)
+{
+  const preset::Preset preset = prism();
+  const std::string file = folder.write("prism.json", preset::to_json(preset));
+  std::array<test::Pixel, 2> way;
+  const auto [plot, canvas] = in_window_like(size, "dispersion", file, [&](const Workspace& workspace, auto&, auto) {
+    const std::vector<ControlPoint> points = sorted_points(preset.scene.materials.at("glass").dispersion);
+    const ControlPoint point = points[points.size() / 2];
+    way = {pixel(workspace.dispersion().plot().to_screen(point)),
+           pixel(workspace.dispersion().plot().to_screen({point[0] + 20, point[1] + 0.055}))};
+    return std::pair(workspace.dispersion().plot(), workspace.view().canvas());
+  });
+  test::PlayedWindow window = open(file, "dispersion");
+  const auto before = strip(taken(window, "window-dispersion.png", "a picture of the run", picture_in(canvas)), plot);
+  EXPECT_GT(count(before), 24u);
+  window.until("some of the run is done", [&] { return window.states().back().fraction > 0; });
+  window.move(way[0]);
+  window.press();
+  window.glide(way[0], way[1]);
+  // n is no longer monotone.
+  taken(window, "window-dispersion-dragged.png", "clusters that have parts on both sides of the bend",
+        [&](const image::Image& picture) { return returns(strip(picture, plot)) > returns(before) + 3; });
+  window.until("the picture follows", [&] { return runs_begun(window) > 1; });
+  window.let_go();
+  window.save();
+  EXPECT_EQ(window.quit().exit_code, 0);
 }
 
 TEST_F(PanelPictures, AnotherLightIsChosen)
@@ -153,7 +172,7 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
   preset.scene.lights.at(0).spectrum.illuminant = "F10";
   preset.spectral.relight = true;
   const std::string file = folder.write("prism.json", preset::to_json(preset));
-  std::array<int, 2> box, other;
+  test::Pixel box, other;
   const Canvas canvas =
       in_window_like<test::SeeingRuns>(size, "spectra", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
         box = pixel(workspace.spectra().place_of("illuminant").value());
@@ -166,12 +185,17 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
         other = pixel(workspace.spectra().place_of("illuminant A").value());
         return workspace.view().canvas();
       });
-  play_to(file, "spectra",
-          fmt::format("sleep {}\npicture {}\nclick {} {}\nclick {} {}\nat {} 9\nsleep 1\npicture {}\nchord s\nchord q", seconds,
-                      quoted("window-spectra.png"), box[0], box[1], other[0], other[1], size[0] - 9, quoted("window-spectra-relit.png")));
+  test::PlayedWindow window = open(file, "spectra");
+  const image::Image before = taken(window, "window-spectra.png", "a picture of the run", picture_in(canvas));
+  window.click(box);
+  window.click(other);
+  window.move({size[0] - 9, 9});
+  taken(window, "window-spectra-relit.png", "a warmer picture",
+        [&](const image::Image& picture) { return warmth(picture, canvas) > 1.2 * warmth(before, canvas); });
+  EXPECT_EQ(runs_begun(window), 1) << "the same run went on";
+  window.save();
+  EXPECT_EQ(window.quit().exit_code, 0);
   EXPECT_EQ(preset::read_preset(file).scene.lights[0].spectrum.illuminant, "A");
-  EXPECT_EQ(runs_started(), 1) << "the same run went on";
-  EXPECT_GT(warmth(taken("window-spectra-relit.png"), canvas), 1.2 * warmth(taken("window-spectra.png"), canvas));
 }
 
 } // namespace

@@ -1,32 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real program in a real window on a virtual display of its own.
+// The real program in a real window on a virtual display of its own, played to by real X events. Nothing waits for a time: after each
+// event the window draws frames, and the file of --frame-times has a line of each as it is drawn.
 #pragma once
-#include "base/files.h"
 #include "image/image.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/x_display.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <string>
-#include <sys/wait.h>
+#include <utility>
+#include <vector>
 
 namespace nephroid::test {
 
-inline const std::string program = "'" NEPHROID_PROGRAM "'";
-
-inline bool there_is(const std::string& command) { return std::system(("command -v " + command + " > /dev/null 2>&1").c_str()) == 0; }
-
-/// Exit code of a line of shell, with what it printed in `output`.
-inline int shell(const std::string& line, const std::filesystem::path& output)
-{
-  const int status = std::system(("{ " + line + "; } > '" + output.string() + "' 2>&1").c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
+using Pixel = std::array<int, 2>;
 
 /// Of a screenshot.
 inline std::array<int, 3> bytes_at(const image::Image& picture, double x, double y)
@@ -37,57 +30,164 @@ inline std::array<int, 3> bytes_at(const image::Image& picture, double x, double
   return bytes;
 }
 
+/// A window that events are played to, in pixels of the window; needs Xvfb and xdotool. Throws where a minute passes before what it waits
+/// for.
+class PlayedWindow {
+public:
+  /// Opens a preset, until its run has begun and strips and panels, which show what the run was made with, are in their places. Files are
+  /// written to the folder.
+  PlayedWindow(const std::string& preset, std::vector<std::string> options, const std::filesystem::path& folder)
+      : folder_(folder), program_(arguments(preset, std::move(options)), folder, folder, display_.environment())
+  {
+    until("a run has begun", [&] {
+      const std::vector<State> all = states();
+      return !all.empty() && all.back().name != "no run" && all.back().name != "preparing";
+    });
+    settle(5);
+    const std::string found = xdotool({"search", "--onlyvisible", "--name", "Nephroid"});
+    id_ = found.substr(0, found.find('\n'));
+    send({"windowfocus", "--sync", id_});
+  }
+
+  void move(const Pixel& to) { send({"mousemove", "--window", id_, std::to_string(to[0]), std::to_string(to[1])}); }
+  /// The left button.
+  void press() { send({"mousedown", "1"}); }
+  void let_go() { send({"mouseup", "1"}); }
+  void glide(const Pixel& from, const Pixel& to)
+  {
+    constexpr int moves = 4;
+    for (int i = 1; i <= moves; ++i) move({from[0] + (to[0] - from[0]) * i / moves, from[1] + (to[1] - from[1]) * i / moves});
+  }
+  void drag(const Pixel& from, const Pixel& to)
+  {
+    move(from);
+    press();
+    glide(from, to);
+    let_go();
+  }
+  void click(const Pixel& at)
+  {
+    move(at);
+    press();
+    let_go();
+  }
+  void key(const std::string& name)
+  {
+    send({"keydown", name});
+    send({"keyup", name});
+  }
+  void resize(const Pixel& size) { send({"windowsize", id_, std::to_string(size[0]), std::to_string(size[1])}); }
+  /// Ctrl+S, until the title has no mark of a preset that is not saved.
+  void save()
+  {
+    send({"keydown", "ctrl"});
+    key("s");
+    send({"keyup", "ctrl"});
+    until("the preset is saved", [&] { return !title().starts_with("* "); });
+  }
+  /// Ctrl+Q; what became of the program. Its last frame is in screen.png.
+  Ended quit()
+  {
+    send({"keydown", "ctrl"});
+    xdotool({"keydown", "q"});
+    until("it closes", [&] { return program_.gone(); });
+    return program_.wait();
+  }
+
+  std::string title() const { return xdotool({"getwindowname", id_}); }
+  /// Of the run, when a frame was drawn.
+  struct State {
+    std::string name;
+    double fraction = 0; ///< done
+  };
+  /// A frame each; at least one.
+  std::vector<State> states() const
+  {
+    std::vector<State> all;
+    for (const std::string& line : frames()) {
+      const std::size_t fraction = line.rfind(','), name = line.rfind(',', fraction - 1);
+      all.push_back({line.substr(name + 1, fraction - name - 1), std::stod(line.substr(fraction + 1))});
+    }
+    return all;
+  }
+  /// What the window shows now, which is written to a file, too; needs ImageMagick.
+  image::Image picture(const std::string& name) const
+  {
+    run("import", {"-window", id_, "png24:" + (folder_ / name).string()});
+    return image::read_image(folder_ / name);
+  }
+  template <class Condition>
+  void until(const std::string& what, Condition condition) const
+  {
+    if (!program_.until(condition)) throw std::runtime_error("the window does not come to this: " + what);
+  }
+
+private:
+  std::vector<std::string> arguments(const std::string& preset, std::vector<std::string> options) const
+  {
+    options.insert(options.begin(), preset);
+    // A limit that is not reached, with which the screenshot is of the frame that closes the window.
+    options.insert(options.end(), {"--frames", "1000000", "--screenshot", "screen.png", "--frame-times", "frames.csv"});
+    return options;
+  }
+  /// The line of each frame that has been drawn.
+  std::vector<std::string> frames() const
+  {
+    std::vector<std::string> lines;
+    std::ifstream file(folder_ / "frames.csv");
+    for (std::string line; std::getline(file, line) && !file.eof();) lines.push_back(line); // a line's end is written last
+    if (!lines.empty()) lines.erase(lines.begin());                                         // the columns' names
+    return lines;
+  }
+  /// Until so many frames more have been drawn: the one that was being drawn when xdotool ended, for then the X server has the event; the
+  /// next, which reads it; and one more, for Dear ImGui knows a frame late what lies under the mouse.
+  void settle(std::size_t more = 3) const
+  {
+    const std::size_t before = frames().size();
+    until("it draws", [&] { return frames().size() >= before + more; });
+  }
+  std::string run(const std::string& program, const std::vector<std::string>& arguments) const
+  {
+    const Ended ended = display_.run(program, arguments);
+    if (ended.exit_code != 0) throw std::runtime_error(fmt::format("{} {}: {}", program, arguments[0], ended.err));
+    return ended.out;
+  }
+  std::string xdotool(const std::vector<std::string>& arguments) const { return run("xdotool", arguments); }
+  void send(const std::vector<std::string>& event) const
+  {
+    xdotool(event);
+    settle();
+  }
+
+  std::filesystem::path folder_;
+  XDisplay display_;
+  Child program_;
+  std::string id_;
+};
+
 class RealWindow : public ::testing::Test {
 protected:
-  TemporaryFolder folder;
-  std::filesystem::path log = folder.path() / "log.txt";
-  /// What runs the rest of a command line on a display of its own. The X authority file is ours: xvfb-run's own temporary folder may still
-  /// be written to when xvfb-run removes it, and then it exits with 5.
-  /// The OpenGL driver unloads itself at the end, so LeakSanitizer cannot tell whose its memory was; the headless tests look for our leaks.
-  std::string on_display() const
+  explicit RealWindow(std::vector<std::string> tools = {"Xvfb", "xdotool"}) : tools_(std::move(tools)) {}
+  void SetUp() override
   {
-    return "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" xvfb-run -a -f " + quoted("authority") + " -s '-screen 0 1600x1000x24' ";
+    for (const std::string& tool : tools_)
+      if (!there_is(tool)) GTEST_SKIP() << "no " << tool;
   }
-  std::string quoted(const std::string& name) const { return fmt::format("'{}'", (folder.path() / name).string()); }
-  /// Opens a preset and plays lines of shell to the window, by X events and until it is closed; needs xdotool. Beside the shell's own
-  /// words there are, in pixels of the window:
-  ///   at X Y           the mouse goes there
-  ///   press, let_go    the left button
-  ///   glide X Y X Y    from one place to another in eight moves
-  ///   drag X Y X Y     the same with the left button held
-  ///   click X Y
-  ///   chord KEY        Ctrl and a key
-  ///   picture FILE     what the window shows now; needs ImageMagick
-  /// The program's exit code; its last frame is in screen.png, what it printed in `log`.
-  int play(const std::string& preset, const std::string& options, const std::string& events) const
-  {
-    // Kernels are compiled before the window's run needs them: the events wait three seconds for its first picture.
-    shell(program + " run '" + preset + "' --passes 1 -o " + quoted("first"), log);
-    // Keys slower than one frame: where Ctrl goes up before the key within a frame, Dear ImGui sees the key alone.
-    write_file_whole(folder.path() / "events.sh", fmt::format(R"(#!/bin/sh
-at() {{ xdotool mousemove --window $id $1 $2; sleep 0.1; }}
-press() {{ sleep 0.9; xdotool mousedown 1; sleep 0.5; }}
-let_go() {{ sleep 0.5; xdotool mouseup 1; sleep 0.5; }}
-glide() {{ for i in 1 2 3 4 5 6 7 8; do at $(($1 + ($3 - $1) * i / 8)) $(($2 + ($4 - $2) * i / 8)); done; }}
-drag() {{ at $1 $2; press; glide $1 $2 $3 $4; let_go; }}
-click() {{ at $1 $2; press; let_go; }}
-chord() {{ xdotool keydown ctrl; sleep 0.4; xdotool keydown $1; sleep 0.4; xdotool keyup $1; sleep 0.4; xdotool keyup ctrl; sleep 0.4; }}
-picture() {{ import -window $id "png24:$1"; }}
-{} '{}' {} --frames 100000 --screenshot {} &
-id=$(timeout 20 xdotool search --sync --onlyvisible --name Nephroid | head -n 1)
-xdotool windowfocus $id
-sleep 3
-{}
-wait
-)",
-                                                              program, preset, options, quoted("screen.png"), events));
-    return shell(on_display() + "timeout 60 sh " + quoted("events.sh"), log);
-  }
+  image::Image screen() const { return image::read_image(folder.path() / "screen.png"); }
   /// Opens a preset, drags with the left button from one place of the window to another, saves and quits.
-  int drag_and_save(const std::string& file, const std::string& options, const std::array<int, 2>& from, const std::array<int, 2>& to) const
+  void drag_and_save(const std::string& preset, const std::vector<std::string>& options, const Pixel& from, const Pixel& to) const
   {
-    return play(file, options, fmt::format("drag {} {} {} {}\nchord s\nchord q", from[0], from[1], to[0], to[1]));
+    PlayedWindow window(preset, options, folder.path());
+    window.drag(from, to);
+    window.save();
+    const Ended ended = window.quit();
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
   }
+
+  TemporaryFolder folder;
+
+private:
+  std::vector<std::string> tools_;
 };
 
 } // namespace nephroid::test

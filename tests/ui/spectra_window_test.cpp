@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Spectra and importance" in the real window: a row of a light's table is dragged by real X events, and the preset that is
-// saved has moved it. Skipped where there is no xvfb-run or no xdotool.
+// saved has moved it. Skipped where there is no Xvfb or no xdotool.
 #include "places.h"
 #include "preset/read.h"
 #include "real_window.h"
@@ -32,11 +32,10 @@ class SpectraWindowTest : public test::RealWindow {};
 
 TEST_F(SpectraWindowTest, ADraggedRowIsInThePresetThatIsSaved)
 {
-  if (!test::there_is("xvfb-run") || !test::there_is("xdotool")) GTEST_SKIP() << "no xvfb-run or no xdotool";
   const std::string file =
       folder.write("room.json", test::room_text(R"({"type": "table", "table": [[400, 0.2], [500, 1], [600, 0.5], [700, 0.8]]})"));
   const auto way = on_screen(file, {{600, 0.5}, {650, 0.9}});
-  ASSERT_EQ(drag_and_save(file, fmt::format("--layout spectra --size {}x{}", size[0], size[1]), way[0], way[1]), 0) << read_file(log);
+  ASSERT_NO_FATAL_FAILURE(drag_and_save(file, {"--layout", "spectra", "--size", fmt::format("{}x{}", size[0], size[1])}, way[0], way[1]));
   const std::vector<PowerRow> after = preset::read_preset(file).scene.lights[0].spectrum.table;
   ASSERT_EQ(after.size(), 4u);
   EXPECT_NEAR(after[2][0], 650, 3);
@@ -45,11 +44,11 @@ TEST_F(SpectraWindowTest, ADraggedRowIsInThePresetThatIsSaved)
   EXPECT_EQ(after[3], (PowerRow{700, 0.8}));
 
   // The lower plot's bars: in the real window too the spectrum goes from blue to red.
-  const image::Image screen = image::read_image(folder.path() / "screen.png");
+  const image::Image picture = screen();
   const auto at = on_screen(file, {{460, 0}, {620, 0}});
   const auto has = [&](int x, auto is_wanted) {
     for (int y = at[0][1] + 20; y < size[1]; ++y)
-      if (is_wanted(bytes_at(screen, x, y))) return true;
+      if (is_wanted(bytes_at(picture, x, y))) return true;
     return false;
   };
   EXPECT_TRUE(has(at[0][0], [](const auto& c) { return c[2] > c[0] + 60; })) << "a blue bar";

@@ -2,6 +2,7 @@
 // The worker with a job that counts: every order of commands ends in a defined state, and readers never wait.
 #include "base/error.h"
 #include "job/worker.h"
+#include "tests/support/eventually.h"
 
 #include <gmock/gmock.h>
 
@@ -15,6 +16,7 @@ namespace {
 using namespace nephroid;
 using namespace nephroid::job;
 using namespace std::chrono_literals;
+using nephroid::test::eventually;
 
 /// Counts to `steps`; can be held inside a step. Its picture is one pixel with the count.
 class CountingJob : public Job {
@@ -57,15 +59,6 @@ constexpr int endless = 1 << 30;
 auto counting(int steps, std::atomic<int>* alive = nullptr)
 {
   return [=] { return std::make_unique<CountingJob>(steps, alive); };
-}
-
-/// Until the worker says so or ten seconds are over.
-template <class Condition>
-bool eventually(Condition condition)
-{
-  for (const auto end = std::chrono::steady_clock::now() + 10s; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(100us))
-    if (condition()) return true;
-  return false;
 }
 
 TEST(Worker, IsIdleAtFirst)
