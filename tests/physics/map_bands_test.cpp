@@ -23,8 +23,9 @@ namespace {
 
 struct Line {
   double nm, n, share; ///< the prism's n; of the lamp's power
+  double sppm_scatter; ///< standard deviation over 30 seeds of what sppm makes of radiance(), over it; the means were .999 and 1.001
 };
-constexpr std::array<Line, 2> lines{{{450, 2.0, 0.2}, {620, 1.3, 0.8}}};
+constexpr std::array<Line, 2> lines{{{450, 2.0, 0.2, 0.0203}, {620, 1.3, 0.8, 0.0097}}};
 
 constexpr double apex = 22 * degree, side = 0.1, screen_x = -1;
 
@@ -86,7 +87,7 @@ preset::Preset stripe_through_a_prism(const Line& line)
   p.spectral.threshold_deg = 80; // one cluster
   p.spectral.sppm.radius = 0.015;
   p.spectral.photons_per_pass = 1 << 13;
-  p.stop.passes = 96;
+  p.stop.passes = 192;
   return p;
 }
 
@@ -113,7 +114,7 @@ class MapBands : public testing::TestWithParam<Way> {};
 
 // Each image has the light of its own line, and nothing of the other, whose paths pass the stripe by. One wavelength a path and pass, or a
 // cluster for each, of which the eye's paths are dealt unequal parts. All of a pass of sppm has one wavelength, by steps of the golden
-// ratio: they are not independent, but each line has its share of 48 even and 48 odd passes within 2.
+// ratio, and the radius shrinks from pass to pass: they are not independent, and how far its figure may be off is known from other seeds.
 TEST_P(MapBands, AStripeHasOneImageForEachLine)
 {
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -122,10 +123,11 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine)
     p.spectral.method = GetParam().method;
     const std::vector<Estimate> figures = render_passes(p, radiance_in_lines);
     const double truth = radiance(lines[i]);
-    const double error = GetParam().estimator == Spectral::Estimator::sppm ? 0.5 : tolerance(figures[i]) / truth + 1e-3;
+    const bool hang_together = GetParam().estimator == Spectral::Estimator::sppm;
+    const double error = hang_together ? tolerance_over_seeds(lines[i].sppm_scatter, 30) : tolerance(figures[i]) / truth + 1e-3;
     expect_truth(fmt::format("stripe through a prism, {} nm, {}: radiance over its truth", lines[i].nm, GetParam().name),
                  figures[i].mean / truth, 1, error);
-    EXPECT_LE(error, GetParam().estimator == Spectral::Estimator::sppm ? 0.5 : 0.3);
+    EXPECT_LE(error, 0.13) << "such a check would see too little";
     EXPECT_NEAR(figures[1 - i].mean / truth, 0, 1e-4) << "light of " << lines[1 - i].nm << " nm";
   }
 }

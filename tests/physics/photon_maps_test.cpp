@@ -165,7 +165,7 @@ void expect_same_picture(const std::string& what, const std::vector<Estimate>& m
   Estimate all = maps.back();
   all.variance += splats.back().variance;
   record(what + ": light in all, over that of splats", all.mean / means.back(), 1, tolerance(all) / means.back() + 0.005);
-  EXPECT_LT(tolerance(all), 0.2 * means.back()) << what;
+  EXPECT_LT(tolerance(all), 0.1 * means.back()) << what << ": such a check would see too little";
   EXPECT_GT(sidak(smallest, static_cast<double>(maps.size())), false_alarm) << what;
   EXPECT_GT(lit, 4) << what;
   testing::Test::RecordProperty(what + ": mean z^2 of bright blocks, and the worst off",
@@ -226,6 +226,7 @@ TEST(PhotonMaps, AWindowChangesNothing)
   for (const bool jitter : {false, true}) {
     splat.spectral.jitter = maps.spectral.jitter = jitter;
     // Of each cluster a pass has one wavelength: many passes of few photons. On a grey floor most wavelengths bring as much X + Y + Z.
+    // Over 40 seeds the light in all scatters by .011, which is what the passes' scatter says too: .08 are one in 10^9.
     if (jitter)
       for (preset::Preset* p : {&splat, &maps}) {
         p->scene.materials["floor"] = white(0.8);

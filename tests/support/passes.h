@@ -4,6 +4,8 @@
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -76,6 +78,14 @@ inline double same_expectations(const std::vector<Estimate>& a, const std::vecto
 inline double tolerance(const Estimate& e)
 {
   return std::sqrt(e.variance * e.degrees * std::expm1(2 / e.degrees * std::log(2 / false_alarm)));
+}
+
+/// How far off a figure may be that scattered with this standard deviation over so many seeds: after Student's distribution one run in a
+/// million is farther off. For passes that hang on each other, whose own scatter says nothing.
+inline double tolerance_over_seeds(double standard_deviation, int seeds)
+{
+  const boost::math::students_t distribution(seeds - 1);
+  return standard_deviation * boost::math::quantile(boost::math::complement(distribution, 1e-6 / 2));
 }
 
 } // namespace nephroid::test
