@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid check` as a script sees it: its JSON, its exit codes, a wrong kernel, Ctrl-C.
 #include "base/files.h"
-#include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/program_test.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -16,13 +15,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class CheckVerb : public testing::Test {
+class CheckVerb : public ProgramTest {
 protected:
-  TemporaryFolder scratch;
   Ended check(std::vector<std::string> arguments) const
   {
     arguments.insert(arguments.begin(), "check");
-    return nephroid::test::nephroid(arguments, scratch.path(), scratch.path());
+    return run(arguments);
   }
 };
 
@@ -41,7 +39,7 @@ TEST_F(CheckVerb, JsonIsAsTheContractHasIt)
 
 TEST_F(CheckVerb, AWrongKernelIsNamedAndExitsWithOne)
 {
-  const fs::path kernels = scratch.path() / "kernels";
+  const fs::path kernels = folder / "kernels";
   fs::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
   std::string text = nephroid::read_file(kernels / "film.h");
   text.replace(text.find("0x1p42f"), 7, "0x1p44f");
@@ -65,9 +63,8 @@ TEST_F(CheckVerb, NoSuchDeviceExitsWithThree)
 
 TEST_F(CheckVerb, CtrlCEndsInOrder)
 {
-  Child child({"check"}, scratch.path(), scratch.path());
-  const fs::path out = scratch.path() / "stdout";
-  ASSERT_TRUE(child.until([&] { return fs::exists(out) && nephroid::read_file(out).find("built-in: exp") != std::string::npos; }));
+  Child child({"check"}, folder, logs);
+  ASSERT_TRUE(child.until([&] { return child.out().find("built-in: exp") != std::string::npos; }));
   child.send(SIGINT);
   const Ended ended = child.wait();
   EXPECT_EQ(ended.exit_code, 130) << ended.err;

@@ -4,8 +4,7 @@
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/history_file.h"
-#include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/plate_runs.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -27,29 +26,17 @@ using testing::Not;
 
 constexpr int width = 48, height = 40;
 
-class Measured : public testing::Test {
+class Measured : public PlateRuns {
 protected:
-  TemporaryFolder scratch;
-
   /// References go to a cache of this test's own; kernels stay in everybody's.
-  Environment environment() const
+  Ended run(const std::string& name, const std::vector<std::string>& more) const
   {
     const char* home = std::getenv("HOME");
-    return {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()},
-            {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}};
+    return PlateRuns::run(
+        name, more,
+        {{"XDG_CACHE_HOME", file("cache").string()}, {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}});
   }
-  Ended run(const std::string& name, std::vector<std::string> more) const
-  {
-    std::vector<std::string> arguments{"run",   "spectral/plate",
-                                       "-o",    (scratch.path() / name).string(),
-                                       "--set", "scene.camera.resolution=[48,40]",
-                                       "--set", "spectral.photons_per_pass=20000"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return nephroid::test::nephroid(arguments, scratch.path(), scratch.path(), environment());
-  }
-  fs::path file(const std::string& name) const { return scratch.path() / name; }
   nephroid::job::History history(const std::string& name) const { return nephroid::measure::read_history(file(name) / "history.csv"); }
-  json run_json(const std::string& name) const { return json::parse(read_file(file(name) / "run.json")); }
 
   /// A picture file of one value, with pixel 3 changed to `third`.
   std::string picture(const std::string& name, int w, int h, float value, float third) const

@@ -4,13 +4,10 @@
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/history_file.h"
-#include "tests/support/child.h"
 #include "tests/support/made_runs.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/program_test.h"
 
 #include <gmock/gmock.h>
-
-#include <algorithm>
 
 namespace {
 
@@ -22,22 +19,12 @@ using testing::AllOf;
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
-class Reports : public testing::Test {
+class Reports : public ProgramTest {
 protected:
-  TemporaryFolder temporary;
-  fs::path folder = temporary.path() / "runs";
-  fs::path logs = temporary.path();
-
-  void SetUp() override { fs::create_directories(folder); }
-
-  Ended command(const std::vector<std::string>& arguments, const Environment& environment = {}) const
-  {
-    return nephroid::test::nephroid(arguments, folder, logs, environment);
-  }
   Ended report(std::vector<std::string> arguments, const Environment& environment = {}) const
   {
     arguments.insert(arguments.begin(), "report");
-    return command(arguments, environment);
+    return run(arguments, environment);
   }
 
   /// The line that the report over these folders is refused with.
@@ -47,8 +34,7 @@ protected:
     arguments.insert(arguments.end(), {"-o", "page.html"});
     const Ended ended = report(arguments);
     EXPECT_EQ(ended.exit_code, 2) << ended.err;
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-    EXPECT_EQ(ended.out, "");
+    expect_one_line(ended);
     EXPECT_FALSE(fs::exists(folder / "page.html"));
     return ended.err;
   }
@@ -75,7 +61,7 @@ TEST_F(Reports, are_made_of_real_runs)
   for (const char* seed : {"1", "2"}) {
     std::vector<std::string> arguments = small;
     arguments.insert(arguments.end(), {"--seed", seed, "-o", std::string("seed") + seed});
-    ASSERT_EQ(command(arguments).exit_code, 0);
+    ASSERT_EQ(run(arguments).exit_code, 0);
   }
   const Ended ended = report({"seed1", "seed2"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;

@@ -5,8 +5,7 @@
 #include "measure/history_file.h"
 #include "preset/read.h"
 #include "run/run.h"
-#include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/plate_runs.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -25,30 +24,10 @@ using nephroid::write_file_whole;
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// A plate of glass, small enough for passes of a few milliseconds. Needs no mesh file.
-const std::vector<std::string> small_run{
-    "run", "spectral/plate", "--set", "scene.camera.resolution=[48,40]", "--set", "spectral.photons_per_pass=20000"};
-
-class Runs : public testing::Test {
+class Runs : public PlateRuns {
 protected:
-  TemporaryFolder scratch;
-  fs::path logs = scratch.path();
-
-  /// "a" becomes the folder a run writes to.
-  std::vector<std::string> into(const std::string& name, const std::vector<std::string>& more) const
-  {
-    std::vector<std::string> arguments = small_run;
-    arguments.insert(arguments.end(), {"-o", (scratch.path() / name).string()});
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-  }
-  Ended run(const std::string& name, const std::vector<std::string>& more, const Environment& environment = {}) const
-  {
-    return nephroid::test::nephroid(into(name, more), scratch.path(), logs, environment);
-  }
   fs::path file(const std::string& name, const char* which) const { return scratch.path() / name / which; }
   std::string picture(const std::string& name) const { return read_file(file(name, "image.exr")); }
-  json run_json(const std::string& name) const { return json::parse(read_file(file(name, "run.json"))); }
 };
 
 std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }

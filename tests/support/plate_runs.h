@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A test that runs the program on a small preset, into folders of a folder of its own.
+#pragma once
+#include "base/files.h"
+#include "tests/support/child.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace nephroid::test {
+
+class PlateRuns : public testing::Test {
+protected:
+  TemporaryFolder scratch;
+  std::filesystem::path logs = scratch.path();
+
+  /// The command line of a run into the folder `name`: a plate of glass, which needs no mesh file, in passes of a few milliseconds.
+  std::vector<std::string> into(const std::string& name, const std::vector<std::string>& more) const
+  {
+    std::vector<std::string> arguments{
+        "run", "spectral/plate",   "--set", "scene.camera.resolution=[48,40]", "--set", "spectral.photons_per_pass=20000",
+        "-o",  file(name).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  Ended run(const std::string& name, const std::vector<std::string>& more, const Environment& environment = {}) const
+  {
+    return nephroid(into(name, more), scratch.path(), logs, environment);
+  }
+  std::filesystem::path file(const std::string& name) const { return scratch.path() / name; }
+  nlohmann::json run_json(const std::string& name) const { return nlohmann::json::parse(read_file(file(name) / "run.json")); }
+};
+
+} // namespace nephroid::test
