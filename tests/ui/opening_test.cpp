@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opening files in the window: what it asks before unsaved changes go, and what it says about files that are no preset.
-#include "fake_job.h"
 #include "headless.h"
 #include "preset/read.h"
 #include "ui/file_kind.h"
+#include "workbench_fixture.h"
 
 #include <gmock/gmock.h>
 
@@ -13,20 +13,15 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class OpeningTest : public ::testing::Test {
+class OpeningTest : public test::WorkbenchFixture {
 protected:
-  test::FakeRuns runs;
-  test::TemporaryFolder folder;
-  Workbench workbench{runs};
   const std::string first = folder.write("first.json", test::preset_text);
   const std::string second = folder.write("second.json", R"({"name": "Second", "parent": "first.json"})");
 
   void open_and_edit()
   {
     ASSERT_TRUE(workbench.open(first));
-    preset::Preset edited = *workbench.preset();
-    edited.scene.camera.position = {0, 0, 2};
-    workbench.apply({command::Edit{"camera", edited}});
+    edit([](preset::Preset& p) { p.scene.camera.position = {0, 0, 2}; });
     ASSERT_TRUE(workbench.history()->modified());
   }
   std::string refusal(const std::string& file)

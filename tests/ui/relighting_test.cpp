@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An edit of a light in a preset that keeps layers goes to the run in hand; every other edit starts a new run.
-#include "fake_job.h"
-#include "ui/workbench.h"
+#include "workbench_fixture.h"
 
 #include <gmock/gmock.h>
 
@@ -9,19 +8,10 @@ namespace nephroid::ui {
 namespace {
 
 using namespace std::chrono_literals;
-using test::eventually;
 using ::testing::HasSubstr;
 
-class RelightingTest : public ::testing::Test {
+class RelightingTest : public test::WorkbenchFixture {
 protected:
-  test::FakeRuns runs;
-  test::TemporaryFolder folder;
-  Workbench workbench{runs};
-
-  bool until(const std::function<bool()>& done)
-  {
-    return eventually([&] { workbench.update(); }, done);
-  }
   void open(int steps, bool relight = true)
   {
     runs.steps = steps;
@@ -29,15 +19,9 @@ protected:
     ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {relight ? "spectral.relight=true" : "seed=1"}));
     ASSERT_TRUE(until([&] { return workbench.snapshot() && workbench.plan() && workbench.status().state != job::State::preparing; }));
   }
-  void edit(const std::function<void(preset::Preset&)>& change, bool live = false)
-  {
-    preset::Preset edited = *workbench.preset();
-    change(edited);
-    workbench.apply({command::Edit{"edit", edited, 1, live}});
-  }
   void edit_power(double watts, bool live = false)
   {
-    edit([&](preset::Preset& p) { p.scene.lights[0].power_w = watts; }, live);
+    edit([&](preset::Preset& p) { p.scene.lights[0].power_w = watts; }, 1, live);
   }
   double shown_power() const { return workbench.snapshot()->energy.emitted_w; }
   bool shows(double watts)

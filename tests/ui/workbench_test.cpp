@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The workbench with a job of the test's own and the program's real worker thread: commands in, preset, picture and messages out.
 #include "base/files.h"
-#include "fake_job.h"
 #include "preset/read.h"
-#include "ui/workbench.h"
+#include "workbench_fixture.h"
 
 #include <gmock/gmock.h>
 
@@ -11,29 +10,14 @@ namespace nephroid::ui {
 namespace {
 
 using namespace std::chrono_literals;
-using test::eventually;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-class WorkbenchTest : public ::testing::Test {
+class WorkbenchTest : public test::WorkbenchFixture {
 protected:
-  test::FakeRuns runs;
-  test::TemporaryFolder folder;
-  Workbench workbench{runs};
-
-  bool until(const std::function<bool()>& done)
-  {
-    return eventually([&] { workbench.update(); }, done);
-  }
-  bool until(job::State state)
-  {
-    return until([&] { return workbench.status().state == state; });
-  }
   void edit_z(double z, std::uint64_t gesture = 0, bool live = false)
   {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.camera.position = {0, 0, z};
-    workbench.apply({command::Edit{"camera", edited, gesture, live}});
+    edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; }, gesture, live);
   }
   float picture_z() const { return workbench.snapshot() ? workbench.snapshot()->picture->rgb[2] : -1; }
 };
