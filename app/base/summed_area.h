@@ -24,13 +24,20 @@ public:
     }
   }
 
-  /// Of the square that reaches so many pixels to each side of (x, y), as much of it as is in the picture.
-  double mean(int x, int y, int reach) const
+  /// Over the square that reaches so many pixels to each side of (x, y), as much of it as is in the picture.
+  double sum(int x, int y, int reach) const
   {
     const int left = std::max(x - reach, 0), right = std::min(x + reach + 1, width_);
     const int top = std::max(y - reach, 0), bottom = std::min(y + reach + 1, height_);
-    const double sum = at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
-    return sum / (static_cast<double>(right - left) * (bottom - top));
+    return at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
+  }
+
+  /// The same, divided by the number of pixels.
+  double mean(int x, int y, int reach) const
+  {
+    const int columns = std::min(x + reach + 1, width_) - std::max(x - reach, 0),
+              rows = std::min(y + reach + 1, height_) - std::max(y - reach, 0);
+    return sum(x, y, reach) / (static_cast<double>(columns) * rows);
   }
 
 private:

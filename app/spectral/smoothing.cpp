@@ -3,11 +3,9 @@
 
 #include "base/parallel.h"
 #include "base/summed_area.h"
-#include "scene/ray.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace nephroid::spectral {
@@ -17,11 +15,16 @@ namespace {
 constexpr int reach = 6, noise_reach = 7;
 constexpr std::size_t block_rows = 64;
 
-/// Surfaces that are looked at, one mirror after the other.
-constexpr int most_mirrors = 8;
-
 /// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30 degrees of it.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
+
+/// Glass or a mirror is curved where neighbours show places more than so many times farther apart than a flat one would, and so far around,
+/// in pixels.
+constexpr float most_pull = 2;
+constexpr int pull_reach = 2;
+
+/// How far around a pixel the bias of what is spread is asked for, in pixels.
+constexpr int bias_reach = 12;
 
 struct Offset {
   int x, y;
@@ -59,75 +62,106 @@ std::vector<double> portions(std::span<const double> light, std::span<const floa
   return portion;
 }
 
+/// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` those that touch at a corner.
+template <class Work>
+void for_neighbours(int width, int height, bool diagonal, const Work& work)
+{
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  for (std::size_t y = 0; y < rows; ++y)
+    for (std::size_t x = 0; x < columns; ++x) {
+      const std::size_t i = y * columns + x;
+      if (x + 1 < columns) work(i, i + 1);
+      if (y + 1 < rows) work(i, i + columns);
+      if (diagonal && x + 1 < columns && y + 1 < rows) work(i, i + columns + 1), work(i + 1, i + columns);
+    }
+}
+
+/// Whether neighbours show places of one object, in a mirror or through glass, that these have pulled apart.
+bool are_pulled_apart(const Sight& a, const Sight& b)
+{
+  if (a.first.object != b.first.object || a.last.object != b.last.object || a.first.object == a.last.object) return false;
+  const glm::vec3 way = b.last.position - a.last.position;
+  return glm::length(way - glm::dot(way, a.way) * a.way) > most_pull * std::max(a.spacing, b.spacing);
+}
+
+/// Of each pixel, whether places are pulled apart within pull_reach of it.
+std::vector<bool> are_near_pulled(const std::vector<Sight>& sights, int width, int height)
+{
+  std::vector<double> pulled(sights.size());
+  for_neighbours(width, height, false, [&](std::size_t i, std::size_t j) {
+    if (are_pulled_apart(sights[i], sights[j])) pulled[i] = pulled[j] = 1;
+  });
+  const SummedArea sums(width, height, [&](std::size_t i) { return pulled[i]; });
+  std::vector<bool> near(sights.size());
+  for (std::size_t i = 0; i < near.size(); ++i)
+    near[i] = sums.sum(static_cast<int>(i) % width, static_cast<int>(i) / width, pull_reach) > 0;
+  return near;
+}
+
+/// Adds to the draw of what is spread how far light was moved. With r what spreading has changed of the picture and q what it has of the
+/// draw, r + q and r - q are what it has changed of two halves with noise of their own, so that around a pixel
+///
+///   M = sum of (r + q)(r - q)    is that of the squares of the bias, give or take the root of S = sum of ((r + q)(r - q))^2, and
+///   g^2 = M / (sum of r^2) / (1 + S / M^2)    the share of r^2 that it is, as far as it stands out,
+///
+/// and g r a draw of the bias: r is the bias and the noise that was taken away, and the latter is no error of what is spread.
+void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
+              std::vector<float>& draw_spread, int width, int height)
+{
+  std::vector<double> changes(rgb.size() / 3), products(changes.size()); // r^2 and (r + q)(r - q), summed over R, G and B
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    const double r = static_cast<double>(rgb_spread[i]) - rgb[i], q = static_cast<double>(draw_spread[i]) - error_draw[i];
+    changes[i / 3] += r * r;
+    products[i / 3] += (r + q) * (r - q);
+  }
+  const SummedArea change(width, height, [&](std::size_t i) { return changes[i]; });
+  const SummedArea product(width, height, [&](std::size_t i) { return products[i]; });
+  const SummedArea square(width, height, [&](std::size_t i) { return products[i] * products[i]; });
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (changes[i] == 0) continue;
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double bias2 = product.sum(x, y, bias_reach), change2 = change.sum(x, y, bias_reach);
+    if (bias2 <= 0 || change2 <= 0) continue;
+    const double scatter2 = std::max(square.sum(x, y, bias_reach), 0.0);
+    const auto g = static_cast<float>(std::sqrt(std::min(bias2 / change2 / (1 + scatter2 / (bias2 * bias2)), 1.0)));
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) draw_spread[c] += g * (rgb_spread[c] - rgb[c]);
+  }
+}
+
 } // namespace
 
 Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh)
     : width_(scene.camera.width), height_(scene.camera.height),
       seen_(static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height))
 {
-  const scene::Camera& camera = scene.camera;
-  const glm::dvec3 eye(camera.position), right(camera.right), up(camera.up), forward(camera.forward);
-  for_ranges(seen_.size(), 1 << 12, [&](std::size_t, Range range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      const int column = static_cast<int>(i) % width_, row = static_cast<int>(i) / width_;
-      const double x = column + 0.5, y = row + 0.5;
-      const glm::dvec3 way = forward + (2 * x / width_ - 1) * camera.tan_x * right + (1 - 2 * y / height_) * camera.tan_y * up;
-      seen_[i] = look(scene, bvh, eye, way);
-    }
+  std::vector<Sight> sights(seen_.size());
+  for_ranges(sights.size(), 1 << 10, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      sights[i] = look_through_pixel(scene, bvh, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
+  const std::vector<bool> pulled = are_near_pulled(sights, width_, height_);
+  for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
   find_edges();
-}
-
-Smoothing::Seen Smoothing::look(const scene::Scene& scene, const scene::Bvh& bvh, glm::dvec3 from, glm::dvec3 way)
-{
-  Seen seen;
-  std::optional<std::uint32_t> left; // the triangle that the ray leaves
-  for (int surface = 0; surface < most_mirrors; ++surface) {
-    const auto hit =
-        left ? scene::closest_hit(bvh, from, way, [&](std::uint32_t t) { return t != *left; }) : scene::closest_hit(bvh, from, way);
-    if (!hit) return {glm::vec3(0), glm::vec3(0), seen.first};
-    const glm::uvec3 corners = scene.geometry.triangles[hit->triangle];
-    const std::vector<glm::vec3>& at = scene.geometry.positions;
-    const glm::dvec3 a(at[corners.x]), b(at[corners.y]), c(at[corners.z]), normal = glm::normalize(glm::cross(b - a, c - a));
-    from += hit->t * way;
-    seen.position = glm::vec3(from);
-    seen.normal = glm::vec3(normal);
-    seen.object = static_cast<int>(scene.object_of_triangle[hit->triangle]);
-    if (surface == 0) seen.first = seen.object;
-    const scene::Object& object = scene.objects[static_cast<std::size_t>(seen.object)];
-    if (scene.materials[static_cast<std::size_t>(object.material)].type != scene::Material::Type::mirror) break;
-    way = glm::reflect(way, normal);
-    left = hit->triangle;
-  }
-  return seen;
 }
 
 void Smoothing::find_edges()
 {
-  const auto differ = [&](std::size_t i, std::size_t j) {
-    if (seen_[i].first == seen_[j].first && seen_[i].object == seen_[j].object) return;
+  for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
+    if (seen_[i].first == seen_[j].first && seen_[i].surface.object == seen_[j].surface.object) return;
     seen_[i].at_edge = seen_[j].at_edge = true;
-  };
-  const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
-  for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t i = y * width + x;
-      if (x + 1 < width) differ(i, i + 1);
-      if (y + 1 < height) differ(i, i + width);
-      if (x + 1 < width && y + 1 < height) differ(i, i + width + 1), differ(i + 1, i + width);
-    }
+  });
 }
 
 std::uint64_t Smoothing::bytes(const scene::Camera& camera)
 {
-  return sizeof(Seen) * static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
+  return (sizeof(Sight) + sizeof(Seen)) * static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
 }
 
 bool Smoothing::are_level(const Seen& a, const Seen& b)
 {
-  if (a.first != b.first || a.object != b.object || a.at_edge != b.at_edge || a.object < 0) return false;
-  const glm::vec3 way = b.position - a.position;
-  return glm::dot(a.normal, b.normal) > least_cosine && std::abs(glm::dot(way, a.normal + b.normal)) <= 2 * most_rise * glm::length(way);
+  if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge || a.first < 0) return false;
+  const glm::vec3 &n = a.surface.normal, &m = b.surface.normal, way = b.surface.position - a.surface.position;
+  return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
 }
 
 void Smoothing::find_kernel(std::size_t i, double wanted, std::span<const double> light, Kernel& kernel) const
@@ -186,6 +220,7 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) 
       }
     }
   });
+  add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);
 }

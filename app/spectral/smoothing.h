@@ -8,6 +8,7 @@
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"
+#include "spectral/sight.h"
 
 #include <glm/glm.hpp>
 
@@ -23,28 +24,26 @@ public:
   /// noise^2 = 16. A smaller one blurs what need not be.
   static constexpr double noise = 0.25;
 
-  /// Looks once through the middle of every pixel, on every core. Light is spread within one nearly flat part of the object that is met
-  /// first, or that a mirror shows, and along its outline by itself. What glass shows is spread within the glass, whatever is behind it.
+  /// Looks once through the middle of every pixel, on every core. Light is spread within one nearly flat part of the diffuse object that
+  /// the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where glass or a mirror shows none, or
+  /// is curved so that neighbours show places far apart, it is spread within one nearly flat part of the glass or mirror.
   Smoothing(const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// What it keeps, in bytes.
   static std::uint64_t bytes(const scene::Camera& camera);
 
   /// rgb: of caustics alone, [pixel][3] of the camera's size. error_draw: a draw of its error (Picture::error_draw), which tells how noisy
-  /// a pixel is and is spread alike. Values below 0, of colours outside of sRGB, count as no light when kernels are chosen. Nothing changes
-  /// where the draw is empty.
+  /// a pixel is; it becomes one of the error of what is spread, the bias included. Values below 0, of colours outside of sRGB, count as
+  /// no light when kernels are chosen. Nothing changes where the draw is empty.
   void spread(std::vector<float>& rgb, std::vector<float>& error_draw) const;
 
 private:
-  /// What a pixel shows.
+  /// What a pixel shows, as far as light may be spread over it.
   struct Seen {
-    glm::vec3 position{0}, normal{0}; ///< scene units; unit, of the triangle
-    int first = -1;                   ///< the object that is met first; -1: none
-    int object = -1;                  ///< the same, or what it shows where it is a mirror; -1: none
-    bool at_edge = false;             ///< whether a neighbour shows something else: then the pixel may hold light of that
+    Sight::Surface surface; ///< the diffuse one at the end of a look, or the first of glass or a mirror
+    int first = -1;         ///< the object that is met first; -1: none
+    bool at_edge = false;   ///< whether a neighbour shows something else: then the pixel may hold light of that
   };
-  /// What a ray meets; mirrors are followed.
-  static Seen look(const scene::Scene& scene, const scene::Bvh& bvh, glm::dvec3 from, glm::dvec3 way);
   void find_edges();
   static bool are_level(const Seen& a, const Seen& b);
   /// Where a pixel's light goes: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step.

@@ -4,6 +4,7 @@
 #include "plan/plan.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
+#include "spectral/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/render.h"
 
@@ -62,6 +63,50 @@ TEST(SmoothedRun, has_the_power_of_the_plain_one_and_less_error)
   // The run's own estimate sees less noise, too.
   const auto squares = [](const std::vector<float>& v) { return std::inner_product(v.begin(), v.end(), v.begin(), 0.0); };
   EXPECT_LT(squares(smooth.picture->error_draw), squares(plain.picture->error_draw));
+}
+
+/// A ball's light on a table and, past the table's edge, on a floor below, seen through a pane of glass that leans.
+preset::Preset behind_a_window(bool smoothing)
+{
+  preset::Preset p = ball(4, smoothing);
+  p.scene.camera.position = {0, 2, 4};
+  p.scene.camera.target = {-0.3, -2.4, 0.2};
+  p.scene.camera.fov_deg = 24; // the ball itself is not in the picture
+  p.scene.lights[0].position = {0.5, 3, -0.5};
+  p.scene.objects[1].transform.scale = {4, 1, 8};
+  p.scene.objects[1].transform.translate = {-2.33, -2, 0};
+  p.scene.objects.push_back(test::shape_object("lower", preset::Shape::Type::quad, "wall"));
+  p.scene.objects.back().transform.scale = {12, 1, 12};
+  p.scene.objects.back().transform.translate = {0, -2.8, 0};
+  p.scene.objects.push_back(test::shape_object("window", preset::Shape::Type::box, "glass"));
+  p.scene.objects.back().transform.scale = {4, 0.1, 4};
+  p.scene.objects.back().transform.rotate_deg = {45, 0, 0};
+  p.scene.objects.back().transform.translate = {0, 0.94, 2.94};
+  p.spectral.photons_per_pass = 2048;
+  return p;
+}
+
+TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
+{
+  const preset::Preset p = behind_a_window(true);
+  const job::Snapshot plain = test::render(behind_a_window(false)), smooth = test::render(p);
+  const scene::Scene scene = scene::load_scene(p);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  constexpr std::size_t table = 1, lower = 2, window = 3;
+  std::vector<double> before(scene.objects.size()), after(scene.objects.size());
+  for (std::size_t i = 0; i < 64 * 64; ++i) {
+    const spectral::Sight sight = spectral::look_through_pixel(scene, bvh, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
+    ASSERT_EQ(sight.first.object, static_cast<int>(window));
+    const auto object = static_cast<std::size_t>(sight.last.object);
+    ASSERT_TRUE(object == table || object == lower);
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) before[object] += plain.picture->rgb[c], after[object] += smooth.picture->rgb[c];
+  }
+  ASSERT_GT(before[lower], 0.01);
+  ASSERT_GT(before[table], before[lower]);
+  EXPECT_NEAR(after[table], before[table], 1e-5 * before[table]);
+  EXPECT_NEAR(after[lower], before[lower], 1e-5 * before[lower]);
+  EXPECT_GT(mean_distance(smooth.picture->rgb, plain.picture->rgb) * static_cast<double>(plain.picture->rgb.size()),
+            0.2 * (before[table] + before[lower]));
 }
 
 TEST(SmoothedRun, leaves_other_layers_alone)

@@ -84,11 +84,10 @@ TEST(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
   const FloorAndWall room;
   const spectral::Smoothing smoothing(room.scene, room.bvh);
   Photons photons = scatter([](int, int) { return 2.0; }, 1);
-  const double power = sum(photons.rgb), draw = sum(photons.error_draw);
+  const double power = sum(photons.rgb);
   const Moments before = moments(photons.rgb, size / 2 + 8, size - 8, 8);
   smoothing.spread(photons.rgb, photons.error_draw);
   EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
-  EXPECT_NEAR(sum(photons.error_draw), draw, 1e-5 * power);
   // 16 photons lie in 8 pixels: the closest kernel of whole rings is of 9. The mean of 9 Poisson numbers of mean 2 has the variance 2 / 9.
   // Those of neighbours hang together, so it is known to some 20 % only.
   const Moments after = moments(photons.rgb, size / 2 + 8, size - 8, 8), error = moments(photons.error_draw, size / 2 + 8, size - 8, 8);
@@ -138,30 +137,92 @@ TEST(Smoothing, keeps_the_light_of_an_outline_in_it)
   }
 }
 
-/// A camera that looks down into a mirror, which shows a floor above, and a wall of another object on it.
-TEST(Smoothing, knows_what_a_mirror_shows)
+/// A camera that looks down on a mirror or a pane, which shows a wall on the left and another on the right, of two objects that meet where
+/// x = 0.
+scene::Scene two_walls(const preset::Object& between, double wall_height)
 {
   preset::Preset p;
   p.source = "p.json";
   p.scene.materials["wall"];
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
-  for (const char* name : {"mirror", "left", "right"})
-    p.scene.objects.push_back(test::shape_object(name, preset::Shape::Type::quad, "wall"));
-  p.scene.objects[0].material = "mirror";
-  p.scene.objects[0].transform.scale = {20, 1, 20};
+  p.scene.materials["glass"].type = preset::Material::Type::dielectric;
+  p.scene.objects = {between, test::shape_object("left", preset::Shape::Type::quad, "wall"),
+                     test::shape_object("right", preset::Shape::Type::quad, "wall")};
   for (const int i : {1, 2}) {
     p.scene.objects[static_cast<std::size_t>(i)].transform.scale = {40, 1, 80};
-    p.scene.objects[static_cast<std::size_t>(i)].transform.translate = {i == 1 ? -20.0 : 20.0, 10, 0};
+    p.scene.objects[static_cast<std::size_t>(i)].transform.translate = {i == 1 ? -20.0 : 20.0, wall_height, 0};
   }
   p.scene.camera.position = {0, 5, 0.5};
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.resolution = {size, size};
-  const scene::Scene scene = scene::load_scene(p);
+  return scene::load_scene(p);
+}
+
+/// Where photons are on the right alone they stay there, and are spread.
+void expect_no_light_on_the_left(const scene::Scene& scene)
+{
   const spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry));
   Photons photons = scatter([](int x, int) { return x >= size / 2 ? 1.0 : 0.0; }, 9);
+  const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size / 2; ++x) EXPECT_EQ(photons.rgb[3 * static_cast<std::size_t>(y * size + x)], 0) << x << ", " << y;
+  EXPECT_NE(photons.rgb, before);
+}
+
+TEST(Smoothing, knows_what_a_mirror_shows)
+{
+  preset::Object mirror = test::shape_object("mirror", preset::Shape::Type::quad, "mirror");
+  mirror.transform.scale = {20, 1, 20};
+  expect_no_light_on_the_left(two_walls(mirror, 10));
+}
+
+TEST(Smoothing, knows_what_a_window_shows)
+{
+  preset::Object pane = test::shape_object("pane", preset::Shape::Type::box, "glass");
+  pane.transform.scale = {20, 0.2, 20};
+  pane.transform.translate = {0, 2, 0};
+  pane.transform.rotate_deg = {30, 0, 0};
+  expect_no_light_on_the_left(two_walls(pane, 0));
+}
+
+/// What a ball shows is torn apart: there the ball itself says how far light is spread, as its picture is no more even than that.
+TEST(Smoothing, spreads_within_curved_glass)
+{
+  preset::Object ball = test::shape_object("ball", preset::Shape::Type::sphere, "glass");
+  ball.shape->segments = 64;
+  ball.transform.scale = {8, 8, 8};
+  ball.transform.translate = {0, -4, 0};
+  const scene::Scene scene = two_walls(ball, -20);
+  const spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry));
+  Photons photons = scatter([](int, int) { return 1.0; }, 11);
+  const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
+  smoothing.spread(photons.rgb, photons.error_draw);
+  EXPECT_LT(moments(photons.rgb, 16, size - 16, 16).variance, variance / 4);
+  EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
+}
+
+/// Stripes that are narrower than the kernels are washed out: most of the error is that, not noise, and the draw takes it in. It tells a
+/// little too little: kernels follow the noise, which the draw does not know, and what does not stand out from the noise is not counted. A
+/// draw of noise alone would be half the error.
+TEST(Smoothing, draws_how_far_light_was_moved)
+{
+  const FloorAndWall room;
+  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const auto stripes = [](int x, int) { return x % 6 < 3 ? 3.0 : 0.0; };
+  double drawn = 0, error = 0;
+  for (unsigned seed = 100; seed < 132; ++seed) {
+    Photons photons = scatter(stripes, seed);
+    smoothing.spread(photons.rgb, photons.error_draw);
+    for (int y = size / 2 + 8; y < size - 8; ++y)
+      for (int x = 8; x < size - 8; ++x) {
+        const std::size_t i = 3 * static_cast<std::size_t>(y * size + x);
+        drawn += std::pow(photons.error_draw[i], 2);
+        error += std::pow(photons.rgb[i] - stripes(x, y), 2);
+      }
+  }
+  EXPECT_GT(std::sqrt(drawn / error), 0.7);
+  EXPECT_LT(std::sqrt(drawn / error), 1.1);
 }
 
 TEST(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
