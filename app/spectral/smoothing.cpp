@@ -108,17 +108,19 @@ std::vector<bool> are_near_pulled(const std::vector<Sight>& sights, int width, i
 void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
               std::vector<float>& draw_spread, int width, int height)
 {
-  std::vector<double> changes(rgb.size() / 3), products(changes.size()); // r^2 and (r + q)(r - q), summed over R, G and B
-  for (std::size_t i = 0; i < rgb.size(); ++i) {
-    const double r = static_cast<double>(rgb_spread[i]) - rgb[i], q = static_cast<double>(draw_spread[i]) - error_draw[i];
-    changes[i / 3] += r * r;
-    products[i / 3] += (r + q) * (r - q);
-  }
-  const SummedArea change(width, height, [&](std::size_t i) { return changes[i]; });
-  const SummedArea product(width, height, [&](std::size_t i) { return products[i]; });
-  const SummedArea square(width, height, [&](std::size_t i) { return products[i] * products[i]; });
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    if (changes[i] == 0) continue;
+  // r^2 + factor q^2, summed over R, G and B.
+  const auto changed = [&](std::size_t i, double factor) {
+    double sum = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      const double r = static_cast<double>(rgb_spread[c]) - rgb[c], q = static_cast<double>(draw_spread[c]) - error_draw[c];
+      sum += r * r + factor * q * q;
+    }
+    return sum;
+  };
+  const SummedArea change(width, height, [&](std::size_t i) { return changed(i, 0); });
+  const SummedArea product(width, height, [&](std::size_t i) { return changed(i, -1); });
+  const SummedArea square(width, height, [&](std::size_t i) { return std::pow(changed(i, -1), 2); });
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
     const double bias2 = product.sum(x, y, bias_reach), change2 = change.sum(x, y, bias_reach);
     if (bias2 <= 0 || change2 <= 0) continue;

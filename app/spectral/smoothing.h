@@ -29,7 +29,7 @@ public:
   /// is curved so that neighbours show places far apart, it is spread within one nearly flat part of the glass or mirror.
   Smoothing(const scene::Scene& scene, const scene::Bvh& bvh);
 
-  /// What it keeps, in bytes.
+  /// What it takes at most while it is made, in bytes; it keeps less.
   static std::uint64_t bytes(const scene::Camera& camera);
 
   /// rgb: of caustics alone, [pixel][3] of the camera's size. error_draw: a draw of its error (Picture::error_draw), which tells how noisy
