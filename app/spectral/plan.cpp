@@ -132,10 +132,10 @@ plan::Pass smoothing_pass(const preset::Spectral& settings, bool caustics, bool 
     return {"smoothing", false, "spectral.estimator is sppm, which has radii of its own", "", false};
   if (!halves) return {"smoothing", false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (passes == 1) return {"smoothing", false, "the run has one pass, and it takes two to tell how noisy a pixel is", "", false};
-  return {
-      "smoothing", true,
-      fmt::format("a pixel's caustics are spread until their noise is {} of them; the estimated error takes in how far that moves light", Smoothing::noise),
-      field, true};
+  return {"smoothing", true,
+          fmt::format("a pixel's caustics are spread until their noise is {} of them; the estimated error takes in how far it goes",
+                      Smoothing::noise),
+          field, true};
 }
 
 std::uint64_t film_bytes(const scene::Scene& scene, int halves)
@@ -197,7 +197,7 @@ std::vector<std::string> setting_notes(const preset::Preset& preset, const scene
                                 settings.step_nm, preset::word(settings.method)));
   if (settings.smoothing && !smoothing.runs) notes.push_back("spectral.smoothing: true does nothing here: " + smoothing.reason);
   if (smoothing.runs && preset.stop.error && !preset.reference)
-    notes.push_back("stop.error: the run's own estimate may know too little of how far spectral.smoothing moves light; a 'reference' knows it all");
+    notes.push_back("stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does");
   if (const std::string note = map_radius_note(settings, scene); maps && !note.empty()) notes.push_back(note);
   if (splats && tables.photons_per_pass > static_cast<unsigned>(settings.photons_per_pass))
     notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light",
