@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <optional>
+
 namespace nephroid::ui {
 namespace {
 
@@ -63,14 +65,19 @@ TEST_F(NoWindow, SaysFirstThatALayoutIsNotThere)
 class WindowTest : public test::RealWindow {
 protected:
   WindowTest() : RealWindow({"Xvfb"}) {}
+  void SetUp() override
+  {
+    RealWindow::SetUp();
+    if (!IsSkipped()) display_.emplace();
+  }
   /// Runs the program with a window to its end.
   test::Ended run(const std::vector<std::string>& arguments) const
   {
-    return test::nephroid(arguments, folder.path(), folder.path(), display_.environment());
+    return test::nephroid(arguments, folder.path(), folder.path(), display_->environment());
   }
 
 private:
-  test::XDisplay display_;
+  std::optional<test::XDisplay> display_;
 };
 
 TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
