@@ -241,7 +241,7 @@ const std::vector<Extreme> extremes = {
      [] { return stretched_is_the_same(entering_at_grazing_incidence()); }},
     {"CriticalStretched", "differentials at the critical angle: half of the spectrum reflected, the rest leaving along the glass",
      "the same", [] { return stretched_is_the_same(leaving_at_the_critical_angle()); }},
-    {"RelitTiny", "layers: a light of 1 W becomes one of 1e-20 W", "a run under 1 W", [] { return relit(1, 1e-20, Method::optimal); }},
+    {"RelitTiny", "layers: a light of 1 W becomes one of 1e-30 W", "a run under 1 W", [] { return relit(1, 1e-30, Method::optimal); }},
     {"RelitHuge", "layers: a light of 1e-30 W becomes one of 1e9 W, 401 clusters", "the same",
      [] { return relit(1e-30, 1e9, Method::brute_force); }},
     {"RelitFromDark", "layers: a light of 0 W becomes one of 1 W", "the same", [] { return relit(0, 1, Method::optimal); }},

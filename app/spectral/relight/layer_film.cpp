@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/relight/layer_film.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::spectral {
@@ -22,12 +23,12 @@ LayerFilm::LayerFilm(const compute::Context& context, const std::string& name, c
   sums_.fill_zero();
 }
 
-std::array<std::vector<float>, 2> LayerFilm::weigh(std::span<const LayerWeight> weights)
+std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
 {
   std::array<std::vector<float>, 2> pictures;
   for (std::vector<float>& picture : pictures) picture.resize(3 * pixels_);
   if (cell_count_ == 0) return pictures;
-  const std::span<const float> numbers(weights.front().first.data(), 6 * weights.size());
+  const std::span<const float> numbers(by.weights.front().first.data(), 6 * by.weights.size());
   if (weights_.size() == numbers.size())
     weights_.write(numbers);
   else
@@ -38,36 +39,43 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(std::span<const LayerWeight> 
   const std::size_t bytes = 3 * pixels_ * sizeof(float);
   pictures_.RawBuffer::read(pictures[0].data(), bytes, 0);
   pictures_.RawBuffer::read(pictures[1].data(), bytes, bytes);
+  const double unit = std::ldexp(1.0, by.exponent);
+  for (std::vector<float>& picture : pictures)
+    for (float& value : picture) value = static_cast<float>(value * unit);
   return pictures;
 }
 
 namespace {
 
-/// weight(half, layer) -> factors of the two pictures.
+/// factors(half, layer): what a layer's colours are multiplied by in the two pictures.
 template <class Factors>
-std::vector<LayerWeight> make_weights(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, Factors factors)
+LayerFilmWeights make_weights(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, Factors factors)
 {
   const auto r_count = static_cast<std::size_t>(reflectors);
   const std::size_t layers = r_count > 0 ? colours.size() / r_count : 0;
-  std::vector<LayerWeight> weights;
-  weights.reserve(r_count * halves * layers);
+  std::vector<std::array<double, 6>> exact;
+  exact.reserve(r_count * halves * layers);
+  double largest = 0;
   for (std::size_t r = 0; r < r_count; ++r)
     for (std::size_t half = 0; half < halves; ++half)
       for (std::size_t layer = 0; layer < layers; ++layer) {
-        const std::array<double, 2> by = factors(half, layer);
-        LayerWeight& weight = weights.emplace_back();
-        for (std::size_t c = 0; c < 3; ++c) {
-          weight.first[c] = static_cast<float>(colours[layer * r_count + r][c] * by[0]);
-          weight.second[c] = static_cast<float>(colours[layer * r_count + r][c] * by[1]);
-        }
+        const auto [first, second] = factors(half, layer);
+        const std::array<double, 3>& c = colours[layer * r_count + r];
+        exact.push_back({c[0] * first, c[1] * first, c[2] * first, c[0] * second, c[1] * second, c[2] * second});
+        for (const double value : exact.back()) largest = std::max(largest, std::abs(value));
       }
-  return weights;
+  LayerFilmWeights made{{}, largest > 0 ? std::ilogb(largest) : 0};
+  made.weights.reserve(exact.size());
+  const auto number = [&](double value) { return static_cast<float>(std::ldexp(value, -made.exponent)); };
+  for (const std::array<double, 6>& v : exact)
+    made.weights.push_back({{number(v[0]), number(v[1]), number(v[2])}, {number(v[3]), number(v[4]), number(v[5])}});
+  return made;
 }
 
 } // namespace
 
-std::vector<LayerWeight> mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts, int reflectors,
-                                       std::size_t halves, double quanta_per_unit)
+LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts, int reflectors,
+                               std::size_t halves, double quanta_per_unit)
 {
   return make_weights(colours, reflectors, halves, [&](std::size_t half, std::size_t layer) -> std::array<double, 2> {
     const auto [a, b] = counts[layer];
@@ -79,8 +87,7 @@ std::vector<LayerWeight> mean_and_draw(std::span<const std::array<double, 3>> co
   });
 }
 
-std::vector<LayerWeight> half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
-                                   double quanta_per_unit)
+LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, double quanta_per_unit)
 {
   return make_weights(colours, reflectors, halves, [&](std::size_t half, std::size_t) -> std::array<double, 2> {
     return half == 0 ? std::array{1 / quanta_per_unit, 0.0} : std::array{0.0, 1 / quanta_per_unit};

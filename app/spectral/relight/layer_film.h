@@ -19,6 +19,13 @@ struct LayerWeight {
   std::array<float, 3> first{}, second{};
 };
 
+/// The weights of a whole film, times 2^-exponent: the largest is about 1. A light of 1e-30 W over the quanta of a film would leave weights
+/// of single precision's last digits.
+struct LayerFilmWeights {
+  std::vector<LayerWeight> weights; ///< [reflector][half][layer]
+  int exponent = 0;
+};
+
 class LayerFilm {
 public:
   LayerFilm() = default;
@@ -33,8 +40,8 @@ public:
   const compute::Buffer<std::int64_t>& sums() const { return sums_; }
   int layer_count() const { return static_cast<int>(layers_); }
 
-  /// Two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights [reflector][half][layer].
-  std::array<std::vector<float>, 2> weigh(std::span<const LayerWeight> weights);
+  /// Two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights.
+  std::array<std::vector<float>, 2> weigh(const LayerFilmWeights& by);
 
   void save(StateWriter& to) const { to.buffer(sums_); }
   void load(StateReader& from) { from.buffer(sums_); }
@@ -54,11 +61,10 @@ using HalfCounts = std::array<double, 2>;
 
 /// Weights for weigh(): the first picture is the mean over both halves of `colours` [layer][reflector] times what is in the film, the
 /// second the draw of its error (job::Picture::error_draw). counts: [layer]; a layer that had none counts nothing.
-std::vector<LayerWeight> mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts, int reflectors,
-                                       std::size_t halves, double quanta_per_unit);
+LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, std::span<const HalfCounts> counts, int reflectors,
+                               std::size_t halves, double quanta_per_unit);
 
 /// Weights for weigh(): the first picture is the sum over the first half, the second over the other.
-std::vector<LayerWeight> half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves,
-                                   double quanta_per_unit);
+LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, double quanta_per_unit);
 
 } // namespace nephroid::spectral
