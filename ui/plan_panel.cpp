@@ -66,7 +66,7 @@ void draw_buffers(const plan::Plan& plan)
 {
   std::uint64_t total = 0;
   for (const plan::PlannedBuffer& buffer : plan.buffers) total += buffer.bytes;
-  heading(fmt::format("Memory of the device: {}###memory", plan::readable_bytes(total)).c_str());
+  heading(fmt::format("Memory: {}###memory", plan::readable_bytes(total)).c_str());
   if (!ImGui::BeginTable("buffers", 2, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("buffer", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("bytes", ImGuiTableColumnFlags_WidthFixed);

@@ -2,6 +2,7 @@
 // POSIX calls rather than streams: only they say why a write failed, and only they reach the disk (fsync).
 #include "base/files.h"
 
+#include "base/bytes.h"
 #include "base/error.h"
 
 #include <fmt/format.h>
@@ -28,8 +29,8 @@ class Descriptor {
 public:
   explicit Descriptor(int number) : number_(number) {}
   ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
   int number() const { return number_; }
   bool ok() const { return number_ >= 0; }
   /// False with errno set where the system reports a late write error.
@@ -62,23 +63,121 @@ std::string remedy_for(int error)
   }
 }
 
-/// Removes the temporary file and says why the file could not be written.
-[[noreturn]] void give_up(const fs::path& temporary, const fs::path& path, int error)
+/// Says why the file could not be written.
+[[noreturn]] void give_up(const fs::path& path, int error)
 {
-  ::unlink(temporary.c_str());
   throw failed(path.string(), fmt::format("cannot be written: {}", reason(error)), {}, remedy_for(error));
 }
 
-bool write_all(int descriptor, std::string_view bytes)
+Error unreadable(const fs::path& path, const std::string& why) { return bad_input(path.string(), "cannot be read: " + why); }
+
+/// Only the descriptor of a regular file may be read: reading a device or a pipe might never end.
+Descriptor open_to_read(const fs::path& path, struct stat& status)
 {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
+  // Without O_NONBLOCK a named pipe would be waited for here; on a regular file it does nothing.
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.ok() || ::fstat(file.number(), &status) != 0) throw unreadable(path, reason(errno));
+  if (S_ISDIR(status.st_mode)) throw unreadable(path, "it is a folder");
+  if (!S_ISREG(status.st_mode)) throw unreadable(path, "it is not a regular file");
+  return file;
 }
+
+/// How many bytes were read: fewer than `count` only at the end of the file.
+std::size_t read_some(const Descriptor& file, const fs::path& path, void* into, std::size_t count)
+{
+  std::size_t filled = 0;
+  while (filled < count) {
+    const ssize_t now = ::read(file.number(), static_cast<char*>(into) + filled, count - filled);
+    if (now < 0 && errno == EINTR) continue;
+    if (now < 0) throw unreadable(path, reason(errno));
+    if (now == 0) break;
+    filled += static_cast<std::size_t>(now);
+  }
+  return filled;
+}
+
+/// Small pieces wait in a buffer: checkpoints hold thousands of single values.
+constexpr std::size_t file_buffer = 1 << 16;
+
+class FileSource final : public ByteSource {
+public:
+  explicit FileSource(const fs::path& path) : path_(path), file_(open_to_read(path, status_)), unread_(size()) {}
+  void read(std::span<std::byte> into) override
+  {
+    if (into.size() > left()) throw unreadable(path_, "it ends early");
+    const std::size_t waiting = std::min(into.size(), buffered_.size() - at_);
+    std::copy_n(buffered_.begin() + static_cast<std::ptrdiff_t>(at_), waiting, into.begin());
+    at_ += waiting;
+    into = into.subspan(waiting);
+    if (into.size() >= file_buffer)
+      from_file(into);
+    else if (!into.empty()) {
+      buffered_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(file_buffer, unread_)));
+      from_file(buffered_);
+      std::copy_n(buffered_.begin(), into.size(), into.begin());
+      at_ = into.size();
+    }
+  }
+  std::uint64_t left() const override { return unread_ + buffered_.size() - at_; }
+
+private:
+  std::uint64_t size() const { return static_cast<std::uint64_t>(status_.st_size); }
+  void from_file(std::span<std::byte> into)
+  {
+    if (read_some(file_, path_, into.data(), into.size()) < into.size()) throw unreadable(path_, "it ends early");
+    unread_ -= into.size();
+  }
+
+  fs::path path_;
+  struct stat status_ {};
+  Descriptor file_;
+  std::uint64_t unread_;            ///< of the file
+  std::vector<std::byte> buffered_; ///< read and not asked for, from at_ on
+  std::size_t at_ = 0;
+};
+
+/// path: what errors name. close() is the last call.
+class FileSink final : public ByteSink {
+public:
+  FileSink(const fs::path& temporary, const fs::path& path)
+      : path_(path), file_(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+  {
+    if (!file_.ok()) give_up(path_, errno);
+  }
+  void write(std::span<const std::byte> bytes) override
+  {
+    if (waiting_.size() + bytes.size() > file_buffer) flush();
+    if (bytes.size() > file_buffer)
+      to_file(bytes);
+    else
+      waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+  }
+  void close()
+  {
+    flush();
+    if (!file_.close()) give_up(path_, errno);
+  }
+
+private:
+  void flush()
+  {
+    to_file(waiting_);
+    waiting_.clear();
+  }
+  void to_file(std::span<const std::byte> bytes)
+  {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(file_.number(), bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) give_up(path_, errno);
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+  }
+
+  fs::path path_;
+  Descriptor file_;
+  std::vector<std::byte> waiting_;
+};
 
 /// ".STEM.PROCESS-COUNT.tmp.EXTENSION" beside path: no other writer has it.
 fs::path temporary_name(const fs::path& path)
@@ -91,8 +190,8 @@ fs::path temporary_name(const fs::path& path)
 void commit_file(const fs::path& temporary, const fs::path& path)
 {
   Descriptor file(::open(temporary.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.ok() || ::fsync(file.number()) != 0 || !file.close()) give_up(temporary, path, errno);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) give_up(temporary, path, errno);
+  if (!file.ok() || ::fsync(file.number()) != 0 || !file.close()) give_up(path, errno);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) give_up(path, errno);
   // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by then.
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (Descriptor entry(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)); entry.ok()) ::fsync(entry.number());
@@ -149,35 +248,38 @@ bool is_there(const fs::path& path)
 
 std::string read_file(const fs::path& path)
 {
-  const auto refuse = [&](const std::string& why) { return bad_input(path.string(), "cannot be read: " + why); };
-  // Without O_NONBLOCK a named pipe would be waited for here; on a regular file it does nothing.
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
-  if (!file.ok() || ::fstat(file.number(), &status) != 0) throw refuse(reason(errno));
-  if (S_ISDIR(status.st_mode)) throw refuse("it is a folder");
-  if (!S_ISREG(status.st_mode)) throw refuse("it is not a regular file"); // reading a device or a pipe might never end
+  const Descriptor file = open_to_read(path, status);
   std::string bytes;
   std::size_t filled = 0;
   while (true) { // the size is a hint: files in /proc have none
     bytes.resize(std::max<std::size_t>(filled + 65536, static_cast<std::size_t>(status.st_size) + 1));
-    const ssize_t count = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw refuse(reason(errno));
-    if (count == 0) break;
-    filled += static_cast<std::size_t>(count);
+    filled += read_some(file, path, bytes.data() + filled, bytes.size() - filled);
+    if (filled < bytes.size()) break;
   }
   bytes.resize(filled);
   return bytes;
 }
 
+std::unique_ptr<ByteSource> open_file(const fs::path& path) { return std::make_unique<FileSource>(path); }
+
 void write_file_whole(const fs::path& path, std::string_view bytes)
 {
+  write_file_whole(path, [bytes](ByteSink& file) { file.write(std::as_bytes(std::span(bytes))); });
+}
+
+void write_file_whole(const fs::path& path, const std::function<void(ByteSink&)>& write)
+{
   const fs::path temporary = temporary_name(path);
-  {
-    Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (!file.ok() || !write_all(file.number(), bytes) || !file.close()) give_up(temporary, path, errno);
+  try {
+    FileSink file(temporary, path);
+    write(file);
+    file.close();
+    commit_file(temporary, path);
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
   }
-  commit_file(temporary, path);
 }
 
 bool is_temporary_name(const fs::path& path)

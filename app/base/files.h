@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading files whole, writing them whole or not at all, and finding the files that a preset names.
+// Reading files whole or piece by piece, writing them whole or not at all, and finding the files that a preset names.
 #pragma once
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace nephroid {
+
+class ByteSink;
+class ByteSource;
 
 /// Whether a file or folder is there; false also where nobody can tell, as in a folder that may not be read.
 bool is_there(const std::filesystem::path& path);
@@ -14,9 +19,14 @@ bool is_there(const std::filesystem::path& path);
 /// The file's bytes. Throws bad_input where it cannot be read (missing, a folder, a device or a pipe, no permission).
 std::string read_file(const std::filesystem::path& path);
 
+/// The file's bytes one after the other. Throws as read_file, also where it ends while it is read.
+std::unique_ptr<ByteSource> open_file(const std::filesystem::path& path);
+
 /// Writes to a temporary name beside path, flushes to disk, then renames: the file is there whole or not at all.
 /// Throws failed with the system's reason (full disk, no permission); the temporary file is removed.
 void write_file_whole(const std::filesystem::path& path, std::string_view bytes);
+/// The same of what `write` writes; what it throws goes on, and there is no file.
+void write_file_whole(const std::filesystem::path& path, const std::function<void(ByteSink&)>& write);
 /// Whether this is the name of a temporary file of write_file_whole, which it leaves where the process is killed at its work.
 bool is_temporary_name(const std::filesystem::path& path);
 

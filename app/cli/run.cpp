@@ -220,8 +220,9 @@ private:
   void save(const run::Prepared& prepared, const compute::DeviceInfo& device, job::Job& job) const
   {
     const bool finished = job.finished();
-    const job::Snapshot snapshot = job.snapshot();
+    job::Snapshot snapshot = job.snapshot();
     run::write_run(target_.folder, prepared, device, snapshot, reference_.get(), finished);
+    snapshot.picture.reset(); // the report reads the files
     run::write_checkpoint(target_.folder, prepared, job);
     if (finished && snapshot.history) write_report();
     report_result(options_, target_, snapshot.progress, finished);

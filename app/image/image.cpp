@@ -11,6 +11,9 @@
 #include <array>
 #include <cmath>
 #include <dlfcn.h>
+#include <exception>
+#include <functional>
+#include <string_view>
 
 namespace nephroid::image {
 namespace fs = std::filesystem;
@@ -56,15 +59,24 @@ void check_size(const std::string& name, int width, int height, std::size_t chan
   throw failed(name, fmt::format("a picture of {} x {} with {} channels has {} values", width, height, channels, values));
 }
 
-/// name: what a message calls the picture.
-std::string encoded(const std::string& name, const NephroidPicture& picture)
+/// name: what a message calls the picture. use(bytes) is called with the encoded file, which is gone afterwards: large pictures are not
+/// copied once more.
+void encode(const std::string& name, const NephroidPicture& picture, const std::function<void(std::string_view)>& use)
 {
-  std::string bytes;
+  struct Call {
+    const std::function<void(std::string_view)>& use;
+    std::exception_ptr thrown; ///< must not cross the seam
+  } call{use, nullptr};
   const auto take = [](void* to, const void* data, std::size_t size) {
-    static_cast<std::string*>(to)->assign(static_cast<const char*>(data), size);
+    Call& taking = *static_cast<Call*>(to);
+    try {
+      taking.use({static_cast<const char*>(data), size});
+    } catch (...) {
+      taking.thrown = std::current_exception();
+    }
   };
-  if (const char* reason = module().encode(&picture, take, &bytes)) throw failed(name, fmt::format("cannot be encoded: {}", reason));
-  return bytes;
+  if (const char* reason = module().encode(&picture, take, &call)) throw failed(name, fmt::format("cannot be encoded: {}", reason));
+  if (call.thrown) std::rethrow_exception(call.thrown);
 }
 
 std::vector<const char*> pointers(const std::vector<std::string>& names)
@@ -91,7 +103,9 @@ std::string png_picture(const std::string& name, int width, int height, int chan
 {
   check_size(name, width, height, static_cast<std::size_t>(channels), bytes.size());
   const char* const names[] = {"R", "G", "B", "A"};
-  return encoded(name, {width, height, channels, names, nullptr, bytes.data(), nullptr, 0});
+  std::string file;
+  encode(name, {width, height, channels, names, nullptr, bytes.data(), nullptr, 0}, [&](std::string_view encoded) { file = encoded; });
+  return file;
 }
 
 std::vector<unsigned char> shown_bytes(const std::vector<float>& rgb, double exposure_stops)
@@ -134,8 +148,10 @@ void write_exr(const fs::path& file, const Image& image)
   const std::vector<const char*> channels = pointers(image.channels);
   std::vector<NephroidAttribute> attributes;
   for (const auto& [name, value] : image.attributes) attributes.push_back({name.c_str(), value.c_str()});
-  write_file_whole(file, encoded(file.string(), {image.width, image.height, static_cast<int>(channels.size()), channels.data(),
-                                                 image.data.data(), nullptr, attributes.data(), attributes.size()}));
+  encode(file.string(),
+         {image.width, image.height, static_cast<int>(channels.size()), channels.data(), image.data.data(), nullptr, attributes.data(),
+          attributes.size()},
+         [&](std::string_view encoded) { write_file_whole(file, encoded); });
 }
 
 void write_png(const fs::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops)

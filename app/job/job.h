@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one interface of all engines: a job advances in short steps and shows itself as immutable snapshots.
 #pragma once
+#include "base/bytes.h"
 #include "job/history.h"
 #include "preset/preset.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,10 +71,10 @@ public:
   virtual Snapshot snapshot() = 0;
   /// Of its error so far, without a snapshot; null where nothing is measured.
   virtual std::shared_ptr<const History> history() const { return nullptr; }
-  /// Everything needed to go on later with the same bits. Opaque; versioned by the engine.
-  virtual std::vector<std::byte> save() = 0;
-  /// Throws bad_input where the checkpoint is of another version or preset, or is cut.
-  virtual void load(std::span<const std::byte> checkpoint) = 0;
+  /// Writes everything needed to go on later with the same bits. Opaque; versioned by the engine.
+  virtual void save(ByteSink& to) = 0;
+  /// Reads what save() wrote, to its end. Throws bad_input where that is of another version or preset, or is cut.
+  virtual void load(ByteSource& from) = 0;
   /// Takes on another preset without starting again, where it can: where only the light differs (preset::only_relit) and the job keeps
   /// what it needs to weigh it anew. What was computed so far stays. False, and nothing has changed, where it cannot. Throws bad_input at
   /// FILE#/scene/lights/... for a spectrum that cannot be used; nothing has changed then either.

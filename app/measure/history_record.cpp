@@ -1,106 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layout: version, sizes, wall and measuring seconds, column names, rows, the job's bytes.
+// The layout: version, wall and measuring seconds, column names, rows.
 #include "measure/history_record.h"
 
 #include "base/error.h"
 
 #include <cstdint>
-#include <cstring>
+#include <span>
 
 namespace nephroid::measure {
 namespace {
 
-constexpr std::uint64_t record_version = 1;
+constexpr std::uint64_t record_version = 2;
 
-class Writer {
-public:
-  template <class T>
-  void add(const T& value)
-  {
-    add(&value, sizeof value);
-  }
-  void add(const void* from, std::size_t count)
-  {
-    const auto* bytes = static_cast<const std::byte*>(from);
-    bytes_.insert(bytes_.end(), bytes, bytes + count);
-  }
-  std::vector<std::byte> take() { return std::move(bytes_); }
+Error is_cut() { return bad_input("checkpoint", "is cut", "", "delete it and start again"); }
 
-private:
-  std::vector<std::byte> bytes_;
-};
-
-class Reader {
-public:
-  explicit Reader(std::span<const std::byte> bytes) : left_(bytes) {}
-  template <class T>
-  T get()
-  {
-    T value;
-    std::memcpy(&value, some(sizeof value).data(), sizeof value);
-    return value;
-  }
-  std::span<const std::byte> some(std::size_t count)
-  {
-    if (count > left_.size()) throw bad_input("checkpoint", "is cut", "", "delete it and start again");
-    const std::span<const std::byte> taken = left_.first(count);
-    left_ = left_.subspan(count);
-    return taken;
-  }
-  std::span<const std::byte> rest() const { return left_; }
-
-private:
-  std::span<const std::byte> left_;
-};
+/// A count of items of at least so many bytes each, which the rest of the checkpoint has to hold.
+std::size_t load_count(ByteSource& from, std::size_t bytes_each)
+{
+  std::uint64_t count = 0;
+  from.value(count);
+  if (count > from.left() / bytes_each) throw is_cut();
+  return static_cast<std::size_t>(count);
+}
 
 } // namespace
 
-std::vector<std::byte> with_history(std::vector<std::byte> job, const job::History& history, double wall_seconds)
+void save_history(const job::History& history, double wall_seconds, ByteSink& to)
 {
-  Writer to;
-  to.add(record_version);
-  to.add(static_cast<std::uint64_t>(history.columns.size()));
-  to.add(static_cast<std::uint64_t>(history.rows.size()));
-  to.add(wall_seconds);
-  to.add(history.measuring_seconds);
+  to.value(record_version);
+  to.value(wall_seconds);
+  to.value(history.measuring_seconds);
+  to.value(std::uint64_t{history.columns.size()});
   for (const std::string& column : history.columns) {
-    to.add(static_cast<std::uint64_t>(column.size()));
-    to.add(column.data(), column.size());
+    to.value(std::uint64_t{column.size()});
+    to.write(std::as_bytes(std::span(column)));
   }
+  to.value(std::uint64_t{history.rows.size()});
   for (const job::HistoryRow& row : history.rows) {
-    to.add(row.seconds);
-    to.add(row.wall_seconds);
-    to.add(row.step);
-    to.add(row.work);
-    for (const double error : row.errors) to.add(error);
+    to.value(row.seconds);
+    to.value(row.wall_seconds);
+    to.value(row.step);
+    to.value(row.work);
+    to.write(std::as_bytes(std::span(row.errors)));
   }
-  to.add(job.data(), job.size());
-  return to.take();
 }
 
-SavedHistory split_history(std::span<const std::byte> checkpoint)
+SavedHistory load_history(ByteSource& from)
 {
-  Reader from(checkpoint);
-  if (from.get<std::uint64_t>() != record_version)
+  std::uint64_t version = 0;
+  from.value(version);
+  if (version != record_version)
     throw bad_input("checkpoint", "was written by another version of the program", "", "delete it and start again");
   SavedHistory saved;
-  const auto columns = from.get<std::uint64_t>(), rows = from.get<std::uint64_t>();
-  saved.wall_seconds = from.get<double>();
-  saved.history.measuring_seconds = from.get<double>();
-  for (std::uint64_t i = 0; i < columns; ++i) {
-    const auto letters = from.some(from.get<std::uint64_t>());
-    saved.history.columns.emplace_back(reinterpret_cast<const char*>(letters.data()), letters.size());
+  from.value(saved.wall_seconds);
+  from.value(saved.history.measuring_seconds);
+  saved.history.columns.resize(load_count(from, sizeof(std::uint64_t)));
+  for (std::string& column : saved.history.columns) {
+    column.resize(load_count(from, 1));
+    from.read(std::as_writable_bytes(std::span(column)));
   }
-  for (std::uint64_t i = 0; i < rows; ++i) {
-    job::HistoryRow row;
-    row.seconds = from.get<double>();
-    row.wall_seconds = from.get<double>();
-    row.step = from.get<std::int64_t>();
-    row.work = from.get<std::uint64_t>();
-    for (std::uint64_t c = 0; c < columns; ++c) row.errors.push_back(from.get<double>());
-    saved.history.rows.push_back(std::move(row));
+  saved.history.rows.resize(load_count(from, sizeof(double)));
+  for (job::HistoryRow& row : saved.history.rows) {
+    from.value(row.seconds);
+    from.value(row.wall_seconds);
+    from.value(row.step);
+    from.value(row.work);
+    row.errors.resize(saved.history.columns.size());
+    from.read(std::as_writable_bytes(std::span(row.errors)));
   }
-  saved.job = from.rest();
   return saved;
 }
 

@@ -98,7 +98,11 @@ public:
 
   std::shared_ptr<const job::History> history() const override { return shown_; }
 
-  std::vector<std::byte> save() override { return with_history(job_->save(), history_, wall_seconds()); }
+  void save(ByteSink& to) override
+  {
+    save_history(history_, wall_seconds(), to);
+    job_->save(to);
+  }
 
   /// The history starts anew: its rows are of the old light's picture, and so is the reference. Where stop.error hangs on the reference,
   /// the run has to start again to get another one.
@@ -124,10 +128,10 @@ public:
     return true;
   }
 
-  void load(std::span<const std::byte> checkpoint) override
+  void load(ByteSource& from) override
   {
-    const SavedHistory saved = split_history(checkpoint);
-    job_->load(saved.job);
+    const SavedHistory saved = load_history(from);
+    job_->load(from);
     wall_before_ = saved.wall_seconds;
     began_ = Clock::now();
     history_.measuring_seconds = saved.history.measuring_seconds;

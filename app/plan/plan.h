@@ -20,7 +20,6 @@ struct Pass {
 struct PlannedBuffer {
   std::string name;
   std::uint64_t bytes = 0;
-  bool saved = false;   ///< whether checkpoints hold it, other than films, which they always hold
   bool on_host = false; ///< in the program's own memory, not on the device
 };
 

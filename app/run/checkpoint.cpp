@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// checkpoint.bin: a header, the job's own bytes, and a hash of everything before it. A file that was cut, changed or made for
-// another preset, mesh or spectrum is refused; because it is written whole, kill -9 leaves the checkpoint before or the new one, never half
-// of one.
+// checkpoint.bin: a header, the job's own bytes, and a hash of everything before it, written and read piece by piece. A file that was cut,
+// changed or made for another preset, mesh or spectrum is refused; because it is written whole, kill -9 leaves the checkpoint before or the
+// new one, never half of one.
+#include "base/bytes.h"
 #include "base/files.h"
 #include "run/content_hash.h"
 #include "run/run.h"
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;
@@ -14,16 +17,58 @@ namespace {
 
 struct Header {
   char magic[8] = {'N', 'E', 'P', 'H', 'C', 'K', 'P', 'T'};
-  std::uint64_t version = 1;
+  std::uint64_t version = 2;
   std::uint64_t content_hash = 0;
-  std::uint64_t payload_bytes = 0;
 };
-static_assert(sizeof(Header) == 32, "the header has no padding: it is written as it is");
+static_assert(sizeof(Header) == 24, "the header has no padding: it is written as it is");
 
-template <class T>
-std::string_view bytes_of(const T& value)
+std::uint64_t hash_more(std::span<const std::byte> bytes, std::uint64_t hash)
 {
-  return {reinterpret_cast<const char*>(&value), sizeof value};
+  return hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, hash);
+}
+
+class HashedSink final : public ByteSink {
+public:
+  explicit HashedSink(ByteSink& to) : to_(to) {}
+  void write(std::span<const std::byte> bytes) override
+  {
+    hash_ = hash_more(bytes, hash_);
+    to_.write(bytes);
+  }
+  std::uint64_t hash() const { return hash_; }
+
+private:
+  ByteSink& to_;
+  std::uint64_t hash_ = hash_of({});
+};
+
+/// The header and the job's bytes: what comes before the hash.
+class HashedPart final : public ByteSource {
+public:
+  explicit HashedPart(ByteSource& file) : file_(file) {}
+  void read(std::span<std::byte> into) override
+  {
+    if (into.size() > left()) throw bad_input("checkpoint", "is cut short", "expected one of this preset", "delete it and start again");
+    file_.read(into);
+  }
+  std::uint64_t left() const override { return file_.left() - sizeof(std::uint64_t); }
+
+private:
+  ByteSource& file_;
+};
+
+bool hash_is_right(ByteSource& file)
+{
+  HashedPart part(file);
+  std::vector<std::byte> piece(1 << 18);
+  std::uint64_t hash = hash_of({}), wanted = 0;
+  while (part.left() > 0) {
+    const auto next = std::span(piece).first(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), part.left())));
+    part.read(next);
+    hash = hash_more(next, hash);
+  }
+  file.value(wanted);
+  return hash == wanted;
 }
 
 std::uint64_t content_of(const Prepared& prepared) { return content_hash(prepared.preset, prepared.loaded->scene); }
@@ -34,36 +79,33 @@ fs::path file_in(const fs::path& folder) { return folder / "checkpoint.bin"; }
 
 void write_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job& job)
 {
-  const std::vector<std::byte> payload = job.save();
   Header header;
   header.content_hash = content_of(prepared);
-  header.payload_bytes = payload.size();
-  std::string bytes(bytes_of(header));
-  bytes.append(reinterpret_cast<const char*>(payload.data()), payload.size());
-  const std::uint64_t hash = hash_of(bytes);
-  bytes += bytes_of(hash);
-  write_file_whole(file_in(folder), bytes);
+  write_file_whole(file_in(folder), [&](ByteSink& file) {
+    HashedSink hashed(file);
+    hashed.value(header);
+    job.save(hashed);
+    file.value(hashed.hash());
+  });
 }
 
 bool load_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job& job)
 {
-  const fs::path file = file_in(folder);
-  if (!is_there(file)) return false;
-  const std::string bytes = read_file(file);
-  const auto refuse = [&](const char* what) { return bad_input(file.string(), what, {}, "run without --resume to start over"); };
-  Header header;
-  std::uint64_t hash = 0;
+  const fs::path path = file_in(folder);
+  if (!is_there(path)) return false;
+  const auto refuse = [&](const char* what) { return bad_input(path.string(), what, {}, "run without --resume to start over"); };
+  const std::unique_ptr<ByteSource> file = open_file(path);
   const Header ours;
-  if (bytes.size() < sizeof header + sizeof hash || std::memcmp(bytes.data(), ours.magic, sizeof ours.magic) != 0)
-    throw refuse("is no checkpoint");
-  std::memcpy(&header, bytes.data(), sizeof header);
-  std::memcpy(&hash, bytes.data() + bytes.size() - sizeof hash, sizeof hash);
+  Header header;
+  if (file->left() < sizeof header + sizeof(std::uint64_t)) throw refuse("is no checkpoint");
+  HashedPart part(*file);
+  part.value(header);
+  if (std::memcmp(header.magic, ours.magic, sizeof ours.magic) != 0) throw refuse("is no checkpoint");
   if (header.version != ours.version) throw refuse("was written by another version of the program");
-  const std::string_view hashed(bytes.data(), bytes.size() - sizeof hash);
-  if (hashed.size() - sizeof header != header.payload_bytes || hash_of(hashed) != hash) throw refuse("is cut or damaged");
+  if (!hash_is_right(*open_file(path))) throw refuse("is cut or damaged");
   if (header.content_hash != content_of(prepared))
     throw refuse("belongs to another preset or seed, or a file that the preset names has changed");
-  job.load(std::as_bytes(std::span(bytes).subspan(sizeof header, header.payload_bytes)));
+  job.load(part);
   return true;
 }
 

@@ -9,23 +9,19 @@
 
 #include <algorithm>
 #include <charconv>
+#include <initializer_list>
 #include <numeric>
+#include <string_view>
 
 namespace nephroid::run {
 namespace {
 
 constexpr const char* remedy = "choose a smaller scene.camera.resolution";
 
-/// What saving a picture takes at its peak, in bytes, for `layers` films of 3 channels where a checkpoint holds saved_bytes:
-/// the snapshot's floats, 12 a pixel for each layer, for their sum and for the draw of its error, are held throughout; beside them come
-///  - the EXR writer's interleaved copy, its encoded file and the copy of that which is written, each at most about as large, or
-///  - the checkpoint: once as the job's bytes and once as the file's.
-/// Reading a film back for a snapshot, one at a time, is less than either, and so are measuring, 24 a pixel for CIELAB, and smoothing, less
-/// than 100 a pixel.
-std::uint64_t peak_bytes(std::uint64_t layers, std::uint64_t pixels, std::uint64_t saved_bytes)
+bool runs(const plan::Plan& plan, std::initializer_list<std::string_view> names)
 {
-  const std::uint64_t floats = 12 * (layers + 2) * pixels;
-  return floats + std::max(3 * floats, 2 * saved_bytes);
+  return std::any_of(plan.passes.begin(), plan.passes.end(),
+                     [&](const plan::Pass& pass) { return pass.runs && std::find(names.begin(), names.end(), pass.name) != names.end(); });
 }
 
 /// Of the buffers on the device, or of those on the host.
@@ -40,15 +36,18 @@ Error does_not_fit(const std::string& what, const std::string& there_is) { retur
 
 } // namespace
 
-std::uint64_t host_bytes(const plan::Plan& plan, int width, int height)
+plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int height)
 {
-  std::uint64_t layers = 0, saved_bytes = 0;
-  for (const plan::PlannedBuffer& buffer : plan.buffers)
-    if (const bool film = buffer.name.starts_with("film "); film || buffer.saved) {
-      layers += film;
-      saved_bytes += buffer.bytes;
-    }
-  return total_bytes(plan, true) + peak_bytes(layers, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height), saved_bytes);
+  const std::uint64_t layers =
+      runs(plan, {"direct"}) + runs(plan, {"photons", "photon maps"}) + runs(plan, {"indirect"}) + runs(plan, {"background"});
+  // Bytes a pixel. A snapshot has three floats for each layer, for their sum and for the draw of its error.
+  const std::uint64_t snapshot = 12 * (layers + 2);
+  // Beside it, one after the other: a film of two halves read back; the EXR writer's interleaved copy and its encoded file, each about as
+  // large as the layers and their sum; the caustics that are smoothed. Measuring and the report take less, and a checkpoint is written
+  // piece by piece.
+  const std::uint64_t film = 48, exr = 2 * 12 * (layers + 1), smoothing = runs(plan, {"smoothing"}) ? 100 : 0;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  return {"picture and its files (host)", pixels * (snapshot + std::max({film, exr, smoothing})), true};
 }
 
 std::optional<std::uint64_t> available_memory_bytes()
@@ -80,7 +79,7 @@ void require_memory(const plan::Plan& plan, int width, int height, const compute
     if (!buffer.on_host && buffer.bytes > device.max_buffer_bytes)
       throw does_not_fit(fmt::format("the buffer '{}' needs {}", buffer.name, readable_bytes(buffer.bytes)),
                          fmt::format("{} has at most {} for one buffer", device.name, readable_bytes(device.max_buffer_bytes)));
-  const std::uint64_t here = host_bytes(plan, width, height) + (device.type == "cpu" ? on_device : 0);
+  const std::uint64_t here = total_bytes(plan, true) + (device.type == "cpu" ? on_device : 0);
   if (available && here > *available)
     throw does_not_fit(fmt::format("a picture of {} x {} pixels needs about {}", width, height, readable_bytes(here)),
                        fmt::format("{} of this machine's memory are free", readable_bytes(*available)));

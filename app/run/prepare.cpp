@@ -49,6 +49,7 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous)
 {
   auto loaded = std::make_shared<const LoadedScene>(load(preset, previous));
   plan::Plan plan = spectral::make_plan(preset, loaded->scene, *loaded->bvh);
+  plan.buffers.push_back(picture_and_files(plan, loaded->scene.camera.width, loaded->scene.camera.height));
   return {preset, std::move(loaded), std::move(plan)};
 }
 

@@ -26,6 +26,12 @@ plan::Pass not_asked_for(const std::string& name, const std::string& field)
   return {name, false, fmt::format("spectral.{} is false", field), "/spectral/" + field, true};
 }
 
+/// What a preset with layers may not ask for: no field brings it back.
+plan::Pass not_in_layers(const std::string& name, const std::string& why)
+{
+  return {name, false, "spectral.relight is true, and layers cannot hold it: " + why, "", false};
+}
+
 /// Lights that shine, or, where layers are kept, may shine when the light changes.
 std::ptrdiff_t shining_lights(const preset::Spectral& settings, const scene::Scene& scene)
 {
@@ -66,6 +72,7 @@ plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& sce
 
 plan::Pass indirect_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects)
 {
+  if (settings.relight) return not_in_layers("indirect", "its light met several reflectors");
   if (!settings.indirect) return not_asked_for("indirect", "indirect");
   const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(settings, scene);
   if (!none.empty()) return {"indirect", false, none, "", false};
@@ -102,6 +109,10 @@ plan::Pass estimate_pass(const preset::Preset& preset, bool caustics)
   if (preset.measure.estimate && caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
     return {"error estimate", false, "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves", "",
             false};
+  // Nothing else can stop the run, so nobody may switch it off.
+  if (preset.measure.estimate && preset.stop.error && !preset.reference)
+    return {"error estimate", true, "every film is kept in two independent halves: stop.error needs them, there is no reference", "",
+            false};
   return {"error estimate", preset.measure.estimate,
           preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false", "/measure/estimate",
           true};
@@ -110,9 +121,8 @@ plan::Pass estimate_pass(const preset::Preset& preset, bool caustics)
 plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Scene& scene, bool splats)
 {
   const std::string field = "/spectral/differentials";
+  if (settings.relight) return not_in_layers("differentials", "a layer is a whole cluster's");
   if (!settings.differentials) return not_asked_for("differentials", "differentials");
-  if (settings.relight)
-    return {"differentials", false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
   if (!splats) return {"differentials", false, "nothing is splatted", "", false};
   const StretchParameter along = stretch_parameter(scene);
   if (along == StretchParameter::none) return {"differentials", false, "no glass bends one wavelength otherwise than another", "", false};
@@ -174,10 +184,14 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
                                          bool photons, int halves)
 {
   const WavelengthTables& w = tables.wavelengths;
+  const std::uint64_t tree = bytes_of(bvh.nodes) + bytes_of(bvh.blocks),
+                      triangles = bytes_of(scene.geometry.triangles) + bytes_of(scene.geometry.positions) +
+                                  bytes_of(scene.geometry.normals) + bytes_of(scene.object_of_triangle),
+                      environment = scene.environment ? bytes_of(scene.environment->rgb) : 0;
   std::vector<plan::PlannedBuffer> list{
-      {"tree", bytes_of(bvh.nodes) + bytes_of(bvh.blocks)},
-      {"triangles", bytes_of(scene.geometry.triangles) + bytes_of(scene.geometry.positions) + bytes_of(scene.geometry.normals) +
-                        bytes_of(scene.object_of_triangle)},
+      {"scene (host)", tree + triangles + environment, true},
+      {"tree", tree},
+      {"triangles", triangles},
       {"wavelength tables", bytes_of(w.index_of_cluster) + bytes_of(w.index_of_wavelength) + bytes_of(w.wavelength_cdf) +
                                 bytes_of(w.coefficient) + bytes_of(w.reflectance) + bytes_of(w.light_xyz) + bytes_of(w.reflected_xyz) +
                                 bytes_of(w.reflected_xyz_all) + bytes_of(w.cluster_wavelengths)}};
@@ -254,7 +268,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   if (photons.runs && preset.spectral.effort == preset::Spectral::Effort::variance)
     plan.buffers.push_back({"guide of directions",
                             tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
-  if (smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), false, true});
+  if (smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), true});
   if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
   plan.defines = omission_defines(code, scene, attenuators);

@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 4;
+constexpr std::uint32_t checkpoint_version = 5;
 
 bool runs(const plan::Plan& plan, const std::string& name)
 {
@@ -138,9 +138,9 @@ public:
     return snapshot;
   }
 
-  std::vector<std::byte> save() override
+  void save(ByteSink& sink) override
   {
-    StateWriter to;
+    StateWriter to(sink);
     to.value(checkpoint_version);
     to.value(at_);
     to.buffer(world_.energy);
@@ -148,12 +148,11 @@ public:
       to.value(s.seconds);
       s.stage->save(to);
     }
-    return to.take();
   }
 
-  void load(std::span<const std::byte> checkpoint) override
+  void load(ByteSource& source) override
   {
-    StateReader from(checkpoint);
+    StateReader from(source);
     std::uint32_t version = 0;
     from.value(version);
     if (version != checkpoint_version)

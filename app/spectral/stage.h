@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace nephroid::spectral {
 
@@ -21,10 +20,11 @@ public:
   /// The shared energy counters are the caller's to reset.
   virtual void warm_up()
   {
-    StateWriter before;
+    ByteStore kept; // films are all 0 by now, and such pieces are not kept
+    StateWriter before(kept);
     save(before);
     step(0);
-    const std::vector<std::byte> bytes = before.take();
+    StoredBytes bytes(kept.bytes(), name());
     StateReader back(bytes);
     load(back);
   }

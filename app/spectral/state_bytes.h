@@ -1,72 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a checkpoint holds, byte after byte: plain values and device buffers.
+// What a checkpoint holds, byte after byte: plain values, and device buffers piece by piece, without the pieces that are all 0. So nobody
+// holds a second film on the host, and a film that nothing was added to takes no room.
 #pragma once
-#include "base/error.h"
+#include "base/bytes.h"
 #include "compute/compute.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 namespace nephroid::spectral {
 
+/// Bytes of a buffer that are read or written at once.
+constexpr std::size_t state_piece = 1 << 18;
+
 class StateWriter {
 public:
+  /// to: outlives it.
+  explicit StateWriter(ByteSink& to) : to_(to) {}
   template <class T>
   void value(const T& value)
   {
-    static_assert(std::is_trivially_copyable_v<T>);
-    append(&value, sizeof value);
+    to_.value(value);
   }
   template <class T>
   void buffer(const compute::Buffer<T>& buffer)
   {
-    const std::vector<T> items = buffer.read();
-    append(items.data(), items.size() * sizeof(T));
+    for (std::size_t at = 0; at < buffer.bytes(); at += state_piece) {
+      piece_.resize(std::min(state_piece, buffer.bytes() - at));
+      buffer.RawBuffer::read(piece_.data(), piece_.size(), at);
+      const bool is_zero = all_zero();
+      value(is_zero);
+      if (!is_zero) to_.write(piece_);
+    }
   }
-  std::vector<std::byte> take() { return std::move(bytes_); }
 
 private:
-  void append(const void* from, std::size_t count)
-  {
-    const std::size_t size = bytes_.size();
-    bytes_.resize(size + count);
-    if (count > 0) std::memcpy(bytes_.data() + size, from, count);
-  }
-  std::vector<std::byte> bytes_;
+  /// The first byte is 0 and each is as the one before.
+  bool all_zero() const { return piece_[0] == std::byte{0} && std::memcmp(piece_.data(), piece_.data() + 1, piece_.size() - 1) == 0; }
+
+  ByteSink& to_;
+  std::vector<std::byte> piece_;
 };
 
 /// Throws bad_input where the checkpoint ends early.
 class StateReader {
 public:
-  explicit StateReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  /// from: outlives it.
+  explicit StateReader(ByteSource& from) : from_(from) {}
   template <class T>
   void value(T& value)
   {
-    static_assert(std::is_trivially_copyable_v<T>);
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    from_.value(value);
   }
   template <class T>
   void buffer(compute::Buffer<T>& buffer)
   {
-    std::vector<T> items(buffer.size());
-    const std::span<const std::byte> from = take(buffer.bytes());
-    if (!items.empty()) std::memcpy(items.data(), from.data(), from.size());
-    buffer.write(items);
+    for (std::size_t at = 0; at < buffer.bytes(); at += state_piece) {
+      bool is_zero = false;
+      value(is_zero);
+      piece_.assign(std::min(state_piece, buffer.bytes() - at), std::byte{0});
+      if (!is_zero) from_.read(piece_);
+      buffer.RawBuffer::write(piece_.data(), piece_.size(), at);
+    }
   }
-  bool at_end() const { return bytes_.empty(); }
+  bool at_end() const { return from_.left() == 0; }
 
 private:
-  std::span<const std::byte> take(std::size_t count)
-  {
-    if (count > bytes_.size()) throw bad_input("checkpoint", "is cut short", "expected one of this preset", "delete it and start again");
-    const std::span<const std::byte> taken = bytes_.first(count);
-    bytes_ = bytes_.subspan(count);
-    return taken;
-  }
-  std::span<const std::byte> bytes_;
+  ByteSource& from_;
+  std::vector<std::byte> piece_;
 };
 
 } // namespace nephroid::spectral

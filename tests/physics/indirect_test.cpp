@@ -7,6 +7,7 @@
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
+#include "tests/support/saved_jobs.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -275,9 +276,9 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   const plan::Plan plan = spectral::make_plan(p, scene, bvh);
   auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
   for (int i = 0; i < 5; ++i) job->step();
-  const std::vector<std::byte> state = job->save();
+  const std::vector<std::byte> state = test::saved(*job);
   job = spectral::make_job(p, scene, bvh, plan, shared_context());
-  job->load(state);
+  test::load(*job, state);
   while (!job->finished()) job->step();
   const job::Snapshot resumed = job->snapshot();
   EXPECT_EQ(layer(resumed, "indirect").rgb, layer(whole, "indirect").rgb);

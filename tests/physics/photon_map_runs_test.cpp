@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
+#include "tests/support/saved_jobs.h"
 
 #include <gmock/gmock.h>
 
@@ -81,10 +82,10 @@ TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits)
   for (; !job->finished(); ++steps) {
     job->step();
     if (steps % 3 != 1) continue;
-    const std::vector<std::byte> saved = job->save();
+    const std::vector<std::byte> saved = test::saved(*job);
     const job::Snapshot before = job->snapshot();
     job = make();
-    job->load(saved);
+    test::load(*job, saved);
     EXPECT_EQ(job->snapshot().picture->rgb, before.picture->rgb) << "at step " << steps;
   }
   EXPECT_GT(steps, 12);
@@ -94,7 +95,7 @@ TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits)
   EXPECT_EQ(resumed.energy.emitted_w, truth.energy.emitted_w);
   EXPECT_EQ(truth.picture->error_draw.empty(), GetParam().estimator == Estimator::sppm);
   EXPECT_GT(*std::max_element(truth.picture->rgb.begin(), truth.picture->rgb.end()), 0);
-  EXPECT_THROW(make()->load(std::vector<std::byte>(100)), Error);
+  EXPECT_THROW(test::load(*make(), std::vector<std::byte>(100)), Error);
 }
 
 // Whatever the estimator and however the clusters take turns: the same power leaves the lamps towards the ball and the mirror.

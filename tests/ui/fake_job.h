@@ -96,8 +96,8 @@ public:
     if (runs_.history) made.history = runs_.history(done_);
     return made;
   }
-  std::vector<std::byte> save() override { return {}; }
-  void load(std::span<const std::byte>) override {}
+  void save(ByteSink&) override {}
+  void load(ByteSource&) override {}
   bool adopt(const preset::Preset& preset) override
   {
     if (preset.scene.lights[0].power_w == 13) throw bad_input("lights/0", "is unlucky");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Learning where photons matter: even at the start, the optimum of cases worked out by hand, and what no moment can take away.
 #include "spectral/effort/emission_guide.h"
+#include "tests/support/saved_jobs.h"
 
 #include <gtest/gtest.h>
 
@@ -146,13 +147,9 @@ TEST(EmissionGuide, IsSavedWhole)
   second[2000] = 1 << 30;
   EmissionGuide guide(1);
   guide.learn(first, std::vector<double>{1000}, 2);
-  spectral::StateWriter to;
-  guide.save(to);
-  const std::vector<std::byte> bytes = to.take();
+  const std::vector<std::byte> bytes = test::saved<spectral::StateWriter>(guide);
   EmissionGuide other(1);
-  spectral::StateReader from(bytes);
-  other.load(from);
-  EXPECT_TRUE(from.at_end());
+  EXPECT_TRUE(test::load<spectral::StateReader>(other, bytes));
   EXPECT_EQ(other.table(), guide.table());
   guide.learn(second, std::vector<double>{1000}, 2);
   other.learn(second, std::vector<double>{1000}, 2);

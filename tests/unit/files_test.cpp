@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files are read whole, written whole or not at all, and found where a preset's reader says they are; nearest names.
+#include "base/bytes.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/interrupts.h"
@@ -10,11 +11,14 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <span>
 #include <sys/mount.h>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace {
 
@@ -36,6 +40,47 @@ protected:
     return found;
   }
 };
+
+// Pieces below, at and above what waits in a buffer before it is written or after it was read.
+TEST_F(Files, PiecesAreWrittenAndReadInOrder)
+{
+  const std::vector<std::size_t> sizes{1, 3, 65535, 65536, 0, 65537, 8, 200000, 7};
+  std::vector<std::byte> all;
+  write_file_whole(folder / "pieces", [&](ByteSink& file) {
+    for (const std::size_t size : sizes) {
+      std::vector<std::byte> piece;
+      for (std::size_t i = 0; i < size; ++i) piece.push_back(static_cast<std::byte>((i * 7 + size) % 251));
+      file.write(piece);
+      all.insert(all.end(), piece.begin(), piece.end());
+    }
+  });
+  const std::string text = read_file(folder / "pieces");
+  ASSERT_EQ(text.size(), all.size());
+  EXPECT_EQ(std::memcmp(text.data(), all.data(), all.size()), 0);
+  const auto file = open_file(folder / "pieces");
+  std::vector<std::byte> read(all.size());
+  std::span<std::byte> into(read);
+  for (auto size = sizes.rbegin(); size != sizes.rend(); ++size) {
+    EXPECT_EQ(file->left(), into.size());
+    file->read(into.first(*size));
+    into = into.subspan(*size);
+  }
+  EXPECT_EQ(read, all);
+  EXPECT_EQ(file->left(), 0u);
+  EXPECT_THAT(error_of([&] { file->read(std::span(read).first(1)); }).line(), HasSubstr("pieces: cannot be read: it ends early"));
+}
+
+TEST_F(Files, WhatFailsWhileItIsWrittenLeavesNothing)
+{
+  EXPECT_EQ(error_of([&] {
+              write_file_whole(folder / "half", [](ByteSink& file) {
+                file.value(1);
+                throw failed("job", "cannot go on");
+              });
+            }).line(),
+            "job: cannot go on");
+  EXPECT_THAT(names(), ElementsAre());
+}
 
 TEST_F(Files, BytesSurviveWritingAndReading)
 {

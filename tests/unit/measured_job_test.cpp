@@ -5,6 +5,7 @@
 #include "measure/history_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
+#include "tests/support/saved_jobs.h"
 
 #include <gmock/gmock.h>
 
@@ -61,8 +62,8 @@ public:
     snapshot.progress = progress();
     return snapshot;
   }
-  std::vector<std::byte> save() override { return std::vector<std::byte>(static_cast<std::size_t>(done_)); }
-  void load(std::span<const std::byte> checkpoint) override { done_ = static_cast<int>(checkpoint.size()); }
+  void save(ByteSink& to) override { to.write(std::vector<std::byte>(static_cast<std::size_t>(done_))); }
+  void load(ByteSource& from) override { done_ = static_cast<int>(from.left()); }
   bool adopt(const preset::Preset& preset) override { return preset.spectral.relight; }
 
 private:
@@ -185,11 +186,11 @@ TEST(MeasuredJob, ASavedJobGoesOnWithItsHistory)
 {
   const auto whole = noisy(settings(), truth());
   while (whole->progress().step < 100) whole->step();
-  const std::vector<std::byte> saved = whole->save();
+  const std::vector<std::byte> saved = test::saved(*whole);
   const job::History before = *whole->history();
 
   const auto resumed = noisy(settings(), truth());
-  resumed->load(saved);
+  test::load(*resumed, saved);
   EXPECT_EQ(measure::to_csv(*resumed->history()), measure::to_csv(before));
   EXPECT_EQ(resumed->progress().step, 100);
   const job::History after = run(*resumed);
@@ -197,7 +198,8 @@ TEST(MeasuredJob, ASavedJobGoesOnWithItsHistory)
   EXPECT_GE(after.rows.back().wall_seconds, before.rows.back().wall_seconds);
   EXPECT_GE(after.rows[before.rows.size()].seconds, before.rows.back().seconds);
   for (std::size_t cut = 0; cut < saved.size() - 100; cut += 31)
-    EXPECT_THAT(error_of([&] { noisy(settings(), truth())->load(std::span(saved).first(cut)); }).line(), HasSubstr("checkpoint: is cut"))
+    EXPECT_THAT(error_of([&] { test::load(*noisy(settings(), truth()), std::span(saved).first(cut)); }).line(),
+                HasSubstr("checkpoint: is cut"))
         << cut;
 }
 
@@ -206,7 +208,7 @@ TEST(MeasuredJob, AResumedRunMayHaveGotAReference)
   const auto without = noisy(settings(), nullptr);
   while (without->progress().step < 100) without->step();
   const auto with = noisy(settings(), truth());
-  with->load(without->save());
+  test::load(*with, test::saved(*without));
   const job::History history = *with->history();
   ASSERT_FALSE(history.rows.empty());
   EXPECT_TRUE(std::isnan(job::error_in(history, history.rows.front(), "lab_mean")));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plan says of the switch behind a pass is true: the field is a boolean of the preset, and its run_value turns the pass on, or at
-// least not off. The window draws a check box from it and the command line names it.
+// What a plan says of the switch behind a pass is true: the field is a boolean of the preset that may be switched, and its run_value turns
+// the pass on, or at least not off. The window draws a check box from it and the command line names it.
 #include "base/error.h"
 #include "preset/read.h"
 #include "scene/bvh.h"
@@ -88,6 +88,7 @@ protected:
       if (!pass.runs) {
         EXPECT_NE(fields[pointer], pass.run_value) << "it is so already";
       }
+      EXPECT_TRUE(with_field(p, pass.field, !fields[pointer].get<bool>())) << pass.field << " the other way is refused";
       if (fields[pointer] == pass.run_value) continue; // it is the same preset
       const auto switched = with_field(p, pass.field, pass.run_value);
       if (switched && pass.runs) {
@@ -117,6 +118,9 @@ TEST_P(PlanFields, AreTrueWhateverIsSwitched)
     p.spectral.estimator = estimator;
     expect_true_fields_whatever_is_switched(p, "another estimator");
   }
+  p.spectral.estimator = Estimator::automatic;
+  p.stop.error = 1;
+  expect_true_fields(p, "an error to stop at");
   for (const char* field : {"/spectral/direct", "/spectral/background", "/spectral/jitter", "/spectral/low_discrepancy",
                             "/spectral/smoothing", "/spectral/relight", "/measure/estimate", "/spectral/leave_out/mirrors"})
     EXPECT_TRUE(found_.contains(field)) << field;

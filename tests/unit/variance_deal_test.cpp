@@ -2,6 +2,7 @@
 // Dealing photons by measured variance: the optimum of a case worked out by hand, and what must never be lost on the way.
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/variance_deal.h"
+#include "tests/support/saved_jobs.h"
 
 #include <gtest/gtest.h>
 
@@ -84,13 +85,9 @@ TEST(VarianceDeal, IsSavedWhole)
 {
   VarianceDeal deal(emitters({40, 60}));
   deal.deal(2, std::vector<std::int64_t>{5, 700}, 2);
-  spectral::StateWriter to;
-  deal.save(to);
-  const std::vector<std::byte> bytes = to.take();
+  const std::vector<std::byte> bytes = test::saved<spectral::StateWriter>(deal);
   VarianceDeal other(emitters({40, 60}));
-  spectral::StateReader from(bytes);
-  other.load(from);
-  EXPECT_TRUE(from.at_end());
+  EXPECT_TRUE(test::load<spectral::StateReader>(other, bytes));
   deal.deal(4, std::vector<std::int64_t>{100, 3}, 2);
   other.deal(4, std::vector<std::int64_t>{100, 3}, 2);
   for (std::size_t e = 0; e < 2; ++e) EXPECT_EQ(other.emitters()[e].photon_count, deal.emitters()[e].photon_count);

@@ -46,8 +46,8 @@ public:
     snapshot.progress = progress();
     return snapshot;
   }
-  std::vector<std::byte> save() override { return {}; }
-  void load(std::span<const std::byte>) override {}
+  void save(ByteSink&) override {}
+  void load(ByteSource&) override {}
 
 protected:
   int count_ = 0, steps_;

@@ -87,6 +87,10 @@ const char* encode(const NephroidPicture& picture, std::vector<unsigned char>& b
   const char* const format = picture.floats ? "exr" : "png"; // a bare extension names a format
   const auto output = ImageOutput::create(format);
   if (!output) return reason(geterror());
+  // Seldom more than as many bytes as the picture has: growing would copy them, and hold both for a while.
+  const std::size_t values =
+      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * static_cast<std::size_t>(picture.channel_count);
+  bytes.reserve(values * (picture.floats ? sizeof(float) : 1) + 65536);
   Filesystem::IOVecOutput memory(bytes);
   if (!output->set_ioproxy(&memory)) return "this OpenImageIO cannot write to memory";
   const TypeDesc type = picture.floats ? TypeFloat : TypeUInt8;

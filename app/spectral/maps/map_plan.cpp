@@ -61,16 +61,16 @@ MapPlan plan_maps(const preset::Spectral& settings, const scene::Scene& scene, c
   const auto slots = sppm ? static_cast<std::uint32_t>(settings.photons_per_pass) : tables.photons_per_pass;
   const std::uint64_t pixels = static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
   const std::uint64_t stored = slots * sizeof(shared::StoredPhoton);
-  plan.buffers = {{"photons on surfaces", stored, true},
-                  {"photon grid", PhotonMap::bytes(slots) - stored, false},
-                  {"visible points", EyePaths::bytes(tables.camera), false}};
+  plan.buffers = {{"photons on surfaces", stored},
+                  {"photon grid", PhotonMap::bytes(slots) - stored},
+                  {"visible points", EyePaths::bytes(tables.camera)}};
   if (!sppm) {
-    plan.buffers.push_back({"film photon maps", film_bytes, false});
+    plan.buffers.push_back({"film photon maps", film_bytes});
     return plan;
   }
   const std::uint64_t runs = settings.effort == preset::Spectral::Effort::random ? 1 : clusters;
-  plan.buffers.push_back({"statistics of pixels", runs * pixels * sizeof(shared::PixelStatistics), true});
-  plan.buffers.push_back({"radiance", 3 * pixels * sizeof(float), false});
+  plan.buffers.push_back({"statistics of pixels", runs * pixels * sizeof(shared::PixelStatistics)});
+  plan.buffers.push_back({"radiance", 3 * pixels * sizeof(float)});
   return plan;
 }
 

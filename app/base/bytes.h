@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bytes that are written or read piece by piece, so that nobody has to hold all of them: a checkpoint is as large as the films.
+#pragma once
+#include "base/error.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace nephroid {
+
+class ByteSink {
+public:
+  virtual ~ByteSink() = default;
+  virtual void write(std::span<const std::byte> bytes) = 0;
+  template <class T>
+  void value(const T& value)
+  {
+    static_assert(std::is_trivially_copyable_v<T>);
+    write(std::as_bytes(std::span(&value, 1)));
+  }
+};
+
+class ByteSource {
+public:
+  virtual ~ByteSource() = default;
+  /// Fills `into` with the next bytes. Throws bad_input where fewer are left.
+  virtual void read(std::span<std::byte> into) = 0;
+  virtual std::uint64_t left() const = 0;
+  template <class T>
+  void value(T& value)
+  {
+    static_assert(std::is_trivially_copyable_v<T>);
+    read(std::as_writable_bytes(std::span(&value, 1)));
+  }
+};
+
+/// Keeps what is written.
+class ByteStore final : public ByteSink {
+public:
+  void write(std::span<const std::byte> bytes) override
+  {
+    const std::size_t size = bytes_.size();
+    bytes_.resize(size + bytes.size());
+    if (!bytes.empty()) std::memcpy(bytes_.data() + size, bytes.data(), bytes.size());
+  }
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+private:
+  std::vector<std::byte> bytes_;
+};
+
+/// Bytes in memory, which outlive it. `where`: what an error calls them.
+class StoredBytes final : public ByteSource {
+public:
+  StoredBytes(std::span<const std::byte> bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
+  void read(std::span<std::byte> into) override
+  {
+    if (into.size() > bytes_.size()) throw bad_input(where_, "is cut short");
+    if (!into.empty()) std::memcpy(into.data(), bytes_.data(), into.size());
+    bytes_ = bytes_.subspan(into.size());
+  }
+  std::uint64_t left() const override { return bytes_.size(); }
+
+private:
+  std::span<const std::byte> bytes_;
+  std::string where_;
+};
+
+} // namespace nephroid

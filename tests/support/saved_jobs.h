@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jobs saved to memory and loaded from there.
+#pragma once
+#include "base/bytes.h"
+
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace nephroid::test {
+
+/// saver: a job, or a part of one with a writer of its own (spectral::StateWriter).
+template <class Writer = ByteSink, class Saver>
+std::vector<std::byte> saved(Saver& saver)
+{
+  ByteStore store;
+  if constexpr (std::is_same_v<Writer, ByteSink>)
+    saver.save(store);
+  else {
+    Writer to(store);
+    saver.save(to);
+  }
+  return store.bytes();
+}
+
+/// True where all of the bytes were read.
+template <class Reader = ByteSource, class Loader>
+bool load(Loader& loader, std::span<const std::byte> bytes)
+{
+  StoredBytes stored(bytes, "checkpoint");
+  if constexpr (std::is_same_v<Reader, ByteSource>)
+    loader.load(stored);
+  else {
+    Reader from(stored);
+    loader.load(from);
+  }
+  return stored.left() == 0;
+}
+
+} // namespace nephroid::test
