@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid devices`: what --device chooses from.
+#include "base/counted.h"
 #include "base/json_output.h"
 #include "cli/device_line.h"
 #include "cli/verbs.h"
@@ -48,9 +49,9 @@ void print_devices(bool json)
 
 std::string device_line(const compute::DeviceInfo& device)
 {
-  return fmt::format("{}  {}  ({}, {} compute units, {:.1f} GB, {} {}{}{})", device.index, device.name, device.type, device.compute_units,
-                     static_cast<double>(device.memory_bytes) * 1e-9, device.platform, device.driver, device.fp64 ? "" : ", no fp64",
-                     device.int64_atomics ? "" : ", no 64-bit atomics");
+  return fmt::format("{}  {}  ({}, {}, {:.1f} GB, {} {}{}{})", device.index, device.name, device.type,
+                     counted(device.compute_units, "compute unit"), static_cast<double>(device.memory_bytes) * 1e-9, device.platform,
+                     device.driver, device.fp64 ? "" : ", no fp64", device.int64_atomics ? "" : ", no 64-bit atomics");
 }
 
 void add_devices(CLI::App& program, Session&)

@@ -2,6 +2,7 @@
 // history.csv, strict in what it reads: a curve with a wrong row in it would be believed.
 #include "measure/history_file.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
 
@@ -105,8 +106,7 @@ job::HistoryRow row_of(std::string_view line, const std::vector<std::string>& co
   const std::vector<std::string_view> cells = cells_of(line);
   const std::size_t expected = std::size(fixed_columns) + columns.size();
   if (cells.size() != expected)
-    throw bad_input(place.text(), fmt::format("the row has {} cell{}", cells.size(), cells.size() == 1 ? "" : "s"),
-                    fmt::format("expected {}", expected));
+    throw bad_input(place.text(), "the row has " + counted(cells.size(), "cell"), fmt::format("expected {}", expected));
   job::HistoryRow row;
   row.seconds = seconds(cells[0], fixed_columns[0], place);
   row.wall_seconds = seconds(cells[1], fixed_columns[1], place);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preset/check.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/nearest.h"
 #include "preset/json_text.h"
@@ -58,7 +59,7 @@ void check_rows(const Rows& rows, const std::string& pointer, const Where& where
 void check_dispersion(const Dispersion& d, const std::string& pointer, const Where& where)
 {
   if (d.type == Dispersion::Type::sellmeier && d.b.size() != d.c_um2.size())
-    throw bad_input(where(pointer), fmt::format("has {} values in 'b' and {} in 'c_um2'", d.b.size(), d.c_um2.size()),
+    throw bad_input(where(pointer), fmt::format("has {} in 'b' and {} in 'c_um2'", counted(d.b.size(), "value"), d.c_um2.size()),
                     "expected as many of both");
   if (d.type == Dispersion::Type::table || d.type == Dispersion::Type::points) check_rows(d.table, child(pointer, "table"), where);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preset/json_text.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/json_output.h"
 #include "base/json_pointer.h"
@@ -195,8 +196,7 @@ std::string pretty(const Json& value)
 std::string shown(const Json& value)
 {
   if (value.is_object()) return "an object";
-  if (value.is_array())
-    return value.empty() ? "an empty list" : value.size() == 1 ? "a list of 1 item" : fmt::format("a list of {} items", value.size());
+  if (value.is_array()) return value.empty() ? "an empty list" : "a list of " + counted(value.size(), "item");
   if (value.is_string()) return "the string " + in_quotes(value.get_ref<const std::string&>());
   return json_text(value);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/place.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "scene/directions.h"
 
@@ -85,26 +86,20 @@ void check_thickness(const Mesh& mesh, double volume, const std::string& where)
                     fmt::format("at least {:.3g} for what is {:.3g} units long", thinnest, largest), "make it thicker or smaller");
 }
 
-const char* plural(std::uint32_t count) { return count == 1 ? "" : "s"; }
-
 void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
 {
-  if (report.degenerate > 0)
-    placed.warnings.push_back(fmt::format("{} triangle{} without area dropped", report.degenerate, plural(report.degenerate)));
-  if (report.duplicated > 0)
-    placed.warnings.push_back(fmt::format("{} duplicated triangle{} dropped", report.duplicated, plural(report.duplicated)));
+  if (report.degenerate > 0) placed.warnings.push_back(counted(report.degenerate, "triangle") + " without area dropped");
+  if (report.duplicated > 0) placed.warnings.push_back(counted(report.duplicated, "duplicated triangle") + " dropped");
   placed.closed = report.closed();
   if (!dielectric) return;
   if (report.open_edges > 0)
-    placed.damages.push_back(
-        {fmt::format("dielectric, but not closed: {} edge{} with one triangle", report.open_edges, plural(report.open_edges)),
-         "light that enters may never leave"});
+    placed.damages.push_back({fmt::format("dielectric, but not closed: {} with one triangle", counted(report.open_edges, "edge")),
+                              "light that enters may never leave"});
   if (report.crowded_edges > 0)
-    placed.damages.push_back(
-        {fmt::format("dielectric, but its inside is not clear: {} edge{} with more than two triangles, or with two that "
-                     "face opposite ways",
-                     report.crowded_edges, plural(report.crowded_edges)),
-         {}});
+    placed.damages.push_back({fmt::format("dielectric, but its inside is not clear: {} with more than two triangles, or with two that "
+                                          "face opposite ways",
+                                          counted(report.crowded_edges, "edge")),
+                              {}});
   if (report.closed() && report.signed_volume < 0) {
     turn_round(placed.mesh);
     placed.damages.push_back({"is inside out", "its triangles are turned round"});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/omissions.h"
 
+#include "base/counted.h"
 #include "preset/choices.h"
 #include "scene/corners.h"
 #include "spectral/tables/device_scene.h"
@@ -125,11 +126,6 @@ std::string light_types_reason(unsigned bits)
 
 } // namespace
 
-std::string counted(std::int64_t count, const std::string& one, const std::string& many)
-{
-  return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 bool has_power(const scene::Light& light) { return light.power_w + light.irradiance_w_m2 > 0; }
 
 std::vector<bool> lit_wavelengths(const scene::Scene& scene)
@@ -182,9 +178,10 @@ std::vector<plan::Pass> data_omissions(const preset::LeaveOut& leave_out, const 
     dark += !has_power(light);
     for (const scene::Sphere& target : targets) ++ways, unreached += !reaches(light, target);
   }
-  add("dark_lights", leave_out.dark_lights, dark, fmt::format("{} of {} lights without power", dark, scene.lights.size()));
+  add("dark_lights", leave_out.dark_lights, dark, fmt::format("{} of {} without power", dark, counted(scene.lights.size(), "light")));
   add("unreached_targets", leave_out.unreached_targets, unreached,
-      fmt::format("{} of {} ways from a light to a target are outside of a spot's cone or behind an area light", unreached, ways));
+      fmt::format("{} of {} from a light to a target {} outside of a spot's cone or behind an area light", unreached, counted(ways, "way"),
+                  unreached == 1 ? "is" : "are"));
 
   const std::vector<bool> lit = lit_wavelengths(scene);
   const auto unlit = static_cast<std::size_t>(std::count(lit.begin(), lit.end(), false));
@@ -203,14 +200,14 @@ std::vector<plan::Pass> code_omissions(const preset::LeaveOut& leave_out, const 
                either(blocked, "objects in view may stand before each other", "the camera sees flat objects only, none before another")),
       omission("light_types", leave_out.light_types, types == all_light_types, light_types_reason(types)),
       omission("mirrors", leave_out.mirrors, counts.mirrors > 0,
-               either(counts.mirrors > 0, counted(counts.mirrors, "mirror object", "mirror objects"), "no object is a mirror")),
+               either(counts.mirrors > 0, counted(counts.mirrors, "mirror object"), "no object is a mirror")),
       omission("bending", leave_out.bending, bends,
                either(bends, "glass has another n than its surroundings", "no glass has another n than 1")),
       omission("attenuation", leave_out.attenuation, attenuators > 0,
                either(attenuators > 0, counted(attenuators, "material takes", "materials take") + " light away by wavelength",
                       "no glass absorbs and no mirror is coloured")),
       omission("smooth_normals", leave_out.smooth_normals, counts.smooth > 0,
-               either(counts.smooth > 0, counted(counts.smooth, "smooth object", "smooth objects"), "every object is faceted")),
+               either(counts.smooth > 0, counted(counts.smooth, "smooth object"), "every object is faceted")),
   };
 }
 

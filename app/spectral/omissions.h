@@ -12,9 +12,6 @@
 
 namespace nephroid::spectral {
 
-/// "1 light", "2 lights".
-std::string counted(std::int64_t count, const std::string& one, const std::string& many);
-
 bool has_power(const scene::Light& light);
 /// [401]: which wavelengths a light with power has; all of them where no light has power.
 std::vector<bool> lit_wavelengths(const scene::Scene& scene);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 1 runs for a preset and what it leaves out.
+#include "base/counted.h"
 #include "preset/choices.h"
 #include "spectral/effort/effort.h"
 #include "spectral/effort/emission_guide.h"
@@ -50,9 +51,8 @@ plan::Pass direct_pass(const preset::Spectral& settings, const scene::Scene& sce
   const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(settings, scene);
   if (!none.empty()) return omission("direct", settings.leave_out.direct, false, none);
   return omission("direct", settings.leave_out.direct, true,
-                  fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object", "diffuse objects"),
-                              counted(shining_lights(settings, scene), "light", "lights"),
-                              counted(settings.pixel_samples, "sample", "samples")));
+                  fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object"),
+                              counted(shining_lights(settings, scene), "light"), counted(settings.pixel_samples, "sample")));
 }
 
 plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects, const DeviceTables& tables)
@@ -67,7 +67,7 @@ plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& sce
   if (tables.emitters.empty()) return {"photons", false, "no light shines on glass or a mirror", "", false};
   return omission("photons", settings.leave_out.photons, true,
                   fmt::format("{} photons a pass in {}", tables.photons_per_pass,
-                              counted(std::ssize(tables.wavelengths.clusters), "wavelength cluster", "wavelength clusters")));
+                              counted(std::ssize(tables.wavelengths.clusters), "wavelength cluster")));
 }
 
 plan::Pass indirect_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects)
@@ -88,19 +88,18 @@ plan::Pass background_pass(const preset::Spectral& settings, const scene::Scene&
   if (!scene.environment) return {"background", false, "there is no environment: what meets nothing is black", "", false};
   if (scene.environment->is_black()) return {"background", false, "the environment is black", "", false};
   const int width = scene.environment->width, height = scene.environment->height;
-  return {
-      "background", true,
-      (width * height == 1 ? "one colour all around" : fmt::format("a picture of {} x {} texels", width, height)) +
-          fmt::format(", seen directly, through glass and in mirrors; {} a pixel", counted(settings.pixel_samples, "sample", "samples")),
-      "/spectral/background", true};
+  return {"background", true,
+          (width * height == 1 ? "one colour all around" : fmt::format("a picture of {} x {} texels", width, height)) +
+              fmt::format(", seen directly, through glass and in mirrors; {} a pixel", counted(settings.pixel_samples, "sample")),
+          "/spectral/background", true};
 }
 
 plan::Pass stray_photons_pass(const preset::LeaveOut& leave_out, const DeviceTables& tables)
 {
   return omission("stray_photons", leave_out.stray_photons, false,
-                  leave_out.stray_photons ? fmt::format("photons start towards {} about glass and mirrors only",
-                                                        counted(std::ssize(tables.spheres), "sphere", "spheres"))
-                                          : "photons need not start where there is no glass and no mirror");
+                  leave_out.stray_photons
+                      ? fmt::format("photons start towards {} about glass and mirrors only", counted(std::ssize(tables.spheres), "sphere"))
+                      : "photons need not start where there is no glass and no mirror");
 }
 
 /// caustics: whether there are any.

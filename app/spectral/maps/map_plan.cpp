@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/maps/map_plan.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "spectral/maps/eye_paths.h"
 #include "spectral/maps/map_radius.h"
@@ -41,7 +42,7 @@ plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene,
   return omission(
       "photon_maps", settings.leave_out.photon_maps, sees,
       sees ? fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
-                         radius, eye_paths_a_pass(tables) == 1 ? "1 path" : fmt::format("{} paths", eye_paths_a_pass(tables)))
+                         radius, counted(eye_paths_a_pass(tables), "path"))
            : "the camera sees no glass and no mirror, so every caustic is splatted");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/relight/layer_plan.h"
 
+#include "base/counted.h"
 #include "spectral/clusters/scene_clusters.h"
 #include "spectral/omissions.h"
 #include "spectral/relight/layer_cells.h"
@@ -23,9 +24,7 @@ void plan_layers(const DeviceTables& tables, bool direct, bool photons, int halv
   plan.passes.push_back({"relighting", true,
                          fmt::format("{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
                                      "half of the photons go to every cluster alike{}",
-                                     counted(static_cast<std::int64_t>(lights * clusters), "layer", "layers"),
-                                     counted(static_cast<std::int64_t>(lights), "light", "lights"),
-                                     counted(static_cast<std::int64_t>(clusters), "wavelength cluster", "wavelength clusters"),
+                                     counted(lights * clusters, "layer"), counted(lights, "light"), counted(clusters, "wavelength cluster"),
                                      tables.wavelengths.attenuator_count > 0 ? split : ""),
                          "/spectral/relight", true});
 
