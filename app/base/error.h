@@ -22,6 +22,13 @@ public:
   const std::string& where() const { return where_; }
   /// "WHERE: what is wrong; what is expected; what to do", always one line, without the program's name.
   std::string line() const { return what(); }
+  /// The line without "WHERE: ".
+  std::string text() const { return line().substr(where_.empty() ? 0 : where_.size() + 2); }
+
+  /// The same error at another place.
+  Error at(std::string where) const { return Error(kind_, std::move(where), text()); }
+  /// The same error with one more thing said at the end of its line.
+  Error noting(std::string note) const { return Error(kind_, where_, text(), std::move(note)); }
 
 private:
   ErrorKind kind_;

@@ -303,16 +303,27 @@ fs::path presets_folder()
   throw failed("presets", fmt::format("not found in {}", fmt::join(names, ", ")), {}, "set NEPHROID_PRESETS to their folder");
 }
 
+FileNotFound::FileNotFound(std::string where, const std::string& name, const std::string& looked_in)
+    : Error(ErrorKind::bad_input, std::move(where), fmt::format("'{}' not found", name), "looked in " + looked_in), name_(name),
+      looked_in_(looked_in)
+{
+}
+
 FileFinder::FileFinder(fs::path beside)
 {
   folders_.push_back(beside.empty() ? fs::path(".") : std::move(beside));
   try {
-    folders_.push_back(presets_folder());
+    add(presets_folder());
   } catch (const Error&) {
     // Without presets/ everything may still lie beside the preset; what does not is reported by find with the folders there are.
   }
   for (fs::path& folder : model_folders())
-    if (is_folder(folder)) folders_.push_back(std::move(folder));
+    if (is_folder(folder)) add(std::move(folder));
+}
+
+void FileFinder::add(fs::path folder)
+{
+  if (std::find(folders_.begin(), folders_.end(), folder) == folders_.end()) folders_.push_back(std::move(folder));
 }
 
 fs::path FileFinder::find(const std::string& name, const std::string& where) const
@@ -337,7 +348,7 @@ fs::path FileFinder::find(const std::string& name, const std::string& where) con
     }
   }
   if (!other_kind.empty()) throw bad_input(where, other_kind, "expected a file");
-  throw bad_input(where, fmt::format("'{}' not found", name), fmt::format("looked in {}", fmt::join(names, ", ")));
+  throw FileNotFound(where, name, fmt::format("{}", fmt::join(names, ", ")));
 }
 
 } // namespace nephroid

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading files whole or piece by piece, writing them whole or not at all, and finding the files that a preset names.
 #pragma once
+#include "base/error.h"
+
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -34,17 +36,31 @@ bool is_temporary_name(const std::filesystem::path& path);
 /// program's build folder or installed share folder. Throws failed where none is found.
 std::filesystem::path presets_folder();
 
+/// A file that is in none of the folders that were looked into.
+class FileNotFound : public Error {
+public:
+  /// looked_in: the folders, joined by commas.
+  FileNotFound(std::string where, const std::string& name, const std::string& looked_in);
+  const std::string& name() const { return name_; }
+  const std::string& looked_in() const { return looked_in_; }
+
+private:
+  std::string name_, looked_in_;
+};
+
 /// Where the files that a preset names are looked for, in order: beside the preset, in presets/, in the system's model folders.
 class FileFinder {
 public:
   explicit FileFinder(std::filesystem::path beside = {});
   /// The first existing match of name (absolute names stand for themselves).
-  /// Throws bad_input at `where` naming every folder looked into, or what has the name and is no regular file.
+  /// Throws FileNotFound at `where`, or bad_input where something has the name and is no regular file.
   std::filesystem::path find(const std::string& name, const std::string& where) const;
   const std::vector<std::filesystem::path>& folders() const { return folders_; }
 
 private:
-  std::vector<std::filesystem::path> folders_;
+  void add(std::filesystem::path folder);
+
+  std::vector<std::filesystem::path> folders_; ///< each once
 };
 
 } // namespace nephroid

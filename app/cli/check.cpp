@@ -4,6 +4,7 @@
 #include "base/interrupts.h"
 #include "base/json_output.h"
 #include "cli/device_line.h"
+#include "cli/numbers.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -116,7 +117,9 @@ void add_check(CLI::App& program, Session&)
       verb->add_option("--device", options->device.selector, "An index or part of a name (see nephroid devices)")->type_name("SEL");
   verb->add_flag("--all", options->all, "Every device there is, one after the other")->excludes(device);
   verb->add_option("--kernels", options->device.kernels, "Load kernels from this folder instead of the built-in ones")->type_name("DIR");
-  verb->add_option("--seed", options->seed, "Of the random numbers (default 1); a right device passes with every one")->type_name("N");
+  verb->add_option("--seed", options->seed, "Of the random numbers (default 1); a right device passes with every one")
+      ->type_name("N")
+      ->check(any_seed());
   verb->add_flag("--details", options->details, "Say under each line what was compared with what");
   verb->add_flag("--json", options->json,
                  "One object a device: {\"device\",\"checks\":[{\"name\",\"figure\",\"tolerance\",\"unit\",\"pass\",\"detail\"}]}");

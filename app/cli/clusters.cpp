@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid clusters`: the wavelength clusters of a preset's glass or of a dispersion file.
 #include "spectral/clusters/clusters.h"
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
@@ -9,6 +10,7 @@
 #include "cli/verbs.h"
 #include "cli/wavelength_runs.h"
 #include "preset/choices.h"
+#include "preset/origins.h"
 #include "preset/read.h"
 #include "scene/materials.h"
 
@@ -74,8 +76,8 @@ Task preset_task(const ClusterOptions& options)
   const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
   const std::string where = preset.source + "#/scene/materials/" + pointer_key(name) + "/dispersion";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
-  return {scene::make_curve(dispersion, finder, where), scene::outside_policy(dispersion.outside), preset.spectral.threshold_deg,
-          preset.spectral.method};
+  return {preset::at_origins(preset, [&] { return scene::make_curve(dispersion, finder, where); }),
+          scene::outside_policy(dispersion.outside), preset.spectral.threshold_deg, preset.spectral.method};
 }
 
 Task make_task(const ClusterOptions& options)
@@ -83,6 +85,9 @@ Task make_task(const ClusterOptions& options)
   if (options.preset.empty() == options.ior.empty())
     throw bad_input("clusters", options.ior.empty() ? "nothing to cluster" : "both a preset and --ior are given",
                     "expected a PRESET or --ior FILE");
+  if (is_dispersion(options.preset) && !is_there(options.preset + ".json"))
+    throw bad_input("clusters", fmt::format("'{}' is a dispersion file, not a preset", options.preset), {},
+                    fmt::format("take it with --ior {}", options.preset));
   Task task = options.ior.empty() ? preset_task(options) : Task{.curve = find_dispersion(options.ior)};
   if (options.outside != "automatic") task.outside = outside_policy(options.outside);
   if (options.threshold_deg) task.threshold_deg = *options.threshold_deg;
@@ -106,8 +111,9 @@ void print_json(const Clustering& clustering)
 
 void print_text(const std::string& name, const Clustering& clustering)
 {
-  fmt::print("{}: {} clusters by the method {} at {} degrees; the angle changes by {:.3f} square degrees in all\n", name,
-             clustering.clusters.size(), preset::word(clustering.method), clustering.threshold_deg, clustering.total_theta_deg2);
+  fmt::print("{}: {} by the method {} at a threshold of {} deg; the angle changes by {:.3f} square degrees in all\n", name,
+             counted(clustering.clusters.size(), "cluster"), preset::word(clustering.method), clustering.threshold_deg,
+             clustering.total_theta_deg2);
   fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "mean n", "deg^2", "wavelengths");
   for (const spectral::Cluster& c : clustering.clusters)
     fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2, wavelength_runs(c.wavelengths));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid compare`: every metric of a picture against a reference, and a picture of the difference.
 #include "base/error.h"
+#include "base/files.h"
 #include "base/json_output.h"
 #include "cli/verbs.h"
 #include "image/image.h"
@@ -80,6 +81,16 @@ void refuse_other_channels(const LinearPicture& image, const LinearPicture& refe
                   "expected pictures with the same channels");
 }
 
+/// Of a run people name the folder, which has several pictures.
+void refuse_folder(const std::string& name)
+{
+  const std::filesystem::path picture = std::filesystem::path(name) / "image.exr";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(name, ignored))
+    throw bad_input(name, "is a folder", "expected a picture",
+                    is_there(picture) ? fmt::format("did you mean '{}'?", picture.string()) : std::string());
+}
+
 void check_difference_options(const CompareOptions& options)
 {
   if (options.scale && !(std::isfinite(*options.scale) && *options.scale > 0))
@@ -102,6 +113,7 @@ void write_difference(const CompareOptions& options, const LinearPicture& image,
 void print_comparison(const CompareOptions& options)
 {
   check_difference_options(options);
+  for (const std::string* name : {&options.image, &options.reference}) refuse_folder(*name);
   const LinearPicture image = measure::read_linear_rgb(options.image), reference = measure::read_linear_rgb(options.reference);
   refuse_other_channels(image, reference);
   std::vector<unsigned char> mask;

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/dispersion_input.h"
 
+#include "base/error.h"
 #include "base/files.h"
+#include "base/nearest.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
+#include <vector>
 
 namespace nephroid::cli {
 namespace {
@@ -19,6 +25,20 @@ const std::map<std::string, optics::Outside>& policies()
   return names;
 }
 
+/// The names of the shipped materials.
+std::vector<std::string> shipped_materials()
+{
+  std::vector<std::string> names;
+  try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(presets_folder() / "materials"))
+      if (entry.path().extension() == ".yml") names.push_back(entry.path().stem().string());
+  } catch (const std::exception&) {
+    // No presets at all: then nothing is near.
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 fs::path find_file(const std::string& name)
 {
   std::error_code ignored;
@@ -28,10 +48,22 @@ fs::path find_file(const std::string& name)
     for (const fs::path& folder : finder.folders())
       for (const std::string& candidate : {name, name + ".yml"})
         if (const fs::path path = folder / "materials" / candidate; fs::is_regular_file(path, ignored)) return path;
-  return finder.find(name, name);
+  try {
+    return finder.find(name, name);
+  } catch (const FileNotFound& error) {
+    const std::string material = nearest(name, shipped_materials());
+    if (material.empty()) throw;
+    throw error.noting(fmt::format("did you mean '{}'?", material));
+  }
 }
 
 } // namespace
+
+bool is_dispersion(const std::string& name)
+{
+  const std::vector<std::string> materials = shipped_materials();
+  return fs::path(name).extension() == ".yml" || std::find(materials.begin(), materials.end(), name) != materials.end();
+}
 
 optics::DispersionCurve find_dispersion(const std::string& name) { return optics::load_dispersion(find_file(name)); }
 

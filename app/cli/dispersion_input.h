@@ -13,6 +13,9 @@ namespace nephroid::cli {
 /// Throws bad_input naming the folders that were looked into.
 optics::DispersionCurve find_dispersion(const std::string& name);
 
+/// Whether a person who says this means a dispersion file: it ends in ".yml" or is the name of a shipped material.
+bool is_dispersion(const std::string& name);
+
 /// --outside hold|extrapolate|refuse; chosen is read back by outside_policy after parsing and is "automatic" without the option.
 void add_outside_option(CLI::App& verb, std::string& chosen);
 optics::Outside outside_policy(const std::string& chosen);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid importance`: how much each wavelength matters in a preset's scene, and the iterations that its clusters get for it.
 #include "spectral/effort/importance.h"
+#include "base/counted.h"
 #include "base/json_output.h"
 #include "cli/verbs.h"
 #include "cli/wavelength_runs.h"
+#include "preset/origins.h"
 #include "preset/read.h"
 #include "spectral/clusters/scene_clusters.h"
 #include "spectral/omissions.h"
@@ -124,15 +126,16 @@ void print_text(const Answer& answer)
   }
   const auto clusters = static_cast<std::int64_t>(answer.rows.size());
   const std::int64_t equal = clusters * answer.passes, brute_force = optics::wavelength_count * answer.passes;
-  fmt::print("{} iterations for {} passes; {} clusters alike: {}, {:.1f} times as many; {} wavelengths one by one: {}, {:.1f} times\n", sum,
-             answer.passes, clusters, equal, ratio(equal, sum), optics::wavelength_count, brute_force, ratio(brute_force, sum));
+  fmt::print("{} for {}; {} alike: {}, {:.1f} times as many; {} wavelengths one by one: {}, {:.1f} times\n", counted(sum, "iteration"),
+             counted(answer.passes, "pass", "passes"), counted(clusters, "cluster"), equal, ratio(equal, sum), optics::wavelength_count,
+             brute_force, ratio(brute_force, sum));
 }
 
 void print_importance(const ImportanceOptions& options)
 {
   std::vector<Answer> answers; // all before the first is printed: one of a sweep may be refused
   for (const preset::Preset& preset : preset::read_presets(options.preset, options.overrides))
-    answers.push_back(answer_for(preset, options.method));
+    answers.push_back(preset::at_origins(preset, [&] { return answer_for(preset, options.method); }));
   for (const Answer& answer : answers) options.json ? print_json(answer) : print_text(answer);
 }
 

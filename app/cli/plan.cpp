@@ -2,6 +2,7 @@
 // `nephroid plan`: what a preset would run, what is left out and why, and the memory it takes. Renders nothing.
 #include "plan/plan.h"
 #include "cli/verbs.h"
+#include "preset/origins.h"
 #include "preset/read.h"
 #include "run/run.h"
 
@@ -22,7 +23,7 @@ void print_plans(const PlanOptions& options)
 {
   const std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
   for (const preset::Preset& preset : presets) {
-    const plan::Plan plan = run::prepare(preset).plan;
+    const plan::Plan plan = preset::at_origins(preset, [&] { return run::prepare(preset).plan; });
     if (!options.json && presets.size() > 1) fmt::print("{}\n", preset.name);
     fmt::print("{}\n", options.json ? plan::to_json_line(plan, preset.name) : plan::to_text(plan));
   }

@@ -77,22 +77,23 @@ ProgressStyle progress_style(bool json)
   return ::isatty(STDERR_FILENO) && moves ? ProgressStyle::live : ProgressStyle::lines;
 }
 
-std::string progress_line(const std::string& name, const job::Progress& now, const job::Pace& pace, int columns)
+std::string progress_line(const std::string& label, const job::Progress& now, const job::Pace& pace, int columns)
 {
   std::string figures = fmt::format("{:3.0f} %  {}", std::floor(now.fraction * 100), pass_text(now));
   if (pace.photons_per_second > 0) figures += fmt::format("  {} photons/s", with_prefix(pace.photons_per_second));
   if (pace.seconds_left >= 0) figures += fmt::format("  {} left", clock_time(pace.seconds_left));
-  const int room = columns - static_cast<int>(name.size() + figures.size()) - 6;
-  std::string line = room >= 5 ? fmt::format("{}  [{}]  {}", name, bar(now.fraction, std::min(room, 30)), figures) : figures;
+  const int room = columns - static_cast<int>(label.size() + figures.size()) - 6;
+  std::string line = room >= 5 ? fmt::format("{}  [{}]  {}", label, bar(now.fraction, std::min(room, 30)), figures) : figures;
   line.resize(std::min(line.size(), static_cast<std::size_t>(std::max(columns, 1))));
   return line;
 }
 
-std::string progress_json(const std::string& name, const job::Progress& now, const job::Pace& pace)
+std::string progress_json(const Task& task, const job::Progress& now, const job::Pace& pace)
 {
   const nlohmann::ordered_json all{
       {"type", "progress"},
-      {"name", name},
+      {"name", task.run},
+      {"stage", task.stage},
       {"fraction", now.fraction},
       {"step", now.step},
       {"steps", now.steps >= 0 ? nlohmann::ordered_json(now.steps) : nlohmann::ordered_json()},
@@ -103,8 +104,8 @@ std::string progress_json(const std::string& name, const job::Progress& now, con
   return json_text(all);
 }
 
-ProgressDisplay::ProgressDisplay(ProgressStyle style, std::string name, const job::Progress& start)
-    : style_(style), name_(std::move(name)), start_(start), next_(Clock::now() + rhythm(style))
+ProgressDisplay::ProgressDisplay(ProgressStyle style, Task task, const job::Progress& start)
+    : style_(style), task_(std::move(task)), start_(start), next_(Clock::now() + rhythm(style))
 {
 }
 
@@ -135,12 +136,12 @@ void ProgressDisplay::show(const job::Progress& now)
 {
   const job::Pace pace = job::pace_between(start_, now);
   if (style_ == ProgressStyle::json) {
-    fmt::print("{}\n", progress_json(name_, now, pace));
+    fmt::print("{}\n", progress_json(task_, now, pace));
     std::fflush(stdout);
   } else if (style_ == ProgressStyle::lines) {
-    fmt::print(stderr, "{}\n", progress_line(name_, now, pace, 200));
+    fmt::print(stderr, "{}\n", progress_line(task_.label, now, pace, 200));
   } else {
-    fmt::print(stderr, "\r{}\033[K", progress_line(name_, now, pace, terminal_columns() - 1));
+    fmt::print(stderr, "\r{}\033[K", progress_line(task_.label, now, pace, terminal_columns() - 1));
     std::fflush(stderr);
     line_is_shown_ = true;
   }

@@ -3,6 +3,7 @@
 #include "measure/report.h"
 #include "base/files.h"
 #include "cli/verbs.h"
+#include "plan/plan.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ void write_report(const ReportOptions& options)
                                                      : options.folders.front() / "report.html";
   const std::string html = measure::report_html(options.folders);
   write_file_whole(file, html);
-  fmt::print("{}: {:.1f} MB, opens in a browser without a network\n", file.string(), static_cast<double>(html.size()) * 1e-6);
+  fmt::print("{}: {}, opens in a browser without a network\n", file.string(), plan::readable_bytes(html.size()));
 }
 
 } // namespace

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
 #include "run/run.h"
+#include "base/counted.h"
 #include "base/interrupts.h"
 #include "base/json_output.h"
+#include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
 #include "measure/measured_job.h"
 #include "preset/check.h"
+#include "preset/origins.h"
 #include "preset/read.h"
 #include "run/reference.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 namespace nephroid::cli {
@@ -28,23 +28,6 @@ namespace {
 
 constexpr const char* result_files[] = {"image.exr", "image.png",   "preset.json", "plan.json",
                                         "run.json",  "history.csv", "report.html", "checkpoint.bin"};
-
-/// CLI11 reads "nan" as a number in any range, -1 as 2^64 - 1 and 1e30 as the largest whole number: what is left of the text and
-/// what is out of range are looked at here.
-template <class Number>
-CLI::Validator number_from_to(Number lowest, Number highest)
-{
-  return CLI::Validator(
-      [=](const std::string& text) -> std::string {
-        Number number{};
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool good = error == std::errc() && end == text.data() + text.size() && number >= lowest && number <= highest;
-        return good ? ""
-                    : fmt::format("'{}' is not {} from {} to {}", text, std::is_integral_v<Number> ? "a whole number" : "a number", lowest,
-                                  highest);
-      },
-      "");
-}
 
 struct RunOptions {
   std::string preset;
@@ -77,6 +60,7 @@ std::vector<Target> targets_of(const RunOptions& options)
       preset.stop.seconds = options.seconds;
       preset.stop.passes = options.passes;
       preset.stop.error = options.until_error;
+      preset::set_origin(preset, "/stop/error", "--until-error");
     }
     if (options.seed) {
       preset.seed = *options.seed;
@@ -97,12 +81,12 @@ void report_result(const RunOptions& options, const Target& target, const job::P
     if (fs::exists(target.folder / name)) files.emplace_back(name);
   if (options.json) {
     const nlohmann::ordered_json all{
-        {"type", "result"},     {"name", target.label},    {"folder", target.folder.string()}, {"files", files},
-        {"finished", finished}, {"passes", progress.step}, {"photons", progress.photons},      {"work_seconds", progress.work_seconds}};
+        {"type", "result"},     {"name", target.preset.name}, {"folder", target.folder.string()}, {"files", files},
+        {"finished", finished}, {"passes", progress.step},    {"photons", progress.photons},      {"work_seconds", progress.work_seconds}};
     fmt::print("{}\n", json_text(all));
   } else {
-    fmt::print("{}: {} passes, {:.1f} million photons in {:.1f} s of work\n", (target.folder / "image.exr").string(), progress.step,
-               static_cast<double>(progress.photons) * 1e-6, progress.work_seconds);
+    fmt::print("{}: {}, {:.1f} million photons in {:.1f} s of work\n", (target.folder / "image.exr").string(),
+               counted(progress.step, "pass", "passes"), static_cast<double>(progress.photons) * 1e-6, progress.work_seconds);
   }
   std::fflush(stdout);
 }
@@ -165,10 +149,11 @@ private:
     const auto& wanted = prepared.preset.reference;
     std::shared_ptr<const measure::Reference> found = run::find_reference(prepared, context);
     if (found || !wanted) return found;
-    fmt::print(stderr, "{}: rendering the reference, 2 x {} passes; it is kept for later runs\n", target_.label, wanted->passes);
+    fmt::print(stderr, "{}: rendering the reference, 2 x {}; it is kept for later runs\n", target_.label,
+               counted(wanted->passes, "pass", "passes"));
     job::Progress progress;
     progress.steps = 2 * static_cast<std::int64_t>(wanted->passes);
-    ProgressDisplay display(progress_style(options_.json), target_.label + " reference", progress);
+    ProgressDisplay display(progress_style(options_.json), {target_.label + " reference", target_.preset.name, "reference"}, progress);
     found = run::make_reference(prepared, context, interrupted_, [&](double fraction, double seconds) {
       progress.fraction = fraction;
       progress.step = static_cast<std::int64_t>(fraction * static_cast<double>(progress.steps));
@@ -181,7 +166,7 @@ private:
 
   void work(const run::Prepared& prepared, job::Job& job)
   {
-    ProgressDisplay display(progress_style(options_.json), target_.label, job.progress());
+    ProgressDisplay display(progress_style(options_.json), {target_.label, target_.preset.name}, job.progress());
     double saved_at = job.progress().work_seconds;
     while (!job.finished() && !interrupted_.stop_requested()) {
       job.step();
@@ -227,11 +212,10 @@ private:
     if (finished && snapshot.history) write_report();
     report_result(options_, target_, snapshot.progress, finished);
     if (const std::uint64_t refused = snapshot.energy.refused_contributions; refused > 0)
-      fmt::print(
-          stderr,
-          "note: {}: {} samples were too bright for the film and are missing from the picture; move the camera or the light away from "
-          "the surface, or take fewer pixel_samples\n",
-          target_.label, refused);
+      fmt::print(stderr,
+                 "note: {}: {} too bright for the film and missing from the picture; move the camera or the light away from "
+                 "the surface, or take fewer pixel_samples\n",
+                 target_.label, counted(refused, "sample was", "samples were"));
     if (!finished)
       throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted in pass {}", snapshot.progress.step + 1),
                   "the image and a checkpoint are saved", "go on with --resume");
@@ -268,7 +252,7 @@ void run_preset(const RunOptions& options)
       report_result(options, target, *done, true);
       continue;
     }
-    Run(options, target, interrupts.token())(context, prepared);
+    preset::at_origins(target.preset, [&] { Run(options, target, interrupts.token())(context, prepared); });
   }
 }
 
@@ -299,9 +283,7 @@ void add_run(CLI::App& program, Session&)
                    "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says")
       ->type_name("E")
       ->check(number_from_to(1e-9, 1e9));
-  verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")
-      ->type_name("N")
-      ->check(number_from_to<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max()));
+  verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")->type_name("N")->check(any_seed());
   verb->add_option("--device", options->device.selector, "An index or part of a name (see nephroid devices)")->type_name("SEL");
   verb->add_option("--kernels", options->device.kernels, "Load kernels from this folder instead of the built-in ones")->type_name("DIR");
   verb->add_option("--checkpoint-seconds", options->checkpoint_seconds, "Work between checkpoints (default 10)")

@@ -290,7 +290,8 @@ void describe(V& v, S& r)
     v.field({.name = "file", .sentence = "A picture of the run's size.", .text = Text::file, .required = true}, r.file);
     break;
   case Type::recipe:
-    v.field({.name = "spectral", .sentence = "Settings of the engine; without them the preset's own with method \"brute_force\"."},
+    v.field({.name = "spectral",
+             .sentence = "Settings of the engine; without them \"brute_force\" in steps of 1 nm, with the preset's layers."},
             r.spectral);
     v.field({.name = "passes", .sentence = "Passes of each of the two seeds.", .bounds = within(1, max_passes)}, r.passes);
     v.field({.name = "seed",

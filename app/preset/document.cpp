@@ -35,43 +35,23 @@ Json& item(Json& list, const std::string& key, const std::string& path, const Or
 
 } // namespace
 
-Document::Document(Json value, Origin origin) : value_(std::move(value)), main_(std::make_shared<const Origin>(std::move(origin)))
-{
-  origins_[""] = main_;
-}
-
-const std::shared_ptr<const Origin>& Document::origin_at(const std::string& pointer) const
-{
-  for (std::string at = pointer;; at.resize(at.rfind('/'))) {
-    if (const auto found = origins_.find(at); found != origins_.end()) return found->second;
-    if (at.empty()) return main_;
-  }
-}
-
-const Origin& Document::origin(const std::string& pointer) const { return *origin_at(pointer); }
-
-std::string Document::where(const std::string& pointer) const
-{
-  const Origin& from = origin(pointer);
-  return from.is_file ? from.name + "#" + pointer : from.name;
-}
-
 void Document::merge(const Json& over, const Origin& origin)
 {
-  main_ = std::make_shared<const Origin>(origin);
-  merge(value_, over, "", main_);
+  const auto shared = std::make_shared<const Origin>(origin);
+  origins_.set_main(shared);
+  merge(value_, over, "", shared);
 }
 
-void Document::merge(Json& into, const Json& over, const std::string& pointer, const std::shared_ptr<const Origin>& origin)
+void Document::merge(Json& into, const Json& over, const std::string& pointer, const Origins::Shared& origin)
 {
   if (!into.is_object() || !over.is_object() || changes_type(into, over)) {
     replace(into, over, pointer, origin);
     return;
   }
   // The object is now of both: what is already in it keeps its origin, what may be missing from it is for the later file to say.
-  const auto before = origin_at(pointer);
-  for (const auto& [key, value] : into.items()) origins_.try_emplace(child(pointer, key), before);
-  origins_[pointer] = origin;
+  const Origins::Shared before = origins_.shared_at(pointer);
+  for (const auto& [key, value] : into.items()) origins_.set_if_none(child(pointer, key), before);
+  origins_.set(pointer, origin);
   for (const auto& [key, value] : over.items()) {
     const bool is_new = !into.contains(key);
     Json& slot = into[key];
@@ -82,15 +62,10 @@ void Document::merge(Json& into, const Json& over, const std::string& pointer, c
   }
 }
 
-void Document::replace(Json& slot, const Json& value, const std::string& pointer, const std::shared_ptr<const Origin>& origin)
+void Document::replace(Json& slot, const Json& value, const std::string& pointer, const Origins::Shared& origin)
 {
   slot = value;
-  const std::string inside = pointer + "/";
-  const auto first = origins_.lower_bound(inside);
-  auto last = first;
-  while (last != origins_.end() && last->first.starts_with(inside)) ++last;
-  origins_.erase(first, last);
-  origins_[pointer] = origin;
+  origins_.set_whole(pointer, origin);
 }
 
 void Document::set(const std::vector<std::string>& path, Json value, const Origin& origin)
@@ -136,13 +111,17 @@ std::vector<std::string> split_path(std::string_view path)
 void apply_override(Document& document, const std::string& text)
 {
   if (!is_utf8(text)) throw bad_input("--set", in_quotes(text) + " is not UTF-8", "expected KEY=VALUE in UTF-8");
-  Origin origin{"--set " + text, false, document.main().folder};
+  Origin origin{"--set " + text, false, document.origins().main().folder, true};
   if (text.size() > 200) origin.name = "--set " + text.substr(0, 200) + "...";
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos)
     throw bad_input(origin.name, "has no '='", "expected KEY=VALUE, for instance spectral.threshold_deg=0.1");
   const std::vector<std::string> path = split_path(std::string_view(text).substr(0, equals));
   if (path.empty()) throw bad_input(origin.name, "has an empty key", "expected keys joined by dots, for instance scene.lights.0.power_w=2");
+  for (const std::string& key : path)
+    if (key.size() > 2 && key.find('[') != std::string::npos && key.back() == ']')
+      throw bad_input(origin.name, fmt::format("{} is no key", in_quotes(key)), "items of a list go by number after a dot",
+                      "for instance scene.lights.0.power_w=2");
   if (path.size() > max_depth) throw bad_input(origin.name, fmt::format("is nested deeper than {} levels", max_depth));
 
   const std::string value = text.substr(equals + 1);

@@ -3,36 +3,24 @@
 // came from. Private to preset/.
 #pragma once
 #include "preset/json_text.h"
+#include "preset/origins.h"
 
 #include <filesystem>
-#include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace nephroid::preset {
 
-/// Who gave a value: a file, or something in it or on the command line that has a name of its own.
-struct Origin {
-  std::string name;             ///< "FILE" or "--set a.b=c" or "FILE#/sweep/seed/0"
-  bool is_file = true;          ///< then "#/pointer" follows
-  std::filesystem::path folder; ///< where the file names in the value are looked up first
-};
-
 /// The last component wins: an object is merged into an object, anything else replaces what was there (docs/presets.md).
 class Document {
 public:
-  Document() = default;
-  Document(Json value, Origin origin);
+  Document(Json value, Origin origin) : value_(std::move(value)), origins_(std::move(origin)) {}
 
   const Json& value() const { return value_; }
-  /// The file that was asked for, at the end of its chain of parents.
-  const Origin& main() const { return *main_; }
-  /// Who gave the value at pointer.
-  const Origin& origin(const std::string& pointer) const;
+  const Origins& origins() const { return origins_; }
   /// For messages: "FILE#/pointer" or "--set a.b=c".
-  std::string where(const std::string& pointer) const;
+  std::string where(const std::string& pointer) const { return origins_.where(pointer); }
 
   /// A child's values over this one, which then is its parent.
   void merge(const Json& over, const Origin& origin);
@@ -43,13 +31,11 @@ public:
   Json take(const std::string& key);
 
 private:
-  const std::shared_ptr<const Origin>& origin_at(const std::string& pointer) const;
-  void replace(Json& slot, const Json& value, const std::string& pointer, const std::shared_ptr<const Origin>& origin);
-  void merge(Json& into, const Json& over, const std::string& pointer, const std::shared_ptr<const Origin>& origin);
+  void replace(Json& slot, const Json& value, const std::string& pointer, const Origins::Shared& origin);
+  void merge(Json& into, const Json& over, const std::string& pointer, const Origins::Shared& origin);
 
   Json value_;
-  std::shared_ptr<const Origin> main_;
-  std::map<std::string, std::shared_ptr<const Origin>> origins_; ///< of each pointer whose origin is not that of the value around it
+  Origins origins_;
 };
 
 /// "a.b.0.c" as its keys; empty where one of them is.

@@ -89,6 +89,13 @@ std::string name_from(const fs::path& folder, const std::string& name, const fs:
   return meant && found_from(folder, name) != meant ? meant->string() : name;
 }
 
+std::string name_given(const Origin& main, const std::string& name, const Origin& origin)
+{
+  std::error_code ignored;
+  const bool is_here = origin.is_typed && fs::is_regular_file(name, ignored);
+  return name_from(main.folder, name, is_here ? fs::path() : origin.folder);
+}
+
 Preset moved_to(Preset preset, const fs::path& folder)
 {
   const fs::path from = fs::path(preset.source).parent_path();

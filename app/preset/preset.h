@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -228,7 +229,7 @@ struct Reference {
   enum class Type { file, recipe };
   Type type = Type::file;
   std::string file;                 ///< file: a picture of the run's size, linear sRGB with 1 = white (8-bit files are decoded)
-  std::optional<Spectral> spectral; ///< recipe: the engine's settings; without: the preset's own, with method brute_force
+  std::optional<Spectral> spectral; ///< recipe: the engine's settings; without: brute_force in steps of 1 nm, the preset's layers
   int passes = 256;                 ///< recipe: of each of its two seeds
   std::uint64_t seed = 1000000007;  ///< recipe: the first of its two seeds, the other is the next; neither may be the run's
   std::optional<double> seconds;    ///< recipe: refuse to begin where it would take longer
@@ -241,6 +242,15 @@ struct Measure {
   bool perceptual = false;         ///< also log iw_ssim, flip and hdr_flip, which cost more, against the reference
   std::optional<std::string> mask; ///< a picture of the run's size: pixels that are not 0 are measured a second time on their own
   bool operator==(const Measure&) const = default;
+};
+
+class Origins;
+
+/// Where a preset came from, for messages (origins.h). It changes no picture: any two are equal.
+struct Provenance {
+  std::shared_ptr<const Origins> origins; ///< who gave each value; null where nothing was read
+  std::string run;                        ///< its name as one of a sweep's runs; empty where there is no sweep
+  bool operator==(const Provenance&) const { return true; }
 };
 
 struct Preset {
@@ -258,7 +268,8 @@ struct Preset {
   std::optional<Reference> reference;
   Measure measure;
 
-  std::string source; ///< the file it came from, for messages and look-ups; not a field of the JSON
+  std::string source;    ///< the file it came from, for messages and look-ups; not a field of the JSON
+  Provenance provenance; ///< not a field of the JSON either
   bool operator==(const Preset&) const = default;
 };
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "preset/check.h"
 #include "preset/document.h"
+#include "preset/origins.h"
 #include "preset/reader.h"
 #include "preset/sweep.h"
 
@@ -12,15 +13,29 @@
 namespace nephroid::preset {
 namespace {
 
+/// The preset's own name, or else its file's.
+std::string base_name(const Document& document)
+{
+  const auto own = document.value().find("name");
+  const bool is_named = own != document.value().end() && own->is_string();
+  return is_named ? own->get<std::string>() : std::filesystem::path(document.origins().main().name).stem().string();
+}
+
 Preset finish(const SweptDocument& run)
 {
   const Document& document = run.document;
-  Preset preset = read_fields(document);
-  preset.source = document.main().name;
-  if (!document.value().contains("name")) preset.name = std::filesystem::path(preset.source).stem().string();
-  preset.name += run.suffix;
-  check(preset, [&](const std::string& pointer) { return document.where(pointer); });
-  return preset;
+  const std::string name = base_name(document) + run.suffix;
+  const Provenance provenance{std::make_shared<const Origins>(document.origins()), run.suffix.empty() ? std::string() : name};
+  Preset unread;
+  unread.provenance = provenance;
+  return at_origins(unread, [&] {
+    Preset preset = read_fields(document);
+    preset.name = name;
+    preset.source = document.origins().main().name;
+    preset.provenance = provenance;
+    check(preset, [&](const std::string& pointer) { return document.where(pointer); });
+    return preset;
+  });
 }
 
 std::vector<SweptDocument> runs_of(Document document, const Overrides& overrides)
@@ -32,8 +47,8 @@ std::vector<SweptDocument> runs_of(Document document, const Overrides& overrides
 const SweptDocument& only(const std::vector<SweptDocument>& runs)
 {
   if (runs.size() != 1)
-    throw bad_input(runs.front().document.main().name + "#/sweep", fmt::format("gives {} runs", runs.size()), "one preset is wanted here",
-                    "fix the swept keys by --set, or --set sweep=null");
+    throw bad_input(runs.front().document.origins().main().name + "#/sweep", fmt::format("gives {} runs", runs.size()),
+                    "one preset is wanted here", "fix the swept keys by --set, or --set sweep=null");
   return runs.front();
 }
 

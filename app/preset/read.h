@@ -16,7 +16,7 @@ using Overrides = std::vector<std::string>;
 /// name: a path, or the name of a shipped preset ("first-light", "spectral/prism"), each also without ".json". One preset without
 /// "sweep", else one a run, each with its own name ("NAME,seed=2"), the first swept key outermost.
 /// Throws bad_input at FILE#/json/pointer (or FILE:LINE:COLUMN for broken JSON, --set TEXT for an override) with the nearest
-/// known key; an inherited value names the file it stands in.
+/// known key; an inherited value names the file it stands in, and what is wrong in one run of a sweep that run (origins.h).
 std::vector<Preset> read_presets(const std::string& name, const Overrides& overrides = {});
 /// The same for a preset that must not have a sweep.
 Preset read_preset(const std::string& name, const Overrides& overrides = {});

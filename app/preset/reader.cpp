@@ -177,7 +177,7 @@ private:
     if (f.text != Text::text && std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
       refuse(json, pointer, "one line without control characters");
     if (f.text == Text::file && text.empty()) refuse(json, pointer, "the name of a file");
-    value = f.text == Text::file ? name_from(document_.main().folder, text, document_.origin(pointer).folder) : text;
+    value = f.text == Text::file ? name_given(document_.origins().main(), text, document_.origins().at(pointer)) : text;
   }
 
   template <Enumeration E>

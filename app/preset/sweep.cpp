@@ -16,7 +16,8 @@ struct Axis {
   std::vector<std::string> path;
   Json values;
   std::vector<std::string> labels;
-  std::string where;
+  Origin origin;
+  std::string where; ///< for messages
 };
 
 bool starts_with(const std::vector<std::string>& path, const std::vector<std::string>& start)
@@ -45,7 +46,8 @@ std::vector<std::string> labels(const Json& values)
 
 Axis make_axis(const std::string& key, Json values, const Document& document)
 {
-  Axis axis{key, split_path(key), std::move(values), {}, document.where(child("/sweep", key))};
+  const std::string pointer = child("/sweep", key);
+  Axis axis{key, split_path(key), std::move(values), {}, document.origins().at(pointer), document.where(pointer)};
   if (axis.path.empty())
     throw bad_input(axis.where, in_quotes(key) + " is no path", "expected keys joined by dots, for instance spectral.threshold_deg");
   if (axis.path.front() == "sweep" || axis.path.front() == "parent") throw bad_input(axis.where, in_quotes(key) + " cannot be swept");
@@ -104,6 +106,15 @@ std::vector<Axis> read_axes(Document& document, const std::vector<std::string>& 
   return axes;
 }
 
+/// "FILE#/sweep/seed/0"; of a sweep that an override gave, the override.
+Origin origin_of_value(const Axis& axis, std::size_t index)
+{
+  Origin origin = axis.origin;
+  if (origin.is_file) origin.name = fmt::format("{}/{}", axis.where, index);
+  origin.is_file = false;
+  return origin;
+}
+
 } // namespace
 
 std::vector<SweptDocument> expand_sweep(Document document, const std::vector<std::string>& overrides)
@@ -115,7 +126,7 @@ std::vector<SweptDocument> expand_sweep(Document document, const std::vector<std
     for (const SweptDocument& run : runs)
       for (std::size_t i = 0; i < axis.values.size(); ++i) {
         SweptDocument& next = longer.emplace_back(run);
-        next.document.set(axis.path, axis.values[i], {fmt::format("{}/{}", axis.where, i), false, run.document.origin("/sweep").folder});
+        next.document.set(axis.path, axis.values[i], origin_of_value(axis, i));
         append_suffix(next.suffix, axis, axes, i);
       }
     runs = std::move(longer);

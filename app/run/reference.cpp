@@ -26,13 +26,15 @@ constexpr const char* first_channels[] = {"first_seed.R", "first_seed.G", "first
 
 std::string pointer(const Prepared& prepared, const char* field) { return prepared.preset.source + "#/reference" + field; }
 
-/// Every wavelength on its own. What changes no expected value (the threshold, photons a pass, what is left out) is the default's, so that
-/// runs that differ in it alone share a reference.
+/// Every wavelength on its own, in steps of 1 nm whatever the run's are, and paths at least as long as by default. What changes no
+/// expected value (the threshold, photons a pass, what is left out) is the default's, so that runs that differ in it alone share a
+/// reference.
 preset::Spectral brute_force(const preset::Spectral& settings)
 {
   preset::Spectral made;
   made.method = preset::Spectral::Method::brute_force;
-  made.max_surfaces = settings.max_surfaces;
+  made.step_nm = 1;
+  made.max_surfaces = std::max(made.max_surfaces, settings.max_surfaces);
   // Photon maps have a radius, and the estimator sppm keeps to them: where splats do, they are the truth.
   if (settings.estimator == preset::Spectral::Estimator::splat) made.estimator = settings.estimator;
   made.direct = settings.direct;

@@ -61,6 +61,15 @@ TEST_F(CheckVerb, NoSuchDeviceExitsWithThree)
   EXPECT_EQ(check({"--kernels", "nowhere"}).exit_code, 2);
 }
 
+TEST_F(CheckVerb, ASeedIsAWholeNumber)
+{
+  for (const char* seed : {"-1", "x", "1.5", "nan", "18446744073709551616"}) {
+    const Ended ended = check({"--seed", seed});
+    EXPECT_EQ(ended.exit_code, 2) << seed;
+    EXPECT_THAT(ended.err, HasSubstr(std::string("--seed: '") + seed + "' is not a whole number from 0 to 18446744073709551615"));
+  }
+}
+
 TEST_F(CheckVerb, CtrlCEndsInOrder)
 {
   Child child({"check"}, folder, logs);

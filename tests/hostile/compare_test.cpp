@@ -157,6 +157,8 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
   write_grey("small.exr", 5, std::vector<float>(20, 1));
   image::write_exr(folder / "depth.exr", {6, 4, {"Z"}, std::vector<float>(24, 1), {}});
   write_file_whole(folder / "text.png", "no picture");
+  fs::create_directory(folder / "run");
+  image::write_exr(folder / "run/image.exr", {6, 4, {"R", "G", "B"}, good.rgb, {}});
   write_file_whole(folder / "cut.exr", read_file(folder / "good.exr").substr(0, 200));
   image::write_png(folder / "whole.png", 6, 4, good.rgb);
   write_file_whole(folder / "cut.png", read_file(folder / "whole.png").substr(0, 60));
@@ -164,7 +166,8 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
       {{}, "IMAGE is required"},
       {{"good.exr"}, "REFERENCE is required"},
       {{"good.exr", "none.exr"}, "none.exr: cannot be read: No such file"},
-      {{"good.exr", "."}, "it is a folder"},
+      {{"good.exr", "/"}, "/: is a folder; expected a picture\n"},
+      {{"run", "good.exr"}, "run: is a folder; expected a picture; did you mean 'run/image.exr'?"},
       {{"text.png", "good.exr"}, "text.png: is no picture that can be read"},
       {{"good.exr", "cut.exr"}, "cut.exr: is no picture that can be read"},
       {{"cut.png", "good.exr"}, "cut.png: is no picture that can be read: its end is missing"},

@@ -102,7 +102,7 @@ TEST_F(ImportanceVerb, ASweepIsALineARun)
 
 TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine)
 {
-  const std::string zero = "ball.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: ";
+  const std::string says = "the importance (4.15) is 0 at every wavelength: ", zero = "ball.json#/spectral/effort: " + says;
   const std::vector<std::string> black{"--set", "scene.materials.the \"floor\".reflectance=0"};
   const Wrong cases[] = {
       {{"importance"}, "PRESET is required"},
@@ -111,8 +111,8 @@ TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine)
       {{"importance", "ball.json", "--set", "scene.lights.0.power_w=0"}, zero + "no light sends power towards the caustic objects"},
       {{"importance", "ball.json", black[0], black[1]}, zero + "nothing around the caustic objects reflects"},
       {{"importance", "spectral/plate", "--set", "scene.objects=[]"}, "no object is of glass or a mirror"},
-      {{"plan", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"}, zero},
-      {{"run", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"}, zero},
+      {{"plan", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"}, "--set spectral.effort=importance: " + says},
+      {{"run", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"}, "--set spectral.effort=importance: " + says},
       {{"plan", "ball.json", "--set", "spectral.effort=random"}, "random needs the estimator sppm"},
       {{"plan", "ball.json", "--set", "spectral.effort=variance", "--set", "spectral.estimator=sppm"},
        "variance is not measured by the estimator sppm"},

@@ -262,6 +262,8 @@ TEST_F(BadPresets, OverridesAreRefusedInOneLine)
        R"(--set spectra.threshold_deg=0.1: unknown key 'spectra'; the keys here are name, description, engine, unit, seed, white, scene, spectral, stop, reference, measure; did you mean 'spectral'?)"},
       {"an index beyond the end", R"(scene.lights.0.power_w=2)",
        R"(--set scene.lights.0.power_w=2: 'scene.lights' is a list and has no item '0'; it is empty)"},
+      {"an index in brackets", R"(scene.lights[0].power_w=2)",
+       R"(--set scene.lights[0].power_w=2: 'lights[0]' is no key; items of a list go by number after a dot; for instance scene.lights.0.power_w=2)"},
       {"an index that is no number", R"(scene.objects.first.material=m)",
        R"(--set scene.objects.first.material=m: 'scene.objects' is a list and has no item 'first'; it is empty)"},
       {"a field of a plain value", R"(seed.low=2)",

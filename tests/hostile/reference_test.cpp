@@ -106,6 +106,33 @@ TEST_F(Measured, ARecipeIsRenderedOnceAndItsNoiseFloorIsBesideTheErrors)
       << "another scene has another reference";
 }
 
+// Whatever the run saves on its own wavelengths, the reference has all of them; what the recipe itself says is another reference.
+TEST_F(Measured, ARecipeIsOfFullQualityUnlessItSaysOtherwise)
+{
+  const auto made_with = [&](const std::string& name, const std::vector<std::string>& settings) {
+    std::vector<std::string> more{"--passes", "1"};
+    for (const std::string& setting : settings) more.insert(more.end(), {"--set", setting});
+    const Ended ended = run(name, more);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const fs::path origin = run_json(name)["reference"]["origin"].get<std::string>();
+    const auto attributes = nephroid::image::read_image(origin).attributes;
+    return std::pair(origin, json::parse(attributes.at("nephroid:preset"))["spectral"]);
+  };
+  const std::string one = R"(reference={"type":"recipe","passes":1})", brute = "spectral.method=brute_force";
+  const auto [fine_file, fine] = made_with("fine", {one});
+  const auto [coarse_file, coarse] = made_with("coarse", {one, brute, "spectral.step_nm=40", "spectral.max_surfaces=2"});
+  EXPECT_EQ(coarse_file, fine_file) << "the same reference";
+  EXPECT_EQ(fine["method"], "brute_force");
+  EXPECT_EQ(fine["step_nm"], 1);
+  EXPECT_EQ(fine["max_surfaces"], 32);
+  const auto [own_file, own] = made_with(
+      "own", {R"(reference={"type":"recipe","passes":1,"spectral":{"method":"brute_force","step_nm":8}})", brute, "spectral.step_nm=40"});
+  EXPECT_NE(own_file, fine_file) << "one of another recipe is not taken for it";
+  EXPECT_EQ(own["step_nm"], 8);
+  const auto [long_file, longer] = made_with("long", {one, "spectral.max_surfaces=64"});
+  EXPECT_EQ(longer["max_surfaces"], 64) << "no shorter paths than the run's";
+}
+
 TEST_F(Measured, UntilAnError)
 {
   const Ended ended = run("a", {"--until-error", "0.05", "--set", "stop.metric=rel_l2"});
@@ -140,12 +167,12 @@ TEST_F(Measured, WhatCannotBeAReferenceIsSaidBeforeTheRun)
   };
   const std::string good = picture("good.exr");
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(refused("#/reference/file: there is no file '/nowhere/r.exr'", {"reference=/nowhere/r.exr"}), 2);
+  EXPECT_EQ(refused("--set reference=/nowhere/r.exr: there is no file '/nowhere/r.exr'", {"reference=/nowhere/r.exr"}), 2);
   EXPECT_EQ(refused("the reference has 47 x 40 pixels; expected 48 x 40, as scene.camera.resolution",
                     {"reference=" + picture("small.exr", width - 1, height)}),
             2);
   EXPECT_EQ(refused("nan.exr", {"reference=" + picture("nan.exr", width, height, 0.5f, nan)}), 2);
-  EXPECT_EQ(refused("#/measure/mask: there is no reference", {"measure.mask=" + good}), 2);
+  EXPECT_EQ(refused("good.exr: there is no reference to compare the mask's pixels with", {"measure.mask=" + good}), 2);
   EXPECT_EQ(refused("mask.exr", {"reference=" + good, "measure.mask=" + picture("mask.exr", width, height + 1)}), 2);
   EXPECT_EQ(refused("black.exr", {"reference=" + good, "measure.mask=" + picture("black.exr", width, height, 0, 0)}), 2);
   EXPECT_EQ(refused("1 and 2 are the reference's seeds, and 1 is the run's; expected other seeds than the run's",
@@ -156,9 +183,9 @@ TEST_F(Measured, WhatCannotBeAReferenceIsSaidBeforeTheRun)
   EXPECT_EQ(refused("stop.error=1: nothing measures the error of this run: 'measure.estimate' is false",
                     {"stop.error=1", "measure.estimate=false"}),
             2);
-  EXPECT_EQ(refused("#/reference/seconds: making the reference would take about",
-                    {R"(reference={"type":"recipe","passes":1000000,"seconds":10})"}),
-            1);
+  EXPECT_EQ(
+      refused("\"seconds\":10}: making the reference would take about", {R"(reference={"type":"recipe","passes":1000000,"seconds":10})"}),
+      1);
 }
 
 TEST_F(Measured, ARunIsNoReferenceForARunWithItsSeed)

@@ -32,6 +32,14 @@ protected:
 
 std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
 
+std::vector<json> json_lines(const std::string& text)
+{
+  std::vector<json> all;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) all.push_back(json::parse(line));
+  return all;
+}
+
 TEST_F(Runs, LeaveEveryFileOfTheContract)
 {
   const Ended ended = run("a", {"--passes", "3"});
@@ -188,19 +196,41 @@ TEST_F(Runs, SweepsFillNumberedFolders)
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   int seed = 4;
   for (const char* folder : {"out/sweep/001", "out/sweep/002", "out/sweep/003"}) EXPECT_EQ(run_json(folder)["seed"], seed++);
+
+  // Every line names its run as run.json and the plan do.
+  const std::vector<json> plans = json_lines(nephroid::test::nephroid({"plan", "sweep.json", "--json"}, scratch.path(), logs).out);
+  ASSERT_EQ(plans.size(), 3u);
+  std::size_t results = 0;
+  for (const json& line : json_lines(ended.out)) {
+    ASSERT_LT(results, 3u);
+    EXPECT_EQ(line["name"], plans[results]["name"]);
+    if (line["type"] != "result") continue;
+    EXPECT_EQ(line["name"], run_json(line["folder"].get<std::string>())["name"]);
+    ++results;
+  }
+  EXPECT_EQ(results, 3u);
+}
+
+TEST_F(Runs, OnePassIsNotPasses)
+{
+  const Ended ended = run("a", {"--passes", "1", "--set", R"(reference={"type":"recipe","passes":1})"},
+                          {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()}});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("image.exr: 1 pass, "));
+  EXPECT_THAT(ended.err, HasSubstr("rendering the reference, 2 x 1 pass; "));
 }
 
 TEST_F(Runs, JsonLinesEndWithTheResult)
 {
   const Ended ended = run("a", {"--seconds", "1.2", "--json"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  std::vector<json> all;
-  std::istringstream stream(ended.out);
-  for (std::string line; std::getline(stream, line);) all.push_back(json::parse(line));
+  const std::vector<json> all = json_lines(ended.out);
   ASSERT_GE(all.size(), 3u);
   double fraction = 0;
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     EXPECT_EQ(all[i]["type"], "progress");
+    EXPECT_EQ(all[i]["stage"], "run");
+    EXPECT_EQ(all[i]["name"], "plate");
     EXPECT_GE(all[i]["fraction"], fraction);
     fraction = all[i]["fraction"];
     EXPECT_GT(all[i]["photons_per_second"], 0);

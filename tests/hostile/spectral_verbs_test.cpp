@@ -95,6 +95,11 @@ TEST_F(SpectralVerbs, ClustersOfAFileAndOfAPreset)
   EXPECT_EQ(plate, crown);
 }
 
+TEST_F(SpectralVerbs, OneClusterIsNotClusters)
+{
+  EXPECT_THAT(run({"clusters", "--ior", "N-BK7", "--threshold", "80"}).out, StartsWith("N-BK7: 1 cluster by the method optimal"));
+}
+
 TEST_F(SpectralVerbs, APresetWithSeveralGlassesAsksForOne)
 {
   write("two.json", R"({"parent": "spectral/plate", "scene": {
@@ -122,6 +127,7 @@ TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
       {{"dispersion", ""}, "the file name is empty"},
       {{"dispersion", "/"}, "it is a folder"},
       {{"dispersion", "/dev/zero"}, "/dev/zero: cannot be read: it is not a regular file"},
+      {{"dispersion", "NSF66"}, "; did you mean 'N-SF66'?"},
       {{"dispersion", "empty.yml"}, "empty.yml: this is no refractiveindex.info file"},
       {{"dispersion", "binary.yml"}, "binary.yml"},
       {{"dispersion", std::string(5000, 'x')}, "not found"},
@@ -135,6 +141,9 @@ TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
       {{"clusters"}, "nothing to cluster; expected a PRESET or --ior FILE"},
       {{"clusters", "spectral/plate", "--ior", "N-BK7"}, "both a preset and --ior are given"},
       {{"clusters", "no-such-preset"}, "no-such-preset"},
+      {{"clusters", "N-BK7"}, "clusters: 'N-BK7' is a dispersion file, not a preset; take it with --ior N-BK7"},
+      {{"clusters", "k.yml"}, "take it with --ior k.yml"},
+      {{"clusters", "--ior", "NBK7"}, "; did you mean 'N-BK7'?"},
       {{"clusters", "--ior", "no-such-glass"}, "'no-such-glass' not found"},
       {{"clusters", "--ior", "k.yml"}, "k has no index of refraction n, only k"},
       {{"clusters", "--ior", "negative.yml"}, "negative has n = -1.5 at 380 nm; expected n above 0"},

@@ -63,7 +63,7 @@ protected:
 TEST_F(PresetDocs, EveryPresetIsRead)
 {
   const std::vector<Block> all = blocks(page, "json");
-  EXPECT_EQ(all.size(), 5u);
+  EXPECT_EQ(all.size(), 6u);
   for (const Block& block : all) {
     const fs::path file = folder.path() / (block.file.empty() ? "unnamed.json" : block.file);
     write_file_whole(file, block.text);

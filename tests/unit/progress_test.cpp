@@ -62,17 +62,20 @@ TEST(ProgressLine, NeverIsWiderThanTheTerminal)
 
 TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown)
 {
-  const std::string line = progress_json("odd \"name\"\n\xff", at(0.25, 3, 12, 0.5), {});
+  const std::string line = progress_json({"label", "odd \"name\"\n\xff"}, at(0.25, 3, 12, 0.5), {});
   EXPECT_THAT(line, Not(HasSubstr("\n")));
   const auto json = nlohmann::json::parse(line);
   EXPECT_EQ(json["type"], "progress");
+  EXPECT_EQ(json["name"], "odd \"name\"\n\xef\xbf\xbd");
+  EXPECT_EQ(json["stage"], "run");
+  EXPECT_EQ(nlohmann::json::parse(progress_json({"", "", "reference"}, at(0, 0, 0, 0), {}))["stage"], "reference");
   EXPECT_EQ(json["fraction"], 0.25);
   EXPECT_EQ(json["step"], 3);
   EXPECT_EQ(json["photons"], 12);
   EXPECT_TRUE(json["seconds_left"].is_null());
   job::Progress endless = at(0, 1, 0, 0);
   endless.steps = -1;
-  EXPECT_TRUE(nlohmann::json::parse(progress_json("a", endless, {}))["steps"].is_null());
+  EXPECT_TRUE(nlohmann::json::parse(progress_json({}, endless, {}))["steps"].is_null());
 }
 
 TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
@@ -86,7 +89,7 @@ TEST(ProgressDisplay, JsonShowsTheEndWhateverTheRhythm)
 {
   testing::internal::CaptureStdout();
   {
-    ProgressDisplay display(ProgressStyle::json, "a", at(0, 0, 0, 0));
+    ProgressDisplay display(ProgressStyle::json, {}, at(0, 0, 0, 0));
     display.update(at(0.5, 1, 10, 1)); // within the first half second: not shown
     display.finish(at(1, 2, 20, 2));
   }
@@ -99,7 +102,7 @@ TEST(ProgressDisplay, TheLiveLineIsTakenAway)
 {
   testing::internal::CaptureStderr();
   {
-    ProgressDisplay display(ProgressStyle::live, "a", at(0, 0, 0, 0));
+    ProgressDisplay display(ProgressStyle::live, {"a", ""}, at(0, 0, 0, 0));
     std::this_thread::sleep_for(std::chrono::milliseconds(110));
     display.update(at(0.5, 1, 10, 1));
   }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who gave each value of a preset: its file, one of the file's parents, a sweep, an override. Messages name them.
+#pragma once
+#include "base/error.h"
+#include "preset/preset.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace nephroid::preset {
+
+/// Who gave a value: a file, or something in it or on the command line that has a name of its own.
+struct Origin {
+  std::string name;             ///< "FILE" or "--set a.b=c" or "FILE#/sweep/seed/0"
+  bool is_file = true;          ///< then "#/pointer" follows
+  std::filesystem::path folder; ///< where the file names in the value are looked up first
+  bool is_typed = false;        ///< on a command line: file names are looked up in the current folder before that
+};
+
+/// Of each JSON pointer of a preset. A value has the origin of what is around it unless it has one of its own.
+class Origins {
+public:
+  explicit Origins(Origin main);
+
+  /// The file that was asked for, at the end of its chain of parents.
+  const Origin& main() const { return *main_; }
+  /// Who gave the value at pointer.
+  const Origin& at(const std::string& pointer) const { return *shared_at(pointer); }
+  /// For messages: "FILE#/pointer" or "--set a.b=c".
+  std::string where(const std::string& pointer) const;
+
+  using Shared = std::shared_ptr<const Origin>;
+  Shared shared_at(const std::string& pointer) const;
+  void set_main(Shared origin) { main_ = std::move(origin); }
+  /// Of the value at pointer alone: what is inside it keeps the origin that it has of its own.
+  void set(const std::string& pointer, Shared origin) { of_[pointer] = std::move(origin); }
+  /// The same where the value has none of its own.
+  void set_if_none(const std::string& pointer, Shared origin) { of_.try_emplace(pointer, std::move(origin)); }
+  /// Of the value and of all that is inside it.
+  void set_whole(const std::string& pointer, Shared origin);
+
+private:
+  Shared main_;
+  std::map<std::string, Shared> of_;
+};
+
+/// For a value that was changed after the preset was read: its giver is now called `name`, an option of the command line for instance.
+void set_origin(Preset& preset, const std::string& pointer, const std::string& name);
+
+/// Throws the error that is being caught as a person can use it: one at preset.source#/pointer stands at who gave the value there (unless
+/// the preset has been saved as another file since it was read), and one about a run of a sweep says which run it is, unless it stands at
+/// one of the swept values.
+[[noreturn]] void rethrow_at_origin(const Preset& preset, const Error& error);
+
+/// What work() returns; what it throws goes through rethrow_at_origin. Around all that works on one preset, once.
+template <class Work>
+auto at_origins(const Preset& preset, const Work& work)
+{
+  try {
+    return work();
+  } catch (const Error& error) {
+    rethrow_at_origin(preset, error);
+  }
+}
+
+} // namespace nephroid::preset
