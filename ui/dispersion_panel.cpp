@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/dispersion_panel.h"
 
+#include "base/counted.h"
 #include "base/files.h"
 #include "ui/theme.h"
 #include "ui/wavelength_axis.h"
@@ -32,11 +33,11 @@ std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& 
   case Type::file:
     return fmt::format("file {}{}", std::filesystem::path(dispersion.file).filename().string(), curve.data_nm[1] > 0 ? ": " + range : "");
   case Type::sellmeier:
-    return fmt::format("formula: Sellmeier with {} terms", dispersion.b.size());
+    return "formula: Sellmeier with " + counted(dispersion.b.size(), "term");
   case Type::cauchy:
-    return fmt::format("formula: Cauchy with {} coefficients", dispersion.coefficients.size());
+    return "formula: Cauchy with " + counted(dispersion.coefficients.size(), "coefficient");
   case Type::table:
-    return fmt::format("table of {} rows, {}", dispersion.table.size(), range);
+    return fmt::format("table of {}, {}", counted(dispersion.table.size(), "row"), range);
   case Type::points:
     break;
   }

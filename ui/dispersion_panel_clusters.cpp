@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lower half of the panel "Dispersion": threshold, methods with their counts, and what clustering costs in bias.
+#include "base/counted.h"
 #include "preset/choices.h"
 #include "ui/dispersion_panel.h"
 #include "ui/theme.h"
@@ -117,7 +118,7 @@ void DispersionPanel::draw_bias(const Frame& frame)
   draw_effort(frame);
   if (const auto clusters = model_.clusters_of_run(); clusters && *clusters != model_.chosen().clustering.clusters.size())
     draw_wrapped(colour::quiet_text,
-                 fmt::format("The run has {} clusters: those of all its glasses, step_nm and differentials", *clusters));
+                 fmt::format("The run has {}: those of all its glasses, step_nm and differentials", counted(*clusters, "cluster")));
 }
 
 /// What unequal work saves on top of the clusters.

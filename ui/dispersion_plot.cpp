@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/dispersion_plot.h"
 
+#include "base/counted.h"
 #include "ui/plots.h"
 #include "ui/theme.h"
 #include "ui/wavelength_axis.h"
@@ -147,8 +148,8 @@ void draw_values(const DispersionModel& model, int wavelength)
   const spectral::Clustering& clustering = model.chosen().clustering;
   const spectral::Cluster& cluster = clustering.clusters[c];
   ImGui::PushStyleColor(ImGuiCol_Text, cluster_colour(c));
-  ImGui::TextUnformatted(fmt::format("cluster {} of {}: {} wavelengths, mean n {:.6g}", c + 1, clustering.clusters.size(),
-                                     cluster.wavelengths.size(), cluster.n_mean)
+  ImGui::TextUnformatted(fmt::format("cluster {} of {}: {}, mean n {:.6g}", c + 1, clustering.clusters.size(),
+                                     counted(cluster.wavelengths.size(), "wavelength"), cluster.n_mean)
                              .c_str());
   ImGui::PopStyleColor();
   ImGui::TextDisabled("%s", stretches(model, c).c_str());

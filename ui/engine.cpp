@@ -2,6 +2,7 @@
 #include "ui/engine.h"
 
 #include "measure/measured_job.h"
+#include "preset/origins.h"
 #include "run/reference.h"
 #include "run/run.h"
 #include "ui/spectra.h"
@@ -22,7 +23,7 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
                                                        std::vector<std::string>& notes)
 {
   try {
-    auto found = run::find_reference(prepared, context);
+    auto found = preset::at_origins(prepared.preset, [&] { return run::find_reference(prepared, context); });
     if (!found && prepared.preset.reference)
       notes.emplace_back("the reference of the preset as it is now has not been rendered yet; save it, and nephroid run renders it");
     return found;
@@ -43,7 +44,7 @@ Engine::~Engine() = default;
 
 NewRun Engine::make(const preset::Preset& preset)
 {
-  auto prepared = std::make_unique<run::Prepared>(run::prepare(preset, previous_.get()));
+  auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get())); });
   const std::lock_guard lock(building_);
   if (!context_) context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
   // The sources are read below: what changed until here is in this run.

@@ -26,14 +26,6 @@ namespace {
 using optics::Spectrum;
 using optics::wavelength_count;
 
-/// An error without the place in the preset that it names: a panel shows it
-/// beside that place.
-std::string sentence_of(const Error& error)
-{
-  const std::string line = error.line(), where = error.where() + ": ";
-  return line.starts_with(where) ? line.substr(where.size()) : line;
-}
-
 LightCurve make_curve(const preset::LightSpectrum& spectrum)
 {
   LightCurve curve;
@@ -41,7 +33,7 @@ LightCurve make_curve(const preset::LightSpectrum& spectrum)
     curve.spectrum = scene::make_light_spectrum(spectrum, {});
     curve.largest = *std::max_element(curve.spectrum.begin(), curve.spectrum.end());
   } catch (const Error& error) {
-    curve.error = sentence_of(error);
+    curve.error = error.text();
   }
   return curve;
 }
@@ -204,7 +196,7 @@ void SpectraMaker::make_groups(const preset::Preset& now)
   try {
     groups_ = spectral::scene_clusters(now.spectral, outline_);
   } catch (const Error& error) {
-    groups_error_ = sentence_of(error);
+    groups_error_ = error.text();
   }
 }
 
@@ -230,7 +222,7 @@ void SpectraMaker::make_importance(const preset::Preset& now)
   try {
     spectra_.importance = spectral::wavelength_importance(now.spectral, seen_->whereabouts, outline_.lights, outline_.materials, {});
   } catch (const Error& error) {
-    spectra_.why_no_u = sentence_of(error);
+    spectra_.why_no_u = error.text();
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/spectra_panel.h"
 
+#include "base/counted.h"
 #include "optics/spectrum.h"
 #include "preset/describe_limits.h"
 #include "ui/choice_combo.h"
@@ -163,7 +164,7 @@ void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& 
     }
     places_.note("temperature");
   } else {
-    ImGui::TextDisabled("%s", fmt::format("{} {}", spectrum_.table.size(), spectrum_.table.size() == 1 ? "row" : "rows").c_str());
+    ImGui::TextDisabled("%s", counted(spectrum_.table.size(), "row").c_str());
     ImGui::SetItemTooltip("Drag a point. A double click adds one, a click with the right button removes one.");
   }
 }
@@ -274,8 +275,8 @@ void SpectraPanel::draw_numbers() const
   if (sum == 0)
     ImGui::TextUnformatted("No light: no iterations");
   else
-    ImGui::TextUnformatted(fmt::format("{} iterations in {} clusters, {} times fewer than the {} of 401 wavelengths x {}", sum,
-                                       s.clusters.size(), times(s.brute_force(), sum), s.brute_force(), s.passes)
+    ImGui::TextUnformatted(fmt::format("{} in {}, {} times fewer than the {} of 401 wavelengths x {}", counted(sum, "iteration"),
+                                       counted(s.clusters.size(), "cluster"), times(s.brute_force(), sum), s.brute_force(), s.passes)
                                .c_str());
   ImGui::SetItemTooltip(
       "%s", fmt::format("{} times fewer by clusters, {} by what deals out the work.\nPhoton maps give a cluster so many passes; "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/status_line.h"
 
+#include "base/counted.h"
 #include "job/pace.h"
 #include "ui/actions.h"
 #include "ui/theme.h"
@@ -21,7 +22,7 @@ void draw_notes(const Workbench& workbench)
   if (notes.empty()) return;
   ImGui::SameLine(0, ImGui::GetFontSize());
   ImGui::PushStyleColor(ImGuiCol_Text, colour::note);
-  ImGui::TextUnformatted(notes.size() == 1 ? "1 note" : fmt::format("{} notes", notes.size()).c_str());
+  ImGui::TextUnformatted(counted(notes.size(), "note").c_str());
   ImGui::PopStyleColor();
   if (!ImGui::BeginItemTooltip()) return;
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40);
