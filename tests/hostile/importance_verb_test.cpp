@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid importance` as scripts use it, and one line for whatever is wrong, here and with spectral.effort elsewhere.
+#include "tests/support/json_lines.h"
 #include "tests/support/program_test.h"
 
 #include <gmock/gmock.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 namespace {
 
@@ -94,8 +94,7 @@ TEST_F(ImportanceVerb, ASweepIsALineARun)
     const Ended ended = run({verb, "ball.json", "--json", "--set", R"(sweep={"seed": [1, 2]})"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     std::vector<std::string> names;
-    std::istringstream lines(ended.out);
-    for (std::string line; std::getline(lines, line);) names.push_back(json::parse(line)["name"]);
+    for (const json& line : json_lines(ended.out)) names.push_back(line["name"].get<std::string>());
     EXPECT_THAT(names, testing::ElementsAre("ball,seed=1", "ball,seed=2")) << verb;
   }
 }

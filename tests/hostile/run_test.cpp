@@ -5,6 +5,7 @@
 #include "measure/history_file.h"
 #include "preset/read.h"
 #include "run/run.h"
+#include "tests/support/json_lines.h"
 #include "tests/support/plate_runs.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <sys/mount.h>
 
 namespace {
@@ -31,14 +31,6 @@ protected:
 };
 
 std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
-
-std::vector<json> json_lines(const std::string& text)
-{
-  std::vector<json> all;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) all.push_back(json::parse(line));
-  return all;
-}
 
 TEST_F(Runs, LeaveEveryFileOfTheContract)
 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid dispersion` and `nephroid clusters` as scripts use them: JSON as the contract has it, good files among bad ones, odd
 // names, and one line for whatever is wrong.
+#include "tests/support/json_lines.h"
 #include "tests/support/program_test.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <set>
-#include <sstream>
 
 namespace {
 
@@ -18,14 +18,6 @@ using testing::StartsWith;
 
 class SpectralVerbs : public ProgramTest {};
 
-std::vector<json> lines(const std::string& text)
-{
-  std::vector<json> result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) result.push_back(json::parse(line));
-  return result;
-}
-
 TEST_F(SpectralVerbs, GoodFilesAmongBadOnesAreStillAnswered)
 {
   write("Gauß (o), 1.5 μm.yml", "DATA:\n  - type: tabulated nk\n    data: |\n        0.4 1.6 -0.1\n        0.6 1.5 0.1\n");
@@ -35,7 +27,7 @@ TEST_F(SpectralVerbs, GoodFilesAmongBadOnesAreStillAnswered)
       run({"dispersion", "N-BK7", "missing.yml", "Gauß (o), 1.5 μm.yml", "broken.yml", "k.yml", "--nm", "500", "--nm", "700", "--json"});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(ended.err, "");
-  const std::vector<json> answers = lines(ended.out);
+  const std::vector<json> answers = json_lines(ended.out);
   ASSERT_EQ(answers.size(), 5u);
 
   EXPECT_EQ(answers[0]["file"], "N-BK7");
@@ -57,7 +49,7 @@ TEST_F(SpectralVerbs, AFormulaWithoutAValueIsNullAndSaid)
   write("pole.yml", "DATA:\n  - type: formula 1\n    wavelength_range: 0.5 1\n    coefficients: 0 1.2 0.45\n");
   const Ended ended = run({"dispersion", "pole.yml", "--nm", "445", "--json"});
   EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_EQ(lines(ended.out).at(0)["samples"][0], json({{"nm", 445.0}, {"n", nullptr}, {"k", nullptr}, {"extrapolated", true}}));
+  EXPECT_EQ(json_lines(ended.out).at(0)["samples"][0], json({{"nm", 445.0}, {"n", nullptr}, {"k", nullptr}, {"extrapolated", true}}));
   EXPECT_EQ(ended.err, "nephroid: pole.yml: the formula gives no finite n at 445 nm\n");
 }
 
