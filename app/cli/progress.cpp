@@ -88,12 +88,12 @@ std::string progress_line(const std::string& label, const job::Progress& now, co
   return line;
 }
 
-std::string progress_json(const Task& task, const job::Progress& now, const job::Pace& pace)
+std::string progress_json(const ProgressSubject& subject, const job::Progress& now, const job::Pace& pace)
 {
   const nlohmann::ordered_json all{
       {"type", "progress"},
-      {"name", task.run},
-      {"stage", task.stage},
+      {"name", subject.run},
+      {"stage", subject.stage},
       {"fraction", now.fraction},
       {"step", now.step},
       {"steps", now.steps >= 0 ? nlohmann::ordered_json(now.steps) : nlohmann::ordered_json()},
@@ -104,8 +104,8 @@ std::string progress_json(const Task& task, const job::Progress& now, const job:
   return json_text(all);
 }
 
-ProgressDisplay::ProgressDisplay(ProgressStyle style, Task task, const job::Progress& start)
-    : style_(style), task_(std::move(task)), start_(start), next_(Clock::now() + rhythm(style))
+ProgressDisplay::ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start)
+    : style_(style), subject_(std::move(subject)), start_(start), next_(Clock::now() + rhythm(style))
 {
 }
 
@@ -136,12 +136,12 @@ void ProgressDisplay::show(const job::Progress& now)
 {
   const job::Pace pace = job::pace_between(start_, now);
   if (style_ == ProgressStyle::json) {
-    fmt::print("{}\n", progress_json(task_, now, pace));
+    fmt::print("{}\n", progress_json(subject_, now, pace));
     std::fflush(stdout);
   } else if (style_ == ProgressStyle::lines) {
-    fmt::print(stderr, "{}\n", progress_line(task_.label, now, pace, 200));
+    fmt::print(stderr, "{}\n", progress_line(subject_.label, now, pace, 200));
   } else {
-    fmt::print(stderr, "\r{}\033[K", progress_line(task_.label, now, pace, terminal_columns() - 1));
+    fmt::print(stderr, "\r{}\033[K", progress_line(subject_.label, now, pace, terminal_columns() - 1));
     std::fflush(stderr);
     line_is_shown_ = true;
   }

@@ -14,8 +14,8 @@ enum class ProgressStyle { live, lines, json };
 /// live where standard error is a terminal that can move its cursor (TERM is not "dumb").
 ProgressStyle progress_style(bool json);
 
-/// What it is the progress of.
-struct Task {
+/// Whose progress it is.
+struct ProgressSubject {
   std::string label;         ///< for people
   std::string run;           ///< for scripts: the preset's name, as in plan's and importance's JSON
   std::string stage = "run"; ///< or "reference", which the run needs first
@@ -24,12 +24,12 @@ struct Task {
 /// "first-light  [#####-----]  51 %  pass 26 of 50  1.21 M photons/s  0:07 left", at most `columns` wide.
 std::string progress_line(const std::string& label, const job::Progress& now, const job::Pace& pace, int columns);
 /// {"type":"progress","name","stage","fraction","step","steps","photons","work_seconds","photons_per_second","seconds_left"}
-std::string progress_json(const Task& task, const job::Progress& now, const job::Pace& pace);
+std::string progress_json(const ProgressSubject& subject, const job::Progress& now, const job::Pace& pace);
 
 /// Shows a run's progress at the rhythm of its style. Call update as often as you like.
 class ProgressDisplay {
 public:
-  ProgressDisplay(ProgressStyle style, Task task, const job::Progress& start);
+  ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start);
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -44,7 +44,7 @@ private:
 
   using Clock = std::chrono::steady_clock;
   ProgressStyle style_;
-  Task task_;
+  ProgressSubject subject_;
   job::Progress start_;
   Clock::time_point next_;
   bool line_is_shown_ = false;
