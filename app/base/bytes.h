@@ -17,6 +17,7 @@ namespace nephroid {
 class ByteSink {
 public:
   virtual ~ByteSink() = default;
+  /// Throws failed where they cannot be written.
   virtual void write(std::span<const std::byte> bytes) = 0;
   template <class T>
   void value(const T& value)
@@ -31,6 +32,7 @@ public:
   virtual ~ByteSource() = default;
   /// Fills `into` with the next bytes. Throws bad_input where fewer are left.
   virtual void read(std::span<std::byte> into) = 0;
+  /// How many bytes are left.
   virtual std::uint64_t left() const = 0;
   template <class T>
   void value(T& value)

@@ -14,7 +14,7 @@ constexpr std::uint64_t record_version = 2;
 
 Error is_cut() { return bad_input("checkpoint", "is cut", "", "delete it and start again"); }
 
-/// A count of items of at least so many bytes each, which the rest of the checkpoint has to hold.
+/// A count of items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes all memory.
 std::size_t load_count(ByteSource& from, std::size_t bytes_each)
 {
   std::uint64_t count = 0;
@@ -59,7 +59,7 @@ SavedHistory load_history(ByteSource& from)
     column.resize(load_count(from, 1));
     from.read(std::as_writable_bytes(std::span(column)));
   }
-  saved.history.rows.resize(load_count(from, sizeof(double)));
+  saved.history.rows.resize(load_count(from, (4 + saved.history.columns.size()) * sizeof(double)));
   for (job::HistoryRow& row : saved.history.rows) {
     from.value(row.seconds);
     from.value(row.wall_seconds);

@@ -6,7 +6,6 @@
 #include "preset/preset.h"
 #include "spectral/state_bytes.h"
 
-#include <cstddef>
 #include <cstdint>
 
 namespace nephroid::spectral {
@@ -20,7 +19,7 @@ public:
   /// The shared energy counters are the caller's to reset.
   virtual void warm_up()
   {
-    ByteStore kept; // films are all 0 by now, and such pieces are not kept
+    ByteStore kept; // little: films are still all 0, and such pieces are left out
     StateWriter before(kept);
     save(before);
     step(0);

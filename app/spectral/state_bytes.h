@@ -32,9 +32,9 @@ public:
     for (std::size_t at = 0; at < buffer.bytes(); at += state_piece) {
       piece_.resize(std::min(state_piece, buffer.bytes() - at));
       buffer.RawBuffer::read(piece_.data(), piece_.size(), at);
-      const bool is_zero = all_zero();
+      const std::uint8_t is_zero = all_zero();
       value(is_zero);
-      if (!is_zero) to_.write(piece_);
+      if (is_zero == 0) to_.write(piece_);
     }
   }
 
@@ -60,10 +60,10 @@ public:
   void buffer(compute::Buffer<T>& buffer)
   {
     for (std::size_t at = 0; at < buffer.bytes(); at += state_piece) {
-      bool is_zero = false;
+      std::uint8_t is_zero = 0; // no bool: a byte of a file may be any number
       value(is_zero);
       piece_.assign(std::min(state_piece, buffer.bytes() - at), std::byte{0});
-      if (!is_zero) from_.read(piece_);
+      if (is_zero == 0) from_.read(piece_);
       buffer.RawBuffer::write(piece_.data(), piece_.size(), at);
     }
   }
