@@ -10,6 +10,7 @@ import csv
 import json
 import subprocess
 import sys
+from functools import partial
 from itertools import combinations
 from math import sqrt
 from pathlib import Path
@@ -210,7 +211,9 @@ def smoothing(e):
                   f" | {run['reference']['noise_floor']['lab_mean']:.3f} |")
 
 
-EXPERIMENTS = {"speed": speed, "figure-4-6": figure_4_6, "figure-4-9": figure_4_9, "figure-4-10": figure_4_10, "figure-4-11": figure_4_11,
+EXPERIMENTS = {"speed": speed, "speed-bunny-arbitrary-2": partial(speed, scene="bunny-arbitrary-2"),
+               "speed-diamond-arbitrary-1": partial(speed, scene="diamond-arbitrary-1"),
+               "figure-4-6": figure_4_6, "figure-4-9": figure_4_9, "figure-4-10": figure_4_10, "figure-4-11": figure_4_11,
                "figure-4-12": figure_4_12, "figure-1-5": figure_1_5, "beyond": beyond,
                "smoothing": smoothing}
 
