@@ -43,7 +43,10 @@ bool History::redo()
 
 void History::mark_saved(const std::string& source)
 {
-  for (Entry& entry : entries_) entry.preset.source = source;
+  for (Entry& entry : entries_) {
+    entry.preset.source = source;
+    entry.preset.provenance = {}; // the file holds every value now
+  }
   saved_ = index_;
 }
 

@@ -108,7 +108,6 @@ preset::Preset with_field(const preset::Preset& preset, const std::string& point
 {
   preset::Preset edited = preset::parse_preset(preset::to_json(preset), preset.source, {path_of(pointer) + (value ? "=true" : "=false")});
   edited.source = preset.source;
-  edited.provenance = preset.provenance;
   return edited;
 }
 

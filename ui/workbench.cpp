@@ -112,7 +112,9 @@ void Workbench::carry_out(const command::Open& c)
 void Workbench::carry_out(const command::Edit& c)
 {
   if (!history_) return;
-  history_->push(c.label, c.preset, c.gesture);
+  preset::Preset edited = c.preset;
+  edited.provenance = {}; // what is wrong from now on is what was typed here, not what the file or an option gave
+  history_->push(c.label, std::move(edited), c.gesture);
   restart_wanted_ = true;
   gesture_lasts_ = c.live;
   snapshot_is_current_ = false;

@@ -30,7 +30,7 @@ preset::Preset lit_floor(int resolution, double camera_height, std::uint64_t see
   p.scene.materials["white"] = white();
   p.scene.objects = {object("floor", quad(10, 10), "white")};
   preset::Light light;
-  light.spectrum.illuminant = std::string("E");
+  light.spectrum.illuminant = std::string("E"); // a plain "E" draws a false -Wrestrict from GCC 12
   light.position = {0.1, 1, -0.2};
   light.power_w = 5;
   p.scene.lights = {light};

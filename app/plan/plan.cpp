@@ -10,6 +10,12 @@
 
 namespace nephroid::plan {
 
+bool runs(const Plan& plan, std::string_view name)
+{
+  const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(), [&](const Pass& p) { return p.name == name; });
+  return pass != plan.passes.end() && pass->runs;
+}
+
 std::string readable_bytes(std::uint64_t bytes)
 {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};

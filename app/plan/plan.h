@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nephroid::plan {
@@ -27,9 +28,13 @@ struct Plan {
   std::string engine;
   std::vector<Pass> passes;
   std::vector<PlannedBuffer> buffers;
+  int layers = 0; ///< pictures that the run makes and adds up
   std::map<std::string, std::string> defines;
   std::vector<std::string> notes; ///< what the run should say once: extrapolated data, open meshes
 };
+
+/// Whether a pass of that name is there and runs.
+bool runs(const Plan& plan, std::string_view name);
 
 /// contract.md: {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes";
 /// "field" and "run_value" only where a field decides. Over several lines, as plan.json has it.

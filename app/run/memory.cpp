@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <initializer_list>
 #include <numeric>
 #include <string_view>
 
@@ -17,12 +16,6 @@ namespace nephroid::run {
 namespace {
 
 constexpr const char* remedy = "choose a smaller scene.camera.resolution";
-
-bool runs(const plan::Plan& plan, std::initializer_list<std::string_view> names)
-{
-  return std::any_of(plan.passes.begin(), plan.passes.end(),
-                     [&](const plan::Pass& pass) { return pass.runs && std::find(names.begin(), names.end(), pass.name) != names.end(); });
-}
 
 /// Of the buffers on the device, or of those on the host.
 std::uint64_t total_bytes(const plan::Plan& plan, bool on_host)
@@ -38,16 +31,16 @@ Error does_not_fit(const std::string& what, const std::string& there_is) { retur
 
 plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int height)
 {
-  const std::uint64_t layers =
-      runs(plan, {"direct"}) + runs(plan, {"photons", "photon maps"}) + runs(plan, {"indirect"}) + runs(plan, {"background"});
+  const auto layers = static_cast<std::uint64_t>(plan.layers);
   // Bytes a pixel. A snapshot has three floats for each layer, for their sum and for the draw of its error.
   const std::uint64_t snapshot = 12 * (layers + 2);
   // Beside it, one after the other: a film of two halves read back; the EXR writer's interleaved copy and its encoded file, each about as
-  // large as the layers and their sum; the caustics that are smoothed. Measuring and the report take less, and a checkpoint is written
-  // piece by piece.
-  const std::uint64_t film = 48, exr = 2 * 12 * (layers + 1), smoothing = runs(plan, {"smoothing"}) ? 100 : 0;
+  // large as the layers and their sum; the caustics that are smoothed; the error's draw, two pictures in XYZ and three summed areas, in
+  // double. The report takes less, and a checkpoint is written piece by piece.
+  const std::uint64_t film = 48, exr = 2 * 12 * (layers + 1), smoothing = plan::runs(plan, "smoothing") ? 100 : 0,
+                      estimate = plan::runs(plan, "error estimate") ? 84 : 0;
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  return {"picture and its files (host)", pixels * (snapshot + std::max({film, exr, smoothing})), true};
+  return {"picture and its files (host)", pixels * (snapshot + std::max({film, exr, smoothing, estimate})), true};
 }
 
 std::optional<std::uint64_t> available_memory_bytes()

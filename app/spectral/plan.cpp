@@ -258,6 +258,7 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
   plan.passes.push_back(indirect);
   plan.passes.push_back(background);
   plan.passes.push_back(estimate);
+  plan.layers = direct.runs + caustics + indirect.runs + background.runs;
   plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs, halves);
   if (indirect.runs) plan.buffers.push_back({"film indirect", film_bytes(scene, halves)});
   if (background.runs) {

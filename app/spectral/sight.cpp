@@ -44,8 +44,9 @@ public:
   /// Is sent back by a mirror.
   void reflect(const Place& place) { bend(place, std::nullopt); }
 
-  /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/interface.h).
-  void cross(const Place& place)
+  /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/interface.h). False where there is nothing to
+  /// see: both sides have one index of refraction.
+  bool cross(const Place& place)
   {
     std::vector<int> beyond = inside_;
     int near = medium_of(inside_);
@@ -58,6 +59,7 @@ public:
       near = place.object; // an open mesh: the look got in without meeting its surface
     const double ratio = index_of(near) / index_of(medium_of(beyond));
     if (ratio == 1 || bend(place, ratio)) inside_ = std::move(beyond);
+    return ratio != 1;
   }
 
   const glm::dvec3& way() const { return way_; }
@@ -137,17 +139,17 @@ Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, int c
     if (!place) break;
     const scene::Object& object = scene.objects[static_cast<std::size_t>(place->object)];
     const Type type = scene.materials[static_cast<std::size_t>(object.material)].type;
-    if (surface == 0 || type == Type::diffuse) {
+    const glm::dvec3 way = look.way();
+    if (type == Type::mirror) look.reflect(*place);
+    if (type == Type::dielectric && !look.cross(*place)) continue;
+    const bool is_first = sight.first.object < 0;
+    if (is_first || type == Type::diffuse) {
       sight.last = {glm::vec3(place->position), glm::vec3(place->geometric), place->object};
-      sight.way = glm::vec3(look.way());
+      sight.way = glm::vec3(way);
       sight.spacing = static_cast<float>(spacing * look.length());
     }
-    if (surface == 0) sight.first = sight.last;
+    if (is_first) sight.first = sight.last;
     if (type == Type::diffuse) break;
-    if (type == Type::mirror)
-      look.reflect(*place);
-    else
-      look.cross(*place);
   }
   return sight;
 }

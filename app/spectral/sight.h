@@ -15,7 +15,7 @@ struct Sight {
     glm::vec3 position{0}, normal{0}; ///< scene units; unit, of the triangle
     int object = -1;                  ///< -1: none is met
   };
-  Surface first;
+  Surface first;     ///< glass that bends nothing is not seen
   Surface last;      ///< the diffuse one at the end; where there is none, `first`
   glm::vec3 way{0};  ///< unit: the way on which `last` is looked at
   float spacing = 0; ///< how far apart neighbouring pixels would be there, across `way`, had glass and mirrors been flat

@@ -156,7 +156,9 @@ void Smoothing::find_edges()
 
 std::uint64_t Smoothing::bytes(const scene::Camera& camera)
 {
-  return (sizeof(Sight) + sizeof(Seen)) * static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
+  constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
+  return (sizeof(Sight) + sizeof(Seen) + pulled_apart) * static_cast<std::uint64_t>(camera.width) *
+         static_cast<std::uint64_t>(camera.height);
 }
 
 bool Smoothing::are_level(const Seen& a, const Seen& b)

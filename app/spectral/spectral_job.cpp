@@ -24,12 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t checkpoint_version = 5;
 
-bool runs(const plan::Plan& plan, const std::string& name)
-{
-  const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(), [&](const plan::Pass& p) { return p.name == name; });
-  return pass != plan.passes.end() && pass->runs;
-}
-
 /// A stage with the seconds it has worked.
 struct TimedStage {
   std::unique_ptr<Stage> stage;
@@ -46,32 +40,32 @@ public:
                .buffers = {},
                .defines = plan.defines,
                .white = preset.white,
-               .halves = runs(plan, "error estimate") ? 2u : 1u,
+               .halves = plan::runs(plan, "error estimate") ? 2u : 1u,
                .energy = {}},
         stop_seconds_(preset.stop.seconds)
   {
     world_.buffers = upload(context, scene, bvh, world_.tables);
     world_.tables.scene.root = bvh.root;
-    if (runs(plan, "smoothing")) smoothing_.emplace(scene, bvh);
+    if (plan::runs(plan, "smoothing")) smoothing_.emplace(scene, bvh);
     world_.seed = {static_cast<std::uint32_t>(preset.seed), static_cast<std::uint32_t>(preset.seed >> 32)};
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
-    if (preset.spectral.relight && (runs(plan, "direct") || runs(plan, "photons"))) {
+    if (preset.spectral.relight && (plan::runs(plan, "direct") || plan::runs(plan, "photons"))) {
       preset_ = preset;
       relighting_ = make_relighting(world_, layer_light(scene, preset.white));
     }
-    if (runs(plan, "direct"))
+    if (plan::runs(plan, "direct"))
       stages_.push_back(
           {relighting_ ? make_layered_direct_stage(world_, *relighting_, preset.spectral) : make_direct_stage(world_, preset.spectral)});
-    const bool sppm = preset.spectral.estimator == preset::Spectral::Estimator::sppm, maps = runs(plan, "photon maps");
+    const bool sppm = preset.spectral.estimator == preset::Spectral::Estimator::sppm, maps = plan::runs(plan, "photon maps");
     if (maps && !sppm) map_ = std::make_unique<PhotonMap>(context, world_.tables.photons_per_pass, world_.defines);
-    if (runs(plan, "photons"))
+    if (plan::runs(plan, "photons"))
       stages_.push_back(
           {relighting_ ? make_layered_photon_stage(world_, *relighting_) : make_photon_stage(world_, preset.spectral, map_.get()), true});
     if (maps)
       stages_.push_back(
           {sppm ? make_sppm_stage(world_, scene, preset.spectral) : make_map_stage(world_, scene, preset.spectral, *map_), true});
-    if (runs(plan, "indirect")) stages_.push_back({make_indirect_stage(world_, scene, preset.spectral)});
-    if (runs(plan, "background")) stages_.push_back({make_background_stage(world_, scene, preset.spectral)});
+    if (plan::runs(plan, "indirect")) stages_.push_back({make_indirect_stage(world_, scene, preset.spectral)});
+    if (plan::runs(plan, "background")) stages_.push_back({make_background_stage(world_, scene, preset.spectral)});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
     for (const TimedStage& s : stages_) s.stage->warm_up();
     world_.energy.fill_zero();

@@ -81,7 +81,8 @@ inline double tolerance(const Estimate& e)
 }
 
 /// How far off a figure may be that scattered with this standard deviation over so many seeds: after Student's distribution one run in a
-/// million is farther off. For passes that hang on each other, whose own scatter says nothing.
+/// million is farther off, a thousand times as many as `false_alarm`, for which there were never seeds enough. For passes that hang on
+/// each other, whose own scatter says nothing.
 inline double tolerance_over_seeds(double standard_deviation, int seeds)
 {
   const boost::math::students_t distribution(seeds - 1);

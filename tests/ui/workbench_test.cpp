@@ -39,6 +39,9 @@ TEST_F(WorkbenchTest, OverridesApplyToWhatIsOpened)
 {
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"seed=42"}));
   EXPECT_EQ(workbench.preset()->seed, 42u);
+  EXPECT_TRUE(workbench.preset()->provenance.origins);
+  edit_z(2);
+  EXPECT_FALSE(workbench.preset()->provenance.origins) << "what an edit breaks is not the override's fault";
 }
 
 TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)

@@ -28,6 +28,7 @@ plan::Plan large_plan()
 {
   plan::Plan plan;
   plan.passes = {{"direct", true, ""}, {"photons", true, ""}, {"smoothing", false, ""}};
+  plan.layers = 2;
   plan.buffers = {{"tree", gib / 2}, {"film direct", 6 * gib}, {"film caustic", 6 * gib}, {"picture (host)", 48 * gib, true}};
   return plan;
 }
@@ -44,8 +45,11 @@ TEST(Memory, TheHostHoldsThePictureAndTheEncodedFile)
   EXPECT_TRUE(run::picture_and_files(large_plan(), 16384, 16384).on_host);
   // One layer: 36 and a film read back, 48. Photon maps add to the photons' layer.
   plan::Plan one = large_plan();
-  one.passes = {{"photons", true, ""}, {"photon maps", true, ""}, {"direct", false, ""}};
+  one.layers = 1;
   EXPECT_EQ(run::picture_and_files(one, 16384, 16384).bytes, 21 * gib);
+  // 36 and the error's draw, 84.
+  one.passes.push_back({"error estimate", true, ""});
+  EXPECT_EQ(run::picture_and_files(one, 16384, 16384).bytes, 30 * gib);
 }
 
 TEST(Memory, WhatFitsPasses)

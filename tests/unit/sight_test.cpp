@@ -103,6 +103,24 @@ TEST(Sight, a_mirror_is_followed_and_an_empty_one_shows_itself)
   test::expect_near(seen.place, {5, 3, 0}, 1e-5);
 }
 
+TEST(Sight, glass_that_bends_nothing_is_not_seen)
+{
+  // A box of air, and one of the same glass inside a pane: neither shows, alone or before what does.
+  preset::Preset p = one_pixel({0, 0, -1});
+  p.scene.materials["air"] = test::glass(1);
+  add(p, "nothing", preset::Shape::Type::box, "air", {1, 1, 1}, {0, 0, -2});
+  EXPECT_EQ(see(p).sight.first.object, -1);
+  add(p, "inner", preset::Shape::Type::box, "glass", {1, 1, 1}, {0, 0, -5});
+  add(p, "pane", preset::Shape::Type::box, "glass", {3, 3, 3}, {0, 0, -5});
+  Seen seen = see(p);
+  EXPECT_EQ(seen.first, "pane");
+  EXPECT_EQ(seen.last, "pane");
+  add(p, "wall", preset::Shape::Type::quad, "wall", {20, 1, 20}, {0, 0, -9}).transform.rotate_deg = {90, 0, 0};
+  seen = see(p);
+  EXPECT_EQ(seen.first, "pane");
+  EXPECT_EQ(seen.last, "wall");
+}
+
 TEST(Sight, nothing_is_seen_where_nothing_is)
 {
   preset::Preset p = one_pixel({0, 0, -1});
