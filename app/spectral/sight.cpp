@@ -139,13 +139,13 @@ Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, int c
     if (!place) break;
     const scene::Object& object = scene.objects[static_cast<std::size_t>(place->object)];
     const Type type = scene.materials[static_cast<std::size_t>(object.material)].type;
-    const glm::dvec3 way = look.way();
+    const glm::dvec3 arrives = look.way();
     if (type == Type::mirror) look.reflect(*place);
     if (type == Type::dielectric && !look.cross(*place)) continue;
     const bool is_first = sight.first.object < 0;
     if (is_first || type == Type::diffuse) {
       sight.last = {glm::vec3(place->position), glm::vec3(place->geometric), place->object};
-      sight.way = glm::vec3(way);
+      sight.way = glm::vec3(arrives);
       sight.spacing = static_cast<float>(spacing * look.length());
     }
     if (is_first) sight.first = sight.last;
