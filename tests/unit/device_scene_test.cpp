@@ -151,7 +151,7 @@ TEST(DeviceTables, RefuseMoreMediaThanAPathCanCarry)
   EXPECT_THAT(refusal(), testing::StartsWith("p.json#/scene/lights/0/position: is inside 9 dielectric objects"));
 }
 
-bool runs(const plan::Plan& plan, const std::string& name, std::string* reason = nullptr)
+bool planned_to_run(const plan::Plan& plan, const std::string& name, std::string* reason = nullptr)
 {
   for (const plan::Pass& pass : plan.passes)
     if (pass.name == name) {
@@ -171,22 +171,22 @@ plan::Plan plan_of(const preset::Preset& p)
 TEST(SpectralPlan, LeavesOutWhatASceneDoesNotNeedAndSaysWhy)
 {
   preset::Preset p = scene_with({}, glass(1.5));
-  EXPECT_TRUE(runs(plan_of(p), "photons"));
-  EXPECT_TRUE(runs(plan_of(p), "direct"));
-  EXPECT_FALSE(runs(plan_of(p), "mirrors"));
+  EXPECT_TRUE(planned_to_run(plan_of(p), "photons"));
+  EXPECT_TRUE(planned_to_run(plan_of(p), "direct"));
+  EXPECT_FALSE(planned_to_run(plan_of(p), "mirrors"));
   EXPECT_EQ(plan_of(p).defines.at("NEPHROID_MIRRORS"), "0");
   std::string reason;
   p.spectral.caustic = false;
-  EXPECT_FALSE(runs(plan_of(p), "photons", &reason));
+  EXPECT_FALSE(planned_to_run(plan_of(p), "photons", &reason));
   EXPECT_EQ(reason, "spectral.caustic is false");
   p = scene_with({}, white());
-  EXPECT_FALSE(runs(plan_of(p), "photons", &reason));
+  EXPECT_FALSE(planned_to_run(plan_of(p), "photons", &reason));
   EXPECT_EQ(reason, "no object is of glass or a mirror");
   p = scene_with({}, glass(1.5));
   p.scene.lights[0].power_w = 0;
-  EXPECT_FALSE(runs(plan_of(p), "photons", &reason)) << reason;
+  EXPECT_FALSE(planned_to_run(plan_of(p), "photons", &reason)) << reason;
   p.scene.lights.clear();
-  EXPECT_FALSE(runs(plan_of(p), "direct", &reason));
+  EXPECT_FALSE(planned_to_run(plan_of(p), "direct", &reason));
   EXPECT_EQ(reason, "the scene has no light");
 }
 
