@@ -28,9 +28,9 @@ struct Plan {
   std::string engine;
   std::vector<Pass> passes;
   std::vector<PlannedBuffer> buffers;
-  int layers = 0; ///< pictures that the run makes and adds up
   std::map<std::string, std::string> defines;
   std::vector<std::string> notes; ///< what the run should say once: extrapolated data, open meshes
+  int layers = 0;                 ///< pictures that the run makes and adds up
 };
 
 /// Whether a pass of that name is there and runs.
