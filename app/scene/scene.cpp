@@ -203,7 +203,7 @@ std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
   std::vector<std::pair<double, int>> found;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    if (scene.materials[static_cast<std::size_t>(object.material)].type != Material::Type::dielectric) continue;
+    if (material_of(scene, object).type != Material::Type::dielectric) continue;
     if (glm::distance(p, glm::dvec3(object.bounds.centre)) > object.bounds.radius) continue;
     if (winding_number(scene.geometry, object.first_triangle, object.triangle_count, p) > 0.5)
       found.emplace_back(-signed_volume(scene.geometry, object.first_triangle, object.triangle_count), static_cast<int>(i));

@@ -72,6 +72,11 @@ struct Scene {
   std::vector<std::string> warnings; ///< one line each: open meshes, dropped triangles, extrapolated dispersion
 };
 
+inline const Material& material_of(const Scene& scene, const Object& object)
+{
+  return scene.materials[static_cast<std::size_t>(object.material)];
+}
+
 /// Reads every file and checks every reference. A scene without lights or objects is legal: the plan says what is left out then.
 /// Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; triangles without
 /// area and duplicates are dropped with a warning. A dielectric that is inside out, or has holes, is told of in a warning (the former

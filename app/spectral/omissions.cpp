@@ -27,11 +27,6 @@ constexpr unsigned all_light_types = 15;
 /// The JSON pointer of a field of preset::LeaveOut.
 std::string field_of(const std::string& key) { return "/spectral/leave_out/" + key; }
 
-const scene::Material& material_of(const scene::Scene& scene, const scene::Object& object)
-{
-  return scene.materials[static_cast<std::size_t>(object.material)];
-}
-
 bool is_dielectric(const scene::Scene& scene, const scene::Object& object)
 {
   return material_of(scene, object).type == scene::Material::Type::dielectric;

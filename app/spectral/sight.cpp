@@ -95,7 +95,7 @@ private:
   double index_of(int object) const
   {
     if (object < 0) return 1;
-    return scene_.materials[static_cast<std::size_t>(scene_.objects[static_cast<std::size_t>(object)].material)].n[middle];
+    return material_of(scene_, scene_.objects[static_cast<std::size_t>(object)]).n[middle];
   }
 
   /// ratio: of the indices before and beyond glass; empty: a mirror. About the shading normal, unless that sends the look to the wrong side
@@ -138,7 +138,7 @@ Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, int c
     const std::optional<Place> place = look.next();
     if (!place) break;
     const scene::Object& object = scene.objects[static_cast<std::size_t>(place->object)];
-    const Type type = scene.materials[static_cast<std::size_t>(object.material)].type;
+    const Type type = material_of(scene, object).type;
     const glm::dvec3 arrives = look.way();
     if (type == Type::mirror) look.reflect(*place);
     if (type == Type::dielectric && !look.cross(*place)) continue;

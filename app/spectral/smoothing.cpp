@@ -193,37 +193,53 @@ void Smoothing::find_kernel(std::size_t i, double wanted, std::span<const double
   if (kernel.inside > 0 && ring > 0) kernel.ring_weight = std::clamp((wanted - inside) / ring, 0.0, 1.0);
 }
 
-void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) const
+template <class Needed, class Give>
+void Smoothing::give_parts(std::span<const double> light, std::span<const double> wanted, std::span<const double> favour,
+                           const Needed& needed, const Give& give) const
 {
-  if (error_draw.empty()) return;
-  std::vector<double> light(seen_.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
-  const std::vector<double> portion = portions(light, error_draw, width_, height_);
-  std::vector<float> rgb_spread(rgb.size()), draw_spread(rgb.size());
-  const auto is_zero = [](const std::vector<float>& v, std::size_t i) { return v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0; };
-  // A block of rows takes what all pixels within reach of it spread, in their order: the same bits on any number of cores.
+  // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of cores.
   for_ranges(static_cast<std::size_t>(height_), block_rows, [&](std::size_t, Range rows) {
     const std::size_t width = static_cast<std::size_t>(width_), first = rows.begin * width, end = rows.end * width;
     const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
     const std::size_t to = std::min<std::size_t>(rows.end + reach, static_cast<std::size_t>(height_)) * width;
     Kernel kernel;
     for (std::size_t i = from; i < to; ++i) {
-      if (is_zero(rgb, i) && is_zero(error_draw, i)) continue;
-      // Of n portions the noise is 1 / sqrt(n).
-      find_kernel(i, portion[i] / (noise * noise), light, kernel);
-      const std::size_t size = kernel.pixels.size();
-      const auto all = static_cast<double>(kernel.inside) + kernel.ring_weight * static_cast<double>(size - kernel.inside);
-      for (std::size_t k = 0; k < size; ++k) {
-        const std::size_t j = kernel.pixels[k];
-        if (j < first || j >= end) continue;
-        const auto part = static_cast<float>((k < kernel.inside ? 1 : kernel.ring_weight) / all);
-        for (std::size_t c = 0; c < 3; ++c) {
-          rgb_spread[3 * j + c] += part * rgb[3 * i + c];
-          draw_spread[3 * j + c] += part * error_draw[3 * i + c];
-        }
-      }
+      if (!needed(i)) continue;
+      find_kernel(i, wanted[i], light, kernel);
+      const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * favour[kernel.pixels[k]]; };
+      double all = 0;
+      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) all += weight(k);
+      for (std::size_t k = 0; k < kernel.pixels.size(); ++k)
+        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / all);
     }
   });
+}
+
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) const
+{
+  if (error_draw.empty()) return;
+  std::vector<double> light(seen_.size());
+  for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
+  std::vector<double> wanted = portions(light, error_draw, width_, height_);
+  for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
+
+  // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
+  // Knopp (1967) evens that out, and still every pixel gives away what it has.
+  std::vector<double> favour(seen_.size(), 1), taken(seen_.size());
+  give_parts(
+      light, wanted, favour, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
+  std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
+
+  std::vector<float> rgb_spread(rgb.size()), draw_spread(rgb.size());
+  const auto is_zero = [](const std::vector<float>& v, std::size_t i) { return v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0; };
+  give_parts(
+      light, wanted, favour, [&](std::size_t i) { return !is_zero(rgb, i) || !is_zero(error_draw, i); },
+      [&](std::size_t i, std::size_t j, double part) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          rgb_spread[3 * j + c] += static_cast<float>(part) * rgb[3 * i + c];
+          draw_spread[3 * j + c] += static_cast<float>(part) * error_draw[3 * i + c];
+        }
+      });
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);

@@ -46,7 +46,8 @@ private:
   };
   void find_edges();
   static bool are_level(const Seen& a, const Seen& b);
-  /// Where a pixel's light goes: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step.
+  /// Where a pixel's light may go: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a
+  /// step.
   struct Kernel {
     std::vector<std::size_t> pixels; ///< nearest first
     std::size_t inside = 0;          ///< of `pixels`, those before the outermost ring
@@ -54,6 +55,11 @@ private:
   };
   /// The one of pixel i that holds `wanted` of `light`, or reaches as far as any may.
   void find_kernel(std::size_t i, double wanted, std::span<const double> light, Kernel& kernel) const;
+  /// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j: as its kernel has it times
+  /// favour[j]; a pixel's parts are 1 together. wanted: of find_kernel, for each pixel. On every core, each with its own j.
+  template <class Needed, class Give>
+  void give_parts(std::span<const double> light, std::span<const double> wanted, std::span<const double> favour, const Needed& needed,
+                  const Give& give) const;
 
   int width_, height_;
   std::vector<Seen> seen_; ///< [pixel]

@@ -20,7 +20,7 @@ std::vector<const Spectrum*> dispersive_curves(const scene::Scene& scene)
 {
   std::vector<const Spectrum*> curves;
   for (const scene::Object& object : scene.objects) {
-    const scene::Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    const scene::Material& material = material_of(scene, object);
     const Spectrum& n = material.n;
     if (material.type != scene::Material::Type::dielectric || std::all_of(n.begin(), n.end(), [&](double v) { return v == n[0]; }))
       continue;

@@ -27,7 +27,7 @@ std::vector<std::vector<int>> refraction_clusters(const preset::Spectral& settin
 {
   std::vector<optics::Spectrum> curves;
   for (const scene::Object& object : scene.objects) {
-    const scene::Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    const scene::Material& material = material_of(scene, object);
     if (material.type != scene::Material::Type::dielectric) continue;
     if (std::find(curves.begin(), curves.end(), material.n) == curves.end()) curves.push_back(material.n);
   }

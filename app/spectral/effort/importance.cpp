@@ -24,11 +24,6 @@ using optics::Spectrum;
 using optics::wavelength_count;
 using Type = scene::Material::Type;
 
-const scene::Material& material_of(const scene::Scene& scene, const scene::Object& object)
-{
-  return scene.materials[static_cast<std::size_t>(object.material)];
-}
-
 /// m_i. What a mirror sends to the eye depends on where the eye is, so it counts with its largest reflectance at every wavelength:
 /// rather too much work than too little (4.1.2).
 Spectrum reflectance_of(const scene::Material& material)

@@ -7,17 +7,40 @@
 #include "spectral/maps/map_radius.h"
 #include "spectral/maps/photon_map.h"
 #include "spectral/omissions.h"
+#include "spectral/sight.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace nephroid::spectral {
 
-std::uint32_t eye_paths_a_pass(const DeviceTables& tables)
+namespace {
+
+/// Of the pixels, the share that shows glass or a mirror first, by some four thousand of them.
+double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
 {
-  const auto pixels = static_cast<std::uint32_t>(tables.camera.width * tables.camera.height);
-  return std::clamp(tables.photons_per_pass / pixels, 1u, 16u);
+  if (!scene.camera.inside.empty()) return 1;
+  const int width = scene.camera.width, height = scene.camera.height,
+            step = std::max(1, static_cast<int>(std::sqrt(width * 1.0 * height) / 64));
+  int bent = 0, all = 0;
+  for (int row = step / 2; row < height; row += step)
+    for (int column = step / 2; column < width; column += step, ++all) {
+      const int object = look_through_pixel(scene, bvh, column, row).first.object;
+      bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type != scene::Material::Type::diffuse;
+    }
+  return static_cast<double>(bent) / all;
+}
+
+} // namespace
+
+unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass)
+{
+  constexpr double most = 64, of_photons = 1.0 / 3; // a path takes about as long as three photons
+  if (!may_see_glass_or_mirror(scene)) return 1;
+  const double pixels = static_cast<double>(scene.camera.width) * scene.camera.height * bent_share(scene, bvh);
+  return static_cast<unsigned>(std::clamp(of_photons * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
 }
 
 namespace {
@@ -42,7 +65,7 @@ plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene,
   return omission(
       "photon_maps", settings.leave_out.photon_maps, sees,
       sees ? fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
-                         radius, counted(eye_paths_a_pass(tables), "path"))
+                         radius, counted(tables.eye_paths, "path"))
            : "the camera sees no glass and no mirror, so every caustic is splatted");
 }
 

@@ -19,7 +19,7 @@ class MapStage final : public Stage {
 public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings, PhotonMap& map)
       : world_(world), map_(map), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
-        eye_(world, eye_paths_a_pass(world.tables)), film_(world.zeroed("film photon maps", world.film_size())),
+        eye_(world, world.tables.eye_paths), film_(world.zeroed("film photon maps", world.film_size())),
         gather_(compute::Program(world.context, "gather.cl", world.defines).kernel("gather_to_film"))
   {
   }

@@ -53,7 +53,7 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
 bool goes_one_way(const scene::Scene& scene)
 {
   return std::none_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
-    const scene::Material& material = scene.materials[static_cast<std::size_t>(object.material)];
+    const scene::Material& material = material_of(scene, object);
     const auto same = [&](double n) { return n == material.n.front(); };
     return material.type == scene::Material::Type::dielectric && !std::all_of(material.n.begin(), material.n.end(), same);
   });

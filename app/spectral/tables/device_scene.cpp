@@ -5,6 +5,7 @@
 #include "spectral/clusters/scene_clusters.h"
 #include "spectral/effort/effort.h"
 #include "spectral/effort/emitters.h"
+#include "spectral/maps/map_plan.h"
 #include "spectral/omissions.h"
 #include "spectral/tables/scales.h"
 #include "spectral/tables/targets.h"
@@ -167,6 +168,7 @@ DeviceTables make_device_tables(const preset::Preset& preset, const scene::Scene
       make_emitters(photon_sources(effort.photons, tables.wavelengths), static_cast<unsigned>(preset.spectral.photons_per_pass));
   tables.importance = std::move(effort.importance);
   tables.photons_per_pass = count_photons(tables.emitters);
+  tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass);
   tables.light_towards_targets_w = std::accumulate(watts.begin(), watts.end(), 0.0);
   tables.towards_targets_w = std::move(watts);
   tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");

@@ -42,6 +42,7 @@ struct DeviceTables {
   std::vector<shared::DeviceTarget> targets;   ///< lists, see DeviceLight::first_target
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one pass, dealt out to lights and clusters
   unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each emitter
+  unsigned eye_paths = 1;                      ///< that gather photons, of a pixel in a pass (maps/map_plan.h)
   std::vector<double> importance;              ///< [cluster] 0..1, the largest 1: see Effort
   WavelengthTables wavelengths;
   StretchTables stretch;                 ///< for the same clusters

@@ -48,7 +48,7 @@ std::vector<Piece> one_piece_an_object(const scene::Scene& scene)
 {
   std::vector<Piece> pieces;
   for (const scene::Object& object : scene.objects) {
-    const scene::Material::Type type = scene.materials[static_cast<std::size_t>(object.material)].type;
+    const scene::Material::Type type = material_of(scene, object).type;
     if (object.triangle_count == 0 || type == scene::Material::Type::diffuse) continue;
     const auto first = scene.geometry.triangles.begin() + object.first_triangle;
     pieces.push_back({{first, first + object.triangle_count}, object.bounds});
