@@ -17,8 +17,8 @@ struct MapPlan {
   std::vector<plan::PlannedBuffer> buffers; ///< of MapStage or SppmStage; none where it does not run
 };
 
-/// Paths from the eye that a pixel has in a pass of MapStage, 1..64: those that meet glass or a mirror first, which go on, are as many in
-/// the whole picture as there are photons, so that neither takes most of the time and neither most of the noise.
+/// Paths from the eye that a pixel has in a pass of MapStage, 1..64: those that meet glass or a mirror first, which go on, are a third as
+/// many in the whole picture as there are photons, so that neither takes most of the time and neither most of the noise.
 unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass);
 
 /// caustics: whether there are any to estimate, by splats or maps. film_bytes: of one film.
