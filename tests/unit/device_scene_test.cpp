@@ -151,6 +151,29 @@ TEST(DeviceTables, RefuseMoreMediaThanAPathCanCarry)
   EXPECT_THAT(refusal(), testing::StartsWith("p.json#/scene/lights/0/position: is inside 9 dielectric objects"));
 }
 
+TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
+{
+  const auto paths = [](const preset::Preset& p) {
+    const scene::Scene scene = scene::load_scene(p);
+    return spectral::make_device_tables(p, scene, scene::build_bvh(scene.geometry)).eye_paths;
+  };
+  preset::Preset p = scene_with({}, glass(1.5)); // a ball of radius 1
+  p.scene.camera.position = {0, 0, 4};
+  p.scene.camera.target = {0, 0, 0};
+  p.scene.camera.fov_deg = 90;
+  p.scene.camera.resolution = {128, 128};
+  p.spectral.photons_per_pass = 1 << 17;
+  // Its outline is a disc of radius 1 / sqrt(4^2 - 1) in a square of side 2.
+  const double share = M_PI / 15 / 4;
+  EXPECT_NEAR(paths(p), (1 << 17) / (3 * 128 * 128 * share), 3);
+  p.scene.camera.position = {0, 0, 0.5};
+  EXPECT_EQ(paths(p), 2u) << "all pixels look out of the glass";
+  p.spectral.photons_per_pass = 1 << 23;
+  EXPECT_EQ(paths(p), 64u);
+  p = scene_with({}, white());
+  EXPECT_EQ(paths(p), 1u);
+}
+
 bool planned_to_run(const plan::Plan& plan, const std::string& name, std::string* reason = nullptr)
 {
   for (const plan::Pass& pass : plan.passes)
