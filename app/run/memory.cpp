@@ -37,7 +37,7 @@ plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int hei
   // Beside it, one after the other: a film of two halves read back; the EXR writer's interleaved copy and its encoded file, each about as
   // large as the layers and their sum; the caustics that are smoothed; the error's draw, two pictures in XYZ and three summed areas, in
   // double. The report takes less, and a checkpoint is written piece by piece.
-  const std::uint64_t film = 48, exr = 2 * 12 * (layers + 1), smoothing = plan::runs(plan, "smoothing") ? 100 : 0,
+  const std::uint64_t film = 48, exr = 24 * (layers + 1), smoothing = plan::runs(plan, "smoothing") ? 100 : 0,
                       estimate = plan::runs(plan, "error estimate") ? 84 : 0;
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   return {"picture and its files (host)", pixels * (snapshot + std::max({film, exr, smoothing, estimate})), true};
