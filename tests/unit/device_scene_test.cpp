@@ -157,7 +157,9 @@ TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
     const scene::Scene scene = scene::load_scene(p);
     return spectral::make_device_tables(p, scene, scene::build_bvh(scene.geometry)).eye_paths;
   };
-  preset::Preset p = scene_with({}, glass(1.5)); // a ball of radius 1
+  preset::Shape ball;
+  ball.radius = 1;
+  preset::Preset p = scene_with(ball, glass(1.5));
   p.scene.camera.position = {0, 0, 4};
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.fov_deg = 90;
