@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the pictures of docs/thesis.md and docs/spectral.md again; ImageMagick puts them side by side.
 
-    tests/experiments/pictures.py PROGRAM OUT     writes OUT/thesis-scenes.png and OUT/smoothing.jpg
+    tests/experiments/pictures.py PROGRAM OUT     writes OUT/thesis-scenes.jpg and OUT/smoothing.jpg
 """
 import subprocess
 import sys
@@ -28,7 +28,7 @@ def scenes(e, out):
     folders = [e.run(f"scenes/{name}", f"spectral/thesis/{name}", whole, 64 if name == "bunny" else 24)[2] for name in SCENES]
     e.size = None
     folders += [e.run(f"scenes/{name}", f"spectral/{name}", whole, 24)[2] for name in OTHERS]
-    side_by_side(folders, 4, 0, out / "thesis-scenes.png")
+    side_by_side(folders, 4, 0, out / "thesis-scenes.jpg", "-quality", "88")
 
 
 def smoothing(e, out):
@@ -37,7 +37,7 @@ def smoothing(e, out):
     variants = [BRUTE, THESIS, PLAIN, OURS]
     folders = [e.run(f"smoothing/{index}", "spectral/thesis/bunny", spectral, seconds=8)[2] for index, spectral in enumerate(variants)]
     folders.append(e.run("smoothing/long", "spectral/thesis/bunny", PLAIN, 120)[2])
-    side_by_side(folders, 5, 1, out / "smoothing.jpg", "-quality", "90")
+    side_by_side(folders, 5, 1, out / "smoothing.jpg", "-quality", "85")
 
 
 if __name__ == "__main__":
