@@ -37,7 +37,7 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
 
 unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass)
 {
-  constexpr double most = 64, of_photons = 1.0 / 3; // a path takes about as long as three photons
+  constexpr double most = 64, of_photons = 1.0 / 3; // a path takes about twice as long as a photon
   if (!may_see_glass_or_mirror(scene)) return 1;
   const double pixels = static_cast<double>(scene.camera.width) * scene.camera.height * bent_share(scene, bvh);
   return static_cast<unsigned>(std::clamp(of_photons * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
