@@ -3,7 +3,7 @@
 #include "cli/command_line.h"
 
 #ifdef NEPHROID_UI
-#include "ui/window.h"
+#include "ui/shell/window.h"
 
 #include <CLI/CLI.hpp>
 

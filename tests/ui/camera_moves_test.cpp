@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mouse's camera moves against where a pinhole camera must then be, and see, by hand.
-#include "ui/camera_moves.h"
+#include "ui/view/camera_moves.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Holding runs against each other in the window: pinned runs, flip and difference in the View.
 #include "measure/history_file.h"
-#include "ui/actions.h"
-#include "ui/error_panel.h"
-#include "ui/shown_picture.h"
+#include "ui/error/panel.h"
+#include "ui/shell/actions.h"
+#include "ui/view/shown_picture.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>

@@ -5,8 +5,8 @@
 #include "spectral/clusters/clusters.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/dispersion_edits.h"
-#include "ui/dispersion_figures.h"
+#include "ui/dispersion/edits.h"
+#include "ui/dispersion/figures.h"
 
 #include <gmock/gmock.h>
 

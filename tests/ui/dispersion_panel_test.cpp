@@ -6,7 +6,7 @@
 #include "preset/read.h"
 #include "spectra_scene.h"
 #include "spectral/clusters/clusters.h"
-#include "ui/actions.h"
+#include "ui/shell/actions.h"
 
 #include <gmock/gmock.h>
 

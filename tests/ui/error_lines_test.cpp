@@ -4,8 +4,8 @@
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "measure/report_curves.h"
-#include "ui/error_lines.h"
-#include "ui/pinned_runs.h"
+#include "ui/error/lines.h"
+#include "ui/state/pinned_runs.h"
 
 #include <gmock/gmock.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Error against time": what it plots of any history, how its axes follow, how long a frame takes, what it copies.
 #include "measure/history_file.h"
-#include "ui/actions.h"
-#include "ui/error_panel.h"
+#include "ui/error/panel.h"
+#include "ui/shell/actions.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>

@@ -10,7 +10,7 @@
 #include "preset/relight.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/workbench.h"
+#include "ui/state/workbench.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Dear ImGui context without a window or a renderer: frames are drawn, the mouse and the keys are injected.
 #pragma once
-#include "ui/theme.h"
-#include "ui/workbench.h"
-#include "ui/workspace.h"
+#include "ui/shell/workspace.h"
+#include "ui/state/workbench.h"
+#include "ui/widgets/theme.h"
 
 #include <imgui.h>
 

@@ -2,7 +2,7 @@
 // Opening files in the window: what it asks before unsaved changes go, and what it says about files that are no preset.
 #include "headless.h"
 #include "preset/read.h"
-#include "ui/file_kind.h"
+#include "ui/state/file_kind.h"
 #include "workbench_fixture.h"
 
 #include <gmock/gmock.h>

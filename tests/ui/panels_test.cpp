@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole window without a display: the mouse and the keys are injected, the preset and the commands are looked at.
-#include "ui/actions.h"
-#include "ui/status_line.h"
+#include "ui/shell/actions.h"
+#include "ui/shell/status_line.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>

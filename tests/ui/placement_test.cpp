@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/placement.h"
+#include "ui/view/placement.h"
 
 #include <gtest/gtest.h>
 

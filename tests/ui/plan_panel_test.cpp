@@ -2,8 +2,8 @@
 // The panel "Plan": what is left out can be computed all the same by a click, which is an edit of the preset.
 #include "plan/plan.h"
 #include "preset/read.h"
-#include "ui/actions.h"
-#include "ui/plan_panel.h"
+#include "ui/plan/panel.h"
+#include "ui/shell/actions.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>

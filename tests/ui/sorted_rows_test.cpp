@@ -2,9 +2,9 @@
 // Rows by rising wavelength under edits: they keep apart and inside what a preset may have, drags are one entry, what cannot be is said.
 #include "optics/dispersion.h"
 #include "preset/describe_limits.h"
-#include "ui/dispersion_edits.h"
-#include "ui/light_edits.h"
-#include "ui/row_editor.h"
+#include "ui/dispersion/edits.h"
+#include "ui/spectra/light_edits.h"
+#include "ui/widgets/row_editor.h"
 
 #include <gmock/gmock.h>
 

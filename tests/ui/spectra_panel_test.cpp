@@ -4,8 +4,8 @@
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/tables/device_scene.h"
-#include "ui/light_edits.h"
-#include "ui/spectra_panel.h"
+#include "ui/spectra/light_edits.h"
+#include "ui/spectra/panel.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>

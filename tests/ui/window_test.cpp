@@ -7,7 +7,7 @@
 #include "places.h"
 #include "preset/read.h"
 #include "real_window.h"
-#include "ui/placement.h"
+#include "ui/view/placement.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

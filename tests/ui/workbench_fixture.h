@@ -2,7 +2,7 @@
 // The workbench on fake jobs and the program's real worker thread, without a window.
 #pragma once
 #include "fake_job.h"
-#include "ui/workbench.h"
+#include "ui/state/workbench.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window's runs on a real device with kernels from a folder: a changed kernel is built and shown, a broken one is a message.
+#include "base/files.h"
+#include "fake_job.h"
+#include "ui/state/device_runs.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using ::testing::StartsWith;
+
+class EngineTest : public ::testing::Test {
+protected:
+  test::TemporaryFolder folder;
+  const std::filesystem::path kernels = folder.path() / "kernels";
+
+  EngineTest() { std::filesystem::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, std::filesystem::copy_options::recursive); }
+  compute::DeviceOptions options() const { return {.selector = "", .kernels = kernels}; }
+  std::string source() const { return read_file(kernels / "direct.cl"); }
+  /// In one step: a temporary file beside the kernels would be a change of its own.
+  void write(const std::string& text) const
+  {
+    write_file_whole(folder.path() / "new.cl", text);
+    std::filesystem::rename(folder.path() / "new.cl", kernels / "direct.cl");
+  }
+};
+
+/// Brightness of a snapshot's picture; 0 where there is none.
+double sum(const std::shared_ptr<const job::Snapshot>& snapshot)
+{
+  double all = 0;
+  if (snapshot)
+    for (const float value : snapshot->picture->rgb) all += value;
+  return all;
+}
+
+TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
+{
+  DeviceRuns engine(options());
+  Workbench workbench(engine);
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2"}));
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
+  const double bright = sum(workbench.snapshot());
+  EXPECT_GT(bright, 0);
+  const std::uint64_t first_run = workbench.status().generation;
+
+  const std::string original = source();
+  write("this is no kernel\n" + original);
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::failed; }));
+  workbench.update();
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_THAT(workbench.messages()[0].line, StartsWith("direct.cl:1: "));
+  EXPECT_EQ(sum(workbench.snapshot()), bright) << "the last picture stays";
+
+  // Compiles again, and gives another picture: nothing is added to the film.
+  std::string dark = original;
+  const std::string adding = "(int)pixel, xyz,";
+  ASSERT_NE(dark.find(adding), std::string::npos);
+  dark.replace(dark.find(adding), adding.size(), "(int)pixel, 0.0f * xyz,");
+  write(dark);
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished && workbench.snapshot_is_current(); }));
+  EXPECT_EQ(sum(workbench.snapshot()), 0);
+  EXPECT_TRUE(workbench.messages().empty());
+
+  write(original);
+  ASSERT_TRUE(until([&] { return sum(workbench.snapshot()) == bright; })) << sum(workbench.snapshot());
+  EXPECT_EQ(workbench.status().generation, first_run + 3) << "a change is one run";
+}
+
+TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt)
+{
+  DeviceRuns engine(options());
+  Workbench workbench(engine);
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=null", "stop.seconds=3600"}));
+  ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
+  write(source() + "\n");
+  ASSERT_TRUE(until([&] { return workbench.status().generation == 2; }));
+  ASSERT_TRUE(until([&] { return workbench.snapshot_is_current(); }));
+}
+
+TEST_F(EngineTest, WithoutAFolderNothingChanges)
+{
+  DeviceRuns engine({});
+  const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
+  NewRun run = engine.make(preset);
+  ASSERT_NE(run.job, nullptr);
+  EXPECT_FALSE(engine.take_changed());
+}
+
+TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
+{
+  DeviceRuns engine(options());
+  Workbench workbench(engine);
+  const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2", "spectral.relight=true"}));
+  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
+  const double bright = sum(workbench.snapshot());
+  const std::uint64_t run = workbench.status().generation;
+  EXPECT_GT(bright, 0);
+
+  preset::Preset edited = *workbench.preset();
+  edited.scene.lights[0].power_w *= 3;
+  workbench.apply({command::Edit{"power", edited, 1, false}});
+  ASSERT_TRUE(until([&] { return workbench.snapshot_is_current(); }));
+  EXPECT_NEAR(sum(workbench.snapshot()) / bright, 3, 1e-4);
+  EXPECT_EQ(workbench.snapshot()->progress.step, 2);
+  EXPECT_EQ(workbench.status().generation, run);
+}
+
+} // namespace
+} // namespace nephroid::ui

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the panel "Dispersion" shows, kept as long as the fields it comes from stay as they are: one dielectric's curve, its clusters
+// by every method and what they mean. No Dear ImGui here.
+#pragma once
+#include "preset/preset.h"
+#include "ui/dispersion/figures.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+struct GlassCurve {
+  std::string error;               ///< why n is not known at all 401 wavelengths: one line; else empty
+  std::string name;                ///< "N-SF66", "points"
+  std::string note;                ///< what is said about wavelengths outside of the data; may be empty
+  std::array<double, 2> data_nm{}; ///< the data's own range
+  optics::Spectrum n{}, k{};       ///< where there is no error
+  bool points = false, has_k = false;
+  /// To be drawn: every nanometre of 380..780, and some beyond. NaN where there is no value. line_k is empty without k.
+  std::vector<double> line_nm, line_n, line_k;
+};
+/// where: the field's FILE#/json/pointer, for messages. Whatever is wrong becomes the curve's error.
+GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const std::string& where);
+
+class DispersionModel {
+public:
+  /// Makes anew what does not fit the preset any more; idle frames cost a comparison. Throws nothing. material: a dielectric of it.
+  void update(const preset::Preset& preset, const std::string& material);
+
+  const GlassCurve& curve() const { return *curve_; }
+  /// Empty where there are clusters, else why not.
+  const std::string& error() const { return error_; }
+  /// In the order of preset::Spectral::Method; only without an error().
+  const ClusterFigures& figures(spectral::ClusterMethod method) const { return figures_[static_cast<std::size_t>(method)]; }
+  /// Of the preset's method: the clusters of the curve, as bands and by wavelength.
+  const ClusterFigures& chosen() const { return figures(method_); }
+  const std::vector<Band>& bands() const { return bands_; }
+  const std::array<std::size_t, optics::wavelength_count>& cluster_of() const { return cluster_of_; }
+  /// How many the run has: of all glasses that objects are made of, by brute force of step_nm neighbours, with differentials as they
+  /// need them. Nothing where no object is made of glass, one of the curves has an error, or layers for another light absorb.
+  std::optional<std::size_t> clusters_of_run() const { return clusters_of_run_; }
+
+  /// How often each was made, for tests.
+  int curves_made() const { return curves_made_; }
+  int clusterings_made() const { return clusterings_made_; }
+
+private:
+  struct Glass {
+    preset::Dispersion dispersion;
+    std::string source;
+    GlassCurve curve;
+  };
+  /// True where the material's curve was made anew.
+  bool update_curve(const preset::Preset& preset, const std::string& material);
+  void cluster();
+  void combine(const preset::Spectral& settings);
+
+  std::map<std::string, Glass> glasses_; ///< by material
+  std::vector<std::string> used_;        ///< materials of the objects
+  std::string material_;                 ///< the one that is shown
+  double threshold_deg_ = 0;
+  spectral::ClusterMethod method_ = spectral::ClusterMethod::optimal;
+  int step_nm_ = 1;
+  bool differentials_ = false, relight_ = false;
+
+  const GlassCurve* curve_ = nullptr; ///< in glasses_
+  std::string error_;
+  std::array<ClusterFigures, 3> figures_;
+  std::vector<Band> bands_;
+  std::array<std::size_t, optics::wavelength_count> cluster_of_{};
+  std::optional<std::size_t> clusters_of_run_;
+  int curves_made_ = 0, clusterings_made_ = 0;
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/error/panel.h"
+
+#include "measure/report_curves.h"
+#include "measure/report_metrics.h"
+#include "ui/shell/actions.h"
+#include "ui/state/workbench.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr const char* this_run = "this run";
+constexpr const char* nothing_measured = "nothing measured"; ///< in the box of metrics, as wide as any name of one
+
+/// Every metric of the run in hand and of the pinned ones, each once.
+std::vector<std::string> all_metrics(const Workbench& workbench)
+{
+  std::vector<std::string> all;
+  const auto add = [&](const job::History& history) {
+    for (std::string& metric : measure::metric_names(history))
+      if (std::find(all.begin(), all.end(), metric) == all.end()) all.push_back(std::move(metric));
+  };
+  if (const auto history = workbench.error_history()) add(*history);
+  for (const PinnedRun& pin : workbench.pinned().all()) add(*pin.history);
+  return all;
+}
+
+std::string empty_hint(const Workbench& workbench)
+{
+  if (!workbench.preset()) return "Open a preset: its error is measured while it runs. Or open the history of an earlier run.";
+  if (!workbench.snapshot()) return "Nothing is measured yet";
+  if (!workbench.error_history()) return "This run is not measured: the preset has no reference, and measure.estimate is false";
+  return "The first measurement is to come";
+}
+
+/// The target where it is about this metric.
+std::optional<double> target_of(const Workbench& workbench, const std::string& metric)
+{
+  const auto history = workbench.error_history();
+  if (!history || measure::error_column_of(history->error_column).metric != metric) return std::nullopt;
+  return history->target;
+}
+
+} // namespace
+
+std::string shown_metric(const Workbench& workbench)
+{
+  const std::vector<std::string> all = all_metrics(workbench);
+  const auto there = [&](const std::string& metric) { return std::find(all.begin(), all.end(), metric) != all.end(); };
+  if (there(workbench.error_metric())) return workbench.error_metric();
+  if (const auto history = workbench.error_history(); history && there(measure::error_column_of(history->error_column).metric))
+    return measure::error_column_of(history->error_column).metric;
+  return all.empty() ? std::string() : all.front();
+}
+
+std::string plot_as_csv(const Workbench& workbench)
+{
+  const std::string metric = shown_metric(workbench);
+  std::vector<RunLines> lines;
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name, const job::History& history) {
+    lines.push_back(lines_of(history, metric));
+    names.push_back(name);
+  };
+  for (const PinnedRun& pin : workbench.pinned().all())
+    if (pin.shown) add(pin.name, *pin.history);
+  if (const auto history = workbench.error_history()) add(this_run, *history);
+  std::vector<NamedLines> named;
+  for (std::size_t i = 0; i < lines.size(); ++i) named.push_back({names[i], &lines[i]});
+  return plot_csv(named, target_of(workbench, metric));
+}
+
+const RunLines& ErrorPanel::lines(std::uint64_t id, const std::shared_ptr<const job::History>& history)
+{
+  Made& made = made_[id];
+  if (made.history != history || made.metric != contents_.metric)
+    made = {history, contents_.metric, history ? lines_of(*history, contents_.metric) : RunLines{}};
+  return made.lines;
+}
+
+void ErrorPanel::collect(const Workbench& workbench)
+{
+  contents_.metric = shown_metric(workbench);
+  contents_.target = target_of(workbench, contents_.metric);
+  contents_.runs.clear();
+  std::erase_if(made_, [&](const auto& entry) { return entry.first != 0 && !workbench.pinned().find(entry.first); });
+  for (const PinnedRun& pin : workbench.pinned().all())
+    if (const RunLines& of_pin = lines(pin.id, pin.history); pin.shown && !of_pin.empty())
+      contents_.runs.push_back({pin.name, pin.colour, 1.5f, &of_pin});
+  if (const RunLines& present = lines(0, workbench.error_history()); !present.empty())
+    contents_.runs.push_back({this_run, colour::text, 2, &present});
+}
+
+void ErrorPanel::draw(const Workbench& workbench, Commands& commands)
+{
+  collect(workbench);
+  draw_toolbar(workbench, commands);
+  const float em = ImGui::GetFontSize(), height = ImGui::GetContentRegionAvail().y;
+  const float pins =
+      workbench.pinned().all().empty() ? 0 : std::min(0.45f * height, 4.2f * em * static_cast<float>(workbench.pinned().all().size()));
+  plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em));
+  if (contents_.runs.empty()) {
+    const auto& area = plot_.area();
+    draw_hint({static_cast<float>(area[0]), static_cast<float>(area[1])}, {static_cast<float>(area[2]), static_cast<float>(area[3])},
+              empty_hint(workbench));
+  }
+  if (pins > 0) draw_pins(workbench, commands);
+}
+
+void ErrorPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
+{
+  const char* const shown = contents_.metric.empty() ? nothing_measured : contents_.metric.c_str();
+  ImGui::SetNextItemWidth(ImGui::CalcTextSize(shown).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
+  if (ImGui::BeginCombo("##metric", shown)) {
+    for (const std::string& metric : all_metrics(workbench))
+      if (ImGui::Selectable(metric.c_str(), metric == contents_.metric)) commands.push_back(command::ChooseMetric{metric});
+    ImGui::EndCombo();
+  }
+  ImGui::SetItemTooltip(
+      "The error that is shown; docs/comparing.md defines each. Solid: against the reference; dashed: the run's own estimate.");
+  ImGui::SameLine();
+  action_button("Pin this run", workbench, commands);
+  ImGui::SameLine();
+  action_button("Open history...", workbench, commands);
+  ImGui::SameLine();
+  if (ImGui::Button("Copy...")) ImGui::OpenPopup("copy");
+  if (ImGui::BeginPopup("copy")) {
+    action_item("Copy history as CSV", workbench, commands);
+    action_item("Copy plot as CSV", workbench, commands);
+    ImGui::EndPopup();
+  }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(plot_.follows());
+  if (ImGui::Button("All")) plot_.follow();
+  ImGui::EndDisabled();
+  ImGui::SetItemTooltip(
+      "Axes that show everything and grow with the run; a double click on the plot does the same. Wheel zooms, drag moves.");
+}
+
+void ErrorPanel::draw_pins(const Workbench& workbench, Commands& commands)
+{
+  if (ImGui::BeginChild("pins")) {
+    for (const PinnedRun& pin : workbench.pinned().all()) {
+      ImGui::PushID(static_cast<int>(pin.id));
+      draw_pin(workbench, pin, commands);
+      ImGui::PopID();
+    }
+  }
+  ImGui::EndChild();
+}
+
+void ErrorPanel::draw_pin(const Workbench& workbench, const PinnedRun& pin, Commands& commands)
+{
+  const auto change = [&](const std::string& name, std::uint32_t to_colour, bool shown) {
+    commands.push_back(command::ChangePin{pin.id, name, to_colour, shown});
+  };
+  bool shown = pin.shown;
+  if (ImGui::Checkbox("##shown", &shown)) change({}, pin.colour, shown);
+  ImGui::SetItemTooltip("In the plot");
+  ImGui::SameLine();
+  ImVec4 colour = ImGui::ColorConvertU32ToFloat4(pin.colour);
+  if (ImGui::ColorEdit3("##colour", &colour.x, ImGuiColorEditFlags_NoInputs)) change({}, ImGui::ColorConvertFloat4ToU32(colour), pin.shown);
+  ImGui::SameLine();
+  const float buttons = ImGui::CalcTextSize("CompareUnpin").x + 4 * ImGui::GetStyle().FramePadding.x + 3 * ImGui::GetStyle().ItemSpacing.x +
+                        ImGui::GetFrameHeight();
+  ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - buttons, 4 * ImGui::GetFontSize()));
+  std::string name = pin.name;
+  input_text("##name", "name", name);
+  if (ImGui::IsItemDeactivatedAfterEdit()) change(name, pin.colour, pin.shown);
+  ImGui::SameLine();
+  const bool compared = workbench.comparison().pin == pin.id;
+  if (ImGui::RadioButton("Compare", compared)) commands.push_back(command::CompareWith{compared ? 0 : pin.id});
+  ImGui::SetItemTooltip("%s", pin.picture ? "The View flips to this run's picture and shows the difference from it"
+                                          : "Only a history was read: the View has no picture of this run");
+  ImGui::SameLine();
+  if (ImGui::Button("Unpin")) commands.push_back(command::Unpin{pin.id});
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s", findings(workbench, pin).c_str());
+  ImGui::PopTextWrapPos();
+}
+
+/// The run's slope, and how much faster the run in hand is at equal error: the error and both times belong to it.
+std::string ErrorPanel::findings(const Workbench& workbench, const PinnedRun& pin)
+{
+  const RunLines &of_pin = lines(pin.id, pin.history), &present = lines(0, workbench.error_history());
+  if (of_pin.empty()) return fmt::format("no {} in its history", contents_.metric.empty() ? "error" : contents_.metric);
+  std::string text;
+  if (const auto& fit = of_pin.judged().fit) text = fmt::format("slope {:.2f}; ", fit->exponent);
+  const auto equal = speed_up(of_pin, present);
+  if (!equal) return text + "no error yet that both runs came to";
+  return text + fmt::format("at {} {:.3g}{}: {:.3g} s, this run {:.3g} s, {:.3g} times as fast", contents_.metric, equal->error,
+                            equal->by_estimate ? " by both estimates" : "", equal->seconds_a, equal->seconds_b, equal->speed_up());
+}
+
+} // namespace nephroid::ui

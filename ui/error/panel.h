@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Error against time": the history of the run in hand and of pinned runs, their slopes, and how much faster one is than
+// another at equal error.
+#pragma once
+#include "ui/error/plot.h"
+#include "ui/widgets/panel.h"
+
+#include <map>
+#include <memory>
+
+namespace nephroid::ui {
+
+struct PinnedRun;
+
+/// The metric that the plot shows: the chosen one where any run has it, else the run's own, else the first there is; else empty.
+std::string shown_metric(const Workbench& workbench);
+/// Every number of the plot as CSV (plot_csv); of the run in hand and of the pinned runs that are shown.
+std::string plot_as_csv(const Workbench& workbench);
+
+class ErrorPanel : public Panel {
+public:
+  static constexpr const char* title = "Error against time";
+  const char* name() const override { return title; }
+  void draw(const Workbench& workbench, Commands& commands) override;
+
+  /// For tests: what was drawn last.
+  const ErrorPlot& plot() const { return plot_; }
+  const PlotContents& contents() const { return contents_; }
+
+private:
+  /// Lines of a history, made anew when the history or the metric is another.
+  struct Made {
+    std::shared_ptr<const job::History> history;
+    std::string metric;
+    RunLines lines;
+  };
+
+  void collect(const Workbench& workbench);
+  /// id: of a pinned run, 0 for the run in hand.
+  const RunLines& lines(std::uint64_t id, const std::shared_ptr<const job::History>& history);
+  void draw_toolbar(const Workbench& workbench, Commands& commands);
+  void draw_pins(const Workbench& workbench, Commands& commands);
+  void draw_pin(const Workbench& workbench, const PinnedRun& pin, Commands& commands);
+  std::string findings(const Workbench& workbench, const PinnedRun& pin);
+
+  std::map<std::uint64_t, Made> made_;
+  PlotContents contents_;
+  ErrorPlot plot_;
+};
+
+} // namespace nephroid::ui

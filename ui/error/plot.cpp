@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/error/plot.h"
+
+#include "measure/report_metrics.h"
+#include "ui/widgets/plots.h"
+#include "ui/widgets/theme.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <implot.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr float dash = 6, gap = 4; ///< pixels at scale 1
+
+/// A polyline in dashes of equal length on the screen: ImPlot has none. Inside of a plot.
+void plot_dashed(const char* label, const measure::Curve& curve, ImPlotSpec spec)
+{
+  std::vector<double> x, y; // pairs: begin and end of every dash
+  float walked = 0;         // along the line, in pixels
+  const float period = (dash + gap) * scale(), on = dash * scale();
+  const auto add = [&](const ImVec2& pixel) {
+    const ImPlotPoint point = ImPlot::PixelsToPlot(pixel);
+    x.push_back(point.x);
+    y.push_back(point.y);
+  };
+  ImVec2 from = curve.seconds.empty() ? ImVec2() : ImPlot::PlotToPixels(curve.seconds[0], curve.errors[0]);
+  for (std::size_t i = 1; i < curve.seconds.size(); ++i) {
+    const ImVec2 to = ImPlot::PlotToPixels(curve.seconds[i], curve.errors[i]);
+    const float length = std::hypot(to.x - from.x, to.y - from.y);
+    // Zoomed in far, a line may be a million dashes long: then it is drawn whole.
+    if (!(length < 1e4f)) {
+      add(from);
+      add(to);
+    } else
+      for (float at = 0; at < length;) {
+        const float phase = std::fmod(walked + at, period), left = (phase < on ? on : period) - phase;
+        const float next = std::min(length, at + std::max(left, 0.1f));
+        if (phase < on) {
+          add({from.x + (to.x - from.x) * at / length, from.y + (to.y - from.y) * at / length});
+          add({from.x + (to.x - from.x) * next / length, from.y + (to.y - from.y) * next / length});
+        }
+        at = next;
+      }
+    walked = std::fmod(walked + std::min(length, 1e4f), period);
+    from = to;
+  }
+  spec.Flags |= ImPlotLineFlags_Segments;
+  ImPlot::PlotLine(label, x.data(), y.data(), static_cast<int>(x.size()), spec);
+}
+
+/// "run, slope -0.50###1e": what follows ### keeps the item the same while the slope changes.
+std::string label_of(const std::string& name, const ErrorLine& line, std::size_t run, const char* kind)
+{
+  const std::string slope = line.fit ? fmt::format(", slope {:.2f}", line.fit->exponent) : std::string();
+  return fmt::format("{}{}###{}{}", name, slope, run, kind);
+}
+
+void plot_line(const std::string& label, const ErrorLine& line, const PlottedRun& run, bool dashed)
+{
+  if (line.drawn.seconds.empty()) return;
+  ImPlotSpec spec = line_spec(run.colour, dashed ? 0.75f * run.weight : run.weight);
+  if (line.drawn.seconds.size() == 1) { // no line yet
+    spec.Marker = ImPlotMarker_Circle;
+    spec.MarkerSize = 3 * scale();
+  }
+  if (dashed && line.drawn.seconds.size() > 1)
+    plot_dashed(label.c_str(), line.drawn, spec);
+  else
+    ImPlot::PlotLine(label.c_str(), line.drawn.seconds.data(), line.drawn.errors.data(), static_cast<int>(line.drawn.seconds.size()), spec);
+}
+
+void plot_level(const std::string& label, double error, std::uint32_t colour, bool dashed)
+{
+  const ImPlotRange x = ImPlot::GetPlotLimits().X;
+  const measure::Curve level{{x.Min, x.Max}, {error, error}};
+  if (dashed)
+    plot_dashed(label.c_str(), level, line_spec(colour, 1));
+  else
+    ImPlot::PlotLine(label.c_str(), level.seconds.data(), level.errors.data(), 2, line_spec(colour, 1));
+}
+
+/// The value of every line at the row nearest to the cursor's time.
+void draw_values(const PlotContents& contents)
+{
+  const double seconds = ImPlot::GetPlotMousePos().x;
+  if (!ImGui::BeginTooltip()) return;
+  ImGui::TextDisabled("%s", fmt::format("{} at {:.3g} s of work", contents.metric, seconds).c_str());
+  for (const PlottedRun& run : contents.runs) {
+    const auto error = nearest_point(run.lines->error.curve, seconds), estimate = nearest_point(run.lines->estimate.curve, seconds);
+    if (!error && !estimate) continue;
+    std::string text = run.name + ":";
+    if (error) text += fmt::format("  {:.4g} ({:.3g} s)", error->error, error->seconds);
+    if (estimate) text += fmt::format("  estimate {:.4g}", estimate->error);
+    if (estimate && !error) text += fmt::format(" ({:.3g} s)", estimate->seconds);
+    ImGui::PushStyleColor(ImGuiCol_Text, run.colour);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+  }
+  ImGui::EndTooltip();
+  const ImVec2 top = ImPlot::GetPlotPos();
+  const float x = ImGui::GetIO().MousePos.x;
+  ImPlot::GetPlotDrawList()->AddLine({x, top.y}, {x, top.y + ImPlot::GetPlotSize().y}, colour::frame, scale());
+}
+
+/// ImPlot's own ticks of a log axis have no numbers within a decade.
+void set_up_ticks(ImAxis axis, const std::array<double, 2>& ends)
+{
+  const std::vector<double> ticks = axis_ticks(ends);
+  std::vector<std::string> texts;
+  std::vector<const char*> labels;
+  for (const double tick : ticks) texts.push_back(fmt::format("{:.3g}", tick));
+  for (const std::string& text : texts) labels.push_back(text.c_str());
+  ImPlot::SetupAxisTicks(axis, ticks.data(), static_cast<int>(ticks.size()), labels.data());
+}
+
+/// "mean CIELAB distance", with its unit where it says more than its name.
+std::string axis_label(const std::string& metric)
+{
+  const measure::MetricText text = measure::metric_text(metric);
+  return text.unit.empty() ? text.label : fmt::format("{} ({})", text.label, text.unit);
+}
+
+void set_up_axes(const PlotContents& contents, const PlotRange& range, bool follows)
+{
+  const bool is_log = measure::metric_text(contents.metric).falls;
+  ImPlot::SetupAxes("seconds of work", contents.metric.empty() ? nullptr : axis_label(contents.metric).c_str());
+  ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
+  ImPlot::SetupAxisScale(ImAxis_Y1, is_log ? ImPlotScale_Log10 : ImPlotScale_Linear);
+  set_up_ticks(ImAxis_X1, range.seconds);
+  if (is_log) set_up_ticks(ImAxis_Y1, range.errors);
+  if (follows) {
+    ImPlot::SetupAxisLimits(ImAxis_X1, range.seconds[0], range.seconds[1], ImPlotCond_Always);
+    ImPlot::SetupAxisLimits(ImAxis_Y1, range.errors[0], range.errors[1], ImPlotCond_Always);
+  }
+  ImPlot::SetupLegend(ImPlotLocation_SouthWest, ImPlotLegendFlags_Reverse);
+  ImPlot::SetupFinish();
+}
+
+void plot_runs(const PlotContents& contents)
+{
+  std::optional<double> noise_floor;
+  for (std::size_t i = 0; i < contents.runs.size(); ++i) {
+    const PlottedRun& run = contents.runs[i];
+    if (run.lines->noise_floor) noise_floor = run.lines->noise_floor; // of the one in front: another's reference is another
+    const bool both = !run.lines->error.drawn.seconds.empty();        // the legend's swatches are squares: words say which line is dashed
+    plot_line(label_of(run.name, run.lines->error, i, "e"), run.lines->error, run, false);
+    plot_line(label_of(run.name + (both ? ", estimate (dashed)" : " (estimate, dashed)"), run.lines->estimate, i, "s"), run.lines->estimate,
+              run, true);
+  }
+  if (noise_floor)
+    plot_level(fmt::format("noise floor of the reference {:.3g}###floor", *noise_floor), *noise_floor, colour::quiet_text, true);
+  if (contents.target) plot_level(fmt::format("target {:.3g}###target", *contents.target), *contents.target, colour::note, false);
+}
+
+} // namespace
+
+void ErrorPlot::draw(const PlotContents& contents, float height)
+{
+  std::vector<const RunLines*> lines;
+  std::vector<double> levels;
+  for (const PlottedRun& run : contents.runs) {
+    lines.push_back(run.lines);
+    if (run.lines->noise_floor) levels.push_back(*run.lines->noise_floor);
+  }
+  if (contents.target) levels.push_back(*contents.target);
+  constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText;
+  if (!ImPlot::BeginPlot("##error against time", {-1, height}, flags)) return;
+  // While nobody holds the axes they are as wide as what there is; else as they were drawn last, which the ticks go by.
+  set_up_axes(contents, follows_ ? plot_range(lines, levels) : shown_, follows_);
+  plot_runs(contents);
+  const ImPlotRect limits = ImPlot::GetPlotLimits();
+  shown_ = {{limits.X.Min, limits.X.Max}, {limits.Y.Min, limits.Y.Max}};
+  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
+  area_ = {corner.x, corner.y, size.x, size.y};
+  const bool hovered = ImPlot::IsPlotHovered();
+  if (hovered && !contents.runs.empty()) draw_values(contents);
+  ImPlot::EndPlot();
+  if (!hovered) return;
+  // The axes are held while they follow; the gesture that lets them go takes effect with the next frame.
+  if (ImGui::GetIO().MouseWheel != 0 || ImGui::IsMouseDragging(ImGuiMouseButton_Left) || ImGui::IsMouseDragging(ImGuiMouseButton_Right))
+    follows_ = false;
+  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) follows_ = true;
+}
+
+} // namespace nephroid::ui

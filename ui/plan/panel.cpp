@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/plan/panel.h"
+
+#include "preset/read.h"
+#include "ui/shell/actions.h"
+#include "ui/state/workbench.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace nephroid::ui {
+namespace {
+
+/// "a.b.c" of "/a/b/c", as --set takes it. Names of fields hold no '/', '~' or '.'.
+std::string path_of(const std::string& pointer)
+{
+  std::string path = pointer.substr(std::min<std::size_t>(1, pointer.size()));
+  std::replace(path.begin(), path.end(), '/', '.');
+  return path;
+}
+
+std::optional<double> seconds_of(const job::Snapshot* snapshot, const std::string& pass)
+{
+  if (!snapshot) return std::nullopt;
+  for (const auto& [phase, seconds] : snapshot->phases)
+    if (phase == pass) return seconds;
+  return std::nullopt;
+}
+
+void heading(const char* text)
+{
+  ImGui::Spacing();
+  ImGui::SeparatorText(text);
+}
+
+void seconds_cell(std::optional<double> seconds)
+{
+  ImGui::TableNextColumn();
+  if (seconds) ImGui::Text("%.3g s", *seconds);
+}
+
+/// Seconds that are no pass of the plan's: other phases, and measuring, which is not in the work's time.
+void draw_other_seconds(const Workbench& workbench, const plan::Plan& plan)
+{
+  const auto row = [](const std::string& name, double seconds, const char* why) {
+    ImGui::TableNextRow();
+    ImGui::TableSetColumnIndex(1);
+    ImGui::TextUnformatted(name.c_str());
+    seconds_cell(seconds);
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", why);
+  };
+  if (!workbench.snapshot()) return;
+  for (const auto& [phase, seconds] : workbench.snapshot()->phases)
+    if (std::none_of(plan.passes.begin(), plan.passes.end(), [&, name = phase](const plan::Pass& pass) { return pass.name == name; }))
+      row(phase, seconds, "");
+  if (const auto history = workbench.error_history()) row("measuring", history->measuring_seconds, "not counted as work");
+}
+
+void draw_buffers(const plan::Plan& plan)
+{
+  std::uint64_t total = 0;
+  for (const plan::PlannedBuffer& buffer : plan.buffers) total += buffer.bytes;
+  heading(fmt::format("Memory: {}###memory", plan::readable_bytes(total)).c_str());
+  if (!ImGui::BeginTable("buffers", 2, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("buffer", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("bytes", ImGuiTableColumnFlags_WidthFixed);
+  for (const plan::PlannedBuffer& buffer : plan.buffers) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(buffer.name.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(plan::readable_bytes(buffer.bytes).c_str());
+    ImGui::SetItemTooltip("%s", fmt::format("{} bytes", buffer.bytes).c_str());
+  }
+  ImGui::EndTable();
+}
+
+void draw_defines(const plan::Plan& plan)
+{
+  if (plan.defines.empty()) return;
+  heading("Kernels are built with");
+  ImGui::PushTextWrapPos(0);
+  for (const auto& [name, value] : plan.defines)
+    ImGui::TextDisabled("%s", fmt::format("-D {}{}{}", name, value.empty() ? "" : "=", value).c_str());
+  ImGui::PopTextWrapPos();
+}
+
+void draw_notes(const plan::Plan& plan)
+{
+  if (plan.notes.empty()) return;
+  heading("Notes");
+  ImGui::PushTextWrapPos(0);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour::note);
+  for (const std::string& note : plan.notes) ImGui::TextUnformatted(note.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+}
+
+} // namespace
+
+preset::Preset with_field(const preset::Preset& preset, const std::string& pointer, bool value)
+{
+  preset::Preset edited = preset::parse_preset(preset::to_json(preset), preset.source, {path_of(pointer) + (value ? "=true" : "=false")});
+  edited.source = preset.source;
+  return edited;
+}
+
+void PlanPanel::draw(const Workbench& workbench, Commands& commands)
+{
+  const plan::Plan* plan = workbench.plan().get();
+  if (!plan) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    draw_hint(corner, ImGui::GetContentRegionAvail(),
+              workbench.preset() ? "The plan is being made" : "Open a preset: what it runs, what is left out and why");
+    return;
+  }
+  read_fields(workbench);
+  ImGui::AlignTextToFramePadding();
+  const auto left_out = std::count_if(plan->passes.begin(), plan->passes.end(), [](const plan::Pass& pass) { return !pass.runs; });
+  ImGui::TextUnformatted(fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->passes.size()).c_str());
+  ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 8, ImGui::GetFontSize() * 14));
+  action_button("Copy plan as JSON", workbench, commands);
+  if (ImGui::BeginChild("plan")) {
+    draw_passes(workbench, commands);
+    draw_buffers(*plan);
+    draw_defines(*plan);
+    draw_notes(*plan);
+  }
+  ImGui::EndChild();
+}
+
+/// What the fields say now: from the preset's JSON, in which the plan's pointers point. Only where plan or preset changed.
+void PlanPanel::read_fields(const Workbench& workbench)
+{
+  if (plan_ == workbench.plan() && preset_ == *workbench.preset()) return;
+  plan_ = workbench.plan();
+  preset_ = *workbench.preset();
+  boxes_.clear();
+  const nlohmann::json fields = nlohmann::json::parse(preset::to_json(preset_));
+  for (const plan::Pass& pass : plan_->passes) {
+    Box box{pass.name, std::nullopt, {}};
+    if (!pass.field.empty()) {
+      const nlohmann::json::json_pointer pointer(pass.field);
+      if (fields.contains(pointer) && fields[pointer].is_boolean()) box.computed = fields[pointer] == pass.run_value;
+    }
+    boxes_.push_back(std::move(box));
+  }
+}
+
+void PlanPanel::draw_passes(const Workbench& workbench, Commands& commands)
+{
+  if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
+  ImGui::TableSetupColumn("Always", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("Time", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableHeadersRow();
+  for (std::size_t i = 0; i < plan_->passes.size(); ++i) {
+    const plan::Pass& pass = plan_->passes[i];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushID(static_cast<int>(i));
+    if (boxes_[i].computed) draw_box(workbench, pass, boxes_[i], commands);
+    ImGui::PopID();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, pass.runs ? colour::text : colour::quiet_text);
+    ImGui::TextUnformatted(pass.name.c_str());
+    ImGui::PopStyleColor();
+    seconds_cell(seconds_of(workbench.snapshot().get(), pass.name));
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextDisabled("%s", (pass.runs ? "runs: " + pass.reason : "left out: " + pass.reason).c_str());
+    ImGui::PopTextWrapPos();
+  }
+  draw_other_seconds(workbench, *plan_);
+  ImGui::EndTable();
+}
+
+void PlanPanel::draw_box(const Workbench& workbench, const plan::Pass& pass, Box& box, Commands& commands) const
+{
+  bool computed = *box.computed;
+  if (ImGui::Checkbox("##computed", &computed)) {
+    const std::string label = (computed ? "compute " : "leave out ") + pass.name;
+    commands.push_back(command::Edit{label, with_field(*workbench.preset(), pass.field, computed ? pass.run_value : !pass.run_value)});
+  }
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  box.middle = {(low.x + high.x) / 2, (low.y + high.y) / 2};
+  ImGui::SetItemTooltip("%s", fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",
+                                          path_of(pass.field), pass.run_value)
+                                  .c_str());
+}
+
+std::optional<std::array<double, 2>> PlanPanel::box_of(const std::string& pass) const
+{
+  for (const Box& box : boxes_)
+    if (box.pass == pass && box.computed) return box.middle;
+  return std::nullopt;
+}
+
+} // namespace nephroid::ui

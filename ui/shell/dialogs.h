@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The dialogs: which file to open or to save, and what to do with unsaved changes. Which one is open is the workbench's question().
+#pragma once
+#include "preset/read.h"
+#include "ui/state/commands.h"
+
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+class Workbench;
+
+class Dialogs {
+public:
+  void draw(const Workbench& workbench, Commands& commands);
+
+private:
+  void begin(const Workbench& workbench);
+  void draw_open(Commands& commands);
+  void draw_open_history(Commands& commands);
+  void draw_save(Commands& commands);
+  void draw_unsaved(const Workbench& workbench, Commands& commands);
+
+  Question shown_ = Question::none;
+  std::string name_;                           ///< what the text field holds
+  std::vector<preset::ShippedPreset> shipped_; ///< read when the dialog opens
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/shell/glfw_window.h"
+
+#include "base/error.h"
+#include "ui/widgets/theme.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+/// What GLFW's callbacks, plain C functions, leave for the window that they belong to.
+struct Events {
+  std::vector<std::string> dropped;
+};
+
+Events& events_of(GLFWwindow* window) { return *static_cast<Events*>(glfwGetWindowUserPointer(window)); }
+
+std::string last_glfw_error()
+{
+  const char* description = nullptr;
+  glfwGetError(&description);
+  return description ? description : "no reason given";
+}
+
+Error no_window(const std::string& what)
+{
+  return failed("window", what + " (" + last_glfw_error() + ")", "run it in a desktop session or under xvfb-run",
+                "or use nephroid run PRESET");
+}
+
+GLFWwindow* open_glfw(const std::string& title, std::array<int, 2> size)
+{
+  if (!glfwInit()) throw no_window("no display");
+  // 3.0 is the oldest that the back end draws with; drivers give the newest that is compatible with it.
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  GLFWwindow* window = glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr);
+  if (window) return window;
+  const Error error = no_window("no OpenGL 3");
+  glfwTerminate();
+  throw error;
+}
+
+} // namespace
+
+GlfwWindow::GlfwWindow(const std::string& title, std::array<int, 2> size) : window_(open_glfw(title, size)), title_(title)
+{
+  glfwMakeContextCurrent(window_);
+  glfwSwapInterval(1);
+  glfwSetWindowUserPointer(window_, new Events);
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    for (int i = 0; i < count; ++i) events_of(window).dropped.emplace_back(paths[i]);
+  });
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.ConfigFlags |= ImGuiConfigFlags_DockingEnable;
+  io.IniFilename = nullptr; // the layout is built at every start (layout.h)
+  add_font();
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  back_ends_ = ImGui_ImplOpenGL3_Init("#version 130");
+  follow_scale();
+}
+
+GlfwWindow::~GlfwWindow()
+{
+  shut_down_back_ends();
+  ImGui::DestroyContext();
+  delete &events_of(window_);
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+void GlfwWindow::shut_down_back_ends()
+{
+  if (!std::exchange(back_ends_, false)) return;
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+}
+
+/// The scale changes when the window moves to another display.
+void GlfwWindow::follow_scale()
+{
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  const float scale = std::clamp(std::max(x, y), 0.5f, 8.0f);
+  if (scale == std::exchange(scale_, scale)) return;
+  set_theme(scale);
+}
+
+void GlfwWindow::begin_frame()
+{
+  glfwPollEvents();
+  follow_scale();
+  // Mouse, keys and focus; Dear ImGui may deal one burst of them out to several frames.
+  if (ImGui::GetCurrentContext()->InputEventsQueue.Size > 0) activity_ = true;
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void GlfwWindow::draw_frame()
+{
+  ImGui::Render();
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(window_, &width, &height);
+  glViewport(0, 0, width, height);
+  glClearColor(0.1f, 0.1f, 0.1f, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void GlfwWindow::present() { glfwSwapBuffers(window_); }
+
+std::vector<unsigned char> GlfwWindow::read_back(int& width, int& height) const
+{
+  glfwGetFramebufferSize(window_, &width, &height);
+  const std::size_t row = 4 * static_cast<std::size_t>(width);
+  std::vector<unsigned char> pixels(row * static_cast<std::size_t>(height));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  // OpenGL's row 0 is at the bottom, and its alpha says nothing about what the screen shows.
+  for (std::size_t top = 0, bottom = static_cast<std::size_t>(height); top + 1 < bottom; ++top)
+    std::swap_ranges(&pixels[top * row], &pixels[top * row] + row, &pixels[--bottom * row]);
+  for (std::size_t i = 3; i < pixels.size(); i += 4) pixels[i] = 255;
+  return pixels;
+}
+
+void GlfwWindow::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
+
+bool GlfwWindow::close_requested() const { return glfwWindowShouldClose(window_); }
+
+void GlfwWindow::refuse_close() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+
+void GlfwWindow::set_title(const std::string& title)
+{
+  if (title != std::exchange(title_, title)) glfwSetWindowTitle(window_, title.c_str());
+}
+
+std::vector<std::string> GlfwWindow::take_dropped() { return std::exchange(events_of(window_).dropped, {}); }
+
+bool GlfwWindow::take_activity() { return std::exchange(activity_, false); }
+
+std::string GlfwWindow::renderer() const
+{
+  const GLubyte* name = glGetString(GL_RENDERER);
+  return name ? reinterpret_cast<const char*>(name) : "unknown";
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/shell/status_line.h"
+
+#include "base/counted.h"
+#include "job/pace.h"
+#include "ui/shell/actions.h"
+#include "ui/state/workbench.h"
+#include "ui/widgets/theme.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cmath>
+
+namespace nephroid::ui {
+namespace {
+
+/// How many there are; the lines themselves in a tooltip.
+void draw_notes(const Workbench& workbench)
+{
+  const std::vector<std::string> notes = workbench.notes();
+  if (notes.empty()) return;
+  ImGui::SameLine(0, ImGui::GetFontSize());
+  ImGui::PushStyleColor(ImGuiCol_Text, colour::note);
+  ImGui::TextUnformatted(counted(notes.size(), "note").c_str());
+  ImGui::PopStyleColor();
+  if (!ImGui::BeginItemTooltip()) return;
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40);
+  for (const std::string& note : notes) ImGui::TextUnformatted(note.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+} // namespace
+
+double seconds_left(const job::Progress& progress)
+{
+  if (progress.fraction < 0.005) return -1; // the first steps are not typical
+  return job::pace_between({}, progress).seconds_left;
+}
+
+const char* name_of(job::State state)
+{
+  switch (state) {
+  case job::State::idle:
+    return "no run";
+  case job::State::preparing:
+    return "preparing";
+  case job::State::running:
+    return "running";
+  case job::State::paused:
+    return "paused";
+  case job::State::finished:
+    return "finished";
+  case job::State::cancelled:
+    return "cancelled";
+  case job::State::failed:
+    return "failed";
+  }
+  return "";
+}
+
+std::string rate_text(const job::Progress& progress)
+{
+  const double rate = job::pace_between({}, progress).photons_per_second;
+  if (rate <= 0) return {};
+  if (rate >= 1e6) return fmt::format("{:.2f} M photons/s", rate / 1e6);
+  if (rate >= 1e3) return fmt::format("{:.1f} k photons/s", rate / 1e3);
+  return fmt::format("{:.0f} photons/s", rate);
+}
+
+std::string duration_text(double seconds)
+{
+  const auto whole = std::llround(seconds);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+void draw_status_line(const Workbench& workbench, Commands& commands)
+{
+  const job::Status& status = workbench.status();
+  const job::Progress& progress = status.progress;
+  const bool paused = status.state == job::State::paused;
+  const float em = ImGui::GetFontSize();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name_of(status.state));
+  ImGui::SameLine(em * 6);
+  ImGui::ProgressBar(static_cast<float>(progress.fraction), {em * 14, 0}, fmt::format("{:.0f} %", 100 * progress.fraction).c_str());
+  ImGui::SameLine();
+  if (paused) {
+    // The same action under the name that says what it does now.
+    if (ImGui::Button("Go on")) commands.push_back(command::Pause{false});
+  } else
+    action_button("Pause", workbench, commands);
+  ImGui::SameLine();
+  action_button("Cancel", workbench, commands);
+  ImGui::SameLine();
+  action_button("Start again", workbench, commands);
+  std::string text = rate_text(progress);
+  const double left = seconds_left(progress);
+  if (left > 0 && (status.state == job::State::running || paused)) text += "    " + duration_text(left) + " left";
+  if (progress.work_seconds > 0) text += fmt::format("    {} of work", duration_text(progress.work_seconds));
+  ImGui::SameLine(0, em);
+  ImGui::TextUnformatted(text.c_str());
+  draw_notes(workbench);
+  const char* help = "Mouse and keys: F1";
+  const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(help).x - em;
+  if (right < ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + em) return;
+  ImGui::SameLine(right);
+  ImGui::TextDisabled("%s", help);
+}
+
+} // namespace nephroid::ui

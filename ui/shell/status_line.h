@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The line at the window's foot: what the run does, how far it is, how fast, how long it still takes, and how to hold or end it.
+#pragma once
+#include "job/worker.h"
+#include "ui/state/commands.h"
+
+#include <string>
+
+namespace nephroid::ui {
+
+class Workbench;
+
+void draw_status_line(const Workbench& workbench, Commands& commands);
+
+/// Seconds still to work at the rate so far; negative where it cannot be said yet.
+double seconds_left(const job::Progress& progress);
+/// "running", "finished", ...
+const char* name_of(job::State state);
+/// "1.8 M photons/s", empty before there is a rate.
+std::string rate_text(const job::Progress& progress);
+/// "12 s", "3 min 05 s", "2 h 10 min".
+std::string duration_text(double seconds);
+
+} // namespace nephroid::ui

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/shell/window.h"
+
+#include "base/error.h"
+#include "image/image.h"
+#include "preset/read.h"
+#include "ui/shell/frame_clock.h"
+#include "ui/shell/glfw_window.h"
+#include "ui/shell/layout.h"
+#include "ui/shell/status_line.h"
+#include "ui/shell/workspace.h"
+#include "ui/state/device_runs.h"
+#include "ui/state/file_kind.h"
+#include "ui/state/pinned_runs.h"
+#include "ui/state/workbench.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+namespace nephroid::ui {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int frames_before_screenshot = 60;
+constexpr std::chrono::milliseconds hands_rest{500}; ///< after the last touch the display's rate is kept this long
+
+std::string title(const Workbench& workbench)
+{
+  const preset::Preset* preset = workbench.preset();
+  if (!preset) return "Nephroid";
+  const std::string name = preset->name.empty() ? preset->source : preset->name;
+  return fmt::format("{}{} - Nephroid", workbench.history()->modified() ? "* " : "", name);
+}
+
+bool is_over(job::State state)
+{
+  return state == job::State::finished || state == job::State::cancelled || state == job::State::failed || state == job::State::idle;
+}
+
+/// Pins the histories and opens the first preset that can be opened. Behind it only runs are expected: what is none leaves its message.
+void open_first(Workbench& workbench, const Options& options)
+{
+  bool opened = false;
+  for (const std::string& file : options.files)
+    if (opened || is_history(file))
+      workbench.apply({command::PinFile{file}});
+    else
+      opened = workbench.open(file, options.overrides);
+  if (options.files.empty()) workbench.apply({command::Ask{Question::open}});
+}
+
+struct Screen {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgba8;
+};
+
+/// The loop of one window, from its first frame to its last.
+class Loop {
+public:
+  Loop(const Options& options, GlfwWindow& window, Workbench& workbench, Workspace& workspace)
+      : options_(options), window_(window), workbench_(workbench), workspace_(workspace),
+        clock_(options.frames > 0 || !options.frame_times.empty(), options.frame_times)
+  {
+    limit_ = options.frames > 0 ? options.frames : options.screenshot.empty() ? 0 : frames_before_screenshot;
+  }
+
+  void run()
+  {
+    while (!done_) {
+      frame();
+      if (!done_) rest();
+    }
+    if (clock_.keeps()) fmt::print(stderr, "window: {}; {}\n", clock_.summary(), window_.renderer());
+  }
+
+private:
+  void frame()
+  {
+    clock_.begin();
+    window_.begin_frame();
+    if (window_.take_activity()) last_touch_ = Clock::now();
+    workbench_.update();
+    Commands commands = workspace_.draw(workbench_);
+    for (const std::string& file : window_.take_dropped()) commands.push_back(command::Open{file});
+    if (window_.close_requested()) {
+      window_.refuse_close(); // the workbench may have something to ask first
+      commands.push_back(command::Quit{});
+    }
+    window_.draw_frame();
+    done_ = workbench_.quitting() || is_last_frame();
+    Screen screen;
+    if (done_ && !options_.screenshot.empty()) screen.rgba8 = window_.read_back(screen.width, screen.height);
+    window_.present();
+    workbench_.apply(commands);
+    window_.set_title(title(workbench_));
+    const job::Status& status = workbench_.status();
+    clock_.end(name_of(status.state), status.progress.fraction);
+    if (!screen.rgba8.empty()) image::write_png_bytes(options_.screenshot, screen.width, screen.height, screen.rgba8);
+  }
+
+  bool is_last_frame() const
+  {
+    if (limit_ == 0 || clock_.frames() + 1 < static_cast<std::size_t>(limit_)) return false;
+    if (workbench_.works_on_files()) return false; // runs to pin, from the command line
+    const job::Status& status = workbench_.status();
+    if (options_.until <= 0) return true;
+    return is_over(status.state) || (options_.until < 1 && status.progress.fraction >= options_.until);
+  }
+
+  void rest()
+  {
+    const job::State state = workbench_.status().state;
+    FrameClock::Pace pace = FrameClock::Pace::idle;
+    if (Clock::now() - last_touch_ < hands_rest)
+      pace = FrameClock::Pace::hands_on;
+    else if (!is_over(state) && state != job::State::paused)
+      pace = FrameClock::Pace::running;
+    if (const double seconds = clock_.rest(pace); seconds > 0) window_.wait(seconds);
+  }
+
+  const Options& options_;
+  GlfwWindow& window_;
+  Workbench& workbench_;
+  Workspace& workspace_;
+  FrameClock clock_;
+  Clock::time_point last_touch_{};
+  int limit_ = 0; ///< frames to draw before closing, 0: until the person closes it
+  bool done_ = false;
+};
+
+/// What the workbench had to say and, where nobody was there to read it in the window, the exit code of the first error.
+int report_errors(const Workbench& workbench, bool unattended)
+{
+  int exit_code = 0;
+  for (const Message& message : workbench.messages()) {
+    if (!message.error) continue;
+    fmt::print(stderr, "nephroid: {}\n", message.line);
+    if (unattended && exit_code == 0) exit_code = static_cast<int>(message.kind);
+  }
+  return exit_code;
+}
+
+/// Where there is no display, a preset that cannot be read is said first: with one there, it would be the next thing in the way.
+std::unique_ptr<GlfwWindow> open_display(const Options& options)
+{
+  try {
+    return std::make_unique<GlfwWindow>("Nephroid", options.size);
+  } catch (const Error&) {
+    if (!options.files.empty() && !is_history(options.files.front())) {
+      refuse_other_kinds(options.files.front());
+      preset::read_preset(options.files.front(), options.overrides);
+    }
+    throw;
+  }
+}
+
+} // namespace
+
+int open_window(const Options& options)
+{
+  check_layout(options.layout);
+  const std::string cache_note = compute::prepare_kernel_cache(); // before OpenGL's and our own threads start
+  if (!cache_note.empty()) fmt::print(stderr, "note: {}\n", cache_note);
+  const std::unique_ptr<GlfwWindow> window = open_display(options);
+  compute::DeviceOptions device;
+  device.selector = options.device;
+  device.kernels = options.kernels;
+  DeviceRuns engine(device);
+  Workbench workbench(engine);
+  if (!cache_note.empty()) workbench.add_note(cache_note);
+  open_first(workbench, options);
+  {
+    Workspace workspace(options.layout);
+    Loop(options, *window, workbench, workspace).run();
+    window->shut_down_back_ends(); // before the panels: their textures belong to the renderer
+  }
+  return report_errors(workbench, !options.screenshot.empty());
+}
+
+} // namespace nephroid::ui

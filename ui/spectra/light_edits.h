@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edits of a light's spectrum as pure functions from one to the next: its type, and the rows of a table or of lines. No Dear ImGui.
+#pragma once
+#include "preset/preset.h"
+#include "ui/widgets/sorted_rows.h"
+
+namespace nephroid::ui {
+
+/// (nm, relative power)
+using PowerRow = Row;
+
+/// Whether its rows can be dragged: lines and tables.
+bool has_rows(const preset::LightSpectrum& spectrum);
+/// Its largest power; 1 where that is 0 or there are no rows.
+double largest_power(const preset::LightSpectrum& spectrum);
+
+/// The spectrum as another type, as near to what it was as that type can be: a table has a row every 20 nm of 380..780, lines are the
+/// rows of a table, or three of 450, 550 and 650 nm; lines become a table with these rows. Powers are relative to the largest. A black
+/// body or an illuminant cannot be near to anything: 6500 K and D65. What has no power, or is wrong, becomes rows of power 1.
+preset::LightSpectrum as_type(const preset::LightSpectrum& spectrum, preset::LightSpectrum::Type type);
+
+/// The rows by rising wavelength, as ui/widgets/sorted_rows.h expects them.
+preset::LightSpectrum sorted(preset::LightSpectrum spectrum);
+/// A table has two rows at least, lines one.
+RowRules row_rules(const preset::LightSpectrum& spectrum);
+/// A row in figures that a person reads: to 0.1 nm, the power to 4 figures.
+PowerRow readable(const PowerRow& row);
+/// Between those rows that are farthest apart within 380..780 nm, with the power that a table has there; a line with half the largest.
+PowerRow in_widest_gap(const preset::LightSpectrum& spectrum);
+
+} // namespace nephroid::ui

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/spectra/panel.h"
+
+#include "base/counted.h"
+#include "optics/spectrum.h"
+#include "preset/describe_limits.h"
+#include "ui/state/workbench.h"
+#include "ui/widgets/choice_combo.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/wavelength_axis.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+using Effort = preset::Spectral::Effort;
+using Type = preset::LightSpectrum::Type;
+
+constexpr std::size_t most_seen = 6; ///< materials around the glass that the table shows without scrolling
+
+float em() { return ImGui::GetFontSize(); }
+
+/// Goes on in the line where `width` still fits in it.
+void same_line_if_room(float width)
+{
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+}
+
+/// A box with a piece of its curve: the switches are the plot's legend. first: it begins a line.
+bool draw_switch(const std::string& name, std::uint32_t colour, bool& on, bool first = false)
+{
+  const float swatch = em(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const std::string ten_spaces(10, ' '); // ImGui rounds what a text is wide
+  const float space = ImGui::CalcTextSize(ten_spaces.c_str()).x / 10;
+  const std::string room(static_cast<std::size_t>(std::ceil((swatch + 1.5f * gap) / space)), ' '), label = room + name;
+  if (!first) same_line_if_room(ImGui::GetFrameHeight() + gap + ImGui::CalcTextSize(label.c_str(), nullptr, true).x);
+  const bool changed = ImGui::Checkbox(label.c_str(), &on);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float x = low.x + ImGui::GetFrameHeight() + gap, y = std::round((low.y + high.y) / 2), half = em() / 8;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({x, y - half}, {x + swatch, y + half}, on ? colour : colour::frame);
+  if (spectra_colour::is_dark(colour)) list.AddRect({x - 1, y - half - 1}, {x + swatch + 1, y + half + 1}, spectra_colour::rim);
+  return changed;
+}
+
+std::string times(std::int64_t more, std::int64_t fewer)
+{
+  return fmt::format("{:.3g}", static_cast<double>(more) / static_cast<double>(fewer));
+}
+
+} // namespace
+
+void SpectraPanel::draw(const Workbench& workbench, Commands& commands)
+{
+  if (!workbench.preset()) {
+    draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
+              "Open a preset: its light, what reflects it and what the eye makes of it");
+    return;
+  }
+  places_.clear();
+  maker_.update(*workbench.preset(), workbench.seen_by_glass());
+  choose_light(*workbench.preset());
+  draw_light(workbench, commands);
+  draw_switches();
+  draw_copy();
+  const Spectra& spectra = maker_.spectra();
+  const float line = ImGui::GetTextLineHeight(), cell = line + 2 * ImGui::GetStyle().CellPadding.y;
+  const auto seen = spectra.importance.surroundings.size();
+  const float table = seen == 0 ? 0 : static_cast<float>(std::min(seen, most_seen) + 1) * cell + ImGui::GetStyle().ItemSpacing.y;
+  const float below = 2 * line + ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.y + table;
+  draw_plot(workbench, commands, std::max(ImGui::GetContentRegionAvail().y - below, 16 * em()));
+  draw_numbers();
+  draw_effort(workbench, commands);
+  draw_surroundings();
+}
+
+/// The edited light of another preset, or of one with fewer lights, is the first.
+void SpectraPanel::choose_light(const preset::Preset& preset)
+{
+  if (source_ != preset.source || light_ >= preset.scene.lights.size()) light_ = 0;
+  source_ = preset.source;
+  spectrum_ = preset.scene.lights.empty() ? preset::LightSpectrum{} : sorted(preset.scene.lights[light_].spectrum);
+  editor_.keep(has_rows(spectrum_) ? spectrum_.table.size() : 0);
+}
+
+void SpectraPanel::draw_light(const Workbench& workbench, Commands& commands)
+{
+  if (workbench.preset()->scene.lights.empty()) {
+    draw_wrapped(colour::note, "The scene has no light");
+    return;
+  }
+  draw_light_choice(*workbench.preset());
+  draw_spectrum_controls(workbench, commands);
+  if (has_rows(spectrum_)) draw_row_controls(workbench, commands);
+  if (const std::string& error = maker_.spectra().lights[light_].error; !error.empty()) draw_wrapped(colour::error, error);
+}
+
+void SpectraPanel::draw_light_choice(const preset::Preset& preset)
+{
+  const auto name = [&](std::size_t i) { return fmt::format("Light {}, {}", i + 1, preset::word(preset.scene.lights[i].type)); };
+  if (preset.scene.lights.size() == 1) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Light");
+    return;
+  }
+  ImGui::SetNextItemWidth(10 * em());
+  if (ImGui::BeginCombo("##light", name(light_).c_str())) {
+    for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
+      if (ImGui::Selectable(name(i).c_str(), i == light_)) {
+        light_ = i;
+        editor_.unmark();
+        spectrum_ = sorted(preset.scene.lights[i].spectrum);
+      }
+    ImGui::EndCombo();
+  }
+  places_.note("light");
+}
+
+void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& commands)
+{
+  same_line_if_room(8 * em());
+  Type type = spectrum_.type;
+  if (choice_combo("##type", type)) {
+    gestures_.begin();
+    editor_.unmark();
+    edit_spectrum(workbench, as_type(spectrum_, type), "kind of spectrum", false, commands);
+  }
+  places_.note("type");
+  same_line_if_room(7 * em());
+  preset::LightSpectrum edited = spectrum_;
+  if (spectrum_.type == Type::illuminant) {
+    ImGui::SetNextItemWidth(6 * em());
+    if (ImGui::BeginCombo("##illuminant", edited.illuminant.c_str(), ImGuiComboFlags_HeightLarge)) {
+      for (const std::string& name : optics::illuminant_names()) {
+        if (ImGui::Selectable(name.c_str(), name == spectrum_.illuminant)) {
+          edited.illuminant = name;
+          gestures_.begin();
+          edit_spectrum(workbench, edited, "illuminant " + name, false, commands);
+        }
+        places_.note("illuminant " + name);
+      }
+      ImGui::EndCombo();
+    } else
+      ImGui::SetItemTooltip(
+          "CIE illuminant: A is a light bulb, D50 and D65 daylight, F1 to F12 fluorescent lamps, E the same at every wavelength");
+    places_.note("illuminant");
+  } else if (spectrum_.type == Type::blackbody) {
+    ImGui::SetNextItemWidth(9 * em());
+    auto kelvin = static_cast<float>(edited.temperature_k);
+    constexpr ImGuiSliderFlags flags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat;
+    const bool changed = ImGui::SliderFloat("##kelvin", &kelvin, 1000, 20000, "%.0f K", flags);
+    ImGui::SetItemTooltip("Temperature of the black body: 2856 K is a light bulb, 6500 K about daylight. Ctrl+click and type");
+    follow_widget(commands);
+    if (changed) {
+      edited.temperature_k = std::clamp(std::round(static_cast<double>(kelvin)), 300.0, 1e6);
+      edit_spectrum(workbench, edited, "temperature", true, commands);
+    }
+    places_.note("temperature");
+  } else {
+    ImGui::TextDisabled("%s", counted(spectrum_.table.size(), "row").c_str());
+    ImGui::SetItemTooltip("Drag a point. A double click adds one, a click with the right button removes one.");
+  }
+}
+
+/// The marked row in numbers, and buttons for what the mouse does too.
+void SpectraPanel::draw_row_controls(const Workbench& workbench, Commands& commands)
+{
+  const std::vector<PowerRow>& rows = spectrum_.table;
+  const RowRules rules = row_rules(spectrum_);
+  const std::optional<std::size_t> marked = editor_.marked();
+  if (marked) {
+    PowerRow to = rows[*marked];
+    ImGui::SetNextItemWidth(6.5f * em());
+    bool changed = ImGui::DragScalar("##nm", ImGuiDataType_Double, &to[0], 0.5f, nullptr, nullptr, "%.1f nm");
+    ImGui::SetItemTooltip("Wavelength of the marked row. Drag it, or Ctrl+click and type");
+    follow_widget(commands);
+    places_.note("wavelength");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(6.5f * em());
+    const auto speed = static_cast<float>(0.005 * largest_power(spectrum_));
+    changed |= ImGui::DragScalar("##power", ImGuiDataType_Double, &to[1], speed, nullptr, nullptr, "%.4g");
+    ImGui::SetItemTooltip(
+        "Power of the marked row, relative to the others: the light's watts are spread like that. Drag it, or Ctrl+click and type");
+    follow_widget(commands);
+    places_.note("power");
+    ImGui::SameLine();
+    if (changed) edit_rows(workbench, editor_.follow({RowGesture::Kind::move, *marked, readable(to)}, rows, rules, commands), commands);
+  }
+  if (ImGui::Button("Add")) edit_rows(workbench, editor_.add(rows, in_widest_gap(spectrum_), rules, commands), commands);
+  places_.note("add");
+  ImGui::SetItemTooltip("One more row, in the widest gap; a double click in the plot adds one there.");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!marked || rows.size() <= rules.fewest);
+  if (ImGui::Button("Remove") || (marked && delete_pressed()))
+    edit_rows(workbench, editor_.remove(rows, *marked, rules, commands), commands);
+  places_.note("remove");
+  ImGui::EndDisabled();
+  if (marked) return;
+  same_line_if_room(12 * em());
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("click a point to mark it");
+}
+
+void SpectraPanel::draw_switches()
+{
+  const Spectra& spectra = maker_.spectra();
+  draw_switch("light", spectra_colour::light, switches_.light, true);
+  ImGui::SetItemTooltip("Power a nanometre of each light, relative to its largest; the one that is edited is filled");
+  draw_switch("luminosity", spectra_colour::luminosity, switches_.luminosity);
+  ImGui::SetItemTooltip("How bright the eye sees each wavelength: CIE 1931 y, 1 at 555 nm");
+  draw_switch("u", spectra_colour::u, switches_.u);
+  ImGui::SetItemTooltip("How much a wavelength matters: (4.15) of the thesis where the effort is importance");
+  draw_switch("iterations", spectra_colour::iterations, switches_.iterations);
+  ImGui::SetItemTooltip("How many of the preset's passes each cluster has, in the plot below");
+  places_.note("iterations");
+  ImGui::PushID("reflectances"); // a material may be called "light"
+  for (const ReflectanceCurve& curve : spectra.reflectances) {
+    bool on = !switches_.hidden.contains(curve.material);
+    const bool changed = draw_switch(curve.material, spectra_colour::of(curve.srgb), on);
+    ImGui::SetItemTooltip("%s", fmt::format("Reflectance of {}, in its colour under D65", curve.material).c_str());
+    places_.note("reflectance " + curve.material);
+    if (!changed) continue;
+    if (on)
+      switches_.hidden.erase(curve.material);
+    else
+      switches_.hidden.insert(curve.material);
+  }
+  ImGui::PopID();
+}
+
+void SpectraPanel::draw_copy()
+{
+  same_line_if_room(4 * em());
+  if (ImGui::Button("Copy")) ImGui::SetClipboardText(to_csv(maker_.spectra()).c_str());
+  places_.note("copy");
+  ImGui::SetItemTooltip("Every curve as CSV, a row a wavelength");
+}
+
+void SpectraPanel::draw_plot(const Workbench& workbench, Commands& commands, float height)
+{
+  SpectraPlotContents contents{&maker_.spectra(), &switches_, nullptr, light_, editor_.marked()};
+  if (!workbench.preset()->scene.lights.empty()) contents.edited = &spectrum_;
+  RowGesture gesture = plot_.draw(contents, axis_, height);
+  gesture.to = readable(gesture.to);
+  edit_rows(workbench, editor_.follow(gesture, spectrum_.table, row_rules(spectrum_), commands), commands);
+}
+
+void SpectraPanel::edit_rows(const Workbench& workbench, const std::optional<RowsEdit>& edit, Commands& commands)
+{
+  if (!edit) return;
+  preset::Preset edited = *workbench.preset();
+  preset::LightSpectrum& spectrum = edited.scene.lights[light_].spectrum;
+  spectrum = spectrum_;
+  spectrum.table = edit->rows;
+  commands.push_back(command::Edit{fmt::format("{} of light {}", edit->label, light_ + 1), std::move(edited), edit->gesture, edit->live});
+}
+
+/// What the clusters cost, and what of brute force that is.
+void SpectraPanel::draw_numbers() const
+{
+  const Spectra& s = maker_.spectra();
+  if (!s.why_no_u.empty()) {
+    draw_wrapped(colour::note, "No u: " + s.why_no_u);
+    return;
+  }
+  const std::int64_t sum = s.iterations();
+  ImGui::PushTextWrapPos(0);
+  if (sum == 0)
+    ImGui::TextUnformatted("No light: no iterations");
+  else
+    ImGui::TextUnformatted(fmt::format("{} in {}, {} times fewer than the {} of 401 wavelengths x {}", counted(sum, "iteration"),
+                                       counted(s.clusters.size(), "cluster"), times(s.brute_force(), sum), s.brute_force(), s.passes)
+                               .c_str());
+  ImGui::SetItemTooltip(
+      "%s", fmt::format("{} times fewer by clusters, {} by what deals out the work.\nPhoton maps give a cluster so many passes; "
+                        "splats deal photons out in this proportion.",
+                        times(s.brute_force(), std::max<std::int64_t>(s.equal_effort(), 1)),
+                        times(s.equal_effort(), std::max<std::int64_t>(sum, 1)))
+                .c_str());
+  ImGui::PopTextWrapPos();
+}
+
+void SpectraPanel::draw_effort(const Workbench& workbench, Commands& commands)
+{
+  preset::Preset edited = *workbench.preset();
+  preset::Spectral& settings = edited.spectral;
+  const auto push = [&](const char* label) { commands.push_back(command::Edit{label, edited, gestures_.begin()}); };
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Effort by");
+  ImGui::SameLine();
+  if (choice_combo("##effort", settings.effort)) push("effort");
+  places_.note("effort");
+  if (settings.effort != Effort::importance && settings.effort != Effort::radziszewski) return;
+  same_line_if_room(7 * em());
+  if (choice_combo("##cluster", settings.importance.cluster)) push("importance of a cluster");
+  places_.note("importance of a cluster");
+  if (settings.effort != Effort::importance) return;
+  same_line_if_room(7 * em());
+  if (ImGui::Checkbox("geometry", &settings.importance.geometry)) push("importance by geometry");
+  ImGui::SetItemTooltip("Weigh materials by how much of them the caustic objects see");
+  places_.note("geometry");
+}
+
+/// The sum of (4.15), material by material.
+void SpectraPanel::draw_surroundings() const
+{
+  const Spectra& s = maker_.spectra();
+  if (s.importance.surroundings.empty()) return;
+  constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp;
+  if (!ImGui::BeginTable("surroundings", 4, flags)) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("seen from the glass", ImGuiTableColumnFlags_WidthStretch, 2);
+  for (const char* column : {"part", "L*", "part x L*"}) ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthStretch, 1);
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  const std::array<const char*, 4> help{
+      "What the caustic objects see around them, by material", "Part of the rays from the glass that hit it; 100 % each without geometry",
+      "Lightness of the material under the scene's light: 0 black, 100 white", "Its weight in u, (4.15) of the thesis"};
+  for (int column = 0; column < 4; ++column) {
+    ImGui::TableSetColumnIndex(column);
+    ImGui::TableHeader(ImGui::TableGetColumnName(column));
+    ImGui::SetItemTooltip("%s", help[static_cast<std::size_t>(column)]);
+  }
+  for (const spectral::Surrounding& seen : s.importance.surroundings) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(s.materials[static_cast<std::size_t>(seen.material)].c_str());
+    for (const std::string& cell : {fmt::format("{:.1f} %", 100 * seen.share), fmt::format("{:.1f}", seen.lightness),
+                                    fmt::format("{:.1f}", seen.share * seen.lightness)}) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(cell.c_str());
+    }
+  }
+  ImGui::EndTable();
+}
+
+void SpectraPanel::edit_spectrum(const Workbench& workbench, const preset::LightSpectrum& spectrum, const std::string& label, bool live,
+                                 Commands& commands) const
+{
+  if (spectrum == spectrum_) return;
+  preset::Preset edited = *workbench.preset();
+  edited.scene.lights[light_].spectrum = spectrum;
+  commands.push_back(command::Edit{label, std::move(edited), gestures_.number(), live});
+}
+
+void SpectraPanel::follow_widget(Commands& commands)
+{
+  if (ImGui::IsItemActivated()) gestures_.begin();
+  if (ImGui::IsItemDeactivated()) commands.push_back(command::EndGesture{});
+}
+
+} // namespace nephroid::ui

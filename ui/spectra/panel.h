@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Spectra and importance": the spectra of the lights, the eye's luminosity, reflectances, u(lambda) of (4.15) and the iterations
+// of each cluster, on the wavelength axis that the panel "Dispersion" has too. A light's spectrum and what deals out the work are edited
+// here.
+#pragma once
+#include "ui/spectra/curves.h"
+#include "ui/spectra/plot.h"
+#include "ui/widgets/panel.h"
+#include "ui/widgets/row_editor.h"
+#include "ui/widgets/widgets.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace nephroid::ui {
+
+class WavelengthAxis;
+
+class SpectraPanel : public Panel {
+public:
+  static constexpr const char* title = "Spectra and importance";
+  /// axis outlives the panel.
+  explicit SpectraPanel(WavelengthAxis& axis) : axis_(axis) {}
+  const char* name() const override { return title; }
+  void draw(const Workbench& workbench, Commands& commands) override;
+
+  /// For tests: what was drawn last, and the middle of a widget on the screen; nothing where there is no such widget.
+  const SpectraMaker& maker() const { return maker_; }
+  const SpectraPlot& plot() const { return plot_; }
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
+
+private:
+  void choose_light(const preset::Preset& preset);
+  void draw_light(const Workbench& workbench, Commands& commands);
+  void draw_light_choice(const preset::Preset& preset);
+  void draw_spectrum_controls(const Workbench& workbench, Commands& commands);
+  void draw_row_controls(const Workbench& workbench, Commands& commands);
+  void draw_switches();
+  void draw_copy();
+  void draw_plot(const Workbench& workbench, Commands& commands, float height);
+  void draw_numbers() const;
+  void draw_effort(const Workbench& workbench, Commands& commands);
+  void draw_surroundings() const;
+
+  /// The rows as they shall be; nothing where there is no edit.
+  void edit_rows(const Workbench& workbench, const std::optional<RowsEdit>& edit, Commands& commands);
+  /// An edit of the light's spectrum by the mouse or the widget drawn last; nothing where it is as it was.
+  void edit_spectrum(const Workbench& workbench, const preset::LightSpectrum& spectrum, const std::string& label, bool live,
+                     Commands& commands) const;
+  /// The gesture of the widget drawn last: it begins, and it ends.
+  void follow_widget(Commands& commands);
+
+  WavelengthAxis& axis_;
+  SpectraMaker maker_;
+  SpectraPlot plot_;
+  SpectraSwitches switches_;
+  Gestures gestures_{title};
+  RowEditor editor_{gestures_};
+  std::string source_;             ///< the preset that light_ is of
+  std::size_t light_ = 0;          ///< the one that is edited
+  preset::LightSpectrum spectrum_; ///< of it, rows sorted
+  WidgetPlaces places_;
+};
+
+} // namespace nephroid::ui

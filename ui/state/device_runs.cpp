@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/device_runs.h"
+
+#include "measure/measured_job.h"
+#include "preset/origins.h"
+#include "run/reference.h"
+#include "run/run.h"
+#include "ui/spectra/curves.h"
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr std::chrono::milliseconds look_every{200}; ///< at the kernels folder
+
+/// What the run is measured against. The window shows a picture with or without one: what stands against it becomes a note. A recipe is
+/// not rendered here, because every edit of the scene asks for another one.
+std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prepared, const compute::Context& context,
+                                                       std::vector<std::string>& notes)
+{
+  try {
+    auto found = preset::at_origins(prepared.preset, [&] { return run::find_reference(prepared, context); });
+    if (!found && prepared.preset.reference)
+      notes.emplace_back("the reference of the preset as it is now has not been rendered yet; save it, and nephroid run renders it");
+    return found;
+  } catch (const Error& error) {
+    notes.push_back("without a reference: " + error.line());
+    return nullptr;
+  }
+}
+
+} // namespace
+
+DeviceRuns::DeviceRuns(compute::DeviceOptions device) : options_(std::move(device))
+{
+  if (!options_.kernels.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+}
+
+DeviceRuns::~DeviceRuns() = default;
+
+NewRun DeviceRuns::make(const preset::Preset& preset)
+{
+  auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get())); });
+  const std::lock_guard lock(building_);
+  if (!context_) context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
+  // The sources are read below: what changed until here is in this run.
+  compute::kernels_changed(*context_);
+  changed_ = false;
+  previous_ = std::move(prepared);
+  plan::Plan plan = previous_->plan;
+  std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan.notes);
+  auto job = measure::measured(run::make_job(*previous_, *context_), preset, reference);
+  auto seen = look_around(preset, previous_->loaded->scene, *previous_->loaded->bvh);
+  return {std::move(job), std::move(plan), std::move(reference), std::move(seen)};
+}
+
+void DeviceRuns::watch(const std::stop_token& stop)
+{
+  std::unique_lock lock(building_);
+  while (!stop.stop_requested()) {
+    stopping_.wait_for(lock, stop, look_every, [] { return false; });
+    if (context_ && compute::kernels_changed(*context_)) changed_ = true;
+  }
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the runs of the window's presets on a device. Keeps the device's context, with its built kernels, and the loaded scene from
+// one run to the next, so that moving the camera loads and builds nothing again. With a kernels folder (--kernels) it watches that.
+#pragma once
+#include "compute/compute.h"
+#include "ui/state/run_source.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace nephroid::run {
+struct Prepared;
+}
+
+namespace nephroid::ui {
+
+class DeviceRuns : public RunSource {
+public:
+  explicit DeviceRuns(compute::DeviceOptions device);
+  ~DeviceRuns() override;
+  /// Reads the scene and builds the job. Throws as run::prepare and compute do.
+  NewRun make(const preset::Preset& preset) override;
+  /// True once after a file in the kernels folder changed that the newest run was not built from.
+  bool take_changed() override { return changed_.exchange(false); }
+
+private:
+  void watch(const std::stop_token& stop);
+
+  compute::DeviceOptions options_;
+  /// Building and watching take turns: compute::kernels_changed forgets the built programs, which make() looks up and adds to. A
+  /// job that runs needs no turn: it builds nothing, and its kernels stay while it holds them.
+  std::mutex building_;
+  std::unique_ptr<compute::Context> context_; ///< opened by the first make(): opening a device takes a while
+  std::unique_ptr<run::Prepared> previous_;   ///< the worker's thread only
+  std::atomic<bool> changed_{false};
+  std::condition_variable_any stopping_;
+  std::jthread watcher_; ///< a thread of its own: neither a frame nor a run waits for the folder's disk. Last: it uses the others.
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/difference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+using namespace std::chrono_literals;
+
+bool same_values(const DifferenceRequest& a, const DifferenceRequest& b)
+{
+  return a.picture.owner == b.picture.owner && a.other.owner == b.other.owner && a.metric == b.metric;
+}
+
+bool same(const DifferenceRequest& a, const DifferenceRequest& b) { return same_values(a, b) && a.scale == b.scale; }
+
+/// The values in the map's colours, by a table: there are far more pixels than colours that a display tells apart.
+std::vector<unsigned char> coloured(const std::vector<float>& values, double scale, bool is_signed)
+{
+  constexpr int steps = 1024;
+  std::vector<std::array<unsigned char, 3>> table;
+  for (int i = 0; i <= steps; ++i) table.push_back(measure::map_colour(static_cast<double>(i) / steps, is_signed));
+  std::vector<unsigned char> rgba(4 * values.size(), 255);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double position = is_signed ? 0.5 + 0.5 * values[i] / scale : values[i] / scale;
+    const auto& colour = table[static_cast<std::size_t>(std::lround(steps * std::clamp(position, 0.0, 1.0)))];
+    std::copy(colour.begin(), colour.end(), &rgba[4 * i]);
+  }
+  return rgba;
+}
+
+/// known: the values, where they are known from a map with another scale.
+std::shared_ptr<const ShownDifference> make(const DifferenceRequest& request, std::shared_ptr<const std::vector<float>> known)
+{
+  auto map = std::make_shared<ShownDifference>();
+  map->of = request;
+  try {
+    if (!known)
+      known = std::make_shared<std::vector<float>>(measure::difference_map(request.picture.pixels, request.other.pixels, request.metric));
+    map->scale = request.scale > 0 ? request.scale : measure::colour_scale(*known);
+    map->rgba = coloured(*known, map->scale, measure::is_signed(request.metric));
+    map->values = std::move(known);
+  } catch (const std::exception& error) {
+    map->error = error.what();
+  }
+  return map;
+}
+
+} // namespace
+
+void DifferenceMaker::want(const DifferenceRequest& request, Clock::time_point now)
+{
+  collect(now);
+  if (made_.valid() || (newest_ && same(newest_->of, request))) return;
+  const bool only_picture_changed = newest_ && newest_->of.other.owner == request.other.owner && newest_->of.metric == request.metric &&
+                                    newest_->of.scale == request.scale;
+  if (only_picture_changed && now < rest_until_) return;
+  auto known = newest_ && same_values(newest_->of, request) ? newest_->values : nullptr;
+  made_ = std::async(std::launch::async, [request, known = std::move(known)] {
+    const Clock::time_point begin = Clock::now();
+    Made made{make(request, known)};
+    made.took = Clock::now() - begin;
+    return made;
+  });
+}
+
+void DifferenceMaker::collect(Clock::time_point now)
+{
+  if (!made_.valid() || made_.wait_for(0s) != std::future_status::ready) return;
+  Made made = made_.get();
+  rest_until_ = now + 2 * made.took;
+  if (!std::exchange(forgotten_, false)) newest_ = std::move(made.map);
+}
+
+void DifferenceMaker::forget()
+{
+  newest_.reset();
+  forgotten_ = made_.valid();
+}
+
+} // namespace nephroid::ui

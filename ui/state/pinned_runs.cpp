@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/pinned_runs.h"
+
+#include "base/error.h"
+#include "measure/history_file.h"
+#include "measure/read_picture.h"
+#include "measure/run_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+/// Okabe and Ito's colours (2008), which people with any colour vision tell apart, without black; as IM_COL32.
+constexpr std::array<std::uint32_t, 7> colours{0xff009fe6, 0xffe9b456, 0xff739e00, 0xff42e4f0, 0xffa779cc, 0xff005ed5, 0xffb27200};
+
+constexpr const char* history_name = "history.csv";
+
+/// The file of the history that a path means.
+std::filesystem::path history_file(const std::filesystem::path& path)
+{
+  constexpr const char* expected = "expected the folder of a run, or its history.csv";
+  constexpr const char* remedy = "give the folder of `nephroid run PRESET -o FOLDER`";
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) throw bad_input(path.string(), "there is no such run", expected, remedy);
+  if (!std::filesystem::is_directory(path, ignored)) {
+    if (!is_history(path)) throw bad_input(path.string(), "is no run's history", expected, remedy);
+    return path;
+  }
+  if (!std::filesystem::exists(path / history_name, ignored)) throw bad_input(path.string(), "has no history.csv", expected, remedy);
+  return path / history_name;
+}
+
+/// The history with what the run's folder knows of the reference: the table itself has no noise floor.
+std::shared_ptr<const job::History> history_with_floor(const std::filesystem::path& file, const std::filesystem::path& folder)
+{
+  auto history = std::make_shared<job::History>(measure::read_history(file));
+  const auto reference = file.filename() == history_name ? measure::read_run_reference(folder) : std::nullopt;
+  if (!reference) return history;
+  for (const std::string& column : history->columns) {
+    const auto floor = reference->noise_floor.find(column);
+    history->noise_floor.push_back(floor == reference->noise_floor.end() ? std::numeric_limits<double>::quiet_NaN() : floor->second);
+  }
+  return history;
+}
+
+} // namespace
+
+const PinnedRun* PinnedRuns::find(std::uint64_t id) const
+{
+  const auto found = std::find_if(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.id == id; });
+  return found == runs_.end() ? nullptr : &*found;
+}
+
+PinnedRun* PinnedRuns::found(std::uint64_t id) { return const_cast<PinnedRun*>(std::as_const(*this).find(id)); }
+
+std::string PinnedRuns::own_name(const std::string& wanted, std::uint64_t id) const
+{
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.id != id && run.name == name; });
+  };
+  std::string name = wanted;
+  for (int number = 2; taken(name); ++number) name = fmt::format("{} ({})", wanted, number);
+  return name;
+}
+
+std::uint32_t PinnedRuns::free_colour() const
+{
+  for (const std::uint32_t colour : colours)
+    if (std::none_of(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.colour == colour; })) return colour;
+  return colours[runs_.size() % colours.size()];
+}
+
+const PinnedRun& PinnedRuns::add(PinnedRun run)
+{
+  run.id = ++last_id_;
+  run.name = own_name(run.name, run.id);
+  run.colour = free_colour();
+  return runs_.emplace_back(std::move(run));
+}
+
+void PinnedRuns::change(std::uint64_t id, std::string name, std::uint32_t colour, bool shown)
+{
+  PinnedRun* run = found(id);
+  if (!run) return;
+  if (!name.empty() && name != run->name) run->name = own_name(name, id);
+  run->colour = colour;
+  run->shown = shown;
+}
+
+void PinnedRuns::remove(std::uint64_t id)
+{
+  std::erase_if(runs_, [&](const PinnedRun& run) { return run.id == id; });
+}
+
+bool is_history(const std::filesystem::path& path)
+{
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return std::filesystem::exists(path / history_name, ignored);
+  return path.extension() == ".csv";
+}
+
+PinnedRun read_pin(const std::filesystem::path& path)
+{
+  const std::filesystem::path file = history_file(path);
+  const std::filesystem::path folder = std::filesystem::absolute(file).lexically_normal().parent_path();
+  PinnedRun run;
+  run.history = history_with_floor(file, folder);
+  run.name = file.filename() == history_name ? folder.filename().string() : file.stem().string();
+  std::error_code ignored;
+  if (const std::filesystem::path image = folder / "image.exr";
+      file.filename() == history_name && std::filesystem::exists(image, ignored)) {
+    measure::LinearPicture read = measure::read_linear_rgb(image);
+    auto picture = std::make_shared<job::Picture>();
+    picture->width = read.width;
+    picture->height = read.height;
+    picture->rgb = std::move(read.rgb);
+    run.picture = std::move(picture);
+  }
+  return run;
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the workbench gets its runs from: the program gives ui/state/device_runs.h with a device, tests give jobs of their own.
+#pragma once
+#include "job/job.h"
+#include "measure/reference.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+struct SeenByGlass; // ui/spectra/curves.h
+
+struct NewRun {
+  std::unique_ptr<job::Job> job;
+  plan::Plan plan;
+  std::shared_ptr<const measure::Reference> reference; ///< what it is measured against; null where there is none
+  std::shared_ptr<const SeenByGlass> seen = nullptr;   ///< null where nobody looked
+};
+
+class RunSource {
+public:
+  virtual ~RunSource() = default;
+  /// On the worker's thread only. What it throws is why the run failed.
+  virtual NewRun make(const preset::Preset& preset) = 0;
+  /// From any thread, at once: true once after what every run is made of (the kernels) changed.
+  virtual bool take_changed() = 0;
+};
+
+} // namespace nephroid::ui

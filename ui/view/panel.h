@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The View panel: the picture as it converges, or what it is compared with. The mouse moves the camera (edits of the preset) or the picture
+// in the panel (its look); docs/window.md says which does what.
+#pragma once
+#include "ui/view/placement.h"
+#include "ui/view/shown_picture.h"
+#include "ui/widgets/panel.h"
+#include "ui/widgets/picture_texture.h"
+
+#include <memory>
+
+namespace nephroid::ui {
+
+class ViewPanel : public Panel {
+public:
+  static constexpr const char* title = "View";
+  const char* name() const override { return title; }
+  void draw(const Workbench& workbench, Commands& commands) override;
+
+  /// Where the picture's part of the panel was drawn last, and the picture in it; for tests.
+  const Canvas& canvas() const { return canvas_; }
+  const PictureTexture& texture() const { return texture_; }
+  /// What it showed last; for tests.
+  const ShownPicture& shown() const { return shown_; }
+
+private:
+  enum class Drag { none, orbit, pan, dolly, move_picture };
+
+  void draw_toolbar(const Workbench& workbench, Commands& commands);
+  void draw_picture(const Workbench& workbench);
+  void draw_pixel_value(const Workbench& workbench) const;
+  void use_mouse(const Workbench& workbench, Commands& commands);
+  void start_drag(const Workbench& workbench);
+  void continue_drag(const Workbench& workbench, Commands& commands);
+  void move_camera(const Workbench& workbench, const Point& delta, Commands& commands) const;
+  void use_wheel(const Workbench& workbench, Commands& commands);
+  void refresh_texture(const Workbench& workbench);
+
+  Canvas canvas_;
+  ShownPicture shown_; ///< of the frame that is being drawn
+  PictureTexture texture_;
+  std::shared_ptr<const void> in_texture_; ///< what the texture shows,
+  double stops_in_texture_ = 0;            ///< and with which exposure
+
+  Drag drag_ = Drag::none;
+  Point drag_from_{0, 0};
+  preset::Camera camera_at_start_; ///< a drag is measured from its start, so that rounding does not add up
+  Look look_at_start_;
+  std::uint64_t gesture_ = 0; ///< number of the newest gesture
+  double last_wheel_s_ = -1;  ///< turns of the wheel in quick succession are one gesture
+  bool hovered_ = false;
+};
+
+} // namespace nephroid::ui

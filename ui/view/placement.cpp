@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/view/placement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::ui {
+namespace {
+
+Placement exact_place(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
+{
+  const double width = picture[0], height = picture[1];
+  const Point centre = look.fit ? Point{width / 2, height / 2} : look.centre;
+  Placement placement;
+  placement.scale = look.fit ? std::max(1e-3, std::min(canvas.size[0] / width, canvas.size[1] / height)) : look.zoom;
+  for (int axis = 0; axis < 2; ++axis)
+    placement.origin[axis] = canvas.corner[axis] + canvas.size[axis] / 2 - placement.scale * centre[axis];
+  return placement;
+}
+
+/// The same picture on the screen, said by zoom and centre instead of fit.
+Look explicit_look(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
+{
+  if (!look.fit) return look;
+  Look said = look;
+  said.fit = false;
+  said.zoom = exact_place(look, canvas, picture).scale;
+  said.centre = {picture[0] / 2.0, picture[1] / 2.0};
+  return said;
+}
+
+} // namespace
+
+Placement place(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
+{
+  Placement placement = exact_place(look, canvas, picture);
+  // Whole pixels of the screen: at 100 % the texture is then shown as it is, not interpolated.
+  for (double& coordinate : placement.origin) coordinate = std::round(coordinate);
+  return placement;
+}
+
+Look zoomed(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen, double factor)
+{
+  Look next = explicit_look(look, canvas, picture);
+  const Point still = exact_place(next, canvas, picture).to_picture(screen);
+  next.zoom = std::clamp(next.zoom * factor, 1.0 / 64, 256.0);
+  for (int axis = 0; axis < 2; ++axis)
+    next.centre[axis] = still[axis] - (screen[axis] - canvas.corner[axis] - canvas.size[axis] / 2) / next.zoom;
+  return next;
+}
+
+Look dragged(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen_delta)
+{
+  Look next = explicit_look(look, canvas, picture);
+  for (int axis = 0; axis < 2; ++axis) next.centre[axis] -= screen_delta[axis] / next.zoom;
+  return next;
+}
+
+std::optional<std::array<int, 2>> pixel_at(const Placement& placement, const std::array<int, 2>& picture, const Point& screen)
+{
+  const Point at = placement.to_picture(screen);
+  const std::array<int, 2> pixel{static_cast<int>(std::floor(at[0])), static_cast<int>(std::floor(at[1]))};
+  if (pixel[0] < 0 || pixel[1] < 0 || pixel[0] >= picture[0] || pixel[1] >= picture[1]) return std::nullopt;
+  return pixel;
+}
+
+} // namespace nephroid::ui

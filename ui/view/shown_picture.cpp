@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/view/shown_picture.h"
+
+#include "measure/lab.h"
+#include "ui/state/workbench.h"
+#include "ui/view/comparison_bar.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace nephroid::ui {
+namespace {
+
+/// Whether the renderer has no texture of the size (0: it has every size).
+bool too_large(const std::array<int, 2>& size)
+{
+  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
+  const auto beyond = [](int length, int limit) { return limit > 0 && length > limit; };
+  return beyond(size[0], platform.Renderer_TextureMaxWidth) || beyond(size[1], platform.Renderer_TextureMaxHeight);
+}
+
+std::string too_large_hint(const std::array<int, 2>& size)
+{
+  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
+  return fmt::format("The picture is {} x {}; this display's OpenGL shows at most {} x {}. It is computed all the same: "
+                     "save it with Ctrl+E, or lower scene.camera.resolution.",
+                     size[0], size[1], platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight);
+}
+
+/// What to do or to wait for before the first picture.
+std::string waiting_hint(const Workbench& workbench)
+{
+  if (!workbench.preset()) return "Drop a preset here, or open one: Ctrl+O";
+  if (workbench.status().state == job::State::failed) return "No picture: see the message below";
+  if (workbench.status().state == job::State::cancelled) return "Cancelled before the first picture; start again: F5";
+  return "Preparing: reading the scene, building the kernels";
+}
+
+/// The newest map, where it is of the metric and the pictures that are compared now; of the run's own picture an earlier one will do.
+std::shared_ptr<const ShownDifference> fitting_map(const Workbench& workbench, const HeldPicture& other, const std::array<int, 2>& size)
+{
+  const auto& map = workbench.difference();
+  if (!map || map->of.metric != workbench.comparison().metric || map->of.other.owner != other.owner) return nullptr;
+  const measure::Pixels& of = map->of.picture.pixels;
+  return of.width == size[0] && of.height == size[1] ? map : nullptr;
+}
+
+/// The map, or why there is none yet.
+void show_difference(const Workbench& workbench, const HeldPicture& other, ShownPicture& shown)
+{
+  const auto map = fitting_map(workbench, other, shown.size);
+  shown.label = difference_label(workbench);
+  if (!map)
+    shown.hint = "The difference is being computed";
+  else if (!map->error.empty())
+    shown.hint = map->error;
+  else {
+    shown.owner = map;
+    shown.rgba = map->rgba;
+  }
+}
+
+using Rgb = std::array<float, 3>;
+
+std::size_t index_of(const std::array<int, 2>& size, const std::array<int, 2>& pixel)
+{
+  return static_cast<std::size_t>(pixel[1]) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(pixel[0]);
+}
+
+Rgb value_at(std::span<const float> rgb, const std::array<int, 2>& size, const std::array<int, 2>& pixel)
+{
+  const std::size_t index = 3 * index_of(size, pixel);
+  return {rgb[index], rgb[index + 1], rgb[index + 2]};
+}
+
+std::string text_of(const Rgb& value, double white, const char* format)
+{
+  return fmt::format(fmt::runtime(format), value[0], value[1], value[2], white * measure::luminance(value.data()));
+}
+
+} // namespace
+
+ShownPicture shown_picture(const Workbench& workbench)
+{
+  ShownPicture shown;
+  if (const preset::Preset* preset = workbench.preset()) shown.size = preset->scene.camera.resolution;
+  const auto& snapshot = workbench.snapshot();
+  if (!snapshot) {
+    shown.hint = waiting_hint(workbench);
+    return shown;
+  }
+  const job::Picture& picture = *snapshot->picture;
+  shown.size = {picture.width, picture.height};
+  const Comparison& comparison = workbench.comparison();
+  if (too_large(shown.size))
+    shown.hint = too_large_hint(shown.size);
+  else if (!comparison.flip && !comparison.difference) {
+    shown.owner = snapshot;
+    shown.rgb = picture.rgb;
+  } else if (const HeldPicture other = workbench.other_picture(); !other.owner)
+    shown.hint = "Nothing to compare with: " + workbench.why_not_comparable();
+  else if (comparison.flip) {
+    shown.owner = other.owner;
+    shown.rgb = other.pixels.rgb;
+    shown.label = other_name(workbench);
+  } else
+    show_difference(workbench, other, shown);
+  return shown;
+}
+
+std::string pixel_text(const Workbench& workbench, const std::array<int, 2>& pixel)
+{
+  const auto& snapshot = workbench.snapshot();
+  if (!snapshot || !workbench.preset()) return {};
+  const job::Picture& picture = *snapshot->picture;
+  const std::array<int, 2> size{picture.width, picture.height};
+  const double white = workbench.preset()->white;
+  constexpr const char* format = "R {:.4g}   G {:.4g}   B {:.4g}   Y {:.4g} W/m2/sr";
+  const Rgb of_run = value_at(picture.rgb, size, pixel);
+  std::string text = fmt::format("({}, {})   ", pixel[0], pixel[1]) + text_of(of_run, white, format);
+  const Comparison& comparison = workbench.comparison();
+  const HeldPicture other = workbench.other_picture();
+  if (!(comparison.flip || comparison.difference) || !other.owner) return text;
+  const Rgb of_other = value_at(other.pixels.rgb, size, pixel);
+  const Rgb difference{of_run[0] - of_other[0], of_run[1] - of_other[1], of_run[2] - of_other[2]};
+  text += fmt::format("\n{}   {}\ndifference   {}", other_name(workbench), text_of(of_other, white, format),
+                      text_of(difference, white, "R {:+.4g}   G {:+.4g}   B {:+.4g}   Y {:+.4g} W/m2/sr"));
+  if (const auto map = fitting_map(workbench, other, size); comparison.difference && map && map->values)
+    text += fmt::format("   {} {:.4g}", metric_name(map->of.metric), (*map->values)[index_of(size, pixel)]);
+  return text;
+}
+
+} // namespace nephroid::ui

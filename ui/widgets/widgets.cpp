@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/widgets/widgets.h"
+
+#include "ui/widgets/theme.h"
+
+#include <imgui.h>
+
+namespace nephroid::ui {
+namespace {
+
+int resize(ImGuiInputTextCallbackData* data)
+{
+  if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
+  auto* text = static_cast<std::string*>(data->UserData);
+  text->resize(static_cast<std::size_t>(data->BufTextLen));
+  data->Buf = text->data();
+  return 0;
+}
+
+} // namespace
+
+bool input_text(const char* label, const char* hint, std::string& text, int flags)
+{
+  return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1, flags | ImGuiInputTextFlags_CallbackResize, resize, &text);
+}
+
+void draw_wrapped(std::uint32_t colour, const std::string& text)
+{
+  ImGui::PushTextWrapPos(0);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+}
+
+void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint)
+{
+  const float wrap = 0.9f * size.x;
+  const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
+  const ImVec2 at{corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2};
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour::quiet_text, hint.c_str(), nullptr, wrap);
+}
+
+bool delete_pressed()
+{
+  return ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::GetIO().WantTextInput &&
+         ImGui::IsKeyPressed(ImGuiKey_Delete, false);
+}
+
+void WidgetPlaces::note(const std::string& widget)
+{
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
+}
+
+std::optional<std::array<double, 2>> WidgetPlaces::of(const std::string& widget) const
+{
+  const auto found = places_.find(widget);
+  if (found == places_.end()) return std::nullopt;
+  return found->second;
+}
+
+} // namespace nephroid::ui
