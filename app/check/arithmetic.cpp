@@ -114,7 +114,7 @@ Check built_in_check(const BuiltIn& b)
           }};
 }
 
-/// The signs of a ray's edge functions are exact only where no compiler fuses one of two products (kernels/bvh.h).
+/// The signs of a ray's edge functions are exact only where no compiler fuses one of two products (kernels/tracing/bvh.h).
 Result products_round_apart(const compute::Context& context, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);

@@ -2,7 +2,7 @@
 // Arrays through a kernel of check.cl: inputs to the device, one item of work each, outputs back.
 #pragma once
 #include "compute/compute.h"
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 
 #include <string>
 #include <vector>
@@ -34,7 +34,7 @@ compute::Buffer<T> zeros(const compute::Context& context, const char* name, std:
 template <class... Args>
 void run_over(const compute::Context& context, const char* name, std::size_t count, const Args&... args)
 {
-  compute::Program(context, "check.cl").kernel(name).run(count, local_size, args..., static_cast<std::uint32_t>(count));
+  compute::Program(context, "check/check.cl").kernel(name).run(count, local_size, args..., static_cast<std::uint32_t>(count));
 }
 
 } // namespace nephroid::check

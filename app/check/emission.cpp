@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/emission.h: what the photons of a light carry towards spheres adds up to the power that the light sends there, where the
+// kernels/tracing/emission.h: what the photons of a light carry towards spheres adds up to the power that the light sends there, where the
 // spheres overlap, too. In standard deviations of the photons' own spread.
 #include "check/device_arrays.h"
 #include "check/render.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is the same bits on every device: random numbers (kernels/random.h) and sums (kernels/film.h).
+// What is the same bits on every device: random numbers (kernels/tracing/random.h) and sums (kernels/tracing/film.h).
 #include "check/device_arrays.h"
 #include "check/subjects.h"
 
@@ -81,7 +81,7 @@ Result sums(const compute::Context& context, std::uint64_t seed, bool halves)
   }
   const compute::Defines defines = halves ? compute::Defines{{"NEPHROID_CHECK_HALVES", "1"}} : compute::Defines{};
   const compute::Buffer<std::int64_t> out = zeros<std::int64_t>(context, "sums", places);
-  compute::Program(context, "check_sums.cl", defines)
+  compute::Program(context, "check/check_sums.cl", defines)
       .kernel("add_all")
       .run(count, local_size, on_device(context, "values", values), on_device(context, "places", where), out,
            static_cast<std::uint32_t>(count));
@@ -114,7 +114,7 @@ Result film_limit(const compute::Context& context, std::uint64_t)
   for (const Case& c : cases) in.push_back(c.xyz_scale);
   const compute::Buffer<std::int64_t> film = zeros<std::int64_t>(context, "film", 3 * in.size());
   const compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
-  compute::Program(context, "check_sums.cl")
+  compute::Program(context, "check/check_sums.cl")
       .kernel("add_to_film")
       .run(in.size(), local_size, on_device(context, "in", in), film, accepted, static_cast<std::uint32_t>(in.size()));
   const auto sums = film.read();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums over wavelengths (kernels/attenuation.h) over the engine's own tables, against double precision.
+// Sums over wavelengths (kernels/tracing/attenuation.h) over the engine's own tables, against double precision.
 #include "check/device_arrays.h"
 #include "check/render.h"
 #include "check/scene_parts.h"

@@ -14,7 +14,7 @@ KernelTracer::KernelTracer(const compute::Context& context, const scene::Bvh& bv
     : bvh_(bvh), context_(context), nodes_(context, "nodes", std::span(bvh.nodes)), blocks_(context, "blocks", std::span(bvh.blocks))
 {
   defines["NEPHROID_BVH_STACK"] = std::to_string(bvh.stack);
-  const compute::Program program(context, "trace.cl", defines);
+  const compute::Program program(context, "tracing/trace.cl", defines);
   closest_ = program.kernel("closest_hits");
   any_ = program.kernel("any_hits");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/trace.cl, the traversal of kernels/bvh.h, over a list of rays: for checks, tests and benchmarks.
+// kernels/tracing/trace.cl, the traversal of kernels/tracing/bvh.h, over a list of rays: for checks, tests and benchmarks.
 #pragma once
 #include "compute/compute.h"
 #include "scene/bvh.h"
@@ -19,13 +19,13 @@ struct Ray {
   std::uint32_t skip = no_primitive;
 };
 
-/// As in kernels/bvh.h.
+/// As in kernels/tracing/bvh.h.
 struct Hit {
   float t = 0, u = 0, v = 0;
   std::uint32_t primitive = no_primitive;
 };
 
-/// As in kernels/trace.cl.
+/// As in kernels/tracing/trace.cl.
 struct DeviceRay {
   float origin[3];
   float t_max;

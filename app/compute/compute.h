@@ -152,14 +152,14 @@ private:
 /// Built programs are kept in the context and in the OpenCL implementation's own cache.
 class Program {
 public:
-  /// file: e.g. "trace.cl". Throws BuildError; Error(failed) for a source or include that is missing.
+  /// file: its path in kernels/, e.g. "tracing/trace.cl". Throws BuildError; Error(failed) for a source or include that is missing.
   Program(const Context& context, const std::string& file, const Defines& defines = {});
   /// Throws failed naming the kernels there are.
   Kernel kernel(const std::string& name) const;
   std::shared_ptr<detail::ProgramState> state;
 };
 
-/// The text of a kernel source ("photons.cl") with everything that it includes, as this context would build it.
+/// The text of a kernel source ("spectral/photons.cl") with everything that it includes, as this context would build it.
 std::string kernel_source(const Context& context, const std::string& file);
 /// With DeviceOptions::kernels: true once after any file in that folder changed, so that the owner rebuilds.
 bool kernels_changed(const Context& context);

@@ -54,7 +54,7 @@ detail::FileTimes detail::file_times(const fs::path& folder)
 {
   FileTimes times;
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code gone; // a file that an editor replaces may vanish between the two calls
     const auto time = entry->last_write_time(gone);
     if (!gone) times[entry->path()] = time;

@@ -7,7 +7,7 @@
 namespace nephroid::compute {
 
 struct EmbeddedSource {
-  std::string name; ///< file name, e.g. "trace.cl" or "random.h"
+  std::string name; ///< path in kernels/, e.g. "tracing/trace.cl"
   std::string text;
 };
 const std::vector<EmbeddedSource>& embedded_sources();

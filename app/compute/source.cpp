@@ -38,7 +38,7 @@ struct Joiner {
   void add(const std::string& file, const std::string& where)
   {
     if (!included.insert(file).second) return;
-    static const std::regex include(R"(^\s*#\s*include\s+"([^"]+)\".*)");
+    static const std::regex include(R"(^\s*#\s*include\s+"(?:kernels/)?([^"]+)\".*)");
     std::istringstream lines(source_text(folder, file, where));
     text += fmt::format("#line 1 \"{}\"\n", file);
     int number = 0;

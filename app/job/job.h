@@ -39,7 +39,7 @@ struct Progress {
 };
 
 /// Where the power that photons carried went, as the mean of the passes: emitted = deposited + missed + absorbed + escaped + lost
-/// but for rounding. kernels/shared_types.h says what each is (OUTCOME_*).
+/// but for rounding. kernels/tracing/shared_types.h says what each is (OUTCOME_*).
 struct EnergyBalance {
   double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
   std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the tree of kernels/bvh.h: Embree decides how triangles are grouped, this file lays the groups out for the kernel.
+// Builds the tree of kernels/tracing/bvh.h: Embree decides how triangles are grouped, this file lays the groups out for the kernel.
 #include "scene/bvh.h"
 
 #include "base/error.h"
@@ -89,7 +89,7 @@ void check_triangle(const Mesh& mesh, std::size_t index)
 }
 
 /// Boxes of the triangles with an area, each grown by more than the rounding errors of the traversal that come from its own
-/// coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/bvh.h). A small object beside large ones
+/// coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/tracing/bvh.h). A small object beside large ones
 /// keeps tight boxes.
 std::vector<RTCBuildPrimitive> triangle_boxes(const Mesh& mesh)
 {

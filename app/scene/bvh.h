@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bounding volume hierarchy that kernels/bvh.h traces: 8 children a node, boxes as float8, triangles in structure-of-arrays
+// The bounding volume hierarchy that kernels/tracing/bvh.h traces: 8 children a node, boxes as float8, triangles in structure-of-arrays
 // blocks of 4. Built by Embree's builder; traced by our kernel.
 #pragma once
 #include "scene/mesh.h"
@@ -9,7 +9,7 @@
 
 namespace nephroid::scene {
 
-/// Layout is fixed by kernels/bvh.h, which has the description.
+/// Layout is fixed by kernels/tracing/bvh.h, which has the description.
 struct Bvh {
   std::vector<float> nodes;  ///< 64 floats a node; at least one node
   std::vector<float> blocks; ///< 40 floats a block of 4 triangles

@@ -11,7 +11,7 @@
 namespace nephroid::scene {
 namespace {
 
-// The layout of kernels/bvh.h.
+// The layout of kernels/tracing/bvh.h.
 constexpr std::size_t children_per_node = 8, triangles_per_block = 4, floats_per_node = 64, floats_per_block = 40;
 
 /// What waits on the stack: a node or leaf, and how far it is.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One ray at a time through the tree of bvh.h, on the host and in double precision: for a few thousand rays before a run.
-// Pictures are traced by kernels/bvh.h.
+// Pictures are traced by kernels/tracing/bvh.h.
 #pragma once
 #include "scene/bvh.h"
 

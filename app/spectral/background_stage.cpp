@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "background": kernels/background.cl.
+// The layer "background": kernels/spectral/background.cl.
 #include "spectral/film.h"
 #include "spectral/pixel_rows.h"
 #include "spectral/stages.h"
@@ -32,7 +32,7 @@ public:
     compute::Defines defines = world.defines;
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
     defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(goes_one_way(scene) ? 1 : 0));
-    kernel_ = compute::Program(world.context, "background.cl", defines).kernel("background");
+    kernel_ = compute::Program(world.context, "spectral/background.cl", defines).kernel("background");
   }
 
   const char* name() const override { return "background"; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direct layer, row by row: kernels/direct.cl.
+// The direct layer, row by row: kernels/spectral/direct.cl.
 #include "spectral/film.h"
 #include "spectral/pixel_rows.h"
 #include "spectral/stages.h"
@@ -11,7 +11,7 @@ class DirectStage final : public Stage {
 public:
   DirectStage(DeviceWorld& world, const preset::Spectral& settings)
       : world_(world), pixel_samples_(settings.pixel_samples), film_(world.zeroed("film direct", world.film_size())),
-        kernel_(compute::Program(world.context, "direct.cl", world.defines).kernel("direct")), rows_(world.tables.camera.height)
+        kernel_(compute::Program(world.context, "spectral/direct.cl", world.defines).kernel("direct")), rows_(world.tables.camera.height)
   {
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "indirect": kernels/indirect.cl.
+// The layer "indirect": kernels/spectral/indirect.cl.
 #include "spectral/film.h"
 #include "spectral/photon_slices.h"
 #include "spectral/stages.h"
@@ -22,7 +22,7 @@ public:
   {
     compute::Defines defines = world.photon_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every photon has a wavelength of its own
-    kernel_ = compute::Program(world.context, "indirect.cl", defines).kernel("indirect");
+    kernel_ = compute::Program(world.context, "spectral/indirect.cl", defines).kernel("indirect");
   }
 
   const char* name() const override { return "indirect"; }

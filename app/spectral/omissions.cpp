@@ -103,7 +103,7 @@ bool nothing_blocks_the_view(const scene::Scene& scene)
   return true;
 }
 
-/// NEPHROID_LIGHT_TYPES of kernels/light.h.
+/// NEPHROID_LIGHT_TYPES of kernels/tracing/light.h.
 unsigned light_type_bits(const scene::Scene& scene)
 {
   unsigned bits = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons that are splatted into the pixel that sees them: kernels/photons.cl.
+// Photons that are splatted into the pixel that sees them: kernels/spectral/photons.cl.
 #include "spectral/effort/emission_guide.h"
 #include "spectral/effort/variance_deal.h"
 #include "spectral/film.h"
@@ -27,7 +27,7 @@ public:
     defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
     defines["NEPHROID_STORE"] = std::to_string(int(map != nullptr));
     if (map) stored_ = map->stored();
-    kernel_ = compute::Program(world.context, "photons.cl", defines).kernel("photons");
+    kernel_ = compute::Program(world.context, "spectral/photons.cl", defines).kernel("photons");
   }
 
   const char* name() const override { return "photons"; }

@@ -266,8 +266,8 @@ std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Sc
 std::string kernel_sources(const compute::Context& context)
 {
   std::string all;
-  for (const char* file : {"direct.cl", "photons.cl", "indirect.cl", "background.cl", "grid.cl", "view.cl", "gather.cl",
-                           "relight_direct.cl", "relight_photons.cl", "relight_weigh.cl"})
+  for (const char* file : {"spectral/direct.cl", "spectral/photons.cl", "spectral/indirect.cl", "spectral/background.cl", "spectral/grid.cl", "spectral/view.cl", "spectral/gather.cl",
+                           "spectral/relight_direct.cl", "spectral/relight_photons.cl", "spectral/relight_weigh.cl"})
     all += compute::kernel_source(context, file);
   return all;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spectral differentials, the part that depends on wavelength alone: along which parameter s a splat is stretched, and where each
-// wavelength lies on it (kernels/differential.h has the derivatives, kernels/stretch.h the splats).
+// wavelength lies on it (kernels/tracing/differential.h has the derivatives, kernels/spectral/stretch.h the splats).
 //
 // Where all glass that disperses follows one curve, s is its index of refraction n. A path's place is a much straighter function of n than
 // of the wavelength, and wavelengths that share an n share a place, however far apart they are, so a cluster of an anomalous curve
 // is stretched as a whole. Where there are several curves, s is the wavelength in nm, and clusters are split into runs of neighbours.
 #pragma once
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "scene/scene.h"
 
 #include <vector>

@@ -24,7 +24,7 @@ constexpr std::uint32_t photons = 1 << 20, side = 512;
 constexpr float radius = 0.00745f;
 
 const char* const source = R"(
-#include "photon_map.h"
+#include "kernels/spectral/photon_map.h"
 kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global float4* sums, uint count)
 {
   const uint i = get_global_id(0);

@@ -41,10 +41,10 @@ TEST_F(CheckVerb, AWrongKernelIsNamedAndExitsWithOne)
 {
   const fs::path kernels = folder / "kernels";
   fs::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
-  std::string text = nephroid::read_file(kernels / "film.h");
+  std::string text = nephroid::read_file(kernels / "tracing/film.h");
   text.replace(text.find("0x1p42f"), 7, "0x1p44f");
-  nephroid::write_file_whole(kernels / "film.h", text);
-  nephroid::write_file_whole(kernels / "trace.cl", "nonsense\n");
+  nephroid::write_file_whole(kernels / "tracing/film.h", text);
+  nephroid::write_file_whole(kernels / "tracing/trace.cl", "nonsense\n");
   const Ended ended = check({"--kernels", kernels.string()});
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.err, HasSubstr("5 failed: film: takes what fits, refuses the rest, rays: closest hits, "));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in closed form.
+// kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in closed form.
 #include "spectral/engine.h"
 #include "spectral/stretch.h"
 #include "spectral/tables/device_world.h"
@@ -21,8 +21,8 @@ namespace {
 
 constexpr int steps = 24; // surfaces of a path
 
-const char* const source = R"(#include "world.h"
-#include "random.h"
+const char* const source = R"(#include "kernels/tracing/world.h"
+#include "kernels/tracing/random.h"
 #define STEPS 24
 // What each ray meets: triangle * 4 + (0: ends there, 1: reflected, 2: transmitted), and place, direction and their derivatives after that.
 __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const int* clusters, uint2 seed, __global uint* meets,

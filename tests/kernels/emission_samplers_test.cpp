@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/emission.h: photons of every type of light towards several overlapping targets. Their density is what the sampler is meant to
+// kernels/tracing/emission.h: photons of every type of light towards several overlapping targets. Their density is what the sampler is meant to
 // have, by chi-square, and the power that they carry is what the light sends towards the targets, everywhere, whatever the density.
 // Both truths are integrals over cells, of formulas that are written here anew, in double precision.
 #include "compute/compute.h"
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
 
@@ -22,8 +22,8 @@ using shared::float4;
 namespace {
 
 constexpr const char* source = R"(
-#include "random.h"
-#include "emission.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/emission.h"
 typedef struct {
   float4 origin_watts, direction;
 } Sent;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/emission.h in extreme places: a far and small target, and a light inside of one. emission_samplers_test.cpp tests the rest.
+// kernels/tracing/emission.h in extreme places: a far and small target, and a light inside of one. emission_samplers_test.cpp tests the rest.
 #include "compute/compute.h"
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "tests/support/test_kernels.h"
 
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ using shared::float4;
 namespace {
 
 constexpr const char* source = R"(
-#include "shared_types.h"
-#include "random.h"
-#include "light.h"
-#include "emission.h"
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/light.h"
+#include "kernels/tracing/emission.h"
 kernel void sample(global const DeviceTarget* targets, int target_count, float4 from, uint2 seed, global float4* out, uint count)
 {
   const uint i = get_global_id(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/film.h: sums are exact, whatever the order and whichever atomics the device has.
+// kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has.
 #include "compute/compute.h"
 #include "tests/support/test_kernels.h"
 
@@ -34,7 +34,7 @@ TEST(Film, BothKindsOfAtomicsGiveTheExactSum)
   for (const compute::Defines& defines : {compute::Defines{}, compute::Defines{{"NEPHROID_CHECK_HALVES", "1"}}}) {
     compute::Buffer<std::int64_t> to(context, "sums", sums);
     to.fill_zero();
-    compute::Program(context, "check_sums.cl", defines)
+    compute::Program(context, "check/check_sums.cl", defines)
         .kernel("add_all")
         .run(count, 64, from, where, to, static_cast<std::uint32_t>(count));
     EXPECT_EQ(to.read(), truth) << (defines.empty() ? "the device's own" : "32-bit halves");
@@ -52,7 +52,7 @@ TEST(Film, RefusesWhatDoesNotFit)
   compute::Buffer<std::int64_t> film(context, "film", 3 * in.size());
   film.fill_zero();
   compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
-  compute::Program(context, "check_sums.cl")
+  compute::Program(context, "check/check_sums.cl")
       .kernel("add_to_film")
       .run(in.size(), 64, from, film, accepted, static_cast<std::uint32_t>(in.size()));
   EXPECT_EQ(accepted.read(), truth);

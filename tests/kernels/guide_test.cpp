@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they count
+// kernels/spectral/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they count
 // less.
 #include "compute/compute.h"
 #include "spectral/effort/emission_guide.h"
@@ -22,8 +22,8 @@ using Point = std::array<float, 4>;
 constexpr std::size_t cells = GUIDE_CELLS;
 
 const char* const source = R"(
-#include "guide.h"
-#include "random.h"
+#include "kernels/spectral/guide.h"
+#include "kernels/tracing/random.h"
 // Moves plain random numbers; xyz: the moved ones, w: the density. w of the numbers must come back as it was.
 __kernel void guided(__global const float* guide, __global float4* out, __global uint* cell, uint seed, uint count)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/low_discrepancy.h: what Owen's scrambling keeps of a Sobol sequence is exact and is tested so; that other keys give independent
+// kernels/tracing/low_discrepancy.h: what Owen's scrambling keeps of a Sobol sequence is exact and is tested so; that other keys give independent
 // sequences is tested by chi-square.
 #include "compute/compute.h"
 #include "tests/support/statistics.h"
@@ -18,7 +18,7 @@ using namespace nephroid;
 using Point = std::array<float, 4>;
 
 const char* const source = R"(
-#include "low_discrepancy.h"
+#include "kernels/tracing/low_discrepancy.h"
 __kernel void points(__global float4* out, uint2 seed, uint4 sequence_set, uint first, uint count)
 {
   const uint i = (uint)get_global_id(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the photons came in.
+// kernels/spectral/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the photons came in.
 #include "compute/compute.h"
 #include "spectral/maps/photon_map.h"
 #include "tests/support/test_kernels.h"
@@ -20,7 +20,7 @@ using shared::VisiblePoint;
 namespace {
 
 const char* const source = R"(
-#include "photon_map.h"
+#include "kernels/spectral/photon_map.h"
 kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global long4* sums, uint count)
 {
   const uint i = get_global_id(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/photons.cl against an independent tracer on Embree, pixel by pixel within the noise of both.
+// kernels/spectral/photons.cl against an independent tracer on Embree, pixel by pixel within the noise of both.
 #include "compute/compute.h"
 #include "optics/colour.h"
 #include "scene/scene.h"

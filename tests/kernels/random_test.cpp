@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
+// kernels/tracing/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
 #include "compute/compute.h"
 #include "tests/support/test_kernels.h"
 
@@ -24,7 +24,7 @@ TEST(Random, PhiloxGivesThePublishedVectors)
   const compute::Context context = compute::Context::open(test::device_options());
   const compute::Buffer<Block> in(context, "counters", std::span(counters)), out(context, "results", counters.size());
   const compute::Buffer<std::array<std::uint32_t, 2>> key(context, "keys", std::span(keys));
-  compute::Program(context, "check.cl").kernel("philox").run(counters.size(), 1, in, key, out, static_cast<std::uint32_t>(counters.size()));
+  compute::Program(context, "check/check.cl").kernel("philox").run(counters.size(), 1, in, key, out, static_cast<std::uint32_t>(counters.size()));
   EXPECT_EQ(out.read(), published);
 }
 

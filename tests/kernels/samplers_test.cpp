@@ -2,7 +2,7 @@
 // Chi-square tests of what the kernels draw, but for emission (emission_samplers_test.cpp): uniforms, places on area lights, places in a
 // pixel, clusters of a camera path, reflection or refraction. Each also shows that it rejects a distribution a few per cent off.
 #include "compute/compute.h"
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
@@ -19,8 +19,8 @@ using shared::float4;
 namespace {
 
 constexpr const char* source = R"(
-#include "random.h"
-#include "direct.cl"
+#include "kernels/tracing/random.h"
+#include "kernels/spectral/direct.cl"
 
 kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* out, uint count)
 {

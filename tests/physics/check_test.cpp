@@ -79,7 +79,7 @@ TEST(Check, AKernelThatDoesNotCompileFailsWithItsPlace)
 {
   const test::TemporaryFolder folder;
   fs::copy(test::kernel_folder(), folder.path(), fs::copy_options::recursive);
-  std::ofstream(folder.path() / "check_sums.cl", std::ios::app) << "\nnonsense\n";
+  std::ofstream(folder.path() / "check/check_sums.cl", std::ios::app) << "\nnonsense\n";
   const compute::Context context = compute::Context::open({{}, folder.path()});
   const check::Result result = check::run_check(check_named("sums: the device's own atomics"), context);
   EXPECT_FALSE(result.passed());

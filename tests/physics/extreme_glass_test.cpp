@@ -2,7 +2,7 @@
 // Extreme materials: indices of refraction at and around 1 and far from it, curves with steps and poles, absorption without end, nested and
 // total reflection. docs/extremes.md has the table.
 #include "compute/compute.h"
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "preset/read.h"
 #include "scene/scene.h"
@@ -129,7 +129,7 @@ preset::Preset nested(int count)
 double transmission_error(double theta_deg, double n, bool turned)
 {
   const TestKernels kernels(R"(
-#include "fresnel.h"
+#include "kernels/tracing/fresnel.h"
 kernel void bend(global const float4* direction, global const float4* normal, float n, global float* transmitted)
 {
   const int i = get_global_id(0);

@@ -70,12 +70,12 @@ TEST(BrewstersAngle, HalfOfTheOtherPolarisationIsReflected)
   }
 }
 
-// kernels/fresnel.h in single precision: its unpolarised R less half of R_s = ((cos(theta) - n cos(t)) / (cos(theta) + n cos(t)))^2, which
+// kernels/tracing/fresnel.h in single precision: its unpolarised R less half of R_s = ((cos(theta) - n cos(t)) / (cos(theta) + n cos(t)))^2, which
 // a double works out from the same cosine, leaves half of R_p: nothing at Brewster's angle.
 TEST(BrewstersAngle, TheKernelReflectsNothingPolarisedInThePlane)
 {
   const TestKernels kernels(R"(
-#include "fresnel.h"
+#include "kernels/tracing/fresnel.h"
 kernel void reflectances(global const float4* in, global float4* out, uint count)
 {
   const uint i = get_global_id(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An independent photon tracer: Embree finds the hits, everything else is double precision and written from the laws themselves, with
-// random numbers of its own. Slow and plain: what kernels/photons.cl is judged by.
+// random numbers of its own. Slow and plain: what kernels/spectral/photons.cl is judged by.
 #pragma once
 #include "optics/fresnel.h"
 #include "scene/scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/trace.cl and Embree behind the same two structs, for tests and benchmarks that compare them.
+// kernels/tracing/trace.cl and Embree behind the same two structs, for tests and benchmarks that compare them.
 #pragma once
 #include "check/tracer.h"
 

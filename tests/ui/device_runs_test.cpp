@@ -18,12 +18,12 @@ protected:
 
   EngineTest() { std::filesystem::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, std::filesystem::copy_options::recursive); }
   compute::DeviceOptions options() const { return {.selector = "", .kernels = kernels}; }
-  std::string source() const { return read_file(kernels / "direct.cl"); }
+  std::string source() const { return read_file(kernels / "spectral/direct.cl"); }
   /// In one step: a temporary file beside the kernels would be a change of its own.
   void write(const std::string& text) const
   {
     write_file_whole(folder.path() / "new.cl", text);
-    std::filesystem::rename(folder.path() / "new.cl", kernels / "direct.cl");
+    std::filesystem::rename(folder.path() / "new.cl", kernels / "spectral/direct.cl");
   }
 };
 
@@ -52,7 +52,7 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
   ASSERT_TRUE(until([&] { return workbench.status().state == job::State::failed; }));
   workbench.update();
   ASSERT_EQ(workbench.messages().size(), 1u);
-  EXPECT_THAT(workbench.messages()[0].line, StartsWith("direct.cl:1: "));
+  EXPECT_THAT(workbench.messages()[0].line, StartsWith("spectral/direct.cl:1: "));
   EXPECT_EQ(sum(workbench.snapshot()), bright) << "the last picture stays";
 
   // Compiles again, and gives another picture: nothing is added to the film.

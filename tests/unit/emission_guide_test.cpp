@@ -20,7 +20,7 @@ constexpr double dark_part = 0.15; // of the photons, spread evenly whatever was
 
 std::size_t cell_at(std::size_t x, std::size_t y, std::size_t z) { return (x * GUIDE_BINS_Y + y) * GUIDE_BINS_Z + z; }
 
-/// The chance of each cell of a light, as the three cdfs of kernels/guide.h give it.
+/// The chance of each cell of a light, as the three cdfs of kernels/spectral/guide.h give it.
 std::vector<double> chances(const EmissionGuide& guide, std::size_t light = 0)
 {
   const auto table = guide.table().begin() + static_cast<std::ptrdiff_t>(light * GUIDE_FLOATS);
@@ -119,7 +119,7 @@ TEST(EmissionGuide, NeighboursLearnFromEachOther)
 }
 
 // Moments over 18 orders of magnitude, several deals, two lights of which one is dark: every chance is above 0 by what is spread evenly,
-// and they are all there is. So with the density chance * cells that a photon is divided by (kernels/guide.h), the mean of any f over
+// and they are all there is. So with the density chance * cells that a photon is divided by (kernels/spectral/guide.h), the mean of any f over
 // guided photons is sum chance * f / (chance * cells), the even mean.
 TEST(EmissionGuide, EveryCellKeepsAChance)
 {

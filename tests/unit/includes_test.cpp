@@ -170,14 +170,14 @@ TEST(Includes, breaks_are_seen)
   EXPECT_EQ(break_of("optics", "base/error.h", table), "");
   EXPECT_EQ(break_of("optics", "optics/wavelength.h", table), "");
   EXPECT_EQ(break_of("ui", "compute/compute.h", table), "");
-  EXPECT_EQ(break_of("compute", "kernels/shared_types.h", table), "");
+  EXPECT_EQ(break_of("compute", "kernels/tracing/shared_types.h", table), "");
   EXPECT_EQ(break_of("compute", "CL/opencl.hpp", table), "");
   EXPECT_EQ(break_of("base", "vector", table), "");
   EXPECT_EQ(break_of("ui", "cli/verbs.h", table), "ui may not include cli");
   EXPECT_EQ(break_of("base", "optics/wavelength.h", table), "base may not include optics");
   EXPECT_EQ(break_of("optics", "compute/compute.h", table), "optics may not include compute");
-  EXPECT_EQ(break_of("compute", "kernels/photon_map_types.h", table), "");
-  EXPECT_EQ(break_of("compute", "kernels/random.h", table), "compute may not include kernels");
+  EXPECT_EQ(break_of("compute", "kernels/spectral/photon_map_types.h", table), "");
+  EXPECT_EQ(break_of("compute", "kernels/tracing/random.h", table), "compute may not include kernels");
   EXPECT_EQ(break_of("optics", "CL/cl.h", table), "only compute may know this library");
   EXPECT_EQ(break_of("cli", "OpenImageIO/imageio.h", table), "only image may know this library");
   EXPECT_NE(break_of("optics", "../base/error.h", table), "");

@@ -8,7 +8,7 @@
 
 namespace nephroid::spectral {
 
-/// Layers keep one number for what is left of a whole cluster (kernels/layers.h): this is the most by which that may be wrong for a light
+/// Layers keep one number for what is left of a whole cluster (kernels/spectral/layers.h): this is the most by which that may be wrong for a light
 /// that has only one wavelength of it. Light that changes little inside of a cluster is far less off.
 constexpr double largest_loss_difference = 0.1;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a light's photons matter: a histogram over the numbers that their directions are made of (kernels/guide.h), learned from what
+// Where a light's photons matter: a histogram over the numbers that their directions are made of (kernels/spectral/guide.h), learned from what
 // earlier photons added to the picture. A photon's chance is proportional to the root of the mean square of what photons of its cell
 // add, which gives the sum of all cells' variances its smallest value. No OpenCL here.
 #pragma once
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "spectral/state_bytes.h"
 
 #include <cstddef>
@@ -21,7 +21,7 @@ public:
   /// Even for all lights. lights: how many.
   explicit EmissionGuide(std::size_t lights);
 
-  /// [light][GUIDE_FLOATS], see kernels/guide.h.
+  /// [light][GUIDE_FLOATS], see kernels/spectral/guide.h.
   const std::vector<float>& table() const { return table_; }
   /// moments: [light][GUIDE_CELLS], summed over `passes` passes: the square of what each photon added to the picture, in any unit.
   /// photons: [light] of a pass, in those passes. Every cell keeps a chance, however dark it was.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons of a pass are dealt to emitters: pairs of a light and a wavelength cluster.
 #pragma once
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 
 #include <cstdint>
 #include <vector>

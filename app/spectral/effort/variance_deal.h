@@ -3,7 +3,7 @@
 // proportion to sqrt(V_e) gives the sum of the emitters' variances V_e / n_e its smallest value, where V_e is the variance of one photon
 // that carries all of the emitter's power. No OpenCL here.
 #pragma once
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "spectral/state_bytes.h"
 
 #include <cstdint>

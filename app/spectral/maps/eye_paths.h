@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths from the eye in steps of some rows: kernels/view.cl finds where they end, the caller gathers photons there.
+// Paths from the eye in steps of some rows: kernels/spectral/view.cl finds where they end, the caller gathers photons there.
 #pragma once
-#include "kernels/photon_map_types.h"
+#include "kernels/spectral/photon_map_types.h"
 #include "spectral/pixel_rows.h"
 #include "spectral/tables/device_world.h"
 
@@ -15,7 +15,7 @@ public:
   /// paths: for each pixel in a pass, at least 1.
   EyePaths(DeviceWorld& world, std::uint32_t paths)
       : world_(world), paths_(paths), points_(world.context, "visible points", point_count(world.tables.camera)),
-        view_(compute::Program(world.context, "view.cl", world.defines).kernel("view")), rows_(world.tables.camera.height)
+        view_(compute::Program(world.context, "spectral/view.cl", world.defines).kernel("view")), rows_(world.tables.camera.height)
   {
   }
   /// What it takes on the device.

@@ -20,7 +20,7 @@ public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings, PhotonMap& map)
       : world_(world), map_(map), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
         eye_(world, world.tables.eye_paths), film_(world.zeroed("film photon maps", world.film_size())),
-        gather_(compute::Program(world.context, "gather.cl", world.defines).kernel("gather_to_film"))
+        gather_(compute::Program(world.context, "spectral/gather.cl", world.defines).kernel("gather_to_film"))
   {
   }
 

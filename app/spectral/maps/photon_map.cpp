@@ -10,7 +10,7 @@
 namespace nephroid::spectral {
 namespace {
 
-/// The work items of a scan; kernels/grid.cl.
+/// The work items of a scan; kernels/spectral/grid.cl.
 constexpr unsigned scan_blocks = 256;
 
 /// At least one bucket a photon, so that few cells share one.
@@ -37,7 +37,7 @@ PhotonMap::PhotonMap(const compute::Context& context, std::uint32_t slots, const
   values_.fill_zero();
   compute::Defines all = defines;
   all["NEPHROID_SCAN_BLOCKS"] = std::to_string(scan_blocks);
-  const compute::Program program(context, "grid.cl", all);
+  const compute::Program program(context, "spectral/grid.cl", all);
   count_ = program.kernel("count_photons");
   sum_ = program.kernel("sum_blocks");
   scan_ = program.kernel("scan_blocks");

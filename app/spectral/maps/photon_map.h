@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons on surfaces and the grid that finds those near a point (kernels/photon_map.h, grid.cl).
+// Photons on surfaces and the grid that finds those near a point (kernels/spectral/photon_map.h, grid.cl).
 #pragma once
 #include "compute/compute.h"
-#include "kernels/photon_map_types.h"
+#include "kernels/spectral/photon_map_types.h"
 
 #include <cstdint>
 

@@ -45,8 +45,8 @@ public:
     compute::Defines defines = world.photon_defines();
     defines["NEPHROID_SPLAT"] = std::to_string(0);
     defines["NEPHROID_STORE"] = std::to_string(1);
-    send_ = compute::Program(world.context, "photons.cl", defines).kernel("photons");
-    const compute::Program gather(world.context, "gather.cl", world.defines);
+    send_ = compute::Program(world.context, "spectral/photons.cl", defines).kernel("photons");
+    const compute::Program gather(world.context, "spectral/gather.cl", world.defines);
     gather_ = gather.kernel("gather_to_statistics");
     start_ = gather.kernel("start_statistics");
     add_radiance_ = gather.kernel("add_radiance");

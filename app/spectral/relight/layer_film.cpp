@@ -6,7 +6,7 @@
 
 namespace nephroid::spectral {
 
-static_assert(sizeof(LayerWeight) == 6 * sizeof(float), "the weights as kernels/relight_weigh.cl reads them");
+static_assert(sizeof(LayerWeight) == 6 * sizeof(float), "the weights as kernels/spectral/relight_weigh.cl reads them");
 
 LayerFilm::LayerFilm(const compute::Context& context, const std::string& name, const LayerCells& cells, std::size_t layers,
                      std::size_t halves, const compute::Defines& defines)
@@ -17,7 +17,7 @@ LayerFilm::LayerFilm(const compute::Context& context, const std::string& name, c
       sums_(context, name, halves * layers * cell_count_), weighed_(context, name + ": weighed", 6 * cell_count_),
       pictures_(context, name + ": pictures", 6 * pixels_)
 {
-  const compute::Program program(context, "relight_weigh.cl", defines);
+  const compute::Program program(context, "spectral/relight_weigh.cl", defines);
   weigh_ = program.kernel("weigh");
   gather_ = program.kernel("gather_cells");
   sums_.fill_zero();

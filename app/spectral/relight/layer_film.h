@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of layers on the device (kernels/layers.h), and the pictures that are weighed of it.
+// A film of layers on the device (kernels/spectral/layers.h), and the pictures that are weighed of it.
 #pragma once
 #include "compute/compute.h"
 #include "job/job.h"

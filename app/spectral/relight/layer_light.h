@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that layers are weighed by (kernels/layers.h), which may change while a run goes on, and by how much. On the host, without
+// The light that layers are weighed by (kernels/spectral/layers.h), which may change while a run goes on, and by how much. On the host, without
 // OpenCL.
 #pragma once
 #include "optics/colour.h"

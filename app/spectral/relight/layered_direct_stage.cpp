@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direct layer, kept as layers: kernels/relight_direct.cl.
+// The direct layer, kept as layers: kernels/spectral/relight_direct.cl.
 #include "spectral/film.h"
 #include "spectral/pixel_rows.h"
 #include "spectral/relight/layer_film.h"
@@ -23,7 +23,7 @@ public:
         bent_(world.context, "film direct through glass", relighting.bent,
               world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),
         cluster_cdf_(world.context, "cluster choice", std::span<const float>(world.tables.wavelengths.cluster_cdf)),
-        kernel_(compute::Program(world.context, "relight_direct.cl", world.defines).kernel("direct")), rows_(world.tables.camera.height)
+        kernel_(compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("direct")), rows_(world.tables.camera.height)
   {
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caustic layer, kept as layers: kernels/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt anew when
+// The caustic layer, kept as layers: kernels/spectral/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt anew when
 // the light changes, and what was sent before stays as good as it was.
 #include "spectral/effort/emitters.h"
 #include "spectral/film.h"
@@ -21,7 +21,7 @@ public:
         // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
         scale_(world.tables.caustic_scale / world.tables.photons_per_pass)
   {
-    kernel_ = compute::Program(world.context, "relight_photons.cl", world.photon_defines()).kernel("photons");
+    kernel_ = compute::Program(world.context, "spectral/relight_photons.cl", world.photon_defines()).kernel("photons");
   }
 
   const char* name() const override { return "photons"; }

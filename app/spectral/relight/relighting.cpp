@@ -21,7 +21,7 @@ std::unique_ptr<Relighting> make_relighting(DeviceWorld& world, LayerLight light
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   compute::Buffer<int> unbent(world.context, "survey", pixels * SURVEY_PLACES),
       bent(world.context, "survey through glass", pixels * SURVEY_PLACES * SURVEY_PATHS);
-  compute::Kernel survey = compute::Program(world.context, "relight_direct.cl", world.defines).kernel("survey");
+  compute::Kernel survey = compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("survey");
   world.run(survey, pixels, 64, tables.camera, world.seed, unbent, bent);
   const LayerBudget budget = layer_budget(tables.camera, tables.spheres);
   const std::vector<int> seen = unbent.read(), seen_bent = bent.read();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene as the kernels of engine 1 read it: plain tables, still on the host. Made once a job; tested without a device.
 #pragma once
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -19,7 +19,7 @@ struct WavelengthTables {
   std::vector<int> cluster_wavelengths;          ///< cluster after cluster
   std::vector<float> index_of_cluster;           ///< [cluster][material]: of refraction, mean over the cluster; 1 for what is no dielectric
   std::vector<float> index_of_wavelength;        ///< [401][material]
-  std::vector<float> wavelength_cdf;             ///< [light, then all together][member of cluster_wavelengths]: see kernels/band.h
+  std::vector<float> wavelength_cdf;             ///< [light, then all together][member of cluster_wavelengths]: see kernels/tracing/band.h
   bool clusters_spread = false;                  ///< whether n differs inside any cluster
   std::vector<float> coefficient;                ///< [attenuator][401]: 1/m, or -ln(reflectance) of a mirror
   std::vector<float> reflectance;                ///< [reflector][401]
@@ -54,7 +54,7 @@ struct DeviceTables {
   double energy_scale = 1;                    ///< energy quanta per watt, a power of two
 };
 
-/// LIGHT_* of kernels/shared_types.h.
+/// LIGHT_* of kernels/tracing/shared_types.h.
 int device_light_type(preset::Light::Type type);
 
 /// Everything but DeviceScene::root, which is the tree's. Throws bad_input at FILE#/pointer where the camera or a light is inside more

@@ -37,7 +37,7 @@ struct DeviceWorld {
   /// A scale for powers as the device knows them.
   float on_device(double scale) const { return static_cast<float>(scale * tables.power_unit); }
 
-  /// Runs a kernel whose arguments begin with WORLD_ARGUMENTS (kernels/world.h), and waits for it.
+  /// Runs a kernel whose arguments begin with WORLD_ARGUMENTS (kernels/tracing/world.h), and waits for it.
   template <class... Rest>
   void run(compute::Kernel& kernel, std::size_t global, std::size_t local, const Rest&... rest)
   {

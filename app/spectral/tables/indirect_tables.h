@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What photons of the layer "indirect" start with (kernels/indirect.cl), beside the tables of the scene.
+// What photons of the layer "indirect" start with (kernels/spectral/indirect.cl), beside the tables of the scene.
 #pragma once
 #include "spectral/tables/device_scene.h"
 

@@ -15,7 +15,7 @@ double power_of_two_below(double value);
 scene::Sphere scene_bounds(const scene::Scene& scene);
 
 /// Of a film of splats, quanta per unit of XYZ radiance: 2^16 for a photon with a mean share of `watts` on a surface as far away as the
-/// scene's middle; the limit of one is 2^42 (kernels/film.h), 8000 times nearer. photons: of one pass.
+/// scene's middle; the limit of one is 2^42 (kernels/tracing/film.h), 8000 times nearer. photons: of one pass.
 double splat_scale(const scene::Scene& scene, unsigned photons, double watts);
 
 /// Of energy counters, quanta per watt: 2^40 for the power of one pass; 2^20 passes fit into 63 bits.

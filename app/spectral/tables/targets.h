@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where photons are sent: spheres that together enclose every caustic object, as tightly as a few spheres can.
 #pragma once
-#include "kernels/shared_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "scene/scene.h"
 
 #include <vector>

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions of kernels/*.h over arrays, one item each: how `nephroid check` (app/check) and tests hold them against the host.
+// Nothing is computed here that the headers do not compute, but for built_ins, which asks the device's own functions.
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/fresnel.h"
+#include "kernels/tracing/media.h"
+#include "kernels/tracing/attenuation.h"
+#include "kernels/tracing/light.h"
+#include "kernels/tracing/emission.h"
+
+// The order of app/check/arithmetic.cpp.
+enum { FUNCTION_EXP, FUNCTION_LOG, FUNCTION_SQRT, FUNCTION_RSQRT, FUNCTION_SIN, FUNCTION_COS, FUNCTION_DIVIDE, FUNCTION_FMA, FUNCTION_DIFFERENCE };
+
+// x y - z w as four separate roundings allow: what the signs of bvh.h's edge functions rest on.
+static inline float difference_of_products(float4 a)
+{
+#pragma OPENCL FP_CONTRACT OFF
+  const float first = a.x * a.y, second = a.z * a.w;
+  return first - second;
+}
+
+static inline float built_in(int function, float4 a)
+{
+  float cosine;
+  switch (function) {
+  case FUNCTION_EXP: return exp(a.x);
+  case FUNCTION_LOG: return log(a.x);
+  case FUNCTION_SQRT: return sqrt(a.x);
+  case FUNCTION_RSQRT: return rsqrt(a.x);
+  case FUNCTION_SIN: return sincos(a.x, &cosine);
+  case FUNCTION_COS: sincos(a.x, &cosine); return cosine;
+  case FUNCTION_DIVIDE: return a.x / a.y;
+  case FUNCTION_FMA: return fma(a.x, a.y, a.z);
+  }
+  return difference_of_products(a);
+}
+
+kernel void built_ins(int function, global const float4* in, global float* out, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i < count) out[i] = built_in(function, in[i]);
+}
+
+kernel void to_quanta(global const float* in, global long* out, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i < count) out[i] = convert_long_rte(in[i]);
+}
+
+kernel void philox(global const uint4* counters, global const uint2* keys, global uint4* results, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i < count) results[i] = philox4x32(counters[i], keys[i]);
+}
+
+kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* results, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i < count) results[i] = random4(seed, pass, i, block, stream);
+}
+
+// in: cos_i, n_i, n_t. out: cos_t, negative for total reflection; reflectance.
+kernel void interfaces(global const float4* in, global float4* out, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  const float cos_t = refracted_cosine(in[i].x, in[i].y / in[i].z);
+  const float r = cos_t < 0.0f ? 1.0f : fresnel_reflectance(in[i].x, cos_t, in[i].y, in[i].z);
+  out[i] = (float4)(cos_t, r, 0.0f, 0.0f);
+}
+
+// in: a direction that falls on the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one and its cosine.
+kernel void directions(global const float4* in, global float4* out, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  const float3 d = in[i].xyz, n = (float3)(0.0f, 0.0f, 1.0f);
+  const float cos_i = -d.z, cos_t = refracted_cosine(cos_i, in[i].w);
+  out[2 * i] = (float4)(reflect_about(d, n, cos_i), 0.0f);
+  out[2 * i + 1] = (float4)(cos_t < 0.0f ? (float3)(0.0f) : refract_through(d, n, cos_i, cos_t, in[i].w), cos_t);
+}
+
+// One walk an item through nested objects. A step k >= 0 enters object k, ~k leaves it. After each: the medium, -1 air, or -2 where
+// the list of media is full.
+kernel void media_walks(global const DeviceObject* objects, global const int* steps, global int* mediums, int steps_each, uint count)
+{
+  const uint walk = get_global_id(0);
+  if (walk >= count) return;
+  Media media;
+  media.count = 0;
+  for (int s = 0; s < steps_each; ++s) {
+    const int step = steps[walk * (uint)steps_each + (uint)s];
+    bool fits = true;
+    if (step >= 0)
+      fits = enter_medium(&media, step);
+    else
+      leave_medium(&media, ~step);
+    mediums[walk * (uint)steps_each + (uint)s] = fits ? medium_object(&media, objects) : -2;
+  }
+}
+
+// in: light, cluster, reflector, attenuator. lengths: what was crossed of the attenuator.
+kernel void attenuated(global const int* first, global const int* wavelengths, global const float* coefficient, global const float4* light_xyz,
+                       global const float* reflectance, global const int4* in, global const float* lengths, global float4* out, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  const SpectralTables tables = {first, wavelengths, coefficient, light_xyz, reflectance};
+  Losses losses = no_losses();
+  lose(&losses, in[i].w, lengths[i]);
+  out[i] = attenuated_sum(&tables, &losses, in[i].x, in[i].y, in[i].z);
+}
+
+// Photon i of a light: origin and watts, then direction.
+kernel void emissions(global const DeviceLight* lights, int light, global const DeviceTarget* targets, DeviceScene scene, uint2 seed,
+                      global float4* out, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  const DeviceLight from = lights[light];
+  const Emission e = emit(&from, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
+  out[2 * i] = (float4)(e.origin, e.watts);
+  out[2 * i + 1] = (float4)(e.direction, 0.0f);
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exact sums of film.h over arrays, for app/check and tests. NEPHROID_CHECK_HALVES builds them the way a device without 64-bit
+// atomics does.
+#ifdef NEPHROID_CHECK_HALVES
+#undef NEPHROID_INT64_ATOMICS
+#endif
+#include "kernels/tracing/film.h"
+
+kernel void add_all(global const long* values, global const int* places, volatile global long* sums, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i < count) add_exactly(sums + places[i], values[i]);
+}
+
+kernel void add_to_film(global const float4* xyz_scale, volatile global long* film, global int* accepted, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i < count) accepted[i] = film_add(film, (int)i, xyz_scale[i].xyz, xyz_scale[i].w);
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end at the environment.
+// A path through glass has one wavelength, unless all go the same way: then it has all of them.
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/background.h"
+#include "kernels/tracing/band.h"
+#include "kernels/tracing/camera.h"
+#include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/film.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/world.h"
+
+// 1: no glass bends one wavelength otherwise than another.
+#ifndef NEPHROID_ONE_WAY
+#define NEPHROID_ONE_WAY 0
+#endif
+
+// XYZ of what a path that has lost some of its light shows of a colour. In single wavelengths, or in all of them.
+static inline float3 shown_after(const World* world, const Background* background, float3 rgb, const Losses* losses, const Band* band)
+{
+#if NEPHROID_ONE_WAY
+  if (!losses->any) return background_xyz(background, rgb, WAVELENGTH_COUNT);
+  float3 xyz = (float3)(0.0f);
+  for (int w = 0; w < WAVELENGTH_COUNT; ++w) xyz += wavelength_left(&world->tables, losses, w) * background_xyz(background, rgb, w);
+  return xyz;
+#else
+  return wavelength_left(&world->tables, losses, band->wavelength) * band->weight * background_xyz(background, rgb, band->wavelength);
+#endif
+}
+
+// The XYZ radiance of the environment that a path ends at, which has met `hit`; 0 where it ends elsewhere.
+static inline float3 seen_through(const World* world, const Background* background, Path path, Hit hit, const Band* band, uint2 seed, uint sample,
+                                  uint pixel)
+{
+  Surface surface;
+  const float radiance_scale = reach_end(world, &path, &hit, band, seed, sample, pixel, STREAM_BACKGROUND, &surface);
+  if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
+  return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses, band);
+}
+
+// One sample of every pixel of rows first_row .. first_row + row_count - 1.
+__kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_xyz, DeviceBackground size,
+                         __global const int* wavelengths,    // 0, 1, ..., 400
+                         __global const float* spectrum_cdf, // [401]: which wavelength a path through glass has
+                         volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
+                         DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale, float film_limit)
+{
+  const World world = WORLD;
+  const Background background = {texels, primary_xyz, size};
+  const int index = (int)get_global_id(0);
+  if (index >= row_count * camera.width) return;
+  const int column = index % camera.width, row = first_row + index / camera.width;
+  const uint pixel = (uint)(row * camera.width + column);
+  const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_BACKGROUND);
+  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  const Hit hit = next_hit(&world, &path);
+
+  float3 xyz = (float3)(0.0f);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE)
+    xyz = background_xyz(&background, background_rgb(&background, path.direction), WAVELENGTH_COUNT);
+  else if (material_of(&world, (int)object_of_triangle[hit.primitive]).type == MATERIAL_DIFFUSE)
+    return;
+  else
+    for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
+      const float place = golden_place(seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);
+      const Band band = wavelength_of_cluster(0, wavelengths, spectrum_cdf, WAVELENGTH_COUNT, place);
+      xyz += seen_through(&world, &background, path, hit, &band, seed, frame * PATHS_THROUGH_GLASS + i, pixel) / (float)PATHS_THROUGH_GLASS;
+    }
+  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, film_limit, jitter.z))
+    add_exactly(energy + OUTCOME_REFUSED, 1);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, lit there by what of each light
+// arrives unbent. Glass and mirrors block those shadow rays: what they let through is the caustic layer's.
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/camera.h"
+#include "kernels/tracing/film.h"
+#include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/world.h"
+
+// XYZ radiance that a diffuse surface sends back along the path.
+static inline float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector, const Band* band,
+                           __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
+{
+  float3 xyz = (float3)(0.0f);
+  for (int l = 0; l < world->scene.light_count; ++l) {
+    const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, pixel);
+    if (irradiance == 0.0f) continue;
+    const float3 reflected = band->cluster < 0 ? reflected_xyz_all[l * world->reflector_count + reflector].xyz
+                                               : carried_light(world, &path->losses, l, band, reflector).xyz;
+    xyz += reflected * (irradiance / PI_F);
+  }
+  return xyz;
+}
+
+// Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light alone.
+static inline float3 follow(const World* world, Path path, Hit first, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
+                            uint sample, uint pixel)
+{
+  Surface surface;
+  const float radiance_scale = reach_diffuse(world, &path, &first, band, seed, sample, pixel, STREAM_CAMERA, &surface);
+  if (radiance_scale == 0.0f) return (float3)(0.0f);
+  const int reflector = material_of(world, surface.object).reflector;
+  return radiance_scale * shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
+}
+
+// One sample of every pixel of rows first_row .. first_row + row_count - 1.
+__kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
+                     __global const float* cluster_cdf,                         // [cluster + 1]: which cluster a path through glass takes
+                     volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
+                     DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale,
+                     float film_limit)
+{
+  const World world = WORLD;
+  const int index = (int)get_global_id(0);
+  if (index >= row_count * camera.width) return;
+  const int column = index % camera.width, row = first_row + index / camera.width;
+  const uint pixel = (uint)(row * camera.width + column);
+  const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_CAMERA);
+  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  const Hit hit = next_hit(&world, &path);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
+
+  const bool unbent = is_unbent(&world, &camera, &hit);
+  float3 xyz = (float3)(0.0f);
+  const Band all = whole_cluster(-1);
+  if (unbent)
+    xyz = follow(&world, path, hit, &all, reflected_xyz_all, seed, frame, pixel);
+  else
+    for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
+      const uint sample = frame * PATHS_THROUGH_GLASS + i;
+      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA_CLUSTER);
+      const float probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
+      const Band band = choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
+      xyz += follow(&world, path, hit, &band, reflected_xyz_all, seed, sample, pixel) / probability;
+    }
+  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, film_limit, jitter.z))
+    add_exactly(energy + OUTCOME_REFUSED, 1);
+}

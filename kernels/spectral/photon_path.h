@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// A photon's way from a light through glass and mirrors to where it ends: which emitter it is of, which numbers it starts with, what it
+// meets.
+#ifndef NEPHROID_PHOTON_PATH_H
+#define NEPHROID_PHOTON_PATH_H
+
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/emission.h"
+#include "kernels/tracing/low_discrepancy.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/world.h"
+
+// The last emitter that begins at this photon or before it, by bisection.
+static inline int emitter_of(__global const DeviceEmitter* emitters, int count, uint photon)
+{
+  int low = 0, high = count - 1;
+  while (low < high) {
+    const int middle = (low + high + 1) >> 1;
+    if (emitters[middle].first_photon <= photon)
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  return low;
+}
+
+// What a photon starts with.
+typedef struct {
+  int emitter;
+  float4 emission; // in [0, 1): target, direction (2); w: the film's dither
+  float2 place;    // in [0, 1): on an area light
+  float wavelength; // in [0, 1): which of its cluster
+} PhotonStart;
+
+// Photon `photon` of a pass. first_pass: from which on photons are dealt to the emitters as they are (DeviceEmitter::sequence_start is for
+// it).
+// Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that those of all
+// clusters together are spread evenly; its fourth number says which cluster and which wavelength in it. The halves have sequences of
+// their own, as they must be independent.
+static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights,
+                                       uint2 seed, uint pass, uint first_pass, uint photon)
+{
+  PhotonStart start;
+  start.emitter = emitter_of(emitters, emitter_count, photon);
+  start.emission = random4(seed, pass, photon, 0u, STREAM_PHOTONS);
+  start.wavelength = 0.0f;
+  start.place = (float2)(0.0f);
+  const DeviceEmitter emitter = emitters[start.emitter];
+  const DeviceLight light = lights[emitter.light];
+  const bool area = is_light(&light, LIGHT_AREA);
+#if NEPHROID_LOW_DISCREPANCY
+  const ulong start_of_deal = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
+  const ulong number = start_of_deal + (ulong)((pass - first_pass) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
+                       (photon - emitter.light_first_photon);
+  const uint index = (uint)number; // a sequence has 2^32 points; then another begins
+  const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | pass % NEPHROID_FILM_HALVES);
+  const float4 point = sobol4(seed, sequence, 0u, index);
+  start.emission.xyz = point.zxy; // the first two dimensions are the best pair
+  if (area) start.place = sobol4(seed, sequence, 1u, index).xy;
+  const float place = point.w * (float)emitter.light_photon_count;
+  const uint whole = min((uint)place, emitter.light_photon_count - 1u);
+  start.emitter = emitter_of(emitters, emitter_count, emitter.light_first_photon + whole);
+  __global const DeviceEmitter* const chosen = emitters + start.emitter;
+  const float within = (float)(emitter.light_first_photon + whole - chosen->first_photon) + (place - (float)whole);
+  start.wavelength = clamp(within / (float)chosen->photon_count, 0.0f, 0x1.fffffep-1f);
+#else
+  if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || area) {
+    const float4 more = random4(seed, pass, photon, 1u, STREAM_PHOTONS);
+    start.place = more.xy;
+    start.wavelength = more.z;
+  }
+#endif
+  return start;
+}
+
+// Where a photon ended, and what is left of its power there.
+typedef struct {
+  int outcome; // OUTCOME_*
+  float left;  // 0..1
+  Surface surface; // of a deposit
+  uint triangle;
+  float3 xyz; // of a deposit: reflected light, as if the photon carried the light's whole power
+} PhotonEnd;
+
+// Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on its last way, with
+// what it has lost; what is left of the photon is not worked out.
+static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint pass, uint photon)
+{
+  PhotonEnd end;
+  end.outcome = OUTCOME_LOST;
+  end.left = 1.0f;
+  bool met_caustic_object = false;
+  float4 choices = (float4)(0.0f);
+  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+    const Hit hit = next_hit(world, path);
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
+      end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
+      break;
+    }
+    end.surface = surface_at(&world->geometry, world->objects, hit);
+    end.triangle = hit.primitive;
+    const DeviceMaterial material = material_of(world, end.surface.object);
+    lose_in_medium(world, path, hit.t);
+    if (material.type == MATERIAL_DIFFUSE) {
+      end.outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
+      break;
+    }
+    if (surface_number == NEPHROID_MAX_SURFACES) break;
+    met_caustic_object = true;
+    if ((surface_number & 3) == 0) choices = random4(seed, pass, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
+    float n_ratio;
+    if (!bend_path(world, path, hit.primitive, &end.surface, &material, band, choices.x, &n_ratio)) break;
+    choices = choices.yzwx;
+  }
+  return end;
+}
+
+// The same for a photon of a light, with what is left of it and its colour. share: of the light's power, that the photon's band began with.
+static inline PhotonEnd trace_photon(const World* world, int light, const Band* band, float share, Path* path, uint2 seed, uint pass,
+                                     uint photon)
+{
+  PhotonEnd end = trace_way(world, band, path, seed, pass, photon);
+  const bool deposited = end.outcome == OUTCOME_DEPOSITED;
+  if (deposited || path->losses.any) {
+    const int reflector = deposited ? material_of(world, end.surface.object).reflector : -1;
+    const float4 carried = carried_light(world, &path->losses, light, band, reflector);
+    end.xyz = carried.xyz;
+    if (path->losses.any) end.left = carried.w / share;
+  }
+  return end;
+}
+
+#endif

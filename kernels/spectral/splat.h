@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// A photon on a diffuse surface is added to the pixel that sees it. Unbiased: no map, no radius.
+#ifndef NEPHROID_SPLAT_H
+#define NEPHROID_SPLAT_H
+
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/film.h"
+#include "kernels/tracing/world.h"
+
+// 0: nothing can stand between the camera and what it sees.
+#ifndef NEPHROID_OCCLUSION
+#define NEPHROID_OCCLUSION 1
+#endif
+
+// Where the camera sees `position`, in pixels from the top left corner; *depth: along the view, positive before the camera.
+static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth)
+{
+  const float3 to_camera = camera->position.xyz - position;
+  const float z = -dot(to_camera, camera->forward.xyz);
+  *depth = z;
+  const float x = 0.5f - 0.5f * dot(to_camera, camera->right.xyz) / (z * camera->tan_x);
+  const float y = 0.5f + 0.5f * dot(to_camera, camera->up.xyz) / (z * camera->tan_y);
+  return (float2)(x * (float)camera->width, y * (float)camera->height);
+}
+
+// The pixel that sees `position`, or -1; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited there adds
+// F reflectance / pi * weight to the pixel's radiance.
+// A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A), with
+// dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
+static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving, float metres_per_unit,
+                                   float* weight)
+{
+  const float3 to_camera = camera->position.xyz - position;
+  const float cos_camera = dot(to_camera, geometric), cos_arriving = -dot(arriving, geometric);
+  if (!(cos_camera * cos_arriving > 0.0f)) return -1; // seen from its other side
+  float z;
+  const float2 place = place_on_film(camera, position, &z);
+  if (!(z > 0.0f)) return -1;
+  if (!(place.x >= 0.0f && place.x < (float)camera->width && place.y >= 0.0f && place.y < (float)camera->height)) return -1;
+  const float pixel_area = 4.0f * camera->tan_x * camera->tan_y / ((float)camera->width * (float)camera->height);
+  const float depth = z * metres_per_unit;
+  // cos_camera is cos(theta) times the distance already.
+  *weight = fabs(cos_camera) / (z * depth * depth * pixel_area);
+  return (int)place.y * camera->width + (int)place.x;
+}
+
+// Where a splat goes, and by what factor the light there becomes the pixel's radiance.
+typedef struct {
+  int pixel;    // -1: no pixel sees it
+  float weight; // m^-2, see project_to_pixel; with shading_ratio
+} Splat;
+
+// The pixel that sees a place of a surface that light arrives at.
+static inline Splat splat_at(const World* world, const DeviceCamera* camera, const Surface* surface, uint triangle, float3 arriving)
+{
+  Splat splat = {-1, 0.0f};
+  splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit, &splat.weight);
+  splat.weight *= shading_ratio(surface, arriving);
+#if NEPHROID_OCCLUSION
+  if (splat.pixel < 0) return splat;
+  const float3 from = start_on_side(surface, dot(arriving, surface->geometric) < 0.0f ? 1.0f : -1.0f);
+  const float3 way = camera->position.xyz - from;
+  const float distance = length(way);
+  if (is_blocked(world, from, way / distance, distance, triangle)) splat.pixel = -1;
+#endif
+  return splat;
+}
+
+#endif

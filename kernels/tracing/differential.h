@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a path moves as glass bends it a little more: derivatives of its place and direction, carried from surface to surface as ray
+// differentials are (Igehy 1999, "Tracing ray differentials"), with the wavelength in the place of the pixel (Elek et al. 2014, "Spectral
+// ray differentials").
+//
+// They are taken with respect to one parameter s of the wavelength (app/spectral/stretch.h): a prime is d/ds below, and n' = dn/ds of every
+// material is given. With s the wavelength in nm a path moves by P' a nanometre; with s the index n itself, by P' a unit of n.
+// Emission does not depend on the wavelength, so every path starts with P' = 0 and D' = 0. Which surfaces a path meets, and whether it is
+// reflected there, is held fixed.
+#ifndef NEPHROID_DIFFERENTIAL_H
+#define NEPHROID_DIFFERENTIAL_H
+
+#include "kernels/tracing/surface.h"
+
+// 0: splats are points, and all of this compiles to nothing.
+#ifndef NEPHROID_DIFFERENTIALS
+#define NEPHROID_DIFFERENTIALS 1
+#endif
+
+typedef struct {
+  float3 position, direction; // P', D'
+} Differential;
+
+// A ray P + t D meets the plane of unit normal G through its hit at P + t D, and so do its neighbours:
+//   (P + t D)' = P' + t D' + t' D, and this is perpendicular to G, so t' = -(P' + t D').G / (D.G).
+// direction: unit; distance: t.
+static inline float3 transferred(const Differential* d, float3 direction, float distance, float3 geometric)
+{
+  const float3 moved = d->position + distance * d->direction;
+  return moved - dot(moved, geometric) / dot(direction, geometric) * direction;
+}
+
+// R = D + 2 c N, c = -D.N, so R' = D' + 2 (c' N + c N') with c' = -(D'.N + D.N').
+static inline float3 reflected_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal)
+{
+  const float cos_i = -dot(direction, normal);
+  const float d_cos_i = -(dot(d_direction, normal) + dot(direction, d_normal));
+  return d_direction + 2.0f * (d_cos_i * normal + cos_i * d_normal);
+}
+
+// T = e D + m N, m = e c - q, with e = n_i / n_t, c = -D.N, and q = cos of the angle of refraction, q^2 = 1 - e^2 (1 - c^2). So
+//   T' = e' D + e D' + m' N + m N',  m' = e' c + e c' - q',  q' = (e^2 c c' - e e' (1 - c^2)) / q.
+// Not finite at the critical angle, where q = 0.
+static inline float3 refracted_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal, float eta, float d_eta)
+{
+  const float cos_i = -dot(direction, normal);
+  const float d_cos_i = -(dot(d_direction, normal) + dot(direction, d_normal));
+  const float cos_t = refracted_cosine(cos_i, eta);
+  const float d_cos_t = eta * (eta * cos_i * d_cos_i - d_eta * (1.0f - cos_i) * (1.0f + cos_i)) / cos_t;
+  const float along = eta * cos_i - cos_t, d_along = d_eta * cos_i + eta * d_cos_i - d_cos_t;
+  return d_eta * direction + eta * d_direction + d_along * normal + along * d_normal;
+}
+
+// N' of the interpolated normal N = m / |m|, m = n_0 + u (n_1 - n_0) + v (n_2 - n_0), as its place moves by P' in the triangle:
+//   P' = u' e_1 + v' e_2 gives u' and v', m' = u' (n_1 - n_0) + v' (n_2 - n_0), and N' = (m' - (m'.N) N) / |m|.
+// position: in the triangle. The normal is the one that points outwards.
+static inline float3 normal_differential(const Geometry* geometry, uint triangle, float3 position, float3 d_position)
+{
+  const uint3 corner = vload3(triangle, geometry->corners);
+  const float3 a = vload3(corner.x, geometry->positions);
+  const float3 e1 = vload3(corner.y, geometry->positions) - a, e2 = vload3(corner.z, geometry->positions) - a;
+  const float3 n0 = vload3(corner.x, geometry->normals);
+  const float3 m1 = vload3(corner.y, geometry->normals) - n0, m2 = vload3(corner.z, geometry->normals) - n0;
+  const float3 across = cross(e1, e2);
+  const float3 to_u = cross(e2, across) / dot(across, across), to_v = cross(across, e1) / dot(across, across);
+  const float3 mixed = n0 + dot(position - a, to_u) * m1 + dot(position - a, to_v) * m2;
+  const float size = length(mixed);
+  const float3 normal = mixed / size;
+  const float3 d_mixed = dot(d_position, to_u) * m1 + dot(d_position, to_v) * m2;
+  return (d_mixed - dot(d_mixed, normal) * normal) / size;
+}
+
+// To a surface that the path's way meets at `distance`.
+static inline void differential_to_surface(Differential* d, float3 direction, float distance, const Surface* surface)
+{
+#if NEPHROID_DIFFERENTIALS
+  d->position = transferred(d, direction, distance, surface->geometric);
+#endif
+}
+
+// Across a bend at that surface. direction: before it; n_i, n_t and their n': before and after an interface, all the same at a mirror.
+static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint triangle, const Surface* surface, bool smooth,
+                                             float3 direction, const Bend* bend, float n_i, float n_t, float d_n_i, float d_n_t)
+{
+#if NEPHROID_DIFFERENTIALS
+  const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  float3 d_normal = (float3)(0.0f);
+#if NEPHROID_SMOOTH
+  if (smooth && any(bend->normal != side * surface->geometric))
+    d_normal = side * normal_differential(geometry, triangle, surface->position, d->position);
+#endif
+  const float eta = n_i / n_t;
+  d->direction = bend->transmitted
+                     ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta, (d_n_i - eta * d_n_t) / n_t)
+                     : reflected_differential(direction, d->direction, bend->normal, d_normal);
+#endif
+}
+
+#endif

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target in
+// proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly inside it. Where
+// targets overlap, `count` of them could have made the same photon, so its density is count / (sum of all): no light is counted
+// twice and none is left out.
+#ifndef NEPHROID_EMISSION_H
+#define NEPHROID_EMISSION_H
+
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/light.h"
+
+typedef struct {
+  float3 origin, direction; // the photon flies along origin + t direction, t > -behind
+  float behind;             // the light is this far behind the origin, which lies beside a small target: see aim
+  float watts; // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
+} Emission;
+
+// Two vectors that make an orthonormal frame with the unit vector n (Duff et al. 2017).
+static inline void make_frame(float3 n, float3* x, float3* y)
+{
+  const float sign = copysign(1.0f, n.z);
+  const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+  *x = (float3)(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
+  *y = (float3)(b, sign + n.y * n.y * a, -n.y);
+}
+
+// Uniform in the cone about axis with 1 - cos(half angle) = one_minus_cos, which stays exact for far and small targets:
+// the direction's part along the axis is 1 - *below, and *aside is the rest of it.
+static inline float3 sample_cone(float3 axis, float one_minus_cos, float u, float v, float* below, float3* aside)
+{
+  float3 x, y;
+  make_frame(axis, &x, &y);
+  *below = u * one_minus_cos;
+  const float sine = sqrt(*below * (2.0f - *below));
+  float cosine_phi;
+  const float sine_phi = sincos(2.0f * PI_F * v, &cosine_phi);
+  *aside = x * (sine * cosine_phi) + y * (sine * sine_phi);
+  return normalize(*aside + axis * (1.0f - *below));
+}
+
+// 1 - cos of the half angle under which a sphere is seen from a point; 2 from inside.
+static inline float one_minus_cos_of(float4 sphere, float3 from)
+{
+  const float3 way = sphere.xyz - from;
+  const float distance2 = dot(way, way), radius2 = sphere.w * sphere.w;
+  if (distance2 <= radius2) return 2.0f;
+  const float sine2 = radius2 / distance2;
+  return sine2 / (1.0f + sqrt(1.0f - sine2));
+}
+
+// Whether a photon from `from` meets a sphere.
+static inline bool meets_sphere(float4 sphere, float3 from, const Emission* photon)
+{
+  const float3 start = sphere.xyz - from, way = sphere.xyz - photon->origin;
+  const float along = dot(way, photon->direction), radius2 = sphere.w * sphere.w;
+  if (dot(start, start) <= radius2) return true;
+  const float3 aside = way - along * photon->direction;
+  return along + photon->behind > 0.0f && dot(aside, aside) <= radius2;
+}
+
+// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which at a far and small target is a
+// visible part of its size. There the photon begins in the plane through the target's centre and reaches back to the light.
+static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 random, Emission* photon)
+{
+  const float3 way = centre - from;
+  const float distance2 = dot(way, way); // 0 in the very middle of a target, where any axis will do
+  const float3 axis = distance2 > 0.0f ? normalize(way) : (float3)(0.0f, 0.0f, 1.0f);
+  float below;
+  float3 aside;
+  photon->direction = sample_cone(axis, one_minus_cos, random.x, random.y, &below, &aside);
+  photon->origin = from;
+  photon->behind = 0.0f;
+  if (one_minus_cos > 1e-3f) return;
+  photon->behind = sqrt(distance2) / (1.0f - below);
+  photon->origin = centre + photon->behind * aside;
+}
+
+// A photon from a point towards the targets: its line is written to *photon. Returns 1 / density in steradians.
+static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random, Emission* photon)
+{
+  float one_minus_cos[MAX_TARGETS];
+  float sum = 0.0f;
+  for (int i = 0; i < target_count; ++i) {
+    one_minus_cos[i] = one_minus_cos_of(targets[i].centre_radius, from);
+    sum += one_minus_cos[i];
+  }
+  int chosen = 0;
+  float rest = random.x * sum;
+  while (chosen + 1 < target_count && rest >= one_minus_cos[chosen]) rest -= one_minus_cos[chosen++];
+  aim(targets[chosen].centre_radius.xyz, one_minus_cos[chosen], from, random.yz, photon);
+  int count = 1;
+  for (int i = 0; i < target_count; ++i)
+    if (i != chosen && meets_sphere(targets[i].centre_radius, from, photon)) ++count;
+  return 2.0f * PI_F * sum / (float)count;
+}
+
+static inline Emission emit_from_point(const DeviceLight* light, __global const DeviceTarget* targets, float4 random)
+{
+  const int target_count = light->target_count;
+  Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
+  if (is_light(light, LIGHT_SPOT)) {
+    float towards_targets = 0.0f;
+    for (int i = 0; i < target_count; ++i) towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
+    if (light->solid_angle <= towards_targets) { // the spot's own cone is the tighter one: every photon carries the same
+      float below;
+      float3 aside;
+      emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z, &below, &aside);
+      emission.watts = light->radiometric;
+      return emission;
+    }
+  }
+  const float steradians = sample_targets(targets, target_count, light->position.xyz, random, &emission);
+  if (is_light(light, LIGHT_POINT))
+    emission.watts = light->radiometric * steradians / (4.0f * PI_F);
+  else if (in_spot(light, emission.direction))
+    emission.watts = light->radiometric * steradians / light->solid_angle;
+  return emission;
+}
+
+// Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per steradian.
+static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random, float2 place)
+{
+  Emission emission;
+  const float steradians = sample_targets(targets, light->target_count, area_point(light, place), random, &emission);
+  const float cosine = dot(emission.direction, light->direction.xyz);
+  emission.watts = cosine > 0.0f ? light->radiometric * cosine / PI_F * steradians : 0.0f;
+  return emission;
+}
+
+static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random)
+{
+  const float3 direction = light->direction.xyz;
+  const int target_count = light->target_count;
+  float sum = 0.0f;
+  for (int i = 0; i < target_count; ++i) sum += targets[i].centre_radius.w * targets[i].centre_radius.w;
+  int chosen = 0;
+  float rest = random.x * sum;
+  while (chosen + 1 < target_count) {
+    const float share = targets[chosen].centre_radius.w * targets[chosen].centre_radius.w;
+    if (rest < share) break;
+    rest -= share;
+    ++chosen;
+  }
+  float3 x, y;
+  make_frame(direction, &x, &y);
+  float cosine_phi;
+  const float sine_phi = sincos(2.0f * PI_F * random.z, &cosine_phi);
+  const float radius = targets[chosen].centre_radius.w * sqrt(random.y);
+  const float3 place = targets[chosen].centre_radius.xyz + radius * (cosine_phi * x + sine_phi * y);
+  int count = 1;
+  for (int i = 0; i < target_count; ++i) {
+    const float3 way = place - targets[i].centre_radius.xyz;
+    const float3 aside = way - dot(way, direction) * direction;
+    if (i != chosen && dot(aside, aside) <= targets[i].centre_radius.w * targets[i].centre_radius.w) ++count;
+  }
+  const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
+  const Emission emission = {place, direction, scene->outside_distance, light->radiometric * square_metres / (float)count};
+  return emission;
+}
+
+// targets: the whole table, of which a light has its own list.
+static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random, float2 place)
+{
+  targets += light->first_target;
+  if (is_light(light, LIGHT_DIRECTIONAL)) return emit_directional(light, targets, scene, random);
+  if (is_light(light, LIGHT_AREA)) return emit_from_area(light, targets, random, place);
+  return emit_from_point(light, targets, random);
+}
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A path from the eye through glass and mirrors to the first diffuse surface, and the unbent light that each lamp sends there.
+#ifndef NEPHROID_EYE_PATH_H
+#define NEPHROID_EYE_PATH_H
+
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/light.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/world.h"
+
+// A path through glass follows one cluster and one branch of each reflection, so it is noisy: a pixel that sees glass or a mirror takes
+// this many paths a sample.
+#define PATHS_THROUGH_GLASS 4u
+
+// Irradiance in W m^-2 that a light of the whole spectrum gives a surface point, without shadows; the way to it and how far:
+// I cos(theta) / d^2 with the intensity I = P / (4 pi) of a point, P / (its cone's solid angle) of a spot, and P cos(theta') / pi
+// of an area light, of which one place stands for all; E cos(theta) of directional light.
+typedef struct {
+  float irradiance;
+  float3 direction;
+  float distance; // INFINITY: directional
+} Arrival;
+
+static inline Arrival arrive_from(const DeviceLight* light, float3 position, float3 normal, float metres_per_unit, float2 place)
+{
+  Arrival arrival = {0.0f, -light->direction.xyz, INFINITY};
+  if (is_light(light, LIGHT_DIRECTIONAL)) {
+    arrival.irradiance = light->radiometric * max(dot(arrival.direction, normal), 0.0f);
+    return arrival;
+  }
+  const float3 source = is_light(light, LIGHT_AREA) ? area_point(light, place) : light->position.xyz;
+  const float3 way = source - position;
+  arrival.distance = length(way);
+  arrival.direction = way / arrival.distance;
+  const float cosine = max(dot(arrival.direction, normal), 0.0f);
+  const float cos_light = -dot(arrival.direction, light->direction.xyz);
+  float watts_per_steradian = light->radiometric / (4.0f * PI_F);
+  if (is_light(light, LIGHT_SPOT)) watts_per_steradian = in_spot(light, -arrival.direction) ? light->radiometric / light->solid_angle : 0.0f;
+  if (is_light(light, LIGHT_AREA)) watts_per_steradian = light->radiometric * max(cos_light, 0.0f) / PI_F;
+  const float metres = arrival.distance * metres_per_unit;
+  arrival.irradiance = watts_per_steradian * cosine / (metres * metres);
+  return arrival;
+}
+
+// Irradiance that a light sends unbent to the side of a surface that a path arrives at; 0 where something is in its way.
+static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle, uint2 seed,
+                                  uint sample, uint pixel)
+{
+  const DeviceLight light = world->lights[light_index];
+  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  const float4 place = is_light(&light, LIGHT_AREA) ? random4(seed, sample, pixel, (uint)light.number, STREAM_CAMERA_LIGHT) : (float4)(0.0f);
+  const Arrival arrival = arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
+  if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
+  const float3 from = start_on_side(surface, side);
+  return is_blocked(world, from, arrival.direction, arrival.distance, triangle) ? 0.0f : arrival.irradiance;
+}
+
+// Whether a path from the eye has met a diffuse surface at once: then all wavelengths went the same way.
+static inline bool is_unbent(const World* world, const DeviceCamera* camera, const Hit* first)
+{
+  const int object = (int)world->geometry.object_of_triangle[first->primitive];
+  return material_of(world, object).type == MATERIAL_DIFFUSE && camera->inside.count == 0;
+}
+
+// Takes a path that has met `hit` on through glass and mirrors in one band to a diffuse surface or out of the scene. `hit` and, of a diffuse
+// surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost: radiance
+// over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and refraction.
+static inline float reach_end(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel, uint stream,
+                              Surface* surface)
+{
+  float radiance_scale = 1.0f;
+  float4 choices = (float4)(0.0f);
+  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+    if (surface_number > 0) *hit = next_hit(world, path);
+    if (hit->primitive == NEPHROID_NO_PRIMITIVE) return radiance_scale;
+    *surface = surface_at(&world->geometry, world->objects, *hit);
+    const DeviceMaterial material = material_of(world, surface->object);
+    lose_in_medium(world, path, hit->t);
+    if (material.type == MATERIAL_DIFFUSE) return radiance_scale;
+    if ((surface_number & 3) == 0) choices = random4(seed, sample, pixel, 1u + (uint)surface_number / 4u, stream);
+    float n_ratio;
+    if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, &n_ratio)) return 0.0f;
+    radiance_scale *= n_ratio * n_ratio;
+    choices = choices.yzwx;
+  }
+  return 0.0f;
+}
+
+// The same to a diffuse surface only: 0 where the path leaves the scene.
+static inline float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel,
+                                  uint stream, Surface* surface)
+{
+  const float radiance_scale = reach_end(world, path, hit, band, seed, sample, pixel, stream, surface);
+  return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
+}
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A path at the surface of a dielectric object: which media meet there, and whether the path is reflected or goes through.
+#ifndef NEPHROID_INTERFACE_H
+#define NEPHROID_INTERFACE_H
+
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/media.h"
+#include "kernels/tracing/surface.h"
+
+// 0: every dielectric has n = 1, so nothing is bent or reflected.
+#ifndef NEPHROID_BENDING
+#define NEPHROID_BENDING 1
+#endif
+
+// media: where the path is. n_of: index of refraction by material, for the path's cluster.
+// choice: uniform in [0, 1), picks reflection with Fresnel's probability. Updates `media` where the path goes through.
+// *n_ratio: n on the near side over n on the far side, 1 for a reflected path.
+// Returns false where more than MEDIA_DEPTH media would enclose the path.
+static inline bool cross_interface(Media* media, const Surface* surface, __global const DeviceObject* objects, __global const float* n_of,
+                                   float3 direction, float choice, Bend* bend, float* n_ratio)
+{
+  const bool enters = dot(direction, surface->geometric) < 0.0f;
+  Media beyond = *media;
+  int near_object = medium_object(media, objects);
+  if (enters) {
+    if (!enter_medium(&beyond, surface->object)) return false;
+  } else if (is_inside(media, surface->object))
+    leave_medium(&beyond, surface->object);
+  else
+    near_object = surface->object; // an open mesh: the path got in without meeting its surface
+  const int far_object = medium_object(&beyond, objects);
+  const int near_material = near_object < 0 ? -1 : objects[near_object].material;
+  const int far_material = far_object < 0 ? -1 : objects[far_object].material;
+  const float n_i = near_material < 0 ? 1.0f : n_of[near_material];
+  const float n_t = far_material < 0 ? 1.0f : n_of[far_material];
+  *n_ratio = 1.0f;
+#if NEPHROID_BENDING
+  const bool bends = n_i != n_t;
+#else
+  const bool bends = false;
+#endif
+  if (!bends) { // nothing changes here: one medium hides the other, or both are the same
+    bend->direction = direction;
+    bend->transmitted = bend->straight = true;
+  } else
+    *bend = bend_at_surface(direction, surface, n_i, n_t, choice);
+  bend->near_material = near_material;
+  bend->far_material = far_material;
+  if (bend->transmitted) {
+    *media = beyond;
+    *n_ratio = n_i / n_t;
+  }
+  return true;
+}
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both sides of light transport, emission and direct light, ask of a light.
+#ifndef NEPHROID_LIGHT_H
+#define NEPHROID_LIGHT_H
+
+#include "kernels/tracing/shared_types.h"
+
+#define PI_F 3.14159265358979f
+
+// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and no question is asked where there is
+// one type only.
+#ifndef NEPHROID_LIGHT_TYPES
+#define NEPHROID_LIGHT_TYPES 15
+#endif
+
+static inline bool is_light(const DeviceLight* light, int type)
+{
+  return (NEPHROID_LIGHT_TYPES >> type & 1) != 0 && (NEPHROID_LIGHT_TYPES == 1 << type || light->type == type);
+}
+
+// Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.
+static inline bool in_spot(const DeviceLight* light, float3 direction)
+{
+  const float3 aside = direction - light->direction.xyz;
+  return 0.5f * dot(aside, aside) <= light->one_minus_cos;
+}
+
+// A point of an area light's rectangle.
+static inline float3 area_point(const DeviceLight* light, float2 place)
+{
+  return light->position.xyz + (place.x - 0.5f) * light->edge_u.xyz + (place.y - 0.5f) * light->edge_v.xyz;
+}
+
+#endif

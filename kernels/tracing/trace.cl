@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays from a buffer, one an item: how tests and benchmarks reach the traversal of bvh.h. Engines call bvh.h directly.
+#include "kernels/tracing/bvh.h"
+
+typedef struct {
+  float origin[3];
+  float t_max;
+  float direction[3];
+  uint skip;
+} Ray;
+
+static inline float3 trace_vector(global const float* a) { return (float3)(a[0], a[1], a[2]); }
+
+kernel void closest_hits(global const float* nodes, global const float* blocks, int root, global const Ray* rays, global Hit* hits, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  hits[i] = closest_hit(nodes, blocks, root, trace_vector(rays[i].origin), trace_vector(rays[i].direction), 0.0f, rays[i].t_max,
+                        rays[i].skip);
+}
+
+kernel void any_hits(global const float* nodes, global const float* blocks, int root, global const Ray* rays, global uint* hit, uint count)
+{
+  const uint i = get_global_id(0);
+  if (i >= count) return;
+  hit[i] = any_hit(nodes, blocks, root, trace_vector(rays[i].origin), trace_vector(rays[i].direction), rays[i].t_max, rays[i].skip);
+}

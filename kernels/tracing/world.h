@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything of the scene that a path meets, in one struct, and a path's step through it.
+#ifndef NEPHROID_WORLD_H
+#define NEPHROID_WORLD_H
+
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/bvh.h"
+#include "kernels/tracing/attenuation.h"
+#include "kernels/tracing/band.h"
+#include "kernels/tracing/differential.h"
+#include "kernels/tracing/interface.h"
+#include "kernels/tracing/media.h"
+#include "kernels/tracing/surface.h"
+
+#ifndef NEPHROID_MAX_SURFACES
+#define NEPHROID_MAX_SURFACES 32
+#endif
+#ifndef NEPHROID_MIRRORS
+#define NEPHROID_MIRRORS 1
+#endif
+
+typedef struct {
+  Geometry geometry;
+  __global const DeviceObject* objects;
+  __global const DeviceMaterial* materials;
+  __global const DeviceLight* lights;
+  __global const float* index_of_cluster;    // [cluster][material]: of refraction, the mean
+  __global const float* index_of_wavelength; // [401][material]
+  __global const float* wavelength_cdf;      // [light, or all of them at the end][member of cluster]: see band.h
+  __global const float* index_slope;         // [cluster][material]: dn/ds, see stretch.h, here and below
+  __global const float4* stretch_place;      // [401]: s of a wavelength, of the one below it, of the one above
+  __global const float4* stretch_span;       // [cluster]: s of its mean index, the lowest and the highest s of its light
+  __global const float4* reflected_xyz;      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar); w: of light
+  SpectralTables tables;
+  int reflector_count;
+  DeviceScene scene;
+} World;
+
+// The buffers that a World is made of, as kernel arguments.
+#define WORLD_ARGUMENTS                                                                                                                  \
+  __global const float *nodes, __global const float *blocks, __global const uint *corners, __global const float *positions,             \
+      __global const float *normals, __global const uint *object_of_triangle, __global const DeviceObject *objects,                      \
+      __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_cluster,             \
+      __global const float *index_of_wavelength, __global const float *wavelength_cdf, __global const float *index_slope,               \
+      __global const float4 *stretch_place, __global const float4 *stretch_span, __global const float4 *reflected_xyz,                   \
+      __global const int *cluster_first, __global const int *cluster_wavelengths, __global const float *coefficient,                     \
+      __global const float4 *light_xyz, __global const float *reflectance, int reflector_count, DeviceScene scene
+#define WORLD                                                                                                                            \
+  {                                                                                                                                      \
+    {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root}, objects, materials, lights, index_of_cluster,          \
+        index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                    \
+        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, reflector_count, scene                                \
+  }
+
+typedef struct {
+  float3 origin, direction;
+  uint skip;    // the triangle that the path leaves
+  Media media;  // that enclose it
+  Losses losses;
+  float behind; // the path begins this far behind `origin`: 0 but on its first way (Emission)
+  Differential differential;
+} Path;
+
+static inline Hit next_hit(const World* world, const Path* path)
+{
+  return closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction, -path->behind,
+                     INFINITY, path->skip);
+}
+
+static inline bool is_blocked(const World* world, float3 from, float3 direction, float distance, uint skip)
+{
+  return any_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, from, direction, distance, skip);
+}
+
+static inline DeviceMaterial material_of(const World* world, int object) { return world->materials[world->objects[object].material]; }
+
+// The absorption of the medium that the path has crossed up to its next hit, `distance` from its origin.
+static inline void lose_in_medium(const World* world, Path* path, float distance)
+{
+#if NEPHROID_ATTENUATORS > 0
+  const int medium = medium_object(&path->media, world->objects);
+  if (medium >= 0) lose(&path->losses, material_of(world, medium).attenuator, (path->behind + distance) * world->scene.metres_per_unit);
+#endif
+}
+
+// The index of refraction of each material.
+static inline __global const float* index_of_band(const World* world, const Band* band)
+{
+#if NEPHROID_JITTER
+  if (band->wavelength >= 0) return world->index_of_wavelength + band->wavelength * world->scene.material_count;
+#endif
+  return world->index_of_cluster + band->cluster * world->scene.material_count;
+}
+
+// The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light may end at;
+// u in [0, 1) picks a wavelength by what the eye makes of the light's power.
+static inline Band choose_band(const World* world, int light, int cluster, float u)
+{
+#if NEPHROID_JITTER
+  const int first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
+  const int members = world->tables.first[world->scene.cluster_count];
+  return wavelength_of_cluster(cluster, world->tables.wavelengths + first, world->wavelength_cdf + light * members + first, count, u);
+#else
+  return whole_cluster(cluster);
+#endif
+}
+
+// Carries the path's derivatives to a surface and across the bend there, before `path` itself goes on.
+static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface, const Band* band, const Bend* bend)
+{
+#if NEPHROID_DIFFERENTIALS
+  // From the path's origin: where that is not the light itself (Emission), nothing depends on the wavelength yet.
+  differential_to_surface(&path->differential, path->direction, distance(path->origin, surface->position), surface);
+  if (bend->straight) return;
+  __global const float* n_of = index_of_band(world, band);
+  __global const float* slope_of = world->index_slope + band->cluster * world->scene.material_count;
+  const int near = bend->near_material, far = bend->far_material;
+  differential_through_bend(&path->differential, &world->geometry, triangle, surface, world->objects[surface->object].smooth != 0, path->direction,
+                            bend, near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], near < 0 ? 0.0f : slope_of[near],
+                            far < 0 ? 0.0f : slope_of[far]);
+#endif
+}
+
+// Takes the path on from a mirror or dielectric that it hit. choice: uniform in [0, 1).
+// *n_ratio: n before over n after. False where the path is inside too many media.
+static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface, const DeviceMaterial* material,
+                             const Band* band, float choice, float* n_ratio)
+{
+  const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
+  Bend bend;
+  *n_ratio = 1.0f;
+#if NEPHROID_MIRRORS
+  if (material->type == MATERIAL_MIRROR) {
+    bend = bend_at_surface(path->direction, surface, 1.0f, 1.0f, -1.0f);
+    lose(&path->losses, material->attenuator, 1.0f);
+  } else
+#endif
+  {
+    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice, &bend, n_ratio)) return false;
+  }
+  bend_differential(world, path, triangle, surface, band, &bend);
+  path->direction = bend.direction;
+  path->origin = start_on_side(surface, from_outside == bend.transmitted ? -1.0f : 1.0f);
+  path->skip = triangle;
+  path->behind = 0.0f;
+  return true;
+}
+
+// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a reflector sends
+// back of it (-1: a white one).
+static inline float4 carried_light(const World* world, const Losses* losses, int light, const Band* band, int reflector)
+{
+#if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
+  if (band->wavelength >= 0) {
+    const float left = wavelength_left(&world->tables, losses, band->wavelength) * band->weight;
+    const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + band->wavelength];
+    const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength];
+    return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
+  }
+#endif
+#if NEPHROID_ATTENUATORS > 0
+  if (losses->any || reflector < 0) return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
+#endif
+  return world->reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->reflector_count + reflector];
+}
+
+// The share of a light's power that a band begins with; cluster_share: of its whole cluster.
+static inline float band_share(const World* world, int light, const Band* band, float cluster_share)
+{
+#if NEPHROID_JITTER
+  if (band->wavelength >= 0) return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
+#endif
+  return cluster_share;
+}
+
+#endif
