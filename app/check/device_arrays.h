@@ -4,6 +4,7 @@
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,11 @@ compute::Buffer<T> zeros(const compute::Context& context, const char* name, std:
   return buffer;
 }
 
-/// Kernel `name` of check.cl over `count` items; its last argument is the count, the others are given.
-template <class... Args>
-void run_over(const compute::Context& context, const char* name, std::size_t count, const Args&... args)
+/// Kernel `name` of check.cl over `count` items, which is its argument "count"; the others are given.
+inline void run_over(const compute::Context& context, const char* name, std::size_t count, std::initializer_list<compute::Argument> own)
 {
-  compute::Program(context, "check/check.cl").kernel(name).run(count, local_size, args..., static_cast<std::uint32_t>(count));
+  const auto items = static_cast<std::uint32_t>(count);
+  compute::Program(context, "check/check.cl").kernel(name).run(count, local_size, std::array{compute::Argument("count", items)}, own);
 }
 
 } // namespace nephroid::check

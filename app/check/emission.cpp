@@ -40,8 +40,13 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   on_host.first_target = 0;
   on_host.target_count = static_cast<int>(targets.size());
   const compute::Buffer<float4> out(context, "photons", 2 * photon_count);
-  run_over(context, "emissions", photon_count, on_device(context, "lights", tables.lights), 0, on_device(context, "targets", targets),
-           tables.scene, device_seed(seed), out);
+  run_over(context, "emissions", photon_count,
+           {{"lights", on_device(context, "lights", tables.lights)},
+            {"light", 0},
+            {"targets", on_device(context, "targets", targets)},
+            {"scene", tables.scene},
+            {"seed", device_seed(seed)},
+            {"out", out}});
   const std::vector<float4> got = out.read();
   std::vector<Photon> photons;
   for (std::size_t i = 0; i < got.size(); i += 2)

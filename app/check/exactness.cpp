@@ -41,7 +41,8 @@ Result published_vectors(const compute::Context& context, std::uint64_t)
                                      {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd},
                                      {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}};
   const compute::Buffer<Block> out(context, "results", counters.size());
-  run_over(context, "philox", counters.size(), on_device(context, "counters", counters), on_device(context, "keys", keys), out);
+  run_over(context, "philox", counters.size(),
+           {{"counters", on_device(context, "counters", counters)}, {"keys", on_device(context, "keys", keys)}, {"results", out}});
   const std::vector<Block> got = out.read();
   double wrong = 0;
   for (std::size_t i = 0; i < got.size(); ++i)
@@ -54,7 +55,8 @@ Result uniforms(const compute::Context& context, std::uint64_t seed)
   constexpr std::size_t count = 1 << 16;
   const Key key{device_seed(seed).x, device_seed(seed).y};
   const compute::Buffer<std::array<float, 4>> out(context, "uniforms", count);
-  run_over(context, "uniforms", count, key, std::uint32_t{3}, std::uint32_t{4}, std::uint32_t{5}, out);
+  run_over(context, "uniforms", count,
+           {{"seed", key}, {"pass", std::uint32_t{3}}, {"block", std::uint32_t{4}}, {"stream", std::uint32_t{5}}, {"results", out}});
   const auto got = out.read();
   double wrong = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -83,8 +85,11 @@ Result sums(const compute::Context& context, std::uint64_t seed, bool halves)
   const compute::Buffer<std::int64_t> out = zeros<std::int64_t>(context, "sums", places);
   compute::Program(context, "check/check_sums.cl", defines)
       .kernel("add_all")
-      .run(count, local_size, on_device(context, "values", values), on_device(context, "places", where), out,
-           static_cast<std::uint32_t>(count));
+      .run(count, local_size,
+           {{"values", on_device(context, "values", values)},
+            {"places", on_device(context, "places", where)},
+            {"sums", out},
+            {"count", static_cast<std::uint32_t>(count)}});
   const std::vector<std::int64_t> got = out.read();
   double worst = 0;
   for (std::size_t i = 0; i < places; ++i) worst = std::max(worst, std::abs(static_cast<double>(got[i]) - static_cast<double>(truth[i])));
@@ -116,7 +121,11 @@ Result film_limit(const compute::Context& context, std::uint64_t)
   const compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
   compute::Program(context, "check/check_sums.cl")
       .kernel("add_to_film")
-      .run(in.size(), local_size, on_device(context, "in", in), film, accepted, static_cast<std::uint32_t>(in.size()));
+      .run(in.size(), local_size,
+           {{"xyz_scale", on_device(context, "in", in)},
+            {"film", film},
+            {"accepted", accepted},
+            {"count", static_cast<std::uint32_t>(in.size())}});
   const auto sums = film.read();
   const auto answers = accepted.read();
   double wrong = 0;

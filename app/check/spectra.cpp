@@ -17,9 +17,7 @@
 namespace nephroid::check {
 namespace {
 
-struct Int4 {
-  int light, cluster, reflector, attenuator;
-};
+using Int4 = std::array<int, 4>; // light, cluster, reflector, attenuator
 
 /// Daylight through dispersive glass onto a patch that is not grey.
 spectral::WavelengthTables tables()
@@ -49,10 +47,15 @@ std::vector<float4> sums(const compute::Context& context, const spectral::Wavele
       crossed.push_back(length);
     }
   const compute::Buffer<float4> out(context, "sums", which.size());
-  run_over(context, "attenuated", which.size(), on_device(context, "first", t.cluster_first),
-           on_device(context, "wavelengths", t.cluster_wavelengths), on_device(context, "coefficient", coefficient),
-           on_device(context, "light", t.light_xyz), on_device(context, "reflectance", t.reflectance), on_device(context, "which", which),
-           on_device(context, "lengths", crossed), out);
+  run_over(context, "attenuated", which.size(),
+           {{"first", on_device(context, "first", t.cluster_first)},
+            {"wavelengths", on_device(context, "wavelengths", t.cluster_wavelengths)},
+            {"coefficient", on_device(context, "coefficient", coefficient)},
+            {"light_xyz", on_device(context, "light", t.light_xyz)},
+            {"reflectance", on_device(context, "reflectance", t.reflectance)},
+            {"in", on_device(context, "which", which)},
+            {"lengths", on_device(context, "lengths", crossed)},
+            {"out", out}});
   return out.read();
 }
 

@@ -31,13 +31,25 @@ void KernelTracer::set_rays(const std::vector<Ray>& rays)
 
 void KernelTracer::run_closest()
 {
-  closest_.run(rays_.size(), local_size, nodes_, blocks_, bvh_.root, rays_, hits_, static_cast<std::uint32_t>(rays_.size()));
+  closest_.run(rays_.size(), local_size,
+               {{"nodes", nodes_},
+                {"blocks", blocks_},
+                {"root", bvh_.root},
+                {"rays", rays_},
+                {"hits", hits_},
+                {"count", static_cast<std::uint32_t>(rays_.size())}});
   context_.finish();
 }
 
 void KernelTracer::run_any()
 {
-  any_.run(rays_.size(), local_size, nodes_, blocks_, bvh_.root, rays_, found_, static_cast<std::uint32_t>(rays_.size()));
+  any_.run(rays_.size(), local_size,
+           {{"nodes", nodes_},
+            {"blocks", blocks_},
+            {"root", bvh_.root},
+            {"rays", rays_},
+            {"hit", found_},
+            {"count", static_cast<std::uint32_t>(rays_.size())}});
   context_.finish();
 }
 

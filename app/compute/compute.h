@@ -7,11 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -116,35 +119,50 @@ private:
   std::size_t count_ = 0;
 };
 
-/// A kernel of a built program. Arguments: Buffer<T>, scalars, structs shared with the device; all are checked for their number.
+/// What OpenCL C calls a type of the host: "uint", "float4" for std::array<float, 4>, "DeviceLight" for a struct, which has the same name
+/// on both sides.
+std::string device_type_name(const std::type_info& type);
+
+/// An argument of a kernel by its name there. It refers to the value, which has to live until the kernel is queued.
+class Argument {
+public:
+  template <class T>
+  Argument(std::string_view name, const Buffer<T>& buffer) : name_(name), type_(&type_of<T>()), buffer_(&buffer)
+  {
+  }
+  template <class T>
+  Argument(std::string_view name, const T& value) : name_(name), type_(&type_of<T>()), value_(&value), bytes_(sizeof(T))
+  {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_base_of_v<RawBuffer, T>);
+  }
+
+private:
+  friend class Kernel;
+  template <class T>
+  static const std::string& type_of()
+  {
+    static const std::string name = device_type_name(typeid(T));
+    return name;
+  }
+  std::string_view name_;
+  const std::string* type_; ///< device_type_name of the value, or of a buffer's items
+  const RawBuffer* buffer_ = nullptr;
+  const void* value_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+/// A kernel of a built program.
 class Kernel {
 public:
-  /// Queues the kernel over `global` work items in groups of `local` (global is rounded up: kernels test their index).
-  template <class... Args>
-  void run(std::size_t global, std::size_t local, const Args&... args)
-  {
-    begin(sizeof...(Args));
-    int index = 0;
-    (set(index++, args), ...);
-    enqueue(global, local);
-  }
+  /// Queues the kernel over `global` work items in groups of `local` (global is rounded up: kernels test their index). Every argument has
+  /// to be given once, `shared` and `own` together, in any order. Throws failed for an argument that the kernel does not have, has with
+  /// another type, or lacks.
+  void run(std::size_t global, std::size_t local, std::span<const Argument> shared, std::initializer_list<Argument> own);
+  void run(std::size_t global, std::size_t local, std::initializer_list<Argument> arguments) { run(global, local, {}, arguments); }
   std::shared_ptr<detail::KernelState> state;
 
 private:
-  void begin(std::size_t argument_count);
-  void set_buffer(int index, const RawBuffer& buffer);
-  void set_bytes(int index, const void* data, std::size_t bytes);
-  void enqueue(std::size_t global, std::size_t local);
-  template <class T>
-  void set(int index, const T& value)
-  {
-    if constexpr (std::is_base_of_v<RawBuffer, T>)
-      set_buffer(index, value);
-    else {
-      static_assert(std::is_trivially_copyable_v<T>);
-      set_bytes(index, &value, sizeof(T));
-    }
-  }
+  void set(const Argument& argument, std::vector<bool>& given);
 };
 
 /// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's own properties

@@ -2,41 +2,63 @@
 // Running kernels: arguments are checked here, because PoCL checks few of them and crashes on the rest.
 #include "compute/state.h"
 
+#include <cxxabi.h>
 #include <fmt/format.h>
+
+#include <cstdlib>
+#include <map>
+#include <regex>
 
 namespace nephroid::compute {
 
-void Kernel::begin(std::size_t argument_count)
+std::string device_type_name(const std::type_info& type)
 {
-  if (argument_count == state->is_pointer.size()) return;
-  throw failed(state->name, fmt::format("called with {} arguments", argument_count), fmt::format("it takes {}", state->is_pointer.size()));
+  static const std::map<std::string, std::string> names{{"unsigned int", "uint"},     {"long", "long"},
+                                                        {"unsigned long", "ulong"},   {"short", "short"},
+                                                        {"unsigned short", "ushort"}, {"unsigned char", "uchar"}};
+  const std::unique_ptr<char, void (*)(void*)> demangled(abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr), std::free);
+  const std::string name = demangled.get();
+  static const std::regex vector(R"(std::array<([a-z ]+), (\d+)ul>)"); // a vector type
+  std::smatch match;
+  const std::string scalar = std::regex_match(name, match, vector) ? match.str(1) : name;
+  const auto known = names.find(scalar);
+  return (known != names.end() ? known->second : scalar.substr(scalar.rfind(':') + 1)) + (match.empty() ? "" : match.str(2));
 }
 
-void Kernel::set_buffer(int index, const RawBuffer& buffer)
+void Kernel::set(const Argument& argument, std::vector<bool>& given)
 {
-  if (!buffer.state) throw failed(state->name, fmt::format("argument {} is a buffer that was never made", index));
-  if (!state->is_pointer[static_cast<std::size_t>(index)])
-    throw failed(state->name, fmt::format("argument {} is buffer {}", index, buffer.state->name), "it takes a value there");
+  const auto& parameters = state->parameters;
+  std::size_t index = 0;
+  while (index < parameters.size() && parameters[index].name != argument.name_) ++index;
+  const auto refuse = [&](const std::string& what, const std::string& expected) {
+    return failed(state->name, fmt::format("argument {}{}", argument.name_, what), expected);
+  };
+  if (index == parameters.size()) throw refuse(": the kernel has none of this name", {});
+  const detail::KernelState::Parameter& parameter = parameters[index];
+  if (given[index]) throw refuse(" is given twice", "each argument once");
+  given[index] = true;
+  const std::string& type = *argument.type_;
+  if (type != parameter.type || parameter.is_pointer != (argument.buffer_ != nullptr))
+    throw refuse(fmt::format(" is {} {}", argument.buffer_ ? "a buffer of" : "a value of type", type),
+                 fmt::format("it takes {} {}", parameter.is_pointer ? "a buffer of" : "a value of type", parameter.type));
+  if (argument.buffer_ && !argument.buffer_->state) throw refuse(" is a buffer that was never made", {});
   try {
-    state->kernel.setArg(static_cast<cl_uint>(index), buffer.state->buffer);
+    if (argument.buffer_)
+      state->kernel.setArg(static_cast<cl_uint>(index), argument.buffer_->state->buffer);
+    else
+      state->kernel.setArg(static_cast<cl_uint>(index), argument.bytes_, argument.value_);
   } catch (const cl::Error& error) {
-    throw detail::call_failed(error, fmt::format("{}, argument {} ({})", state->name, index, buffer.state->name));
+    throw detail::call_failed(error, fmt::format("{}, argument {}", state->name, argument.name_));
   }
 }
 
-void Kernel::set_bytes(int index, const void* data, std::size_t bytes)
+void Kernel::run(std::size_t global, std::size_t local, std::span<const Argument> shared, std::initializer_list<Argument> own)
 {
-  if (state->is_pointer[static_cast<std::size_t>(index)])
-    throw failed(state->name, fmt::format("argument {} is a value of {} bytes", index, bytes), "it takes a buffer there");
-  try {
-    state->kernel.setArg(static_cast<cl_uint>(index), bytes, data);
-  } catch (const cl::Error& error) {
-    throw detail::call_failed(error, fmt::format("{}, argument {} of {} bytes", state->name, index, bytes));
-  }
-}
-
-void Kernel::enqueue(std::size_t global, std::size_t local)
-{
+  std::vector<bool> given(state->parameters.size(), false);
+  for (const Argument& argument : shared) set(argument, given);
+  for (const Argument& argument : own) set(argument, given);
+  for (std::size_t i = 0; i < given.size(); ++i)
+    if (!given[i]) throw failed(state->name, fmt::format("argument {} is not given", state->parameters[i].name));
   if (global == 0) return;
   if (local == 0) throw failed(state->name, "queued in groups of 0 items");
   const std::size_t rounded = (global + local - 1) / local * local;

@@ -62,6 +62,15 @@ cl::Program build(const detail::ContextState& context, const std::string& file, 
   return program;
 }
 
+detail::KernelState::Parameter parameter_of(const cl::Kernel& kernel, cl_uint index)
+{
+  detail::KernelState::Parameter parameter{kernel.getArgInfo<CL_KERNEL_ARG_NAME>(index), kernel.getArgInfo<CL_KERNEL_ARG_TYPE_NAME>(index),
+                                           kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(index) != CL_KERNEL_ARG_ADDRESS_PRIVATE};
+  const std::size_t end = parameter.type.find_first_of(" *"); // implementations write "float*" and "float *"
+  if (end != std::string::npos) parameter.type.resize(end);
+  return parameter;
+}
+
 } // namespace
 
 Program::Program(const Context& context, const std::string& file, const Defines& defines)
@@ -88,9 +97,7 @@ Kernel Program::kernel(const std::string& name) const
   try {
     kernel.state->kernel = cl::Kernel(state->program, name.c_str());
     const cl_uint count = kernel.state->kernel.getInfo<CL_KERNEL_NUM_ARGS>();
-    for (cl_uint i = 0; i < count; ++i)
-      kernel.state->is_pointer.push_back(kernel.state->kernel.getArgInfo<CL_KERNEL_ARG_ADDRESS_QUALIFIER>(i) !=
-                                         CL_KERNEL_ARG_ADDRESS_PRIVATE);
+    for (cl_uint i = 0; i < count; ++i) kernel.state->parameters.push_back(parameter_of(kernel.state->kernel, i));
   } catch (const cl::Error& error) {
     if (error.err() != CL_INVALID_KERNEL_NAME) throw detail::call_failed(error, kernel.state->name);
     std::string names = state->program.getInfo<CL_PROGRAM_KERNEL_NAMES>();

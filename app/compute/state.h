@@ -40,8 +40,12 @@ struct ProgramState {
 struct KernelState {
   std::shared_ptr<ContextState> context;
   cl::Kernel kernel;
-  std::string name;             ///< "trace.cl: closest_hits", for messages
-  std::vector<bool> is_pointer; ///< an argument each
+  std::string name; ///< "tracing/trace.cl: closest_hits", for messages
+  struct Parameter {
+    std::string name, type; ///< type: of the value, or of what a pointer points to
+    bool is_pointer = false;
+  };
+  std::vector<Parameter> parameters;
 };
 
 struct BufferState {

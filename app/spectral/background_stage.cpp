@@ -43,9 +43,21 @@ public:
   {
     return rows_.step([&](int first_row, int rows) {
       const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
-      world_.run(kernel_, pixels, 64, texels_, primary_xyz_, tables_.size, wavelengths_, spectrum_cdf_, film_, world_.energy,
-                 world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), first_row, rows,
-                 static_cast<float>(tables_.film_scale), static_cast<float>(tables_.limit));
+      world_.run(kernel_, pixels, 64,
+                 {{"texels", texels_},
+                  {"primary_xyz", primary_xyz_},
+                  {"size", tables_.size},
+                  {"wavelengths", wavelengths_},
+                  {"spectrum_cdf", spectrum_cdf_},
+                  {"film", film_},
+                  {"energy", world_.energy},
+                  {"camera", world_.tables.camera},
+                  {"seed", world_.seed},
+                  {"frame", static_cast<std::uint32_t>(pass)},
+                  {"first_row", first_row},
+                  {"row_count", rows},
+                  {"film_scale", static_cast<float>(tables_.film_scale)},
+                  {"film_limit", static_cast<float>(tables_.limit)}});
     });
   }
 

@@ -23,9 +23,18 @@ public:
   {
     return rows_.step([&](int first_row, int rows) {
       const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
-      world_.run(kernel_, pixels, 64, world_.buffers.reflected_xyz_all, world_.buffers.cluster_cdf, film_, world_.energy,
-                 world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), first_row, rows,
-                 world_.on_device(world_.tables.direct_scale), static_cast<float>(world_.tables.direct_limit));
+      world_.run(kernel_, pixels, 64,
+                 {{"reflected_xyz_all", world_.buffers.reflected_xyz_all},
+                  {"cluster_cdf", world_.buffers.cluster_cdf},
+                  {"film", film_},
+                  {"energy", world_.energy},
+                  {"camera", world_.tables.camera},
+                  {"seed", world_.seed},
+                  {"frame", static_cast<std::uint32_t>(pass)},
+                  {"first_row", first_row},
+                  {"row_count", rows},
+                  {"film_scale", world_.on_device(world_.tables.direct_scale)},
+                  {"film_limit", static_cast<float>(world_.tables.direct_limit)}});
     });
   }
 

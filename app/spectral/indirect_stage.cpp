@@ -32,9 +32,22 @@ public:
   bool step(std::int64_t pass) override
   {
     return slices_.step(tables_.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-      world_.run_photons(kernel_, count, everything_, emitters_, static_cast<int>(tables_.emitters.size()), spectrum_cdf_, film_, energy_,
-                         world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), offset, stride, count,
-                         tables_.outside_distance, world_.on_device(tables_.film_scale), world_.on_device(tables_.energy_scale));
+      world_.run_photons(kernel_, count,
+                         {{"everything", everything_},
+                          {"emitters", emitters_},
+                          {"emitter_count", static_cast<int>(tables_.emitters.size())},
+                          {"spectrum_cdf", spectrum_cdf_},
+                          {"film", film_},
+                          {"energy", energy_},
+                          {"camera", world_.tables.camera},
+                          {"seed", world_.seed},
+                          {"pass", static_cast<std::uint32_t>(pass)},
+                          {"offset", offset},
+                          {"stride", stride},
+                          {"count", count},
+                          {"outside_distance", tables_.outside_distance},
+                          {"film_scale", world_.on_device(tables_.film_scale)},
+                          {"energy_scale", world_.on_device(tables_.energy_scale)}});
     });
   }
 

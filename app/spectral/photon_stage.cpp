@@ -40,11 +40,28 @@ public:
     if (by_variance_ && slices_.at_start() && deal_.is_due(pass)) deal(pass);
     const DeviceTables& t = world_.tables;
     return slices_.step(t.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-      world_.run_photons(kernel_, count, world_.buffers.targets, world_.buffers.emitters, film_, world_.energy, moments_, guide_moments_,
-                         guide_table_, unseen_weight(), stored_, t.scene.emitter_count, static_cast<int>(t.objects.size()), t.camera,
-                         world_.seed, static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(deal_.first_pass()), offset, stride,
-                         count, world_.on_device(t.caustic_scale), world_.on_device(t.energy_scale),
-                         world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w)));
+      world_.run_photons(kernel_, count,
+                         {{"targets", world_.buffers.targets},
+                          {"emitters", world_.buffers.emitters},
+                          {"film", film_},
+                          {"energy", world_.energy},
+                          {"moments", moments_},
+                          {"guide_moments", guide_moments_},
+                          {"guide", guide_table_},
+                          {"unseen_weight", unseen_weight()},
+                          {"stored", stored_},
+                          {"emitter_count", t.scene.emitter_count},
+                          {"object_count", static_cast<int>(t.objects.size())},
+                          {"camera", t.camera},
+                          {"seed", world_.seed},
+                          {"pass", static_cast<std::uint32_t>(pass)},
+                          {"first_pass", static_cast<std::uint32_t>(deal_.first_pass())},
+                          {"offset", offset},
+                          {"stride", stride},
+                          {"count", count},
+                          {"film_scale", world_.on_device(t.caustic_scale)},
+                          {"energy_scale", world_.on_device(t.energy_scale)},
+                          {"stored_scale", world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w))}});
     });
   }
 

@@ -7,11 +7,11 @@ typedef struct {
   float t_max;
   float direction[3];
   uint skip;
-} Ray;
+} DeviceRay;
 
 static inline float3 trace_vector(global const float* a) { return (float3)(a[0], a[1], a[2]); }
 
-kernel void closest_hits(global const float* nodes, global const float* blocks, int root, global const Ray* rays, global Hit* hits, uint count)
+kernel void closest_hits(global const float* nodes, global const float* blocks, int root, global const DeviceRay* rays, global Hit* hits, uint count)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
@@ -19,7 +19,7 @@ kernel void closest_hits(global const float* nodes, global const float* blocks, 
                         rays[i].skip);
 }
 
-kernel void any_hits(global const float* nodes, global const float* blocks, int root, global const Ray* rays, global uint* hit, uint count)
+kernel void any_hits(global const float* nodes, global const float* blocks, int root, global const DeviceRay* rays, global uint* hit, uint count)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;

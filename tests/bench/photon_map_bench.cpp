@@ -87,7 +87,7 @@ void gather_photons(benchmark::State& state)
   s.map.build(cell_edge(state), photons);
   s.context.finish();
   for (auto _ : state) {
-    kernel.run(side * side, 64, s.map.starts(), s.map.positions(), s.map.values(), s.map.grid(), s.points, s.sums, side * side);
+    kernel.run(side * side, 64, s.map.arguments(), {{"points", s.points}, {"sums", s.sums}, {"count", side * side}});
     s.context.finish();
   }
   double found = 0;

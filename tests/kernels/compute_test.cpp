@@ -124,7 +124,7 @@ TEST_F(EditedKernels, RunWithIncludesDefinesAndRoundedSizes)
   Buffer<int> a(context, "a", 100);
   for (const int offset : {5, 6}) {
     Program program(context, "test.cl", {{"OFFSET", std::to_string(offset)}});
-    program.kernel("fill").run(a.size(), 64, a, 4, 100u);
+    program.kernel("fill").run(a.size(), 64, {{"a", a}, {"first", 4}, {"count", 100u}});
     EXPECT_EQ(a.read(), std::vector<int>(100, 8 + offset + 64));
   }
 }
@@ -156,16 +156,24 @@ TEST_F(EditedKernels, CallsWithOtherArgumentsAreRefused)
   Program program(context, "test.cl");
   compute::Kernel kernel = program.kernel("k");
   Buffer<int> a(context, "a", 1);
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, a); }), AllOf(HasSubstr("test.cl: k"), HasSubstr("1 argument"), HasSubstr("takes 2")));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, 1, 2); }), AllOf(HasSubstr("argument 0"), HasSubstr("takes a buffer")));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, a, a); }), AllOf(HasSubstr("argument 1"), HasSubstr("takes a value")));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, Buffer<int>(), 2); }), HasSubstr("never made"));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1, a, 2.0); }), AllOf(HasSubstr("argument 1 of 8 bytes"), HasSubstr("CL_INVALID_ARG_SIZE")));
-  EXPECT_THAT(error_line([&] { kernel.run(1, 1000000, a, 2); }), AllOf(HasSubstr("clEnqueueNDRangeKernel"), HasSubstr("CL_INVALID_WORK_")));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}}); }), AllOf(HasSubstr("test.cl: k"), HasSubstr("argument b is not given")));
+  EXPECT_THAT(error_line([&] {
+                kernel.run(1, 1, {{"a", 1}, {"b", 2}});
+              }),
+              HasSubstr("argument a is a value of type int; it takes a buffer"));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}, {"b", a}}); }), HasSubstr("argument b is a buffer of int; it takes a value"));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", Buffer<int>()}, {"b", 2}}); }), HasSubstr("never made"));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}, {"b", 2.0f}}); }), HasSubstr("argument b is a value of type float; it takes a"));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}, {"b", 2}, {"c", 2}}); }), HasSubstr("argument c: the kernel has none"));
+  EXPECT_THAT(error_line([&] { kernel.run(1, 1, {{"a", a}, {"b", 2}, {"b", 2}}); }), HasSubstr("argument b is given twice"));
+  EXPECT_THAT(error_line([&] {
+                kernel.run(1, 1000000, {{"a", a}, {"b", 2}});
+              }),
+              AllOf(HasSubstr("clEnqueueNDRangeKernel"), HasSubstr("CL_INVALID_WORK_")));
   EXPECT_THAT(error_line([&] { program.kernel("other"); }), AllOf(HasSubstr("other"), HasSubstr("there are: k")));
   EXPECT_THAT(error_line([&] { Program(context, "test.cl", {{"A", "1 -DB=2"}}); }), HasSubstr("-DA="));
-  kernel.run(0, 1, a, 3); // nothing to do is no error
-  kernel.run(1, 1, a, 4);
+  kernel.run(0, 1, {{"a", a}, {"b", 3}}); // nothing to do is no error
+  kernel.run(1, 1, {{"a", a}, {"b", 4}});
   EXPECT_EQ(a.read().at(0), 4);
 }
 
@@ -176,13 +184,13 @@ TEST_F(EditedKernels, AChangeIsSeenOnceAndBuilt)
   EXPECT_FALSE(compute::kernels_changed(context));
   EXPECT_FALSE(compute::kernels_changed(Context::open()));
   Buffer<int> a(context, "a", 1);
-  Program(context, "test.cl").kernel("k").run(1, 1, a);
+  Program(context, "test.cl").kernel("k").run(1, 1, {{"a", a}});
   EXPECT_EQ(a.read().at(0), 1);
   write("test.cl", "kernel void k(global int* a) { a[0] = 2; }\n");
   fs::last_write_time(folder() / "test.cl", fs::file_time_type::clock::now() + std::chrono::seconds(2));
   EXPECT_TRUE(compute::kernels_changed(context));
   EXPECT_FALSE(compute::kernels_changed(context));
-  Program(context, "test.cl").kernel("k").run(1, 1, a);
+  Program(context, "test.cl").kernel("k").run(1, 1, {{"a", a}});
   EXPECT_EQ(a.read().at(0), 2);
   EXPECT_THAT(error_line([&] { Context::open({.kernels = folder() / "none"}); }, ErrorKind::bad_input), HasSubstr("not a folder"));
 }

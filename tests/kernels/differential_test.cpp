@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in closed form.
+// kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in
+// closed form.
 #include "spectral/engine.h"
 #include "spectral/stretch.h"
 #include "spectral/tables/device_world.h"
@@ -113,8 +114,14 @@ std::vector<Followed> follow(Lab& lab, const std::vector<Ray64>& rays, const std
   compute::Buffer<std::uint32_t> meets(context, "meets", all);
   compute::Buffer<int> lengths(context, "lengths", rays.size());
   compute::Buffer<float> out(context, "states", all * 12);
-  lab.world.run(lab.kernel, rays.size(), 64, in, in_clusters, shared::uint2{1, 2}, meets, lengths, out,
-                static_cast<std::uint32_t>(rays.size()));
+  lab.world.run(lab.kernel, rays.size(), 64,
+                {{"rays", in},
+                 {"clusters", in_clusters},
+                 {"seed", shared::uint2{1, 2}},
+                 {"meets", meets},
+                 {"lengths", lengths},
+                 {"states", out},
+                 {"count", static_cast<std::uint32_t>(rays.size())}});
   const std::vector<std::uint32_t> met = meets.read();
   const std::vector<int> length = lengths.read();
   const std::vector<float> values = out.read();

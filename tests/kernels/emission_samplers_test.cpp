@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/emission.h: photons of every type of light towards several overlapping targets. Their density is what the sampler is meant to
-// have, by chi-square, and the power that they carry is what the light sends towards the targets, everywhere, whatever the density.
-// Both truths are integrals over cells, of formulas that are written here anew, in double precision.
+// kernels/tracing/emission.h: photons of every type of light towards several overlapping targets. Their density is what the sampler is
+// meant to have, by chi-square, and the power that they carry is what the light sends towards the targets, everywhere, whatever the
+// density. Both truths are integrals over cells, of formulas that are written here anew, in double precision.
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
@@ -68,7 +68,14 @@ std::vector<Sent> emit(const DeviceLight& light)
   scene.outside_distance = 20;
   const compute::Buffer<DeviceTarget> on_device(kernels.context(), "targets", std::span<const DeviceTarget>(targets));
   const compute::Buffer<Sent> out(kernels.context(), "out", count);
-  kernels.kernel("emissions").run(count, 64, with_targets, on_device, scene, shared::uint2{8, 15}, out, count);
+  kernels.kernel("emissions")
+      .run(count, 64,
+           {{"light", with_targets},
+            {"targets", on_device},
+            {"scene", scene},
+            {"seed", shared::uint2{8, 15}},
+            {"out", out},
+            {"count", count}});
   return out.read();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/emission.h in extreme places: a far and small target, and a light inside of one. emission_samplers_test.cpp tests the rest.
+// kernels/tracing/emission.h in extreme places: a far and small target, and a light inside of one. emission_samplers_test.cpp tests the
+// rest.
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/test_kernels.h"
@@ -35,8 +36,13 @@ std::vector<float4> sample(const std::vector<DeviceTarget>& targets, std::size_t
   const test::TestKernels kernels(source);
   const compute::Buffer<DeviceTarget> on_device(kernels.context(), "targets", std::span<const DeviceTarget>(targets));
   compute::Buffer<float4> out(kernels.context(), "out", count);
-  kernels.kernel("sample").run(count, 64, on_device, static_cast<int>(targets.size()), float4{0, 0, 0, 0}, shared::uint2{7, 0}, out,
-                               static_cast<std::uint32_t>(count));
+  kernels.kernel("sample").run(count, 64,
+                               {{"targets", on_device},
+                                {"target_count", static_cast<int>(targets.size())},
+                                {"from", float4{0, 0, 0, 0}},
+                                {"seed", shared::uint2{7, 0}},
+                                {"out", out},
+                                {"count", static_cast<std::uint32_t>(count)}});
   return out.read();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has.
 #include "compute/compute.h"
+#include "kernels/tracing/shared_types.h"
 #include "tests/support/test_kernels.h"
 
 #include <gtest/gtest.h>
@@ -13,9 +14,7 @@ using namespace nephroid;
 
 namespace {
 
-struct Float4 {
-  float x, y, z, w;
-};
+using Float4 = shared::float4;
 
 TEST(Film, BothKindsOfAtomicsGiveTheExactSum)
 {
@@ -36,7 +35,7 @@ TEST(Film, BothKindsOfAtomicsGiveTheExactSum)
     to.fill_zero();
     compute::Program(context, "check/check_sums.cl", defines)
         .kernel("add_all")
-        .run(count, 64, from, where, to, static_cast<std::uint32_t>(count));
+        .run(count, 64, {{"values", from}, {"places", where}, {"sums", to}, {"count", static_cast<std::uint32_t>(count)}});
     EXPECT_EQ(to.read(), truth) << (defines.empty() ? "the device's own" : "32-bit halves");
   }
 }
@@ -54,7 +53,7 @@ TEST(Film, RefusesWhatDoesNotFit)
   compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
   compute::Program(context, "check/check_sums.cl")
       .kernel("add_to_film")
-      .run(in.size(), 64, from, film, accepted, static_cast<std::uint32_t>(in.size()));
+      .run(in.size(), 64, {{"xyz_scale", from}, {"film", film}, {"accepted", accepted}, {"count", static_cast<std::uint32_t>(in.size())}});
   EXPECT_EQ(accepted.read(), truth);
   const std::vector<std::int64_t> sums = film.read();
   EXPECT_EQ(std::vector<std::int64_t>(sums.begin(), sums.begin() + 3), (std::vector<std::int64_t>{4, 8, 12}));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/fresnel.h in single precision against optics/fresnel.h in double precision.
 #include "compute/compute.h"
+#include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/test_kernels.h"
 
@@ -12,15 +13,15 @@ using namespace nephroid;
 
 namespace {
 
-struct Float4 {
-  float x, y, z, w;
-};
+using Float4 = shared::float4;
 
 std::vector<Float4> run(const char* kernel, const std::vector<Float4>& in, std::size_t outputs_each)
 {
   const compute::Context context = compute::Context::open(test::device_options());
   compute::Buffer<Float4> from(context, "in", std::span<const Float4>(in)), to(context, "out", in.size() * outputs_each);
-  compute::Program(context, "check/check.cl").kernel(kernel).run(in.size(), 64, from, to, static_cast<std::uint32_t>(in.size()));
+  compute::Program(context, "check/check.cl")
+      .kernel(kernel)
+      .run(in.size(), 64, {{"in", from}, {"out", to}, {"count", static_cast<std::uint32_t>(in.size())}});
   return to.read();
 }
 

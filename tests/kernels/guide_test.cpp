@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/spectral/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they count
-// less.
+// kernels/spectral/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they
+// count less.
 #include "compute/compute.h"
 #include "spectral/effort/emission_guide.h"
 #include "tests/support/statistics.h"
@@ -93,7 +93,7 @@ Draws draw(const std::vector<float>& table, std::uint32_t seed, std::uint32_t co
   const compute::Buffer<float> guide(kernels().context(), "guide", std::span<const float>(table));
   compute::Buffer<Point> out(kernels().context(), "points", count);
   compute::Buffer<std::uint32_t> cell(kernels().context(), "cells", count);
-  kernels().kernel("guided").run(count, 64, guide, out, cell, seed, count);
+  kernels().kernel("guided").run(count, 64, {{"guide", guide}, {"out", out}, {"cell", cell}, {"seed", seed}, {"count", count}});
   return {out.read(), cell.read()};
 }
 
@@ -157,7 +157,7 @@ std::vector<Point> moved(const std::vector<float>& table, const std::vector<Poin
   const compute::Buffer<float> guide(kernels().context(), "guide", std::span<const float>(table));
   const auto count = static_cast<std::uint32_t>(numbers.size());
   compute::Buffer<Point> out(kernels().context(), "numbers", std::span<const Point>(numbers));
-  kernels().kernel("moved").run(count, 1, guide, out, count);
+  kernels().kernel("moved").run(count, 1, {{"guide", guide}, {"numbers", out}, {"count", count}});
   return out.read();
 }
 

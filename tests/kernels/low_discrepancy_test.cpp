@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/low_discrepancy.h: what Owen's scrambling keeps of a Sobol sequence is exact and is tested so; that other keys give independent
-// sequences is tested by chi-square.
+// kernels/tracing/low_discrepancy.h: what Owen's scrambling keeps of a Sobol sequence is exact and is tested so; that other keys give
+// independent sequences is tested by chi-square.
 #include "compute/compute.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
@@ -46,7 +46,8 @@ const test::TestKernels& kernels()
 std::vector<Point> points(const Key& key, std::uint32_t count, std::uint32_t first = 0)
 {
   compute::Buffer<Point> out(kernels().context(), "points", count);
-  kernels().kernel("points").run(count, 1, out, key.seed, key.sequence_set, first, count);
+  kernels().kernel("points").run(
+      count, 1, {{"out", out}, {"seed", key.seed}, {"sequence_set", key.sequence_set}, {"first", first}, {"count", count}});
   return out.read();
 }
 
@@ -54,7 +55,9 @@ std::vector<Point> over_sequences(const Key& key)
 {
   const std::uint32_t count = 4096;
   compute::Buffer<Point> out(kernels().context(), "points", count);
-  kernels().kernel("over_sequences").run(count, 1, out, key.seed, key.sequence_set, count);
+  kernels()
+      .kernel("over_sequences")
+      .run(count, 1, {{"out", out}, {"seed", key.seed}, {"sequence_set", key.sequence_set}, {"count", count}});
   return out.read();
 }
 

@@ -21,7 +21,8 @@ namespace {
 
 const char* const source = R"(
 #include "kernels/spectral/photon_map.h"
-kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global long4* sums, uint count)
+typedef long4 Sum;
+kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global Sum* sums, uint count)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
@@ -91,8 +92,7 @@ protected:
     const compute::Buffer<VisiblePoint> at(kernels.context(), "points", std::span<const VisiblePoint>(points));
     compute::Buffer<Sum> sums(kernels.context(), "sums", points.size());
     kernels.kernel("gather_all")
-        .run(points.size(), 64, map.starts(), map.positions(), map.values(), map.grid(), at, sums,
-             static_cast<std::uint32_t>(points.size()));
+        .run(points.size(), 64, map.arguments(), {{"points", at}, {"sums", sums}, {"count", static_cast<std::uint32_t>(points.size())}});
     return sums.read();
   }
 

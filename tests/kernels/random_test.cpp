@@ -24,7 +24,9 @@ TEST(Random, PhiloxGivesThePublishedVectors)
   const compute::Context context = compute::Context::open(test::device_options());
   const compute::Buffer<Block> in(context, "counters", std::span(counters)), out(context, "results", counters.size());
   const compute::Buffer<std::array<std::uint32_t, 2>> key(context, "keys", std::span(keys));
-  compute::Program(context, "check/check.cl").kernel("philox").run(counters.size(), 1, in, key, out, static_cast<std::uint32_t>(counters.size()));
+  compute::Program(context, "check/check.cl")
+      .kernel("philox")
+      .run(counters.size(), 1, {{"counters", in}, {"keys", key}, {"results", out}, {"count", static_cast<std::uint32_t>(counters.size())}});
   EXPECT_EQ(out.read(), published);
 }
 

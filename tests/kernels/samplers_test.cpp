@@ -74,12 +74,12 @@ const TestKernels& kernels()
   return kernels;
 }
 
-/// What a kernel of `source` writes for `count` items; arguments before the output.
-template <class T, class... Arguments>
-std::vector<T> draw(const std::string& kernel, const Arguments&... arguments)
+/// What a kernel of `source` writes to "out" for `count` items.
+template <class T>
+std::vector<T> draw(const std::string& kernel, std::initializer_list<compute::Argument> arguments)
 {
   const compute::Buffer<T> out(kernels().context(), "out", count);
-  kernels().kernel(kernel).run(count, 64, arguments..., out, count);
+  kernels().kernel(kernel).run(count, 64, std::array{compute::Argument("out", out), compute::Argument("count", count)}, arguments);
   return out.read();
 }
 
@@ -144,7 +144,8 @@ TEST(Uniforms, ArePairwiseIndependent)
 {
   std::vector<Column> columns;
   const auto add = [&](shared::uint2 key, std::uint32_t pass, std::uint32_t block, std::uint32_t stream) {
-    for (Column& column : columns_of(draw<float4>("uniforms", key, pass, block, stream))) columns.push_back(std::move(column));
+    for (Column& column : columns_of(draw<float4>("uniforms", {{"seed", key}, {"pass", pass}, {"block", block}, {"stream", stream}})))
+      columns.push_back(std::move(column));
   };
   add(seed, 0, 0, 0);
   add(seed, 0, 1, 0);
@@ -164,7 +165,7 @@ TEST(Uniforms, ArePairwiseIndependent)
 
 TEST(Uniforms, FillTheCubesOfThreeAndFourDimensions)
 {
-  const std::vector<Column> columns = columns_of(draw<float4>("uniforms", seed, 5u, 0u, 0u));
+  const std::vector<Column> columns = columns_of(draw<float4>("uniforms", {{"seed", seed}, {"pass", 5u}, {"block", 0u}, {"stream", 0u}}));
   EXPECT_GT(uniform_p({&columns[0], &columns[1], &columns[2]}, 16), false_alarm);
   EXPECT_GT(uniform_p({&columns[1], &columns[2], &columns[3]}, 16), false_alarm);
   EXPECT_GT(uniform_p({&columns[0], &columns[1], &columns[2], &columns[3]}, 8), false_alarm);
@@ -172,7 +173,7 @@ TEST(Uniforms, FillTheCubesOfThreeAndFourDimensions)
 
 TEST(Uniforms, WrongOnesAreFound)
 {
-  const std::vector<Column> columns = columns_of(draw<float4>("uniforms", seed, 0u, 0u, 0u));
+  const std::vector<Column> columns = columns_of(draw<float4>("uniforms", {{"seed", seed}, {"pass", 0u}, {"block", 0u}, {"stream", 0u}}));
   EXPECT_LT(uniform_p({&columns[0], &columns[0]}, 32), false_alarm);
   Column bent = columns[0], leaning = columns[1];
   for (std::size_t i = 0; i < bent.size(); ++i) {
@@ -198,7 +199,7 @@ TEST(AreaPoint, FillsTheRectangleEvenly)
   light.edge_v = {-0.96f, 0.72f, 1.6f, 0};
   light.type = LIGHT_AREA;
   Column u, v;
-  for (const float4& p : draw<float4>("area_places", light, seed)) {
+  for (const float4& p : draw<float4>("area_places", {{"light", light}, {"seed", seed}})) {
     const double x = p.x - 3.0, y = p.y + 2.0, z = p.z - 1.0;
     u.push_back(static_cast<float>(0.6 * x + 0.8 * y + 0.5));
     v.push_back(static_cast<float>((-0.96 * x + 0.72 * y + 1.6 * z) / 4 + 0.5));
@@ -225,7 +226,7 @@ TEST(CameraJitter, FillsThePixel)
   camera.width = 32;
   camera.height = 16;
   Column across, down;
-  const std::vector<float4> directions = draw<float4>("camera_directions", camera, seed);
+  const std::vector<float4> directions = draw<float4>("camera_directions", {{"camera", camera}, {"seed", seed}});
   int strays = 0;
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const double x = directions[i].x, y = directions[i].y, z = directions[i].z, depth = 0.8 * y - 0.6 * z;
@@ -259,7 +260,8 @@ protected:
   std::vector<int> choices(std::uint32_t frame, std::uint32_t path) const
   {
     const compute::Buffer<float> cdf(kernels().context(), "cdf", std::span<const float>(cdf_));
-    return draw<int>("clusters", cdf, static_cast<int>(shares_.size()), seed, frame, path);
+    return draw<int>("clusters",
+                     {{"cdf", cdf}, {"clusters", static_cast<int>(shares_.size())}, {"seed", seed}, {"frame", frame}, {"path", path}});
   }
   std::vector<double> shares_;
   std::vector<float> cdf_;
@@ -309,7 +311,8 @@ TEST(ReflectOrRefract, HasFresnelsProbability)
       distribution.insert(distribution.end(), {reflectance, 1 - reflectance});
     }
   const compute::Buffer<float4> at(kernels().context(), "interfaces", std::span<const float4>(interfaces));
-  const std::vector<int> reflected = draw<int>("reflections", at, static_cast<int>(interfaces.size()), seed);
+  const std::vector<int> reflected =
+      draw<int>("reflections", {{"interfaces", at}, {"interface_count", static_cast<int>(interfaces.size())}, {"seed", seed}});
   for (int choice = 0; choice < 4; ++choice) {
     std::vector<double> counts, expected;
     std::vector<double> all(distribution.size(), 0.0);

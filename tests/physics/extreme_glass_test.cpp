@@ -152,7 +152,7 @@ kernel void bend(global const float4* direction, global const float4* normal, fl
   const compute::Buffer<shared::float4> d(kernels.context(), "d", std::span<const shared::float4>(directions)),
       m(kernels.context(), "n", std::span<const shared::float4>(normals));
   compute::Buffer<float> out(kernels.context(), "out", truth.size());
-  kernels.kernel("bend").run(truth.size(), 64, d, m, static_cast<float>(n), out);
+  kernels.kernel("bend").run(truth.size(), 64, {{"direction", d}, {"normal", m}, {"n", static_cast<float>(n)}, {"transmitted", out}});
   const std::vector<float> gave = out.read();
   double worst = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) worst = std::max(worst, std::abs(gave[i] / truth[i] - 1));

@@ -70,8 +70,8 @@ TEST(BrewstersAngle, HalfOfTheOtherPolarisationIsReflected)
   }
 }
 
-// kernels/tracing/fresnel.h in single precision: its unpolarised R less half of R_s = ((cos(theta) - n cos(t)) / (cos(theta) + n cos(t)))^2, which
-// a double works out from the same cosine, leaves half of R_p: nothing at Brewster's angle.
+// kernels/tracing/fresnel.h in single precision: its unpolarised R less half of R_s = ((cos(theta) - n cos(t)) / (cos(theta) + n
+// cos(t)))^2, which a double works out from the same cosine, leaves half of R_p: nothing at Brewster's angle.
 TEST(BrewstersAngle, TheKernelReflectsNothingPolarisedInThePlane)
 {
   const TestKernels kernels(R"(
@@ -90,7 +90,7 @@ kernel void reflectances(global const float4* in, global float4* out, uint count
   }
   const compute::Buffer<Float4> from(kernels.context(), "in", std::span<const Float4>(in));
   compute::Buffer<Float4> to(kernels.context(), "out", in.size());
-  kernels.kernel("reflectances").run(in.size(), 64, from, to, static_cast<std::uint32_t>(in.size()));
+  kernels.kernel("reflectances").run(in.size(), 64, {{"in", from}, {"out", to}, {"count", static_cast<std::uint32_t>(in.size())}});
   const std::vector<Float4> out = to.read();
   double worst_p = 0, worst = 0;
   for (std::size_t i = 0; i < in.size(); ++i) {

@@ -30,8 +30,7 @@ public:
     return rows_.step(static_cast<std::int64_t>(points_.size() / width), [&](int first_row, int rows) {
       const std::uint32_t first_pixel = static_cast<std::uint32_t>(first_row) * width, count = static_cast<std::uint32_t>(rows) * width;
       for (std::uint32_t path = 0; path < paths_; ++path) {
-        world_.run(view_, count, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, seed, pass, path, paths_, cluster,
-                   static_cast<int>(world_.tables.objects.size()), first_row, rows);
+        look({seed, pass, path, paths_, cluster, first_row, rows}, count);
         gather(points_, first_pixel, count);
       }
       world_.context.finish();
@@ -39,11 +38,7 @@ public:
   }
 
   /// Stage::warm_up for its kernel.
-  void warm_up()
-  {
-    world_.run(view_, 1, 64, world_.buffers.cluster_cdf, points_, world_.tables.camera, world_.seed, 0u, 0u, 1u, 0,
-               static_cast<int>(world_.tables.objects.size()), 0, 0);
-  }
+  void warm_up() { look({world_.seed, 0, 0, 1, 0, 0, 0}, 1); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
   const PixelRows& rows() const { return rows_; }
@@ -52,6 +47,28 @@ public:
   void load(StateReader& from) { rows_.load(from); }
 
 private:
+  /// Which paths a launch of view.cl has.
+  struct Look {
+    shared::uint2 seed{};
+    std::uint32_t pass = 0, path = 0, paths = 1;
+    int cluster = 0, first_row = 0, rows = 0;
+  };
+  void look(const Look& at, std::uint32_t items)
+  {
+    world_.run(view_, items, 64,
+               {{"cluster_cdf", world_.buffers.cluster_cdf},
+                {"points", points_},
+                {"camera", world_.tables.camera},
+                {"seed", at.seed},
+                {"pass", at.pass},
+                {"path_number", at.path},
+                {"path_count", at.paths},
+                {"cluster", at.cluster},
+                {"object_count", static_cast<int>(world_.tables.objects.size())},
+                {"first_row", at.first_row},
+                {"row_count", at.rows}});
+  }
+
   /// Whole rows, of at least one and about as many pixels as make work for a step.
   static std::size_t point_count(const shared::DeviceCamera& camera)
   {

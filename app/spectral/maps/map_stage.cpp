@@ -38,8 +38,16 @@ public:
     const auto pixels = static_cast<std::uint32_t>(t.camera.width * t.camera.height);
     const auto number = static_cast<std::uint32_t>(pass);
     return eye_.step(world_.seed, number, -1, [&](const auto& points, std::uint32_t first_pixel, std::uint32_t count) {
-      gather_.run(count, 64, map_.starts(), map_.positions(), map_.values(), map_.grid(), points, film_, world_.energy, pixels, number,
-                  first_pixel, count, static_cast<float>(radius), film_per_quantum);
+      gather_.run(count, 64, map_.arguments(),
+                  {{"points", points},
+                   {"film", film_},
+                   {"energy", world_.energy},
+                   {"pixels", pixels},
+                   {"pass", number},
+                   {"first_pixel", first_pixel},
+                   {"count", count},
+                   {"radius", static_cast<float>(radius)},
+                   {"film_per_quantum", film_per_quantum}});
     });
   }
 

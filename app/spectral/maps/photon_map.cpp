@@ -54,10 +54,11 @@ void PhotonMap::build(double cell_edge, std::uint32_t slots)
 {
   grid_.inverse_cell = static_cast<float>(1 / cell_edge);
   starts_.fill_zero();
-  count_.run(std::max(slots, 1u), 64, stored_, starts_, grid_, slots);
-  sum_.run(scan_blocks, 16, starts_, block_sums_, grid_);
-  scan_.run(scan_blocks, 16, starts_, block_sums_, grid_);
-  scatter_.run(std::max(slots, 8u), 64, stored_, starts_, positions_, values_, grid_, slots);
+  count_.run(std::max(slots, 1u), 64, {{"stored", stored_}, {"counts", starts_}, {"grid", grid_}, {"slots", slots}});
+  sum_.run(scan_blocks, 16, {{"counts", starts_}, {"sums", block_sums_}, {"grid", grid_}});
+  scan_.run(scan_blocks, 16, {{"counts", starts_}, {"sums", block_sums_}, {"grid", grid_}});
+  scatter_.run(std::max(slots, 8u), 64,
+               {{"stored", stored_}, {"ends", starts_}, {"positions", positions_}, {"values", values_}, {"grid", grid_}, {"slots", slots}});
 }
 
 } // namespace nephroid::spectral

@@ -4,6 +4,7 @@
 #include "compute/compute.h"
 #include "kernels/spectral/photon_map_types.h"
 
+#include <array>
 #include <cstdint>
 
 namespace nephroid::spectral {
@@ -25,11 +26,11 @@ public:
   void build(double cell_edge, std::uint32_t slots);
   std::uint32_t slots() const { return static_cast<std::uint32_t>(stored_.size()); }
 
-  /// What a PhotonMap of photon_map.h is made of: the kernel arguments PHOTON_MAP_ARGUMENTS.
-  const compute::Buffer<std::uint32_t>& starts() const { return starts_; }
-  const compute::Buffer<float>& positions() const { return positions_; }
-  const compute::Buffer<std::int32_t>& values() const { return values_; }
-  shared::PhotonGrid grid() const { return grid_; }
+  /// What a PhotonMap of photon_map.h is made of: the kernel arguments PHOTON_MAP_ARGUMENTS. They refer to the map.
+  std::array<compute::Argument, 4> arguments() const
+  {
+    return {{{"starts", starts_}, {"sorted_positions", positions_}, {"sorted_values", values_}, {"grid", grid_}}};
+  }
 
 private:
   compute::Buffer<shared::StoredPhoton> stored_;

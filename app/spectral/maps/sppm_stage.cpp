@@ -159,7 +159,8 @@ private:
   Run make_run()
   {
     Run run{{world_.context, "progressive statistics", pixel_count()}, world_.zeroed("energy", OUTCOME_COUNT)};
-    start_.run(pixel_count(), 64, run.statistics, pixel_count(), static_cast<float>(first_radius_ * first_radius_));
+    start_.run(pixel_count(), 64,
+               {{"statistics", run.statistics}, {"pixels", pixel_count()}, {"radius2", static_cast<float>(first_radius_ * first_radius_)}});
     return run;
   }
 
@@ -210,10 +211,28 @@ void SppmStage::send_photons(std::int64_t pass, std::uint32_t offset, std::uint3
   const int cluster = std::min(at_.cluster, cluster_count() - 1);
   const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
   const DeviceTables& t = world_.tables;
-  world_.run_photons(send_, count, world_.buffers.targets, sender.emitters, unused_, run_of(cluster).energy, unused_, unused_, no_guide_,
-                     0.0f, map_.stored(), sender.emitter_count, static_cast<int>(t.objects.size()), t.camera, seed_of(cluster),
-                     static_cast<std::uint32_t>(iterations_of(cluster, pass)), 0u, offset, stride, count, 0.0f,
-                     world_.on_device(t.energy_scale), world_.on_device(sender.photon_scale));
+  world_.run_photons(send_, count,
+                     {{"targets", world_.buffers.targets},
+                      {"emitters", sender.emitters},
+                      {"film", unused_},
+                      {"energy", run_of(cluster).energy},
+                      {"moments", unused_},
+                      {"guide_moments", unused_},
+                      {"guide", no_guide_},
+                      {"unseen_weight", 0.0f},
+                      {"stored", map_.stored()},
+                      {"emitter_count", sender.emitter_count},
+                      {"object_count", static_cast<int>(t.objects.size())},
+                      {"camera", t.camera},
+                      {"seed", seed_of(cluster)},
+                      {"pass", static_cast<std::uint32_t>(iterations_of(cluster, pass))},
+                      {"first_pass", 0u},
+                      {"offset", offset},
+                      {"stride", stride},
+                      {"count", count},
+                      {"film_scale", 0.0f},
+                      {"energy_scale", world_.on_device(t.energy_scale)},
+                      {"stored_scale", world_.on_device(sender.photon_scale)}});
 }
 
 bool SppmStage::send(std::int64_t pass)
@@ -227,8 +246,13 @@ void SppmStage::gather_photons(const compute::Buffer<shared::VisiblePoint>& poin
 {
   const double weight = random_ ? cluster_count() : 1;
   const double unit = weight / (senders_[static_cast<std::size_t>(cluster)].photon_scale * world_.tables.power_unit);
-  gather_.run(items, 64, map_.starts(), map_.positions(), map_.values(), map_.grid(), points, run_of(cluster).statistics, first_pixel,
-              count, static_cast<float>(alpha_), static_cast<float>(unit));
+  gather_.run(items, 64, map_.arguments(),
+              {{"points", points},
+               {"statistics", run_of(cluster).statistics},
+               {"first_pixel", first_pixel},
+               {"count", count},
+               {"alpha", static_cast<float>(alpha_)},
+               {"unit", static_cast<float>(unit)}});
 }
 
 bool SppmStage::gather(std::int64_t pass)
@@ -258,8 +282,13 @@ void SppmStage::develop(std::int64_t passes, bool done, job::Picture& picture)
     const std::uint32_t split = done || (!random_ && run < at_.cluster) ? pixel_count()
                                 : in_hand ? static_cast<std::uint32_t>(eye_.rows().done() * world_.tables.camera.width)
                                           : 0;
-    add_radiance_.run(pixel_count(), 64, runs_[static_cast<std::size_t>(run)].statistics, sums, pixel_count(), split, per_iteration(after),
-                      per_iteration(before));
+    add_radiance_.run(pixel_count(), 64,
+                      {{"statistics", runs_[static_cast<std::size_t>(run)].statistics},
+                       {"xyz", sums},
+                       {"pixels", pixel_count()},
+                       {"split", split},
+                       {"per_iteration_before", per_iteration(after)},
+                       {"per_iteration_after", per_iteration(before)}});
   }
   const std::vector<float> xyz = sums.read();
   job::Layer layer{"caustic", std::vector<float>(xyz.size())};

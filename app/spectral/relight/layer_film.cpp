@@ -33,9 +33,16 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
     weights_.write(numbers);
   else
     weights_ = compute::Buffer<float>(context_, "weights of layers", numbers);
-  weigh_.run(cell_count_ / 8, 64, sums_, static_cast<int>(cell_count_ / LAYER_BLOCK), static_cast<int>(halves_ * layers_),
-             reflector_of_block_, weights_, weighed_);
-  gather_.run(pixels_, 64, first_, cells_, weighed_, static_cast<int>(pixels_), pictures_);
+  weigh_.run(cell_count_ / 8, 64,
+             {{"sums", sums_},
+              {"block_count", static_cast<int>(cell_count_ / LAYER_BLOCK)},
+              {"rows", static_cast<int>(halves_ * layers_)},
+              {"reflector_of_block", reflector_of_block_},
+              {"weights", weights_},
+              {"weighed", weighed_}});
+  gather_.run(
+      pixels_, 64,
+      {{"first", first_}, {"cells", cells_}, {"weighed", weighed_}, {"pixel_count", static_cast<int>(pixels_)}, {"pictures", pictures_}});
   const std::size_t bytes = 3 * pixels_ * sizeof(float);
   pictures_.RawBuffer::read(pictures[0].data(), bytes, 0);
   pictures_.RawBuffer::read(pictures[1].data(), bytes, bytes);

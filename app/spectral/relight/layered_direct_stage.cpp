@@ -23,7 +23,8 @@ public:
         bent_(world.context, "film direct through glass", relighting.bent,
               world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),
         cluster_cdf_(world.context, "cluster choice", std::span<const float>(world.tables.wavelengths.cluster_cdf)),
-        kernel_(compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("direct")), rows_(world.tables.camera.height)
+        kernel_(compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("direct")),
+        rows_(world.tables.camera.height)
   {
   }
 
@@ -37,10 +38,26 @@ public:
       cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
     return rows_.step([&](int first_row, int rows) {
       const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
-      world_.run(kernel_, pixels, 64, cluster_cdf_, relighting_.mean_reflectance, relighting_.luminance_share, unbent_.first(),
-                 unbent_.cells(), unbent_.sums(), unbent_.layer_count(), bent_.first(), bent_.cells(), bent_.sums(), bent_.layer_count(),
-                 world_.energy, world_.tables.camera, world_.seed, static_cast<std::uint32_t>(pass), first_row, rows,
-                 world_.on_device(world_.tables.direct_scale), static_cast<float>(world_.tables.direct_limit / paths_through_glass));
+      world_.run(kernel_, pixels, 64,
+                 {{"cluster_cdf", cluster_cdf_},
+                  {"mean_reflectance", relighting_.mean_reflectance},
+                  {"luminance_share", relighting_.luminance_share},
+                  {"unbent_first", unbent_.first()},
+                  {"unbent_cells", unbent_.cells()},
+                  {"unbent_sums", unbent_.sums()},
+                  {"unbent_layer_count", unbent_.layer_count()},
+                  {"bent_first", bent_.first()},
+                  {"bent_cells", bent_.cells()},
+                  {"bent_sums", bent_.sums()},
+                  {"bent_layer_count", bent_.layer_count()},
+                  {"energy", world_.energy},
+                  {"camera", world_.tables.camera},
+                  {"seed", world_.seed},
+                  {"frame", static_cast<std::uint32_t>(pass)},
+                  {"first_row", first_row},
+                  {"row_count", rows},
+                  {"film_scale", world_.on_device(world_.tables.direct_scale)},
+                  {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
     });
   }
 

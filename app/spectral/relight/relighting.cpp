@@ -22,7 +22,7 @@ std::unique_ptr<Relighting> make_relighting(DeviceWorld& world, LayerLight light
   compute::Buffer<int> unbent(world.context, "survey", pixels * SURVEY_PLACES),
       bent(world.context, "survey through glass", pixels * SURVEY_PLACES * SURVEY_PATHS);
   compute::Kernel survey = compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("survey");
-  world.run(survey, pixels, 64, tables.camera, world.seed, unbent, bent);
+  world.run(survey, pixels, 64, {{"camera", tables.camera}, {"seed", world.seed}, {"unbent", unbent}, {"bent", bent}});
   const LayerBudget budget = layer_budget(tables.camera, tables.spheres);
   const std::vector<int> seen = unbent.read(), seen_bent = bent.read();
   made->unbent = make_layer_cells({seen, width, height, SURVEY_PLACES, reflectors}, budget.unbent, true);

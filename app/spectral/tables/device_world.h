@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 
 namespace nephroid::spectral {
@@ -37,15 +38,34 @@ struct DeviceWorld {
   /// A scale for powers as the device knows them.
   float on_device(double scale) const { return static_cast<float>(scale * tables.power_unit); }
 
-  /// Runs a kernel whose arguments begin with WORLD_ARGUMENTS (kernels/tracing/world.h), and waits for it.
-  template <class... Rest>
-  void run(compute::Kernel& kernel, std::size_t global, std::size_t local, const Rest&... rest)
+  /// Runs a kernel that has WORLD_ARGUMENTS (kernels/tracing/world.h) beside its `own`, and waits for it.
+  void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own)
   {
     const DeviceBuffers& b = buffers;
-    kernel.run(global, local, b.nodes, b.blocks, b.corners, b.positions, b.normals, b.object_of_triangle, b.objects, b.materials, b.lights,
-               b.index_of_cluster, b.index_of_wavelength, b.wavelength_cdf, b.index_slope, b.stretch_place, b.stretch_span, b.reflected_xyz,
-               b.cluster_first, b.cluster_wavelengths, b.coefficient, b.light_xyz, b.reflectance, tables.wavelengths.reflector_count,
-               tables.scene, rest...);
+    const compute::Argument world[] = {{"nodes", b.nodes},
+                                       {"blocks", b.blocks},
+                                       {"corners", b.corners},
+                                       {"positions", b.positions},
+                                       {"normals", b.normals},
+                                       {"object_of_triangle", b.object_of_triangle},
+                                       {"objects", b.objects},
+                                       {"materials", b.materials},
+                                       {"lights", b.lights},
+                                       {"index_of_cluster", b.index_of_cluster},
+                                       {"index_of_wavelength", b.index_of_wavelength},
+                                       {"wavelength_cdf", b.wavelength_cdf},
+                                       {"index_slope", b.index_slope},
+                                       {"stretch_place", b.stretch_place},
+                                       {"stretch_span", b.stretch_span},
+                                       {"reflected_xyz", b.reflected_xyz},
+                                       {"cluster_first", b.cluster_first},
+                                       {"cluster_wavelengths", b.cluster_wavelengths},
+                                       {"coefficient", b.coefficient},
+                                       {"light_xyz", b.light_xyz},
+                                       {"reflectance", b.reflectance},
+                                       {"reflector_count", tables.wavelengths.reflector_count},
+                                       {"scene", tables.scene}};
+    kernel.run(global, local, world, own);
     context.finish();
   }
 
@@ -59,10 +79,9 @@ struct DeviceWorld {
     return all;
   }
   /// As run, with items for `count` photons, and one at least.
-  template <class... Rest>
-  void run_photons(compute::Kernel& kernel, std::uint32_t count, const Rest&... rest)
+  void run_photons(compute::Kernel& kernel, std::uint32_t count, std::initializer_list<compute::Argument> own)
   {
-    run(kernel, std::max(1u, (count + photons_per_item() - 1) / photons_per_item()), 32, rest...);
+    run(kernel, std::max(1u, (count + photons_per_item() - 1) / photons_per_item()), 32, own);
   }
 };
 
