@@ -39,14 +39,15 @@ function(nephroid_library name)
 endfunction()
 
 # nephroid_tests(): every *_test.cpp of the current folder becomes one test program. It links the folders whose
-# headers it includes ("optics/..." links nephroid_optics), so adding a test is adding a file.
+# headers it includes ("optics/..." links nephroid_optics), so adding a test is adding a file. nephroid_test_program: the program that
+# tests run, if it is not nephroid.
 function(nephroid_tests)
   get_filename_component(group ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   foreach(source IN LISTS sources)
     get_filename_component(stem ${source} NAME_WE)
     add_executable(${group}_${stem} ${source})
-    file(STRINGS ${source} includes REGEX "^#include \"(base|optics|preset|scene|plan|compute|job|image|measure|spectral|check|run|cli|ui)/")
+    file(STRINGS ${source} includes REGEX "^#include \"(base|optics|preset|scene|plan|compute|job|image|measure|engine|tracing|spectral|check|run|cli|ui)/")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
     set(libs "")
     foreach(line IN LISTS includes)
@@ -56,7 +57,7 @@ function(nephroid_tests)
     list(REMOVE_DUPLICATES libs)
     target_link_libraries(${group}_${stem} PRIVATE nephroid_settings ${libs} ${ARGN} GTest::gmock GTest::gtest_main)
     target_compile_definitions(${group}_${stem} PRIVATE
-      NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:nephroid>" $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
+      NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:$<IF:$<BOOL:${nephroid_test_program}>,${nephroid_test_program},nephroid>>" $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
     gtest_discover_tests(${group}_${stem} TEST_PREFIX ${group}. DISCOVERY_MODE PRE_TEST
       PROPERTIES TIMEOUT 600 LABELS ${group})
   endforeach()

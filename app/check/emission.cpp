@@ -5,7 +5,7 @@
 #include "check/render.h"
 #include "check/scene_parts.h"
 #include "check/subjects.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   p.scene.materials["white"] = white();
   p.scene.objects = {object("ball", ball(1, 16), "glass", at({0, 0, 0})), object("wall", quad(20, 20), "white", at({0, -2, 0}))};
   p.scene.lights = {light};
-  spectral::DeviceTables tables = device_tables(p);
+  spectral::RunTables tables = device_tables(p);
   shared::DeviceLight& on_host = tables.lights.at(0);
   std::vector<shared::DeviceTarget> targets;
   for (const float4& s : spheres) targets.push_back({{s.x + on_host.position.x, s.y + on_host.position.y, s.z + on_host.position.z, s.w}});

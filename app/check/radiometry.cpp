@@ -88,10 +88,10 @@ Distance distance(const job::Snapshot& snapshot, const char* name, const preset:
 Result direct_light(const compute::Context& context, std::uint64_t seed)
 {
   preset::Preset p = lit_floor(32, 2, seed);
-  p.spectral.direct = true;
-  p.spectral.caustic = false;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).caustic = false;
   constexpr int samples = 32;
-  p.stop.passes = p.spectral.pixel_samples = samples;
+  p.stop.passes = spectral::settings(p).pixel_samples = samples;
   const Distance d = distance(render(p, context), "direct", p, [](const PixelTruth& t) { return t.variance / samples; });
   return {{},
           d.worst(),
@@ -107,8 +107,8 @@ Result through_nothing(const compute::Context& context, std::uint64_t seed)
   preset::Preset p = lit_floor(16, 0.5, seed);
   p.scene.materials["nothing"] = glass(1);
   p.scene.objects.push_back(object("ball", ball(0.3, 32), "nothing", at({0.1, 1, -0.2})));
-  p.spectral.photons_per_pass = 1 << 19;
-  const double photon_w = p.scene.lights[0].power_w / p.spectral.photons_per_pass, pixel_area = 1.0 / (16 * 16);
+  spectral::settings(p).photons_per_pass = 1 << 19;
+  const double photon_w = p.scene.lights[0].power_w / spectral::settings(p).photons_per_pass, pixel_area = 1.0 / (16 * 16);
   const Distance d = distance(render(p, context), "caustic", p, [&](const PixelTruth& t) { return t.irradiance * photon_w / pixel_area; });
   return {{},
           d.worst(),
@@ -132,8 +132,8 @@ Result coloured_mirror(const compute::Context& context, std::uint64_t seed)
   p.scene.lights[0].spectrum = {};
   p.scene.lights[0].spectrum.illuminant = "D65";
   p.scene.camera.position = {-3, 1, 0};
-  p.spectral.photons_per_pass = 1 << 14;
-  const job::EnergyBalance e = render(p, context).energy;
+  spectral::settings(p).photons_per_pass = 1 << 14;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p, context));
   const optics::Spectrum light = optics::illuminant("D65"), patch = optics::colorchecker_patch("blue sky");
   double truth = 0;
   for (std::size_t i = 0; i < light.size(); ++i) truth += light[i] * patch[i];
@@ -170,9 +170,9 @@ preset::Preset everything(std::uint64_t seed)
   p.scene.lights[0].position = {0.5, 6, 3};
   p.scene.lights[0].power_w = 10;
   p.scene.camera.position = {0, 9, 9};
-  p.spectral.direct = true;
-  p.spectral.threshold_deg = 1;
-  p.spectral.photons_per_pass = 1 << 16;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).threshold_deg = 1;
+  spectral::settings(p).photons_per_pass = 1 << 16;
   p.stop.passes = 2;
   return p;
 }
@@ -180,7 +180,7 @@ preset::Preset everything(std::uint64_t seed)
 /// Counted in whole quanta, so nothing but the last conversion to watts rounds.
 Result energy(const compute::Context& context, std::uint64_t seed)
 {
-  const job::EnergyBalance e = render(everything(seed), context).energy;
+  const spectral::EnergyBalance e = spectral::energy_of(render(everything(seed), context));
   const double off = (e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w - 1;
   const bool all_there = e.deposited_w > 0 && e.missed_w > 0 && e.absorbed_w > 0 && e.escaped_w > 0 && e.refused_contributions == 0;
   return {

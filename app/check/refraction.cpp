@@ -25,8 +25,8 @@ double z_of_transmitted(const compute::Context& context, preset::Preset p, doubl
   p.scene.objects.push_back(object("floor", quad(400, 400), "white", at({0, -1, 0})));
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
-  p.spectral.photons_per_pass = photons;
-  const job::EnergyBalance e = render(std::move(p), context).energy;
+  spectral::settings(p).photons_per_pass = photons;
+  const spectral::EnergyBalance e = spectral::energy_of(render(std::move(p), context));
   return (e.deposited_w / e.emitted_w - truth) / std::sqrt(truth * (1 - truth) / photons);
 }
 
@@ -134,8 +134,8 @@ Result prism(const compute::Context& context, std::uint64_t seed)
   shape.type = preset::Shape::Type::prism;
   shape.side = shape.height = side;
   p.scene.objects.push_back(object("prism", shape, "glass"));
-  p.spectral.method = preset::Spectral::Method::brute_force;
-  p.spectral.photons_per_pass = 1 << 14;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).photons_per_pass = 1 << 14;
   double worst = 0;
   for (const double nm : {400.0, 450.0, 500.0, 600.0, 700.0}) {
     const PrismPath truth = path(nm);
@@ -158,7 +158,7 @@ Result ball_lens(const compute::Context& context, std::uint64_t seed)
   p.scene.materials["glass"] = glass(n);
   p.scene.objects.push_back(object("ball", ball(radius, 256), "glass"));
   p.scene.objects.back().normals = preset::Object::Normals::smooth;
-  p.spectral.photons_per_pass = 1 << 14;
+  spectral::settings(p).photons_per_pass = 1 << 14;
   double worst = 0;
   for (const double height : {0.05, 0.2, 0.4, 0.6, 0.75}) {
     p.scene.lights = {pencil({height * radius, 0, 4 * radius}, {0, 0, -1}, 0.005)};

@@ -22,20 +22,20 @@ void share_programs(compute::Defines& defines)
 
 } // namespace
 
-spectral::DeviceTables device_tables(const preset::Preset& preset)
+spectral::RunTables device_tables(const preset::Preset& preset)
 {
   const scene::Scene scene = scene::load_scene(preset);
-  return spectral::make_device_tables(preset, scene, scene::build_bvh(scene.geometry));
+  return spectral::make_lit_tables(preset, scene, scene::build_bvh(scene.geometry), {});
 }
 
 job::Snapshot render(preset::Preset preset, const compute::Context& context)
 {
-  preset.spectral.max_surfaces = 64;
-  preset::LeaveOut& leave_out = preset.spectral.leave_out;
+  spectral::settings(preset).max_surfaces = 64;
+  tracing::LeaveOut leave_out;
   leave_out.light_types = leave_out.mirrors = leave_out.bending = leave_out.attenuation = leave_out.smooth_normals = false;
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  plan::Plan plan = spectral::make_plan(preset, scene, bvh);
+  spectral::RunPlan plan = spectral::make_plan(preset, scene, bvh, leave_out);
   share_programs(plan.defines);
   const auto job = spectral::make_job(preset, scene, bvh, plan, context);
   while (!job->finished()) job->step();

@@ -6,7 +6,8 @@
 #include "job/job.h"
 #include "optics/colour.h"
 #include "preset/preset.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/energy.h"
+#include "spectral/tables/run_tables.h"
 
 #include <string>
 
@@ -17,7 +18,7 @@ namespace nephroid::check {
 job::Snapshot render(preset::Preset preset, const compute::Context& context);
 
 /// The tables that the engine would render the preset with.
-spectral::DeviceTables device_tables(const preset::Preset& preset);
+spectral::RunTables device_tables(const preset::Preset& preset);
 
 /// The layer of that name, which must be there: throws failed else.
 inline const job::Layer& layer(const job::Snapshot& snapshot, const std::string& name)

@@ -2,6 +2,7 @@
 // Presets and their parts, built in memory without files: for checks and tests.
 #pragma once
 #include "preset/preset.h"
+#include "spectral/settings.h"
 
 #include <string>
 
@@ -16,10 +17,10 @@ inline preset::Preset empty_preset(int resolution = 64)
   p.name = "test";
   p.unit = preset::Preset::Unit::m;
   p.scene.camera.resolution = {resolution, resolution};
-  p.spectral.direct = false;
-  p.spectral.estimator = preset::Spectral::Estimator::splat;
-  p.spectral.low_discrepancy = false;
-  p.spectral.photons_per_pass = 1 << 16;
+  spectral::settings(p).direct = false;
+  spectral::settings(p).estimator = spectral::Settings::Estimator::splat;
+  spectral::settings(p).low_discrepancy = false;
+  spectral::settings(p).photons_per_pass = 1 << 16;
   p.stop.passes = 1;
   return p;
 }

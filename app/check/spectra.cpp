@@ -6,7 +6,7 @@
 #include "check/subjects.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 using Int4 = std::array<int, 4>; // light, cluster, reflector, attenuator
 
 /// Daylight through dispersive glass onto a patch that is not grey.
-spectral::WavelengthTables tables()
+tracing::WavelengthTables tables()
 {
   preset::Preset p = empty_preset();
   preset::Material dispersive = glass(1.7);
@@ -36,7 +36,7 @@ spectral::WavelengthTables tables()
 }
 
 /// What attenuated_sum gives for every cluster at every length of glass with absorption `coefficient` in 1/m.
-std::vector<float4> sums(const compute::Context& context, const spectral::WavelengthTables& t, const std::vector<float>& coefficient,
+std::vector<float4> sums(const compute::Context& context, const tracing::WavelengthTables& t, const std::vector<float>& coefficient,
                          const std::vector<float>& lengths)
 {
   std::vector<Int4> which;
@@ -63,7 +63,7 @@ double relative(double got, double truth) { return std::abs(got / truth - 1); }
 
 Result whole_spectrum(const compute::Context& context, std::uint64_t)
 {
-  const spectral::WavelengthTables t = tables();
+  const tracing::WavelengthTables t = tables();
   double x = 0, y = 0, z = 0, share = 0;
   for (const float4& s : sums(context, t, std::vector<float>(optics::wavelength_count), {0})) x += s.x, y += s.y, z += s.z, share += s.w;
   optics::Spectrum reflected = optics::illuminant("D65");
@@ -82,7 +82,7 @@ Result whole_spectrum(const compute::Context& context, std::uint64_t)
 /// Terms are positive, so a sum is as exact as its terms: an exponent e is off by a few e 2^-24, here up to 18, and so is exp(-e).
 Result beer_lambert(const compute::Context& context, std::uint64_t)
 {
-  const spectral::WavelengthTables t = tables();
+  const tracing::WavelengthTables t = tables();
   std::vector<float> coefficient;
   for (int i = 0; i < optics::wavelength_count; ++i) {
     const double k = 2e-7 * (1.5 + std::sin(0.05 * i)); // absorbs as 10 m of good glass do, in waves over the spectrum

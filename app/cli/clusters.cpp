@@ -10,6 +10,7 @@
 #include "cli/verbs.h"
 #include "cli/wavelength_runs.h"
 #include "preset/choices.h"
+#include "spectral/describe_settings.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "scene/materials.h"
@@ -40,7 +41,7 @@ struct ClusterOptions {
 struct Task {
   optics::DispersionCurve curve;
   optics::Outside outside = optics::Outside::automatic;
-  double threshold_deg = preset::Spectral{}.threshold_deg;
+  double threshold_deg = spectral::Settings{}.threshold_deg;
   ClusterMethod method = ClusterMethod::optimal;
 };
 
@@ -77,7 +78,7 @@ Task preset_task(const ClusterOptions& options)
   const std::string where = preset.source + "#/scene/materials/" + pointer_key(name) + "/dispersion";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   return {preset::at_origins(preset, [&] { return scene::make_curve(dispersion, finder, where); }),
-          scene::outside_policy(dispersion.outside), preset.spectral.threshold_deg, preset.spectral.method};
+          scene::outside_policy(dispersion.outside), spectral::settings(preset).threshold_deg, spectral::settings(preset).method};
 }
 
 Task make_task(const ClusterOptions& options)

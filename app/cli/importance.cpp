@@ -8,7 +8,7 @@
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "spectral/clusters/scene_clusters.h"
-#include "spectral/omissions.h"
+#include "tracing/omissions.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@
 namespace nephroid::cli {
 namespace {
 
-using Method = preset::Spectral::Effort;
+using Method = spectral::Settings::Effort;
 
 struct ImportanceOptions {
   std::string preset, method;
@@ -50,10 +50,11 @@ std::vector<int> rendered(const std::vector<int>& cluster, const std::vector<boo
   return result;
 }
 
-std::vector<Row> make_rows(const preset::Spectral& settings, const scene::Scene& scene, const Answer& answer)
+std::vector<Row> make_rows(const preset::Preset& preset, const scene::Scene& scene, const Answer& answer)
 {
   std::vector<bool> lit(optics::wavelength_count, true);
-  if (settings.leave_out.unlit_wavelengths) lit = spectral::lit_wavelengths(scene);
+  const spectral::Settings& settings = spectral::settings(preset);
+  if (preset.leave_out) lit = tracing::lit_wavelengths(scene);
   std::vector<Row> rows;
   for (const std::vector<int>& cluster : spectral::scene_clusters(settings, scene)) {
     const std::vector<std::vector<int>> counted{rendered(cluster, lit)};
@@ -66,19 +67,19 @@ std::vector<Row> make_rows(const preset::Spectral& settings, const scene::Scene&
 
 Answer answer_for(preset::Preset preset, const std::string& method)
 {
-  Method& effort = preset.spectral.effort;
+  Method& effort = spectral::settings(preset).effort;
   if (method.empty() ? effort != Method::radziszewski : method == "thesis") effort = Method::importance;
   if (method == "radziszewski") effort = Method::radziszewski;
   const scene::Scene scene = scene::load_scene(preset);
   Answer answer{preset.name,
                 effort,
                 preset.stop.passes.value_or(preset::default_passes),
-                spectral::wavelength_importance(preset.spectral, scene, scene::build_bvh(scene.geometry)),
+                spectral::wavelength_importance(spectral::settings(preset), scene, scene::build_bvh(scene.geometry)),
                 {},
                 {}};
   for (const spectral::Surrounding& s : answer.importance.surroundings)
     answer.materials.push_back(scene.materials[static_cast<std::size_t>(s.material)].name);
-  answer.rows = make_rows(preset.spectral, scene, answer);
+  answer.rows = make_rows(preset, scene, answer);
   return answer;
 }
 

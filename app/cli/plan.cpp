@@ -23,7 +23,8 @@ void print_plans(const PlanOptions& options)
 {
   const std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
   for (const preset::Preset& preset : presets) {
-    const plan::Plan plan = preset::at_origins(preset, [&] { return run::prepare(preset).plan; });
+    const auto prepared_plan = preset::at_origins(preset, [&] { return run::prepare(preset).plan; });
+    const plan::Plan& plan = *prepared_plan;
     if (!options.json && presets.size() > 1) fmt::print("{}\n", preset.name);
     fmt::print("{}\n", options.json ? plan::to_json_line(plan, preset.name) : plan::to_text(plan));
   }

@@ -57,8 +57,8 @@ std::string clock_time(double seconds)
 /// "pass 3 of 28": the one in hand, and after the last one that.
 std::string pass_text(const job::Progress& now)
 {
-  if (now.steps < 0) return fmt::format("pass {}", now.step + 1);
-  return fmt::format("pass {} of {}", std::min(now.step + 1, now.steps), now.steps);
+  if (now.steps < 0) return fmt::format("{} {}", now.units.step, now.step + 1);
+  return fmt::format("{} {} of {}", now.units.step, std::min(now.step + 1, now.steps), now.steps);
 }
 
 std::string bar(double fraction, int width)
@@ -80,7 +80,7 @@ ProgressStyle progress_style(bool json)
 std::string progress_line(const std::string& label, const job::Progress& now, const job::Pace& pace, int columns)
 {
   std::string figures = fmt::format("{:3.0f} %  {}", std::floor(now.fraction * 100), pass_text(now));
-  if (pace.photons_per_second > 0) figures += fmt::format("  {} photons/s", with_prefix(pace.photons_per_second));
+  if (pace.work_per_second > 0) figures += fmt::format("  {} {}/s", with_prefix(pace.work_per_second), now.units.works);
   if (pace.seconds_left >= 0) figures += fmt::format("  {} left", clock_time(pace.seconds_left));
   const int room = columns - static_cast<int>(label.size() + figures.size()) - 6;
   std::string line = room >= 5 ? fmt::format("{}  [{}]  {}", label, bar(now.fraction, std::min(room, 30)), figures) : figures;
@@ -97,9 +97,9 @@ std::string progress_json(const ProgressSubject& subject, const job::Progress& n
       {"fraction", now.fraction},
       {"step", now.step},
       {"steps", now.steps >= 0 ? nlohmann::ordered_json(now.steps) : nlohmann::ordered_json()},
-      {"photons", now.photons},
+      {std::string(now.units.works), now.work},
       {"work_seconds", now.work_seconds},
-      {"photons_per_second", pace.photons_per_second},
+      {fmt::format("{}_per_second", now.units.works), pace.work_per_second},
       {"seconds_left", pace.seconds_left >= 0 ? nlohmann::ordered_json(pace.seconds_left) : nlohmann::ordered_json()}};
   return json_text(all);
 }

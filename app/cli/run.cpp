@@ -80,13 +80,20 @@ void report_result(const RunOptions& options, const Target& target, const job::P
   for (const char* name : result_files)
     if (fs::exists(target.folder / name)) files.emplace_back(name);
   if (options.json) {
-    const nlohmann::ordered_json all{
-        {"type", "result"},     {"name", target.preset.name}, {"folder", target.folder.string()}, {"files", files},
-        {"finished", finished}, {"passes", progress.step},    {"photons", progress.photons},      {"work_seconds", progress.work_seconds}};
+    const nlohmann::ordered_json all{{"type", "result"},
+                                     {"name", target.preset.name},
+                                     {"folder", target.folder.string()},
+                                     {"files", files},
+                                     {"finished", finished},
+                                     {std::string(progress.units.steps), progress.step},
+                                     {std::string(progress.units.works), progress.work},
+                                     {"work_seconds", progress.work_seconds}};
     fmt::print("{}\n", json_text(all));
   } else {
-    fmt::print("{}: {}, {:.1f} million photons in {:.1f} s of work\n", (target.folder / "image.exr").string(),
-               counted(progress.step, "pass", "passes"), static_cast<double>(progress.photons) * 1e-6, progress.work_seconds);
+    const job::Units& units = progress.units;
+    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", (target.folder / "image.exr").string(),
+               counted(progress.step, std::string(units.step), std::string(units.steps)), static_cast<double>(progress.work) * 1e-6,
+               units.works, progress.work_seconds);
   }
   std::fflush(stdout);
 }
@@ -103,7 +110,7 @@ public:
   void operator()(std::optional<compute::Context>& context, std::optional<run::Prepared>& prepared)
   {
     prepared = run::prepare(target_.preset, prepared ? &*prepared : nullptr);
-    for (const std::string& note : prepared->plan.notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& note : prepared->plan->notes) fmt::print(stderr, "note: {}\n", note);
     if (!context) {
       if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
       context = compute::Context::open(options_.device);
@@ -114,10 +121,10 @@ public:
       reference_ = reference(*prepared, *context);
       const std::unique_ptr<job::Job> job = measure::measured(run::make_job(*prepared, *context), prepared->preset, reference_, began_);
       stop_if_interrupted_early();
-      begin_or_resume(*prepared, *job);
+      begin_or_resume(*prepared, *context, *job);
       stop_if_interrupted_early();
-      work(*prepared, *job);
-      save(*prepared, context->device(), *job);
+      work(*prepared, *context, *job);
+      save(*prepared, *context, *job);
     } catch (...) {
       run::release_folder(target_.folder);
       throw;
@@ -130,9 +137,9 @@ private:
     if (interrupted_.stop_requested()) throw Error(ErrorKind::interrupted, target_.folder.string(), "interrupted before rendering began");
   }
 
-  void begin_or_resume(const run::Prepared& prepared, job::Job& job) const
+  void begin_or_resume(const run::Prepared& prepared, const compute::Context& context, job::Job& job) const
   {
-    if (options_.resume && run::load_checkpoint(target_.folder, prepared, job)) {
+    if (options_.resume && run::load_checkpoint(target_.folder, prepared, context, job)) {
       const job::Progress progress = job.progress();
       fmt::print(stderr, "{}: going on in pass {} ({:.1f} s of work so far)\n", target_.label, progress.step + 1, progress.work_seconds);
       run::write_settings(target_.folder, prepared);
@@ -164,7 +171,7 @@ private:
     return found;
   }
 
-  void work(const run::Prepared& prepared, job::Job& job)
+  void work(const run::Prepared& prepared, const compute::Context& context, job::Job& job)
   {
     ProgressDisplay display(progress_style(options_.json), {target_.label, target_.preset.name}, job.progress());
     double saved_at = job.progress().work_seconds;
@@ -175,7 +182,7 @@ private:
       note_history(job, display);
       if (progress.work_seconds - saved_at < options_.checkpoint_seconds) continue;
       saved_at = progress.work_seconds;
-      on_disk(display, [&] { run::write_checkpoint(target_.folder, prepared, job); });
+      on_disk(display, [&] { run::write_checkpoint(target_.folder, prepared, context, job); });
     }
     display.finish(job.progress());
   }
@@ -202,20 +209,16 @@ private:
   }
 
   /// The picture first: where the disk has room for one of the two only, it is what the run was for.
-  void save(const run::Prepared& prepared, const compute::DeviceInfo& device, job::Job& job) const
+  void save(const run::Prepared& prepared, const compute::Context& context, job::Job& job) const
   {
     const bool finished = job.finished();
     job::Snapshot snapshot = job.snapshot();
-    run::write_run(target_.folder, prepared, device, snapshot, reference_.get(), finished);
+    run::write_run(target_.folder, prepared, context.device(), snapshot, reference_.get(), finished);
     snapshot.picture.reset(); // the report reads the files
-    run::write_checkpoint(target_.folder, prepared, job);
+    run::write_checkpoint(target_.folder, prepared, context, job);
     if (finished && snapshot.history) write_report();
     report_result(options_, target_, snapshot.progress, finished);
-    if (const std::uint64_t refused = snapshot.energy.refused_contributions; refused > 0)
-      fmt::print(stderr,
-                 "note: {}: {} too bright for the film and missing from the picture; move the camera or the light away from "
-                 "the surface, or take fewer pixel_samples\n",
-                 target_.label, counted(refused, "sample was", "samples were"));
+    for (const std::string& warning : snapshot.warnings) fmt::print(stderr, "note: {}: {}\n", target_.label, warning);
     if (!finished)
       throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted in pass {}", snapshot.progress.step + 1),
                   "the image and a checkpoint are saved", "go on with --resume");

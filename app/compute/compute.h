@@ -177,6 +177,8 @@ public:
   std::shared_ptr<detail::ProgramState> state;
 };
 
+/// The text of every .cl file in the folder `folder` of kernels/ with all that they include, as this context would build it.
+std::string kernel_sources(const Context& context, std::string_view folder);
 /// The text of a kernel source ("spectral/photons.cl") with everything that it includes, as this context would build it.
 std::string kernel_source(const Context& context, const std::string& file);
 /// With DeviceOptions::kernels: true once after any file in that folder changed, so that the owner rebuilds.

@@ -45,7 +45,7 @@ struct Joiner {
     for (std::string line; std::getline(lines, line);) {
       ++number;
       std::smatch match;
-      if (!std::regex_match(line, match, include)) {
+      if (line.find("include") == std::string::npos || !std::regex_match(line, match, include)) {
         text += line + '\n';
         continue;
       }
@@ -62,6 +62,23 @@ std::string detail::full_source(const fs::path& folder, const std::string& file)
   Joiner joiner{folder};
   joiner.add(file, "kernels");
   return joiner.text;
+}
+
+std::string kernel_sources(const Context& context, std::string_view folder)
+{
+  const fs::path& kernels = context.state->kernels;
+  const std::string prefix = fmt::format("{}/", folder);
+  std::set<std::string> files;
+  if (kernels.empty()) {
+    for (const EmbeddedSource& source : embedded_sources())
+      if (source.name.starts_with(prefix)) files.insert(source.name);
+  } else
+    for (const fs::directory_entry& entry : fs::directory_iterator(kernels / folder))
+      files.insert(prefix + entry.path().filename().string());
+  std::string all;
+  for (const std::string& file : files)
+    if (file.ends_with(".cl")) all += kernel_source(context, file);
+  return all;
 }
 
 std::string kernel_source(const Context& context, const std::string& file) { return detail::full_source(context.state->kernels, file); }

@@ -6,9 +6,10 @@
 #include "preset/preset.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,36 +30,66 @@ struct Picture {
   std::vector<float> error_draw;
 };
 
+/// What an engine calls its units of work: "2 passes", "3 M photons/s".
+struct Units {
+  std::string_view step = "pass", steps = "passes", work = "photon", works = "photons";
+};
+
 /// Where a job is. All counts are of the whole run, resumed parts included.
 struct Progress {
-  double fraction = 0;       ///< 0..1 of the preset's own stop; 1 when finished
-  std::int64_t step = 0;     ///< passes completed; the one in hand is in `fraction` and `photons` only
-  std::int64_t steps = -1;   ///< passes in all; -1: it stops by time
-  std::uint64_t photons = 0; ///< sent so far
-  double work_seconds = 0;   ///< of stepping, without start-up and snapshots
+  double fraction = 0;     ///< 0..1 of the preset's own stop; 1 when finished
+  std::int64_t step = 0;   ///< steps completed; the one in hand is in `fraction` and `work` only
+  std::int64_t steps = -1; ///< in all; -1: it stops by time
+  std::uint64_t work = 0;  ///< done so far: photons sent, facets tried, ...
+  double work_seconds = 0; ///< of stepping, without start-up and snapshots
+  Units units = {};
 };
 
-/// Where the power that photons carried went, as the mean of the passes: emitted = deposited + missed + absorbed + escaped + lost
-/// but for rounding. kernels/tracing/shared_types.h says what each is (OUTCOME_*).
-struct EnergyBalance {
-  double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
-  std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run
+/// A further picture beside the one that is shown and measured.
+struct NamedPicture {
+  std::string name; ///< of its files: "receiver_1"
+  std::shared_ptr<const Picture> picture;
 };
 
-/// The same of the photons of a layer of interreflection: emitted = absorbed (by any surface, or inside glass) + escaped + lost.
-struct IndirectBalance {
-  double emitted_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
+/// A figure of the run: run.json has it under group and name, and the report shows it.
+struct Scalar {
+  std::string group, name; ///< "energy", "emitted_w"
+  double value = 0;
+};
+
+/// Figures over the work done, other than the error: a file NAME.csv, and a chart in the report.
+struct Curve {
+  std::string name;
+  std::vector<std::string> columns;      ///< the first is what the others are drawn over
+  std::vector<std::vector<double>> rows; ///< a value a column
+};
+
+/// A file that an engine adds to a run's folder: a mesh, a list.
+struct ExtraFile {
+  std::string name;
+  std::shared_ptr<const std::string> bytes;
 };
 
 struct Snapshot {
-  std::shared_ptr<const Picture> picture;
+  std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
+  std::vector<NamedPicture> pictures;     ///< the others
   Progress progress;
-  EnergyBalance energy;
-  std::optional<IndirectBalance> indirect_energy;     ///< where there is such a layer
+  std::vector<Scalar> scalars;
+  std::vector<Curve> curves;
+  std::vector<ExtraFile> files;
+  std::vector<std::string> warnings;                  ///< what makes the picture doubtful, a sentence each
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
   std::shared_ptr<const History> history;             ///< of its error so far; null where nothing is measured
   std::uint64_t adoption = 0;                         ///< the newest Worker::adopt() that it knows of; the worker's to set
 };
+
+/// A scalar's value; NaN where there is none.
+inline double scalar(const Snapshot& snapshot, std::string_view group, std::string_view name)
+{
+  for (const Scalar& s : snapshot.scalars)
+    if (s.group == group && s.name == name) return s.value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
 
 class Job {
 public:
@@ -69,13 +100,15 @@ public:
   virtual Progress progress() const = 0;
   /// Reads the device's state and makes a picture of it: a few milliseconds; with smoothing a tenth of a second or more for large pictures.
   virtual Snapshot snapshot() = 0;
+  /// Whether its pictures come with a draw of their error (Picture::error_draw).
+  virtual bool estimates_error() const { return true; }
   /// Of its error so far, without a snapshot; null where nothing is measured.
   virtual std::shared_ptr<const History> history() const { return nullptr; }
   /// Writes everything needed to go on later with the same bits. Opaque; versioned by the engine.
   virtual void save(ByteSink& to) = 0;
   /// Reads what save() wrote, to its end. Throws bad_input where that is of another version or preset, or is cut.
   virtual void load(ByteSource& from) = 0;
-  /// Takes on another preset without starting again, where it can: where only the light differs (preset::only_relit) and the job keeps
+  /// Takes on another preset without starting again, where it can: where only the light differs (spectral::only_relit) and the job keeps
   /// what it needs to weigh it anew. What was computed so far stays. False, and nothing has changed, where it cannot. Throws bad_input at
   /// FILE#/scene/lights/... for a spectrum that cannot be used; nothing has changed then either.
   virtual bool adopt(const preset::Preset&) { return false; }

@@ -7,7 +7,7 @@ namespace nephroid::job {
 
 /// From how much was done and how long it took in this session: a resumed run goes at this session's speed.
 struct Pace {
-  double photons_per_second = 0;
+  double work_per_second = 0;
   double seconds_left = -1; ///< -1: not known yet
 };
 Pace pace_between(const Progress& start, const Progress& now);

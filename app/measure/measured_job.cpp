@@ -47,8 +47,7 @@ public:
               Clock::time_point began)
       : job_(std::move(job)), settings_(preset.measure), reference_(std::move(reference)), began_(began)
   {
-    // Its radii hang on all photons: there are no independent halves.
-    if (preset.spectral.estimator == preset::Spectral::Estimator::sppm) settings_.estimate = false;
+    if (!job_->estimates_error()) settings_.estimate = false;
     if (reference_) {
       against_.emplace(reference_->pixels());
       if (!reference_->mask.empty()) masked_.emplace(reference_->pixels(), reference_->mask);
@@ -64,10 +63,11 @@ public:
       throw bad_input(preset.source + "#/stop/error", "nothing measures the error of this run in " + metric,
                       settings_.estimate
                           ? "expected a 'reference', or a 'stop.metric' that can be estimated: lab_mean, lab_rms, mse, rel_l2"
-                          : "expected a 'reference', or 'measure.estimate' true and another 'spectral.estimator' than sppm");
+                          : "expected a 'reference', or 'measure.estimate' true");
     show();
   }
 
+  bool estimates_error() const override { return job_->estimates_error(); }
   bool finished() const override { return target_reached() || (job_->finished() && !is_due()); }
 
   void step() override
@@ -178,7 +178,7 @@ private:
     const auto begin = Clock::now();
     const job::Snapshot snapshot = job_->snapshot();
     const job::Progress& progress = snapshot.progress;
-    job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.photons, {}};
+    job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, {}};
     for (const auto& [name, value] : errors_of(*snapshot.picture)) row.errors.push_back(value);
     row.wall_seconds = wall_seconds();
     history_.rows.push_back(std::move(row));

@@ -10,12 +10,6 @@
 
 namespace nephroid::plan {
 
-bool runs(const Plan& plan, std::string_view name)
-{
-  const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(), [&](const Pass& p) { return p.name == name; });
-  return pass != plan.passes.end() && pass->runs;
-}
-
 std::string readable_bytes(std::uint64_t bytes)
 {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
@@ -37,7 +31,7 @@ std::size_t widest(const Items& items, Name name)
   return width;
 }
 
-/// "; to compute it: --set spectral.leave_out.mirrors=false", for what a field can turn back on.
+/// "; to compute it: --set leave_out=false", for what a field can turn back on.
 std::string way_back(const Pass& pass)
 {
   if (pass.runs || pass.field.empty()) return "";

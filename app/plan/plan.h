@@ -24,17 +24,24 @@ struct PlannedBuffer {
   bool on_host = false; ///< in the program's own memory, not on the device
 };
 
+/// An engine may add to it what it worked out on the way, for its job.
 struct Plan {
+  virtual ~Plan() = default;
+  Plan() = default;
+  Plan(const Plan&) = default;
+  Plan(Plan&&) = default;
+  Plan& operator=(const Plan&) = default;
+  Plan& operator=(Plan&&) = default;
+
   std::string engine;
   std::vector<Pass> passes;
   std::vector<PlannedBuffer> buffers;
   std::map<std::string, std::string> defines;
-  std::vector<std::string> notes; ///< what the run should say once: extrapolated data, open meshes
-  int layers = 0;                 ///< pictures that the run makes and adds up
+  std::vector<std::string> notes;          ///< what the run should say once: extrapolated data, open meshes
+  int layers = 0;                          ///< pictures that the run makes and adds up
+  std::uint64_t picture_bytes_a_pixel = 0; ///< on this machine, while a picture is made, beside it
+  bool estimates_error = false;            ///< films are kept in two halves, whose difference tells the error
 };
-
-/// Whether a pass of that name is there and runs.
-bool runs(const Plan& plan, std::string_view name);
 
 /// contract.md: {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes";
 /// "field" and "run_value" only where a field decides. Over several lines, as plan.json has it.

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "preset/json_text.h"
+#include "preset/settings_type.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +16,6 @@
 namespace nephroid::preset {
 namespace {
 
-using Where = std::function<std::string(const std::string&)>;
 using Rows = std::vector<std::array<double, 2>>;
 
 double length(const Vec3& v) { return std::hypot(v[0], v[1], v[2]); }
@@ -117,27 +117,12 @@ void check_camera(const Camera& c, const Where& where)
   check_up(c.up, forward, "/scene/camera/up", where);
 }
 
-/// A cluster drawn at random needs a pass of its own, which sppm gives it; a variance is measured where all clusters share a film.
-void check_effort(const Spectral& s, const std::string& pointer, const Where& where)
-{
-  const bool sppm = s.estimator == Spectral::Estimator::sppm;
-  if (s.effort == Spectral::Effort::random && !sppm)
-    throw bad_input(where(child(pointer, "effort")), "random needs the estimator sppm", "expected spectral.estimator to be sppm",
-                    "choose that, or another effort");
-  if (s.effort == Spectral::Effort::variance && sppm)
-    throw bad_input(where(child(pointer, "effort")), "variance is not measured by the estimator sppm",
-                    "expected another effort or estimator", "choose effort importance, or estimator automatic");
-}
-
 /// What nothing can measure is refused before anything runs.
 void check_stop(const Preset& preset, const Where& where)
 {
   if (preset.stop.error && !preset.reference && !preset.measure.estimate)
     throw bad_input(where("/stop/error"), "nothing measures the error of this run: 'measure.estimate' is false",
                     "expected a 'reference', or 'measure.estimate' true");
-  if (preset.stop.error && !preset.reference && preset.spectral.estimator == Spectral::Estimator::sppm)
-    throw bad_input(where("/stop/error"), "nothing measures the error of this run: the estimator sppm makes no estimate of its own error",
-                    "expected a 'reference', or another 'spectral.estimator'");
 }
 
 /// A reference that shares a seed with the run would share its noise, and call it right.
@@ -151,22 +136,6 @@ void check_reference(const Preset& preset, const Where& where)
                     "expected other seeds than the run's");
 }
 
-/// Layers hold what splats of whole clusters add up to.
-void check_relight(const Spectral& spectral, const Where& where)
-{
-  if (!spectral.relight) return;
-  const auto refuse = [&](bool contradicts, const char* key, const char* reason) {
-    if (contradicts)
-      throw bad_input(where(child("/spectral", key)), fmt::format("cannot be kept in layers: {}", reason),
-                      "expected 'spectral.relight' false, or this as it is by default");
-  };
-  refuse(spectral.estimator == Spectral::Estimator::sppm, "estimator", "photon maps add up colours, not layers");
-  refuse(spectral.effort != Spectral::Effort::power, "effort",
-         "half of the photons go by the present light's power, and half to every cluster alike for lights to come");
-  refuse(spectral.differentials, "differentials", "a layer is a whole cluster's");
-  refuse(spectral.indirect, "indirect", "its light met several reflectors");
-}
-
 } // namespace
 
 void check(const Preset& preset, const Where& where)
@@ -176,11 +145,9 @@ void check(const Preset& preset, const Where& where)
   for (const auto& [name, material] : scene.materials) check_material(material, child("/scene/materials", name), where);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) check_object(scene.objects[i], scene, child("/scene/objects", i), where);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
-  check_effort(preset.spectral, "/spectral", where);
-  if (preset.reference && preset.reference->spectral) check_effort(*preset.reference->spectral, "/reference/spectral", where);
   check_stop(preset, where);
   check_reference(preset, where);
-  check_relight(preset.spectral, where);
+  preset.settings.type().check(preset, where);
 }
 
 } // namespace nephroid::preset

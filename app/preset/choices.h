@@ -81,43 +81,6 @@ struct Choices<Light::Type> {
 };
 
 template <>
-struct Choices<Spectral::Method> {
-  using Method = Spectral::Method;
-  static constexpr Choice<Method> all[] = {{Method::optimal, "optimal", "The fewest clusters that keep the threshold."},
-                                           {Method::thesis, "thesis", "Algorithm 4.1 of the thesis, as printed."},
-                                           {Method::brute_force, "brute_force", "Every wavelength on its own."}};
-};
-
-template <>
-struct Choices<Spectral::Estimator> {
-  using Estimator = Spectral::Estimator;
-  static constexpr Choice<Estimator> all[] = {
-      {Estimator::automatic, "automatic", "Splats where the camera sees the receiver directly, photon maps elsewhere."},
-      {Estimator::splat, "splat", "Splats only: what is seen through glass or in a mirror has no caustics."},
-      {Estimator::sppm, "sppm", "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
-};
-
-template <>
-struct Choices<Spectral::Effort> {
-  using Effort = Spectral::Effort;
-  static constexpr Choice<Effort> all[] = {
-      {Effort::power, "power", "By what the eye makes of a cluster's light."},
-      {Effort::equal, "equal", "The same for each cluster."},
-      {Effort::importance, "importance", "By the importance of (4.15): light, luminosity, surroundings."},
-      {Effort::radziszewski, "radziszewski", "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
-      {Effort::variance, "variance",
-       "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm."},
-      {Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
-};
-
-template <>
-struct Choices<Importance::Cluster> {
-  using Cluster = Importance::Cluster;
-  static constexpr Choice<Cluster> all[] = {{Cluster::maximum, "maximum", "The one that matters most."},
-                                            {Cluster::mean, "mean", "The mean of all."}};
-};
-
-template <>
 struct Choices<Environment::Type> {
   using Type = Environment::Type;
   static constexpr Choice<Type> all[] = {{Type::file, "file", "A latitude-longitude picture."},
@@ -148,11 +111,6 @@ struct Choices<Reference::Type> {
   static constexpr Choice<Type> all[] = {
       {Type::file, "file", "A picture file."},
       {Type::recipe, "recipe", "Rendered once from this scene with two other seeds, then kept in the cache."}};
-};
-
-template <>
-struct Choices<Preset::Engine> {
-  static constexpr Choice<Preset::Engine> all[] = {{Preset::Engine::spectral, "spectral", "Dispersion caustics by wavelength clusters."}};
 };
 
 template <>
@@ -217,24 +175,6 @@ struct About<Environment> {
   static constexpr Shorthand<Type> shorthands[] = {{Bare::text, Type::file, "file"}};
 };
 template <>
-struct About<Importance> {
-  static constexpr std::string_view name = "Importance", sentence = "How much a wavelength matters.";
-};
-template <>
-struct About<Sppm> {
-  static constexpr std::string_view name = "Sppm", sentence = "Progressive photon mapping.";
-};
-template <>
-struct About<LeaveOut> {
-  static constexpr std::string_view name = "LeaveOut",
-                                    sentence = "What is left out where the scene does not need it: false computes it all the same, for "
-                                               "the same picture.";
-};
-template <>
-struct About<Spectral> {
-  static constexpr std::string_view name = "Spectral", sentence = "Settings of the engine \"spectral\".";
-};
-template <>
 struct About<Stop> {
   static_assert(default_passes == 64, "the sentence says so");
   static constexpr std::string_view name = "Stop", sentence = "When a run is done: at the first of these; without any, after 64 passes.";
@@ -251,7 +191,6 @@ struct About<Measure> {
 };
 template <>
 struct About<Preset> {
-  using Type = Preset::Engine;
   static constexpr std::string_view name = "Preset", sentence = "A Nephroid preset: everything a run depends on.";
 };
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every struct of the preset described once: reading, writing, the schema and the editor are visitors over these functions.
 //
-// A visitor V has two members:
+// A visitor V has these members:
 //   v.type(field, e)    the enumeration that chooses which further fields mean something. A reader must set e here, before it
 //                       returns, because describe() goes on with the fields of that type only. To see the fields of
 //                       another type, set `type` of a struct to it and describe that struct (see for_each_type).
 //   v.field(field, x)   any other field. x is a bool, int, std::uint64_t, double, std::string, an enumeration, a std::array
 //                       or std::vector of numbers, a table (vector of pairs), a described struct, a vector of them, a map
 //                       from names to them, or a std::optional of any of these.
+//   v.engine(field, s)  the word that names the preset's engine. A reader gives the preset::Settings s that engine's type.
+//   v.settings(s)       the section of settings that is called as their engine; of a std::optional, that of the preset's engine.
 // Fields come in the order in which files are written. A described struct inside is visited by calling describe again.
 //
 // Limits are chosen so that nothing later overflows: lengths and positions stay below 1e7 units, so that their squares and
@@ -15,7 +17,6 @@
 #pragma once
 #include "preset/choices.h"
 #include "preset/describe_limits.h"
-#include "preset/describe_spectral.h"
 #include "preset/field.h"
 #include "preset/preset.h"
 
@@ -290,9 +291,7 @@ void describe(V& v, S& r)
     v.field({.name = "file", .sentence = "A picture of the run's size.", .text = Text::file, .required = true}, r.file);
     break;
   case Type::recipe:
-    v.field({.name = "spectral",
-             .sentence = "Settings of the engine; without them \"brute_force\" in steps of 1 nm, with the preset's layers."},
-            r.spectral);
+    v.settings(r.settings);
     v.field({.name = "passes", .sentence = "Passes of each of the two seeds.", .bounds = within(1, max_passes)}, r.passes);
     v.field({.name = "seed",
              .sentence = "The first of its two seeds, the other is the next; neither may be the run's.",
@@ -322,7 +321,7 @@ void describe(V& v, S& p)
 {
   v.field({.name = "name", .sentence = "A short name; without one, the file's name without .json.", .text = Text::line}, p.name);
   v.field({.name = "description", .sentence = "One line for `nephroid presets`.", .text = Text::line}, p.description);
-  v.type({.name = "engine", .sentence = "Which engine renders it."}, p.engine);
+  v.engine({.name = "engine", .sentence = "Which engine renders it."}, p.settings);
   v.field({.name = "unit", .sentence = "What one unit of length is."}, p.unit);
   v.field({.name = "seed",
            .sentence = "Seed of the random numbers: the same seed gives the same bits.",
@@ -334,20 +333,18 @@ void describe(V& v, S& p)
            .bounds = within(1e-12, 1e12)},
           p.white);
   v.field({.name = "scene", .sentence = "What there is to see."}, p.scene);
-  if (p.engine == Preset::Engine::spectral) v.field({.name = "spectral", .sentence = "Settings of the engine \"spectral\"."}, p.spectral);
+  v.settings(p.settings);
   v.field({.name = "stop", .sentence = "When the run is done."}, p.stop);
   v.field({.name = "reference", .sentence = "What the picture is measured against while it is rendered."}, p.reference);
   v.field({.name = "measure", .sentence = "What a run notes about its error."}, p.measure);
+  v.field({.name = "leave_out", .sentence = "Leave out what the scene does not need: it takes time and changes no picture."}, p.leave_out);
 }
 
-/// A struct's choosing enumeration, whatever its name.
+/// A struct's choosing enumeration.
 template <Variant S>
 auto& type_of(S& s)
 {
-  if constexpr (Is<S, Preset>)
-    return s.engine;
-  else
-    return s.type;
+  return s.type;
 }
 
 /// Calls f(choice, s) with a default-constructed S of each type.

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "preset/describe.h"
+#include "preset/file_names.h"
 
 #include <optional>
 #include <system_error>
@@ -31,55 +31,6 @@ bool same_folder(const fs::path& a, const fs::path& b)
   return a == b || fs::equivalent(here(a), here(b), ignored);
 }
 
-/// Visits every field and renames the files in them.
-class Mover {
-public:
-  Mover(const fs::path& from, const fs::path& to) : from_(from), to_(to) {}
-
-  template <class E>
-  void type(const Field&, E&)
-  {
-  }
-  template <class T>
-  void field(const Field& f, T& value)
-  {
-    move(f, value);
-  }
-
-private:
-  void move(const Field& f, std::string& name)
-  {
-    if (f.text == Text::file) name = name_from(to_, name, from_);
-  }
-  template <Described S>
-  void move(const Field&, S& s)
-  {
-    describe(*this, s);
-  }
-  template <class T>
-  void move(const Field& f, std::optional<T>& value)
-  {
-    if (value) move(f, *value);
-  }
-  template <Described S>
-  void move(const Field& f, std::vector<S>& list)
-  {
-    for (S& s : list) move(f, s);
-  }
-  template <Described S>
-  void move(const Field& f, std::map<std::string, S>& map)
-  {
-    for (auto& [name, s] : map) move(f, s);
-  }
-  template <class T>
-  void move(const Field&, T&)
-  {
-  } // numbers and words name no files
-
-  const fs::path& from_;
-  const fs::path& to_;
-};
-
 } // namespace
 
 std::string name_from(const fs::path& folder, const std::string& name, const fs::path& own_folder)
@@ -99,8 +50,9 @@ std::string name_given(const Origin& main, const std::string& name, const Origin
 Preset moved_to(Preset preset, const fs::path& folder)
 {
   const fs::path from = fs::path(preset.source).parent_path();
-  Mover mover(from, folder);
-  describe(mover, preset);
+  const FileNames::Rename rename = [&](std::string& name) { name = name_from(folder, name, from); };
+  FileNames names(rename);
+  describe(names, preset);
   return preset;
 }
 

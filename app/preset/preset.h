@@ -2,6 +2,8 @@
 // The preset: the whole state of a run as plain structs. Fields, units, ranges, defaults and sentences are described once,
 // in describe.h; reading, writing, --set, the schema, the editor and the docs are visitors over that description.
 #pragma once
+#include "preset/settings.h"
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -140,73 +142,6 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-/// What engine 1 leaves out where the scene does not need it. false: computed all the same; the picture stays the same, it only takes
-/// longer. `nephroid plan` lists each under this name with its reason.
-struct LeaveOut {
-  bool direct = true;            ///< the layer "direct" where no surface is diffuse
-  bool photons = true;           ///< the layer "caustic" where no object bends light or no surface is diffuse
-  bool photon_maps = true;       ///< photon maps where the camera sees every diffuse surface directly
-  bool stray_photons = true;     ///< photons that start towards anything but glass and mirrors
-  bool unreached_targets = true; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
-  bool dark_lights = true;       ///< lights without power
-  bool unlit_wavelengths = true; ///< wavelengths that no light has
-  bool occlusion = true;         ///< the look from a caustic back to the camera where nothing can stand between them
-  bool light_types = true;       ///< kernels without the code of types of light that the scene does not have
-  bool mirrors = true;           ///< kernels without mirrors
-  bool bending = true;           ///< kernels without Snell and Fresnel where all glass has n = 1
-  bool attenuation = true;       ///< kernels without absorption where no glass absorbs and no mirror is coloured
-  bool smooth_normals = true;    ///< kernels without interpolated normals
-  bool operator==(const LeaveOut&) const = default;
-};
-
-/// How much a wavelength matters (4.15), where `Spectral::effort` asks for it.
-struct Importance {
-  enum class Cluster { maximum, mean };
-  Cluster cluster = Cluster::maximum; ///< which of its wavelengths speaks for a cluster (the thesis takes the maximum)
-  bool geometry = true;               ///< weigh materials by how much of them the caustic objects see
-  bool operator==(const Importance&) const = default;
-};
-
-/// Progressive photon mapping (Hachisuka and Jensen 2009).
-struct Sppm {
-  std::optional<double> radius; ///< of the first pass, in length units; without: what the camera's pixels suggest
-  double alpha = 2.0 / 3;       ///< part of each pass's photons that is kept; the radius shrinks the faster the smaller it is
-  bool operator==(const Sppm&) const = default;
-};
-
-/// Engine 1.
-struct Spectral {
-  enum class Method { optimal, thesis, brute_force };
-  /// Where caustics are estimated. automatic: splats where the camera sees the receiver directly, photon maps elsewhere.
-  enum class Estimator { automatic, splat, sppm };
-  /// How the work is dealt to the clusters. power: by what the eye makes of their light; equal: the same for each; importance: u of
-  /// (4.15); radziszewski: that of Radziszewski et al. 2009; variance: by the variance that is measured, which also guides the directions
-  /// in which photons leave a light (not with sppm); random: one cluster a pass, drawn at random (sppm only).
-  enum class Effort { power, equal, importance, radziszewski, variance, random };
-  Method method = Method::optimal;
-  double threshold_deg = 0.05; ///< alpha: the largest change of the refraction angle inside a cluster
-  int step_nm = 1;             ///< brute_force: neighbouring wavelengths that share a path all the same
-  Estimator estimator = Estimator::automatic;
-  Effort effort = Effort::power;
-  Importance importance;
-  bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so clusters leave no bias
-  bool low_discrepancy = true;             ///< photons leave the lights by a scrambled Sobol sequence
-  bool differentials = false;              ///< a splat is stretched along the way that it moves with wavelength
-  bool smoothing = false;                  ///< spread caustics over pixels around until their noise is small; not with sppm
-  bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
-  int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
-  int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
-  int pixel_samples = 64;                  ///< samples a pixel of the direct layer, one a pass until there are so many
-  int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost
-  Sppm sppm;
-  bool direct = true;     ///< layer: light that reaches a diffuse surface unbent
-  bool caustic = true;    ///< layer: light that met glass or a mirror, then one diffuse surface
-  bool indirect = false;  ///< layer: light that met a diffuse surface before the last one
-  bool background = true; ///< layer: the environment
-  LeaveOut leave_out;
-  bool operator==(const Spectral&) const = default;
-};
-
 /// How many passes a run has where its preset has no stop at all.
 inline constexpr int default_passes = 64;
 
@@ -229,7 +164,7 @@ struct Reference {
   enum class Type { file, recipe };
   Type type = Type::file;
   std::string file;                 ///< file: a picture of the run's size, linear sRGB with 1 = white (8-bit files are decoded)
-  std::optional<Spectral> spectral; ///< recipe: the engine's settings; without: brute_force in steps of 1 nm, the preset's layers
+  std::optional<Settings> settings; ///< recipe: of the engine; without: the run's own, made exact
   int passes = 256;                 ///< recipe: of each of its two seeds
   std::uint64_t seed = 1000000007;  ///< recipe: the first of its two seeds, the other is the next; neither may be the run's
   std::optional<double> seconds;    ///< recipe: refuse to begin where it would take longer
@@ -254,19 +189,18 @@ struct Provenance {
 };
 
 struct Preset {
-  enum class Engine { spectral };
   enum class Unit { mm, cm, m };
   std::string name;
   std::string description; ///< one line for `nephroid presets`
-  Engine engine = Engine::spectral;
   Unit unit = Unit::m;
   std::uint64_t seed = 1;
   double white = 1; ///< the luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture
   Scene scene;
-  Spectral spectral;
+  Settings settings; ///< of its engine
   Stop stop;
   std::optional<Reference> reference;
   Measure measure;
+  bool leave_out = true; ///< what the scene does not need; false: everything is computed, which takes longer and changes no picture
 
   std::string source;    ///< the file it came from, for messages and look-ups; not a field of the JSON
   Provenance provenance; ///< not a field of the JSON either

@@ -5,7 +5,7 @@
 #include "preset/check.h"
 #include "preset/document.h"
 #include "preset/origins.h"
-#include "preset/reader.h"
+#include "preset/reader_visitor.h"
 #include "preset/sweep.h"
 
 #include <fmt/format.h>
@@ -19,6 +19,14 @@ std::string base_name(const Document& document)
   const auto own = document.value().find("name");
   const bool is_named = own != document.value().end() && own->is_string();
   return is_named ? own->get<std::string>() : std::filesystem::path(document.origins().main().name).stem().string();
+}
+
+/// Every field of the preset but `source`.
+Preset read_fields(const Document& document)
+{
+  Preset preset;
+  Reader::read(document, document.value(), "", preset);
+  return preset;
 }
 
 Preset finish(const SweptDocument& run)

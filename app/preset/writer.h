@@ -28,6 +28,9 @@ public:
   {
     field(f, value);
   }
+  void engine(const Field& f, const Settings& settings);
+  void settings(const Settings& settings);
+  void settings(const std::optional<Settings>& settings);
   template <class T>
   void field(const Field& f, const T& value)
   {

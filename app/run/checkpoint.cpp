@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // checkpoint.bin: a header, the job's own bytes, and a hash of everything before it, written and read piece by piece. A file that was cut,
-// changed or made for another preset, mesh or spectrum is refused; because it is written whole, kill -9 leaves the checkpoint before or the
-// new one, never half of one.
+// changed or made for another preset, mesh or spectrum, or on another device, is refused; because it is written whole, kill -9 leaves the
+// checkpoint before or the new one, never half of one.
+#include "base/build_info.h"
 #include "base/bytes.h"
 #include "base/files.h"
+#include "preset/settings_type.h"
 #include "run/content_hash.h"
 #include "run/run.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
@@ -17,10 +21,10 @@ namespace {
 
 struct Header {
   char magic[8] = {'N', 'E', 'P', 'H', 'C', 'K', 'P', 'T'};
-  std::uint64_t version = 2;
-  std::uint64_t content_hash = 0;
+  std::uint64_t format = 3;
+  std::uint64_t program = 0, device = 0, kernels = 0, content = 0; ///< hashes: another one of these gives other bits
 };
-static_assert(sizeof(Header) == 24, "the header has no padding: it is written as it is");
+static_assert(sizeof(Header) == 48, "the header has no padding: it is written as it is");
 
 std::uint64_t hash_more(std::span<const std::byte> bytes, std::uint64_t hash)
 {
@@ -71,16 +75,24 @@ bool hash_is_right(ByteSource& file)
   return hash == wanted;
 }
 
-std::uint64_t content_of(const Prepared& prepared) { return content_hash(prepared.preset, prepared.loaded->scene); }
+Header header_of(const Prepared& prepared, const compute::Context& context)
+{
+  const compute::DeviceInfo& device = context.device();
+  Header header;
+  header.program = hash_of(version());
+  header.device = hash_of(fmt::format("{}\n{}\n{}\n{}", device.name, device.platform, device.version, device.driver));
+  header.kernels = hash_of(compute::kernel_sources(context, prepared.preset.settings.type().name));
+  header.content = content_hash(prepared.preset, prepared.loaded->scene);
+  return header;
+}
 
 fs::path file_in(const fs::path& folder) { return folder / "checkpoint.bin"; }
 
 } // namespace
 
-void write_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job& job)
+void write_checkpoint(const fs::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job)
 {
-  Header header;
-  header.content_hash = content_of(prepared);
+  const Header header = header_of(prepared, context);
   write_file_whole(file_in(folder), [&](ByteSink& file) {
     HashedSink hashed(file);
     hashed.value(header);
@@ -89,22 +101,23 @@ void write_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job
   });
 }
 
-bool load_checkpoint(const fs::path& folder, const Prepared& prepared, job::Job& job)
+bool load_checkpoint(const fs::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job)
 {
   const fs::path path = file_in(folder);
   if (!is_there(path)) return false;
   const auto refuse = [&](const char* what) { return bad_input(path.string(), what, {}, "run without --resume to start over"); };
   const std::unique_ptr<ByteSource> file = open_file(path);
-  const Header ours;
+  const Header ours = header_of(prepared, context);
   Header header;
   if (file->left() < sizeof header + sizeof(std::uint64_t)) throw refuse("is no checkpoint");
   HashedPart part(*file);
   part.value(header);
   if (std::memcmp(header.magic, ours.magic, sizeof ours.magic) != 0) throw refuse("is no checkpoint");
-  if (header.version != ours.version) throw refuse("was written by another version of the program");
+  if (header.format != ours.format || header.program != ours.program) throw refuse("was written by another version of the program");
   if (!hash_is_right(*open_file(path))) throw refuse("is cut or damaged");
-  if (header.content_hash != content_of(prepared))
-    throw refuse("belongs to another preset or seed, or a file that the preset names has changed");
+  if (header.content != ours.content) throw refuse("belongs to another preset or seed, or a file that the preset names has changed");
+  if (header.device != ours.device) throw refuse("was written on another device, which rounds in its own way");
+  if (header.kernels != ours.kernels) throw refuse("was written with other kernels");
   job.load(part);
   return true;
 }

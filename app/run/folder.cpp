@@ -76,7 +76,7 @@ void begin_run(const fs::path& folder, const Prepared& prepared)
 void write_settings(const fs::path& folder, const Prepared& prepared)
 {
   write_file_whole(folder / "preset.json", preset::to_json(prepared.preset, folder) + "\n");
-  write_file_whole(folder / "plan.json", plan::to_json(prepared.plan) + "\n");
+  write_file_whole(folder / "plan.json", plan::to_json(*prepared.plan) + "\n");
 }
 
 std::optional<job::Progress> finished_run(const fs::path& folder, const preset::Preset& preset)
@@ -90,7 +90,7 @@ std::optional<job::Progress> finished_run(const fs::path& folder, const preset::
     job::Progress progress;
     progress.fraction = 1;
     progress.step = progress.steps = run.at("passes").get<std::int64_t>();
-    progress.photons = run.at("photons").get<std::uint64_t>();
+    progress.work = run.at("photons").get<std::uint64_t>();
     progress.work_seconds = run.at("work_seconds").get<double>();
     return progress;
   } catch (const nlohmann::json::exception&) {

@@ -34,13 +34,12 @@ plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int hei
   const auto layers = static_cast<std::uint64_t>(plan.layers);
   // Bytes a pixel. A snapshot has three floats for each layer, for their sum and for the draw of its error.
   const std::uint64_t snapshot = 12 * (layers + 2);
-  // Beside it, one after the other: a film of two halves read back; the EXR writer's interleaved copy and its encoded file, each about as
-  // large as the layers and their sum; the caustics that are smoothed; the error's draw, two pictures in XYZ and three summed areas, in
-  // double. The report takes less, and a checkpoint is written piece by piece.
-  const std::uint64_t film = 48, exr = 24 * (layers + 1), smoothing = plan::runs(plan, "smoothing") ? 100 : 0,
-                      estimate = plan::runs(plan, "error estimate") ? 84 : 0;
+  // Beside it, one after the other: what the engine takes to make it; the EXR writer's interleaved copy and its encoded file, each about as
+  // large as the layers and their sum; the error's draw, two pictures in XYZ and three summed areas, in double. The report takes less, and
+  // a checkpoint is written piece by piece.
+  const std::uint64_t exr = 24 * (layers + 1), estimate = plan.estimates_error ? 84 : 0;
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  return {"picture and its files (host)", pixels * (snapshot + std::max({film, exr, smoothing, estimate})), true};
+  return {"picture and its files (host)", pixels * (snapshot + std::max({plan.picture_bytes_a_pixel, exr, estimate})), true};
 }
 
 std::optional<std::uint64_t> available_memory_bytes()

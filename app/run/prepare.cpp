@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/run.h"
 
+#include "engine/engine.h"
 #include "run/memory.h"
-#include "spectral/engine.h"
 
 #include <cstring>
 
@@ -48,21 +48,21 @@ LoadedScene load(const preset::Preset& preset, const Prepared* previous)
 Prepared prepare(const preset::Preset& preset, const Prepared* previous)
 {
   auto loaded = std::make_shared<const LoadedScene>(load(preset, previous));
-  plan::Plan plan = spectral::make_plan(preset, loaded->scene, *loaded->bvh);
-  plan.buffers.push_back(picture_and_files(plan, loaded->scene.camera.width, loaded->scene.camera.height));
+  std::unique_ptr<plan::Plan> plan = engine::engine_of(preset).plan(preset, loaded->scene, *loaded->bvh);
+  plan->buffers.push_back(picture_and_files(*plan, loaded->scene.camera.width, loaded->scene.camera.height));
   return {preset, std::move(loaded), std::move(plan)};
 }
 
 void require_memory(const Prepared& prepared, const compute::Context& context)
 {
   const scene::Camera& camera = prepared.loaded->scene.camera;
-  require_memory(prepared.plan, camera.width, camera.height, context.device(), available_memory_bytes());
+  require_memory(*prepared.plan, camera.width, camera.height, context.device(), available_memory_bytes());
 }
 
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context)
 {
   require_memory(prepared, context);
-  return spectral::make_job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, prepared.plan, context);
+  return engine::engine_of(prepared.preset).job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, *prepared.plan, context);
 }
 
 } // namespace nephroid::run

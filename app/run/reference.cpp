@@ -5,12 +5,13 @@
 
 #include "base/build_info.h"
 #include "base/files.h"
+#include "engine/engine.h"
 #include "image/image.h"
 #include "measure/error_estimate.h"
 #include "measure/read_picture.h"
 #include "preset/read.h"
+#include "preset/settings_type.h"
 #include "run/content_hash.h"
-#include "spectral/engine.h"
 
 #include <fmt/format.h>
 
@@ -26,24 +27,6 @@ constexpr const char* first_channels[] = {"first_seed.R", "first_seed.G", "first
 
 std::string pointer(const Prepared& prepared, const char* field) { return prepared.preset.source + "#/reference" + field; }
 
-/// Every wavelength on its own, in steps of 1 nm whatever the run's are, and paths at least as long as by default. What changes no
-/// expected value (the threshold, photons a pass, what is left out) is the default's, so that runs that differ in it alone share a
-/// reference.
-preset::Spectral brute_force(const preset::Spectral& settings)
-{
-  preset::Spectral made;
-  made.method = preset::Spectral::Method::brute_force;
-  made.step_nm = 1;
-  made.max_surfaces = std::max(made.max_surfaces, settings.max_surfaces);
-  // Photon maps have a radius, and the estimator sppm keeps to them: where splats do, they are the truth.
-  if (settings.estimator == preset::Spectral::Estimator::splat) made.estimator = settings.estimator;
-  made.direct = settings.direct;
-  made.caustic = settings.caustic;
-  made.indirect = settings.indirect;
-  made.background = settings.background;
-  return made;
-}
-
 /// The preset of one seed of the recipe.
 preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
 {
@@ -55,9 +38,7 @@ preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
   made.measure.estimate = false;
   made.stop = {};
   made.stop.passes = recipe.passes;
-  made.spectral = recipe.spectral ? *recipe.spectral : brute_force(preset.spectral);
-  made.spectral.smoothing = false;                                                    // it would be a bias
-  made.spectral.pixel_samples = std::max(made.spectral.pixel_samples, recipe.passes); // the direct layer as well converged as the caustic
+  made.settings = engine::engine_of(preset).reference(preset, recipe.passes);
   return made;
 }
 
@@ -78,7 +59,7 @@ fs::path cache_file(const Prepared& prepared, const compute::Context& context)
   const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
   std::uint64_t hash = content_hash(recipe, prepared.loaded->scene);
   hash = hash_of(fmt::format("{} passes {}", version(), recipe.stop.passes.value()), hash);
-  hash = hash_of(spectral::kernel_sources(context), hash);
+  hash = hash_of(compute::kernel_sources(context, prepared.preset.settings.type().name), hash);
   return cache_folder() / fmt::format("{:016x}.exr", hash);
 }
 

@@ -26,7 +26,7 @@ struct LoadedScene {
 struct Prepared {
   preset::Preset preset;
   std::shared_ptr<const LoadedScene> loaded;
-  plan::Plan plan;
+  std::shared_ptr<const plan::Plan> plan; ///< never null
 };
 
 /// Reads what the preset names and makes the plan. `previous`, if given, lends its scene where only the camera or the engine's
@@ -62,9 +62,10 @@ void write_report(const std::filesystem::path& folder);
 /// history.csv alone, while the run goes on.
 void write_history(const std::filesystem::path& folder, const job::History& history);
 
-/// checkpoint.bin in folder: written whole; bound by a hash to the settings and file contents that its sums depend on.
-void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, job::Job& job);
-/// Loads it into a job that was just made. False where there is none. Throws bad_input where it belongs to another preset or is cut.
-bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, job::Job& job);
+/// checkpoint.bin in folder: written whole; bound to the settings and file contents that its sums depend on, and to the device, the kernels
+/// and the program's version, each of which may round in its own way.
+void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
+/// Loads it into a job that was just made. False where there is none. Throws bad_input where it is bound to something else or is cut.
+bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
 
 } // namespace nephroid::run

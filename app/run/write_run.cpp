@@ -12,6 +12,8 @@
 #include "run/picture.h"
 #include "run/run.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -32,26 +34,20 @@ std::map<std::string, std::string> attributes(const preset::Preset& preset, cons
           {"nephroid:version", version()}};
 }
 
-Json energy_json(const job::EnergyBalance& energy)
+/// {"GROUP": {"NAME": value}}; whole numbers as such, what is no number as null.
+void add_scalars(Json& run, const std::vector<job::Scalar>& scalars)
 {
-  const double accounted = energy.deposited_w + energy.missed_w + energy.absorbed_w + energy.escaped_w + energy.lost_w;
-  return {{"emitted_w", energy.emitted_w},
-          {"deposited_w", energy.deposited_w},
-          {"missed_w", energy.missed_w},
-          {"absorbed_w", energy.absorbed_w},
-          {"escaped_w", energy.escaped_w},
-          {"lost_w", energy.lost_w},
-          {"unaccounted_w", energy.emitted_w - accounted},
-          {"refused_contributions", energy.refused_contributions}};
+  for (const job::Scalar& s : scalars) {
+    const bool whole = std::abs(s.value) < 0x1p53 && s.value == std::trunc(s.value);
+    run[s.group][s.name] = std::isnan(s.value) ? Json() : whole ? Json(static_cast<std::int64_t>(s.value)) : Json(s.value);
+  }
 }
 
-Json indirect_energy_json(const job::IndirectBalance& energy)
+std::string to_csv(const job::Curve& curve)
 {
-  return {{"emitted_w", energy.emitted_w},
-          {"absorbed_w", energy.absorbed_w},
-          {"escaped_w", energy.escaped_w},
-          {"lost_w", energy.lost_w},
-          {"unaccounted_w", energy.emitted_w - energy.absorbed_w - energy.escaped_w - energy.lost_w}};
+  std::string text = fmt::format("{}\n", fmt::join(curve.columns, ","));
+  for (const std::vector<double>& row : curve.rows) text += fmt::format("{}\n", fmt::join(row, ","));
+  return text;
 }
 
 Json device_json(const compute::DeviceInfo& device)
@@ -90,21 +86,20 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
   Json phases = Json::object();
   for (const auto& [name, seconds] : snapshot.phases) phases[name] = seconds;
   Json all{{"name", prepared.preset.name},
-           {"engine", prepared.plan.engine},
+           {"engine", prepared.plan->engine},
            {"seed", prepared.preset.seed},
            {"version", version()},
            {"commit", commit()},
            {"compiler", compiler()},
            {"device", device_json(device)},
            {"finished", finished},
-           {"passes", progress.step},
+           {std::string(progress.units.steps), progress.step},
            {"fraction", progress.fraction},
-           {"photons", progress.photons},
+           {std::string(progress.units.works), progress.work},
            {"work_seconds", progress.work_seconds},
            {"phase_seconds", phases},
-           {"energy", energy_json(snapshot.energy)},
-           {"notes", prepared.plan.notes}};
-  if (snapshot.indirect_energy) all["indirect_energy"] = indirect_energy_json(*snapshot.indirect_energy);
+           {"notes", prepared.plan->notes}};
+  add_scalars(all, snapshot.scalars);
   if (snapshot.history) add_errors(all, *snapshot.history, reference);
   return json_text(all, 2) + "\n";
 }
@@ -127,11 +122,16 @@ void write_run(const std::filesystem::path& folder, const Prepared& prepared, co
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message());
-  const job::Picture& picture = *snapshot.picture;
-  image::Image exr = with_layers(picture);
-  exr.attributes = attributes(prepared.preset, folder, device);
-  image::write_exr(folder / "image.exr", exr);
-  image::write_png(folder / "image.png", picture.width, picture.height, picture.rgb);
+  const auto write_picture = [&](const std::string& name, const job::Picture& picture) {
+    image::Image exr = with_layers(picture);
+    exr.attributes = attributes(prepared.preset, folder, device);
+    image::write_exr(folder / (name + ".exr"), exr);
+    image::write_png(folder / (name + ".png"), picture.width, picture.height, picture.rgb);
+  };
+  write_picture("image", *snapshot.picture);
+  for (const job::NamedPicture& further : snapshot.pictures) write_picture(further.name, *further.picture);
+  for (const job::Curve& curve : snapshot.curves) write_file_whole(folder / (curve.name + ".csv"), to_csv(curve));
+  for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / file.name, *file.bytes);
   if (snapshot.history) write_history(folder, *snapshot.history);
   write_settings(folder, prepared);
   write_file_whole(folder / "run.json", run_json(prepared, device, snapshot, reference, finished)); // last: its "finished" speaks for all

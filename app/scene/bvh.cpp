@@ -89,8 +89,8 @@ void check_triangle(const Mesh& mesh, std::size_t index)
 }
 
 /// Boxes of the triangles with an area, each grown by more than the rounding errors of the traversal that come from its own
-/// coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/tracing/bvh.h). A small object beside large ones
-/// keeps tight boxes.
+/// coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/tracing/bvh.h). A small object beside large
+/// ones keeps tight boxes.
 std::vector<RTCBuildPrimitive> triangle_boxes(const Mesh& mesh)
 {
   std::vector<RTCBuildPrimitive> boxes;

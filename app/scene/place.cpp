@@ -69,8 +69,8 @@ void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3
                                           extent, farthest, spacing / 2));
 }
 
-/// Rays start some 2^-21 of a triangle's coordinates off it (kernels/tracing/surface.h): glass thinner than that would be stepped over, and light
-/// go on inside it for ever. Twice the volume over the area is the thickness of a plate or a shell.
+/// Rays start some 2^-21 of a triangle's coordinates off it (kernels/tracing/surface.h): glass thinner than that would be stepped over, and
+/// light go on inside it for ever. Twice the volume over the area is the thickness of a plate or a shell.
 void check_thickness(const Mesh& mesh, double volume, const std::string& where)
 {
   double area = 0, largest = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": kernels/spectral/background.cl.
-#include "spectral/film.h"
-#include "spectral/pixel_rows.h"
 #include "spectral/stages.h"
 #include "spectral/tables/background_tables.h"
+#include "tracing/film.h"
+#include "tracing/pixel_rows.h"
 
 #include <numeric>
 #include <span>
@@ -20,13 +20,13 @@ std::vector<int> all_wavelengths()
 
 class BackgroundStage final : public Stage {
 public:
-  BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+  BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), pixel_samples_(settings.pixel_samples), radiance_(scene.environment->radiance),
         tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
-        texels_(upload_vector(world.context, "environment", scene.environment->rgb)),
-        primary_xyz_(upload_vector(world.context, "colours of the primaries", tables_.primary_xyz)),
-        wavelengths_(upload_vector(world.context, "wavelengths", all_wavelengths())),
-        spectrum_cdf_(upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf)),
+        texels_(tracing::upload_vector(world.context, "environment", scene.environment->rgb)),
+        primary_xyz_(tracing::upload_vector(world.context, "colours of the primaries", tables_.primary_xyz)),
+        wavelengths_(tracing::upload_vector(world.context, "wavelengths", all_wavelengths())),
+        spectrum_cdf_(tracing::upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf)),
         film_(world.zeroed("film background", world.film_size())), rows_(world.tables.camera.height)
   {
     compute::Defines defines = world.defines;
@@ -65,15 +65,15 @@ public:
   {
     const auto samples = [&](int row) { return rows_.samples(row, passes, done, pixel_samples_); };
     const std::vector<std::int64_t> sums = film_.read();
-    add_layer("background", {sums, tables_.film_scale * world_.white / radiance_, samples}, picture);
+    tracing::add_layer("background", {sums, tables_.film_scale * world_.white / radiance_, samples}, picture);
   }
 
-  void save(StateWriter& to) const override
+  void save(tracing::StateWriter& to) const override
   {
     rows_.save(to);
     to.buffer(film_);
   }
-  void load(StateReader& from) override
+  void load(tracing::StateReader& from) override
   {
     rows_.load(from);
     from.buffer(film_);
@@ -90,12 +90,12 @@ private:
   compute::Buffer<float> spectrum_cdf_;
   compute::Buffer<std::int64_t> film_;
   compute::Kernel kernel_;
-  PixelRows rows_;
+  tracing::PixelRows rows_;
 };
 
 } // namespace
 
-std::unique_ptr<Stage> make_background_stage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+std::unique_ptr<Stage> make_background_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
 {
   return std::make_unique<BackgroundStage>(world, scene, settings);
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer, row by row: kernels/spectral/direct.cl.
-#include "spectral/film.h"
-#include "spectral/pixel_rows.h"
 #include "spectral/stages.h"
+#include "tracing/film.h"
+#include "tracing/pixel_rows.h"
 
 namespace nephroid::spectral {
 namespace {
 
 class DirectStage final : public Stage {
 public:
-  DirectStage(DeviceWorld& world, const preset::Spectral& settings)
+  DirectStage(DeviceWorld& world, const Settings& settings)
       : world_(world), pixel_samples_(settings.pixel_samples), film_(world.zeroed("film direct", world.film_size())),
         kernel_(compute::Program(world.context, "spectral/direct.cl", world.defines).kernel("direct")), rows_(world.tables.camera.height)
   {
@@ -42,15 +42,15 @@ public:
   {
     const auto samples = [&](int row) { return rows_.samples(row, passes, done, pixel_samples_); };
     const std::vector<std::int64_t> sums = film_.read();
-    add_layer("direct", {sums, world_.tables.direct_scale * world_.white, samples}, picture);
+    tracing::add_layer("direct", {sums, world_.tables.direct_scale * world_.white, samples}, picture);
   }
 
-  void save(StateWriter& to) const override
+  void save(tracing::StateWriter& to) const override
   {
     rows_.save(to);
     to.buffer(film_);
   }
-  void load(StateReader& from) override
+  void load(tracing::StateReader& from) override
   {
     rows_.load(from);
     from.buffer(film_);
@@ -61,12 +61,12 @@ private:
   std::int64_t pixel_samples_;
   compute::Buffer<std::int64_t> film_;
   compute::Kernel kernel_;
-  PixelRows rows_;
+  tracing::PixelRows rows_;
 };
 
 } // namespace
 
-std::unique_ptr<Stage> make_direct_stage(DeviceWorld& world, const preset::Spectral& settings)
+std::unique_ptr<Stage> make_direct_stage(DeviceWorld& world, const Settings& settings)
 {
   return std::make_unique<DirectStage>(world, settings);
 }

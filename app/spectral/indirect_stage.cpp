@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect": kernels/spectral/indirect.cl.
-#include "spectral/film.h"
-#include "spectral/photon_slices.h"
 #include "spectral/stages.h"
 #include "spectral/tables/indirect_tables.h"
-#include "spectral/tables/scales.h"
+#include "tracing/film.h"
+#include "tracing/photon_slices.h"
+#include "tracing/scales.h"
 
 #include <span>
 
@@ -13,7 +13,7 @@ namespace {
 
 class IndirectStage final : public Stage {
 public:
-  IndirectStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+  IndirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), tables_(make_indirect_tables(scene, world.tables, static_cast<unsigned>(settings.indirect_photons_per_pass))),
         everything_(world.context, "target of indirect light", std::span<const shared::DeviceTarget>(&tables_.everything, 1)),
         emitters_(world.context, "emitters of indirect light", std::span<const shared::DeviceEmitter>(tables_.emitters)),
@@ -53,27 +53,27 @@ public:
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](int) { return halves_of(passes, done ? 1 : part()); };
+    const auto samples = [&](int) { return tracing::halves_of(passes, done ? 1 : part()); };
     const std::vector<std::int64_t> sums = film_.read();
-    add_layer("indirect", {sums, tables_.film_scale * world_.white, samples}, picture);
+    tracing::add_layer("indirect", {sums, tables_.film_scale * world_.white, samples}, picture);
   }
 
-  void report(std::int64_t passes, bool done, job::Snapshot& snapshot) override
+  void report(std::int64_t passes, bool done, Energy& energy) override
   {
     const std::vector<std::int64_t> sums = energy_.read();
     const double all = static_cast<double>(passes) + (done ? 1 : part());
-    const auto watts = [&](int outcome) { return mean_watts(sums[static_cast<std::size_t>(outcome)], tables_.energy_scale, all); };
-    snapshot.indirect_energy = {watts(OUTCOME_EMITTED), watts(OUTCOME_ABSORBED), watts(OUTCOME_ESCAPED), watts(OUTCOME_LOST)};
-    snapshot.energy.refused_contributions += static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
+    const auto watts = [&](int outcome) { return tracing::mean_watts(sums[static_cast<std::size_t>(outcome)], tables_.energy_scale, all); };
+    energy.indirect = {watts(OUTCOME_EMITTED), watts(OUTCOME_ABSORBED), watts(OUTCOME_ESCAPED), watts(OUTCOME_LOST)};
+    energy.caustics.refused_contributions += static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
   }
 
-  void save(StateWriter& to) const override
+  void save(tracing::StateWriter& to) const override
   {
     slices_.save(to);
     to.buffer(film_);
     to.buffer(energy_);
   }
-  void load(StateReader& from) override
+  void load(tracing::StateReader& from) override
   {
     slices_.load(from);
     from.buffer(film_);
@@ -88,12 +88,12 @@ private:
   compute::Buffer<float> spectrum_cdf_;
   compute::Buffer<std::int64_t> film_, energy_;
   compute::Kernel kernel_;
-  PhotonSlices slices_;
+  tracing::PhotonSlices slices_;
 };
 
 } // namespace
 
-std::unique_ptr<Stage> make_indirect_stage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+std::unique_ptr<Stage> make_indirect_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
 {
   return std::make_unique<IndirectStage>(world, scene, settings);
 }

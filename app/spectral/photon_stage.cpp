@@ -2,10 +2,10 @@
 // Photons that are splatted into the pixel that sees them: kernels/spectral/photons.cl.
 #include "spectral/effort/emission_guide.h"
 #include "spectral/effort/variance_deal.h"
-#include "spectral/film.h"
 #include "spectral/maps/photon_map.h"
-#include "spectral/photon_slices.h"
 #include "spectral/stages.h"
+#include "tracing/film.h"
+#include "tracing/photon_slices.h"
 
 #include <cmath>
 #include <numbers>
@@ -15,8 +15,8 @@ namespace {
 
 class PhotonStage final : public Stage {
 public:
-  PhotonStage(DeviceWorld& world, const preset::Spectral& settings, PhotonMap* map)
-      : world_(world), by_variance_(settings.effort == preset::Spectral::Effort::variance), deal_(world.tables.emitters),
+  PhotonStage(DeviceWorld& world, const Settings& settings, PhotonMap* map)
+      : world_(world), by_variance_(settings.effort == Settings::Effort::variance), deal_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
@@ -38,11 +38,11 @@ public:
   bool step(std::int64_t pass) override
   {
     if (by_variance_ && slices_.at_start() && deal_.is_due(pass)) deal(pass);
-    const DeviceTables& t = world_.tables;
+    const RunTables& t = world_.tables;
     return slices_.step(t.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
       world_.run_photons(kernel_, count,
                          {{"targets", world_.buffers.targets},
-                          {"emitters", world_.buffers.emitters},
+                          {"emitters", world_.emitters},
                           {"film", film_},
                           {"energy", world_.energy},
                           {"moments", moments_},
@@ -67,12 +67,12 @@ public:
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](int) { return halves_of(passes, done ? 1 : part()); };
+    const auto samples = [&](int) { return tracing::halves_of(passes, done ? 1 : part()); };
     const std::vector<std::int64_t> sums = film_.read();
-    add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
-  void save(StateWriter& to) const override
+  void save(tracing::StateWriter& to) const override
   {
     slices_.save(to);
     to.buffer(film_);
@@ -81,7 +81,7 @@ public:
     to.buffer(moments_);
     to.buffer(guide_moments_);
   }
-  void load(StateReader& from) override
+  void load(tracing::StateReader& from) override
   {
     slices_.load(from);
     from.buffer(film_);
@@ -107,15 +107,15 @@ private:
 
   void write_deal()
   {
-    world_.buffers.emitters.write(deal_.emitters());
+    world_.emitters.write(deal_.emitters());
     guide_table_.write(guide_.table());
   }
 
   /// What a photon that only a map will show is worth: a quarter of a splat on a surface as far away as the scene's middle, of which
-  /// DeviceTables::caustic_scale makes 2^16 quanta.
+  /// RunTables::caustic_scale makes 2^16 quanta.
   float unseen_weight() const
   {
-    const DeviceTables& t = world_.tables;
+    const RunTables& t = world_.tables;
     return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_pass * std::numbers::pi / (t.caustic_scale * t.light_towards_targets_w));
   }
 
@@ -129,12 +129,12 @@ private:
   compute::Buffer<std::int64_t> film_;
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   compute::Kernel kernel_;
-  PhotonSlices slices_;
+  tracing::PhotonSlices slices_;
 };
 
 } // namespace
 
-std::unique_ptr<Stage> make_photon_stage(DeviceWorld& world, const preset::Spectral& settings, PhotonMap* map)
+std::unique_ptr<Stage> make_photon_stage(DeviceWorld& world, const Settings& settings, PhotonMap* map)
 {
   return std::make_unique<PhotonStage>(world, settings, map);
 }

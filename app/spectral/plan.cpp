@@ -2,16 +2,17 @@
 // What engine 1 runs for a preset and what it leaves out.
 #include "base/counted.h"
 #include "preset/choices.h"
+#include "spectral/describe_settings.h"
 #include "spectral/effort/effort.h"
 #include "spectral/effort/emission_guide.h"
 #include "spectral/engine.h"
 #include "spectral/maps/map_plan.h"
 #include "spectral/maps/map_radius.h"
-#include "spectral/omissions.h"
 #include "spectral/relight/layer_plan.h"
 #include "spectral/relight/layer_tables.h"
 #include "spectral/smoothing.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
+#include "tracing/omissions.h"
 
 #include <fmt/format.h>
 
@@ -34,28 +35,30 @@ plan::Pass not_in_layers(const std::string& name, const std::string& why)
 }
 
 /// Lights that shine, or, where layers are kept, may shine when the light changes.
-std::ptrdiff_t shining_lights(const preset::Spectral& settings, const scene::Scene& scene)
+std::ptrdiff_t shining_lights(const Settings& settings, const scene::Scene& scene)
 {
-  return settings.relight ? std::ssize(scene.lights) : std::count_if(scene.lights.begin(), scene.lights.end(), has_power);
+  return settings.relight ? std::ssize(scene.lights) : std::count_if(scene.lights.begin(), scene.lights.end(), tracing::has_power);
 }
 
-std::string no_light_reason(const preset::Spectral& settings, const scene::Scene& scene)
+std::string no_light_reason(const Settings& settings, const scene::Scene& scene)
 {
   if (scene.lights.empty()) return "the scene has no light";
   return shining_lights(settings, scene) > 0 ? "" : "no light has power";
 }
 
-plan::Pass direct_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects)
+plan::Pass direct_pass(const Settings& settings, const scene::Scene& scene, const tracing::ObjectCounts& objects,
+                       const tracing::LeaveOut& leave_out)
 {
   if (!settings.direct) return not_asked_for("direct", "direct");
   const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(settings, scene);
-  if (!none.empty()) return omission("direct", settings.leave_out.direct, false, none);
-  return omission("direct", settings.leave_out.direct, true,
-                  fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object"),
-                              counted(shining_lights(settings, scene), "light"), counted(settings.pixel_samples, "sample")));
+  if (!none.empty()) return tracing::omission("direct", leave_out.direct, false, none);
+  return tracing::omission("direct", leave_out.direct, true,
+                           fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object"),
+                                       counted(shining_lights(settings, scene), "light"), counted(settings.pixel_samples, "sample")));
 }
 
-plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects, const DeviceTables& tables)
+plan::Pass photon_pass(const Settings& settings, const scene::Scene& scene, const tracing::ObjectCounts& objects, const RunTables& tables,
+                       const tracing::LeaveOut& leave_out)
 {
   if (!settings.caustic) return not_asked_for("photons", "caustic");
   // No field brings these back: there is nothing to send.
@@ -63,14 +66,14 @@ plan::Pass photon_pass(const preset::Spectral& settings, const scene::Scene& sce
   const std::string none = objects.dielectrics + objects.mirrors == 0 ? "no object is of glass or a mirror"
                            : objects.diffuse == 0                     ? "no diffuse surface can receive a caustic"
                                                                       : "";
-  if (!none.empty()) return omission("photons", settings.leave_out.photons, false, none);
+  if (!none.empty()) return tracing::omission("photons", leave_out.photons, false, none);
   if (tables.emitters.empty()) return {"photons", false, "no light shines on glass or a mirror", "", false};
-  return omission("photons", settings.leave_out.photons, true,
-                  fmt::format("{} photons a pass in {}", tables.photons_per_pass,
-                              counted(std::ssize(tables.wavelengths.clusters), "wavelength cluster")));
+  return tracing::omission("photons", leave_out.photons, true,
+                           fmt::format("{} photons a pass in {}", tables.photons_per_pass,
+                                       counted(std::ssize(tables.wavelengths.clusters), "wavelength cluster")));
 }
 
-plan::Pass indirect_pass(const preset::Spectral& settings, const scene::Scene& scene, const ObjectCounts& objects)
+plan::Pass indirect_pass(const Settings& settings, const scene::Scene& scene, const tracing::ObjectCounts& objects)
 {
   if (settings.relight) return not_in_layers("indirect", "its light met several reflectors");
   if (!settings.indirect) return not_asked_for("indirect", "indirect");
@@ -82,7 +85,7 @@ plan::Pass indirect_pass(const preset::Spectral& settings, const scene::Scene& s
   return {"indirect", true, reason, "/spectral/indirect", true};
 }
 
-plan::Pass background_pass(const preset::Spectral& settings, const scene::Scene& scene)
+plan::Pass background_pass(const Settings& settings, const scene::Scene& scene)
 {
   if (!settings.background) return not_asked_for("background", "background");
   if (!scene.environment) return {"background", false, "there is no environment: what meets nothing is black", "", false};
@@ -94,18 +97,18 @@ plan::Pass background_pass(const preset::Spectral& settings, const scene::Scene&
           "/spectral/background", true};
 }
 
-plan::Pass stray_photons_pass(const preset::LeaveOut& leave_out, const DeviceTables& tables)
+plan::Pass stray_photons_pass(const tracing::LeaveOut& leave_out, const RunTables& tables)
 {
-  return omission("stray_photons", leave_out.stray_photons, false,
-                  leave_out.stray_photons
-                      ? fmt::format("photons start towards {} about glass and mirrors only", counted(std::ssize(tables.spheres), "sphere"))
-                      : "photons need not start where there is no glass and no mirror");
+  return tracing::omission("stray photons", leave_out.stray_photons, false,
+                           leave_out.stray_photons ? fmt::format("photons start towards {} about glass and mirrors only",
+                                                                 counted(std::ssize(tables.spheres), "sphere"))
+                                                   : "photons need not start where there is no glass and no mirror");
 }
 
 /// caustics: whether there are any.
 plan::Pass estimate_pass(const preset::Preset& preset, bool caustics)
 {
-  if (preset.measure.estimate && caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
+  if (preset.measure.estimate && caustics && spectral::settings(preset).estimator == Settings::Estimator::sppm)
     return {"error estimate", false, "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves", "",
             false};
   // Nothing else can stop the run, so nobody may switch it off.
@@ -117,27 +120,28 @@ plan::Pass estimate_pass(const preset::Preset& preset, bool caustics)
           true};
 }
 
-plan::Pass differentials_pass(const preset::Spectral& settings, const scene::Scene& scene, bool splats)
+plan::Pass differentials_pass(const Settings& settings, const scene::Scene& scene, bool splats)
 {
   const std::string field = "/spectral/differentials";
   if (settings.relight) return not_in_layers("differentials", "a layer is a whole cluster's");
   if (!settings.differentials) return not_asked_for("differentials", "differentials");
   if (!splats) return {"differentials", false, "nothing is splatted", "", false};
-  const StretchParameter along = stretch_parameter(scene);
-  if (along == StretchParameter::none) return {"differentials", false, "no glass bends one wavelength otherwise than another", "", false};
+  const tracing::StretchParameter along = tracing::stretch_parameter(scene);
+  if (along == tracing::StretchParameter::none)
+    return {"differentials", false, "no glass bends one wavelength otherwise than another", "", false};
   return {"differentials", true,
           fmt::format("splats are stretched along the way that they move with the {}",
-                      along == StretchParameter::index ? "index of refraction" : "wavelength, for there are several curves"),
+                      along == tracing::StretchParameter::index ? "index of refraction" : "wavelength, for there are several curves"),
           field, true};
 }
 
 /// halves: whether films are kept in two, which tells how noisy they are. passes: at most so many, if known.
-plan::Pass smoothing_pass(const preset::Spectral& settings, bool caustics, bool halves, std::optional<int> passes)
+plan::Pass smoothing_pass(const Settings& settings, bool caustics, bool halves, std::optional<int> passes)
 {
   const std::string field = "/spectral/smoothing";
   if (!settings.smoothing) return not_asked_for("smoothing", "smoothing");
   if (!caustics) return {"smoothing", false, "there are no caustics", "", false};
-  if (settings.estimator == preset::Spectral::Estimator::sppm)
+  if (settings.estimator == Settings::Estimator::sppm)
     return {"smoothing", false, "spectral.estimator is sppm, which has radii of its own", "", false};
   if (!halves) return {"smoothing", false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (passes == 1) return {"smoothing", false, "the run has one pass, and it takes two to tell how noisy a pixel is", "", false};
@@ -155,7 +159,7 @@ std::uint64_t film_bytes(const scene::Scene& scene, int halves)
 
 std::uint64_t bytes_of(const auto& items) { return items.size() * sizeof(items[0]); }
 
-plan::Pass jitter_pass(const preset::Spectral& settings, const WavelengthTables& tables)
+plan::Pass jitter_pass(const Settings& settings, const tracing::WavelengthTables& tables)
 {
   const std::string field = "/spectral/jitter";
   if (!settings.jitter) return {"jitter", false, "spectral.jitter is false: every path of a cluster has the cluster's mean n", field, true};
@@ -166,23 +170,23 @@ plan::Pass jitter_pass(const preset::Spectral& settings, const WavelengthTables&
 
 /// Wavelengths of a cluster in one pass, where photon maps need photons and eye paths of one wavelength: so many that a pass has 32 in all,
 /// for a picture of a few wavelengths has a cast. In sppm a pass has one cluster's turn after the other, with one each.
-int pass_bands(const preset::Spectral& settings, bool jittered_maps, const WavelengthTables& tables)
+int pass_bands(const Settings& settings, bool jittered_maps, const tracing::WavelengthTables& tables)
 {
-  if (!jittered_maps || settings.estimator == preset::Spectral::Estimator::sppm) return 1;
+  if (!jittered_maps || settings.estimator == Settings::Estimator::sppm) return 1;
   return std::max(1, 32 / static_cast<int>(std::max<std::size_t>(tables.clusters.size(), 1)));
 }
 
-plan::Pass low_discrepancy_pass(const preset::Spectral& settings)
+plan::Pass low_discrepancy_pass(const Settings& settings)
 {
   const std::string field = "/spectral/low_discrepancy";
   if (!settings.low_discrepancy) return {"low discrepancy", false, "spectral.low_discrepancy is false: plain random numbers", field, true};
   return {"low discrepancy", true, "photons leave the lights by a scrambled Sobol sequence", field, true};
 }
 
-std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene::Bvh& bvh, const DeviceTables& tables, bool direct,
+std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene::Bvh& bvh, const RunTables& tables, bool direct,
                                          bool photons, int halves)
 {
-  const WavelengthTables& w = tables.wavelengths;
+  const tracing::WavelengthTables& w = tables.wavelengths;
   const std::uint64_t tree = bytes_of(bvh.nodes) + bytes_of(bvh.blocks),
                       triangles = bytes_of(scene.geometry.triangles) + bytes_of(scene.geometry.positions) +
                                   bytes_of(scene.geometry.normals) + bytes_of(scene.object_of_triangle),
@@ -200,12 +204,12 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
 }
 
 /// Settings that do nothing, or not what they are for.
-std::vector<std::string> setting_notes(const preset::Preset& preset, const scene::Scene& scene, const DeviceTables& tables, bool splats,
+std::vector<std::string> setting_notes(const preset::Preset& preset, const scene::Scene& scene, const RunTables& tables, bool splats,
                                        bool maps, const plan::Pass& smoothing)
 {
-  const preset::Spectral& settings = preset.spectral;
+  const Settings& settings = spectral::settings(preset);
   std::vector<std::string> notes;
-  if (settings.step_nm > 1 && settings.method != preset::Spectral::Method::brute_force)
+  if (settings.step_nm > 1 && settings.method != Settings::Method::brute_force)
     notes.push_back(fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",
                                 settings.step_nm, preset::word(settings.method)));
   if (settings.smoothing && !smoothing.runs) notes.push_back("spectral.smoothing: true does nothing here: " + smoothing.reason);
@@ -220,44 +224,50 @@ std::vector<std::string> setting_notes(const preset::Preset& preset, const scene
 
 } // namespace
 
-plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
+RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
-  const DeviceTables tables = make_run_tables(preset, scene, bvh);
-  const ObjectCounts objects = count_objects(scene);
+  return make_plan(preset, scene, bvh, tracing::leave_out_all(preset.leave_out));
+}
+
+RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const tracing::LeaveOut& leave_out)
+{
+  const Settings& settings = spectral::settings(preset);
+  RunPlan plan;
+  plan.tables = make_run_tables(preset, scene, bvh, leave_out);
+  const RunTables& tables = plan.tables;
+  const tracing::ObjectCounts objects = tracing::count_objects(scene);
   const int attenuators = tables.wavelengths.attenuator_count;
-  const preset::LeaveOut& leave_out = preset.spectral.leave_out;
-  plan::Plan plan;
   plan.engine = "spectral";
-  const plan::Pass direct = direct_pass(preset.spectral, scene, objects);
-  plan::Pass photons = photon_pass(preset.spectral, scene, objects, tables);
-  const plan::Pass estimate = estimate_pass(preset, photons.runs);
-  const int halves = estimate.runs ? 2 : 1;
-  const bool relight = preset.spectral.relight;
-  const MapPlan maps =
-      relight ? MapPlan{no_maps_of_layers(), {}} : plan_maps(preset.spectral, scene, tables, photons.runs, film_bytes(scene, halves));
+  const plan::Pass direct = direct_pass(settings, scene, objects, leave_out);
+  plan::Pass photons = photon_pass(settings, scene, objects, tables, leave_out);
   const bool caustics = photons.runs;
-  if (caustics && preset.spectral.estimator == preset::Spectral::Estimator::sppm)
+  const plan::Pass estimate = estimate_pass(preset, caustics);
+  const int halves = estimate.runs ? 2 : 1;
+  const MapPlan maps = settings.relight ? MapPlan{no_maps_of_layers(), {}}
+                                        : plan_maps(settings, scene, tables, caustics, film_bytes(scene, halves), leave_out.photon_maps);
+  if (caustics && settings.estimator == Settings::Estimator::sppm)
     photons = {"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false};
-  const plan::Pass differentials = differentials_pass(preset.spectral, scene, photons.runs);
-  const plan::Pass smoothing = smoothing_pass(preset.spectral, caustics, estimate.runs, preset.stop.passes);
-  const plan::Pass jitter = jitter_pass(preset.spectral, tables.wavelengths);
+  const plan::Pass differentials = differentials_pass(settings, scene, photons.runs);
+  const plan::Pass smoothing = smoothing_pass(settings, caustics, estimate.runs, preset.stop.passes);
+  const plan::Pass jitter = jitter_pass(settings, tables.wavelengths);
+  const plan::Pass indirect = indirect_pass(settings, scene, objects), background = background_pass(settings, scene);
   plan.passes = {direct, photons};
-  if (caustics) {
-    plan.passes.push_back(effort_pass(preset.spectral, tables.importance));
-    plan.passes.push_back(stray_photons_pass(leave_out, tables));
-    plan.passes.push_back(jitter);
-    plan.passes.push_back(low_discrepancy_pass(preset.spectral));
-    plan.passes.push_back(differentials);
-    plan.passes.push_back(smoothing);
-  }
-  const std::vector<plan::Pass> code = code_omissions(leave_out, scene, attenuators);
-  for (const std::vector<plan::Pass>& passes : {data_omissions(leave_out, scene, tables.spheres), code})
+  if (caustics)
+    for (const plan::Pass& pass : {effort_pass(settings, tables.importance), stray_photons_pass(leave_out, tables), jitter,
+                                   low_discrepancy_pass(settings), differentials, smoothing})
+      plan.passes.push_back(pass);
+  const tracing::CodeOmissions code = tracing::code_omissions(leave_out, scene, attenuators);
+  for (const std::vector<plan::Pass>& passes : {tracing::data_omissions(leave_out, scene, tables.spheres), code.passes})
     plan.passes.insert(plan.passes.end(), passes.begin(), passes.end());
-  plan.passes.push_back(maps.pass);
-  const plan::Pass indirect = indirect_pass(preset.spectral, scene, objects), background = background_pass(preset.spectral, scene);
-  plan.passes.push_back(indirect);
-  plan.passes.push_back(background);
-  plan.passes.push_back(estimate);
+  for (const plan::Pass& pass : {maps.pass, indirect, background, estimate}) plan.passes.push_back(pass);
+  plan.direct = direct.runs;
+  plan.photons = photons.runs;
+  plan.maps = maps.pass.runs;
+  plan.smoothing = smoothing.runs;
+  plan.indirect = indirect.runs;
+  plan.background = background.runs;
+  plan.estimates_error = estimate.runs;
+  plan.picture_bytes_a_pixel = smoothing.runs ? 100 : 48; // what is smoothed; a film of two halves read back
   plan.layers = direct.runs + caustics + indirect.runs + background.runs;
   plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs, halves);
   if (indirect.runs) plan.buffers.push_back({"film indirect", film_bytes(scene, halves)});
@@ -265,19 +275,19 @@ plan::Plan make_plan(const preset::Preset& preset, const scene::Scene& scene, co
     plan.buffers.push_back({"environment", bytes_of(scene.environment->rgb)});
     plan.buffers.push_back({"film background", film_bytes(scene, halves)});
   }
-  if (photons.runs && preset.spectral.effort == preset::Spectral::Effort::variance)
+  if (photons.runs && settings.effort == Settings::Effort::variance)
     plan.buffers.push_back({"guide of directions",
                             tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
   if (smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), true});
-  if (relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
+  if (settings.relight) plan_layers(tables, direct.runs, photons.runs, halves, plan);
   plan.buffers.insert(plan.buffers.end(), maps.buffers.begin(), maps.buffers.end());
-  plan.defines = omission_defines(code, scene, attenuators);
+  plan.defines = code.defines;
   plan.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(int(differentials.runs));
   plan.defines["NEPHROID_JITTER"] = std::to_string(int(jitter.runs));
-  plan.defines["NEPHROID_PASS_BANDS"] = std::to_string(pass_bands(preset.spectral, jitter.runs && maps.pass.runs, tables.wavelengths));
-  plan.defines["NEPHROID_LOW_DISCREPANCY"] = std::to_string(int(preset.spectral.low_discrepancy));
+  plan.defines["NEPHROID_PASS_BANDS"] = std::to_string(pass_bands(settings, jitter.runs && maps.pass.runs, tables.wavelengths));
+  plan.defines["NEPHROID_LOW_DISCREPANCY"] = std::to_string(int(settings.low_discrepancy));
   plan.defines["NEPHROID_FILM_HALVES"] = std::to_string(halves);
-  plan.defines["NEPHROID_MAX_SURFACES"] = std::to_string(preset.spectral.max_surfaces);
+  plan.defines["NEPHROID_MAX_SURFACES"] = std::to_string(settings.max_surfaces);
   plan.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(bvh.stack, 1));
   plan.notes = scene.warnings;
   if (!direct.runs && !caustics && !indirect.runs && !background.runs)

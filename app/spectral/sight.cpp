@@ -44,8 +44,8 @@ public:
   /// Is sent back by a mirror.
   void reflect(const Place& place) { bend(place, std::nullopt); }
 
-  /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False where there is nothing to
-  /// see: both sides have one index of refraction.
+  /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False where there is
+  /// nothing to see: both sides have one index of refraction.
   bool cross(const Place& place)
   {
     std::vector<int> beyond = inside_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the middle of a pixel shows: the diffuse surface that a straight look ends at, through glass and by way of mirrors. For what is done
-// to a picture on the host; the picture itself is made by kernels/tracing/eye_path.h, which follows the same rules at every wavelength and with
-// both branches of each reflection.
+// to a picture on the host; the picture itself is made by kernels/tracing/eye_path.h, which follows the same rules at every wavelength and
+// with both branches of each reflection.
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"

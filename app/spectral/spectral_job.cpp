@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The job of engine 1: passes, in each of which every stage has its turn, step by step.
 #include "base/error.h"
-#include "preset/relight.h"
 #include "spectral/engine.h"
-#include "spectral/film.h"
 #include "spectral/relight/layer_tables.h"
+#include "spectral/relight/only_relit.h"
 #include "spectral/relight/relighting.h"
 #include "spectral/smoothing.h"
 #include "spectral/stages.h"
-#include "spectral/tables/scales.h"
+#include "tracing/film.h"
+#include "tracing/scales.h"
 
 #include <fmt/format.h>
 
@@ -33,39 +33,38 @@ struct TimedStage {
 
 class SpectralJob final : public job::Job {
 public:
-  SpectralJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
+  SpectralJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
               const compute::Context& context)
-      : world_{.context = context,
-               .tables = make_run_tables(preset, scene, bvh),
-               .buffers = {},
-               .defines = plan.defines,
-               .white = preset.white,
-               .halves = plan::runs(plan, "error estimate") ? 2u : 1u,
-               .energy = {}},
-        stop_seconds_(preset.stop.seconds)
+      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed),
+               plan.tables,
+               preset.white,
+               plan.estimates_error ? 2u : 1u,
+               {},
+               {}},
+        estimates_error_(plan.estimates_error), stop_seconds_(preset.stop.seconds)
   {
-    world_.buffers = upload(context, scene, bvh, world_.tables);
-    world_.tables.scene.root = bvh.root;
-    if (plan::runs(plan, "smoothing")) smoothing_.emplace(scene, bvh);
-    world_.seed = {static_cast<std::uint32_t>(preset.seed), static_cast<std::uint32_t>(preset.seed >> 32)};
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
-    if (preset.spectral.relight && (plan::runs(plan, "direct") || plan::runs(plan, "photons"))) {
+    world_.emitters = tracing::upload_vector(context, "emitters", plan.tables.emitters);
+    if (plan.smoothing) smoothing_.emplace(scene, bvh);
+    if (spectral::settings(preset).relight && (plan.direct || plan.photons)) {
       preset_ = preset;
       relighting_ = make_relighting(world_, layer_light(scene, preset.white));
     }
-    if (plan::runs(plan, "direct"))
-      stages_.push_back(
-          {relighting_ ? make_layered_direct_stage(world_, *relighting_, preset.spectral) : make_direct_stage(world_, preset.spectral)});
-    const bool sppm = preset.spectral.estimator == preset::Spectral::Estimator::sppm, maps = plan::runs(plan, "photon maps");
-    if (maps && !sppm) map_ = std::make_unique<PhotonMap>(context, world_.tables.photons_per_pass, world_.defines);
-    if (plan::runs(plan, "photons"))
-      stages_.push_back(
-          {relighting_ ? make_layered_photon_stage(world_, *relighting_) : make_photon_stage(world_, preset.spectral, map_.get()), true});
-    if (maps)
-      stages_.push_back(
-          {sppm ? make_sppm_stage(world_, scene, preset.spectral) : make_map_stage(world_, scene, preset.spectral, *map_), true});
-    if (plan::runs(plan, "indirect")) stages_.push_back({make_indirect_stage(world_, scene, preset.spectral)});
-    if (plan::runs(plan, "background")) stages_.push_back({make_background_stage(world_, scene, preset.spectral)});
+    if (plan.direct)
+      stages_.push_back({relighting_ ? make_layered_direct_stage(world_, *relighting_, spectral::settings(preset))
+                                     : make_direct_stage(world_, spectral::settings(preset))});
+    const bool sppm = spectral::settings(preset).estimator == Settings::Estimator::sppm;
+    if (plan.maps && !sppm) map_ = std::make_unique<PhotonMap>(context, world_.tables.photons_per_pass, world_.defines);
+    if (plan.photons)
+      stages_.push_back({relighting_ ? make_layered_photon_stage(world_, *relighting_)
+                                     : make_photon_stage(world_, spectral::settings(preset), map_.get()),
+                         true});
+    if (plan.maps)
+      stages_.push_back({sppm ? make_sppm_stage(world_, scene, spectral::settings(preset))
+                              : make_map_stage(world_, scene, spectral::settings(preset), *map_),
+                         true});
+    if (plan.indirect) stages_.push_back({make_indirect_stage(world_, scene, spectral::settings(preset))});
+    if (plan.background) stages_.push_back({make_background_stage(world_, scene, spectral::settings(preset))});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
     for (const TimedStage& s : stages_) s.stage->warm_up();
     world_.energy.fill_zero();
@@ -94,14 +93,16 @@ public:
     ++at_.pass;
   }
 
+  bool estimates_error() const override { return estimates_error_; }
+
   job::Progress progress() const override
   {
     job::Progress p;
     p.step = at_.pass;
     p.steps = passes_;
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      p.photons += static_cast<std::uint64_t>((static_cast<double>(at_.pass) + part_of(s)) *
-                                              static_cast<double>(stages_[s].stage->photons_per_pass()));
+      p.work += static_cast<std::uint64_t>((static_cast<double>(at_.pass) + part_of(s)) *
+                                           static_cast<double>(stages_[s].stage->photons_per_pass()));
     p.work_seconds = at_.work_seconds;
     const double by_seconds = stop_seconds_ ? at_.work_seconds / *stop_seconds_ : 0,
                  by_passes = passes_ > 0 ? passes_with_part() / static_cast<double>(passes_) : 0;
@@ -116,7 +117,7 @@ public:
     const bool smooths = smoothing_ && at_.pass >= 2; // with both halves whole: what a few photons of one tell of the noise makes blotches
     for (std::size_t s = 0; s < stages_.size(); ++s) {
       if (smooths && stages_[s].caustics)
-        layer_of(*picture, "caustic"); // its place among the layers
+        tracing::layer_of(*picture, "caustic"); // its place among the layers
       else
         stages_[s].stage->develop(at_.pass, s < at_.stage, *picture);
       snapshot.phases.emplace_back(stages_[s].stage->name(), stages_[s].seconds);
@@ -127,14 +128,15 @@ public:
       for (std::size_t i = 0; i < layer.rgb.size(); ++i) picture->rgb[i] += layer.rgb[i];
     snapshot.picture = std::move(picture);
     snapshot.progress = progress();
-    snapshot.energy = energy_balance();
-    for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, snapshot);
+    Energy energy{energy_balance(), {}};
+    for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
+    add_energy(energy, snapshot);
     return snapshot;
   }
 
   void save(ByteSink& sink) override
   {
-    StateWriter to(sink);
+    tracing::StateWriter to(sink);
     to.value(checkpoint_version);
     to.value(at_);
     to.buffer(world_.energy);
@@ -146,7 +148,7 @@ public:
 
   void load(ByteSource& source) override
   {
-    StateReader from(source);
+    tracing::StateReader from(source);
     std::uint32_t version = 0;
     from.value(version);
     if (version != checkpoint_version)
@@ -164,7 +166,7 @@ public:
 
   bool adopt(const preset::Preset& preset) override
   {
-    if (!relighting_ || !preset::only_relit(preset_, preset)) return false;
+    if (!relighting_ || !spectral::only_relit(preset_, preset)) return false;
     change_light(*relighting_, world_, layer_light(preset));
     preset_ = preset;
     world_.white = preset.white;
@@ -198,11 +200,11 @@ private:
     job::Picture caustics = black();
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (stages_[s].caustics) stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
-    std::vector<float>& rgb = layer_of(caustics, "caustic").rgb;
+    std::vector<float>& rgb = tracing::layer_of(caustics, "caustic").rgb;
     const auto begin = Clock::now();
     smoothing_->spread(rgb, caustics.error_draw);
     smoothing_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
-    layer_of(picture, "caustic").rgb = std::move(rgb);
+    tracing::layer_of(picture, "caustic").rgb = std::move(rgb);
     if (caustics.error_draw.empty()) picture.error_draw.clear();
     for (std::size_t i = 0; i < picture.error_draw.size(); ++i) picture.error_draw[i] += caustics.error_draw[i];
   }
@@ -227,12 +229,14 @@ private:
     return 0;
   }
 
-  job::EnergyBalance energy_balance()
+  EnergyBalance energy_balance()
   {
     const std::vector<std::int64_t> sums = world_.energy.read();
     const double passes = photon_passes() - at_.energy_from;
-    const auto watts = [&](int outcome) { return mean_watts(sums[static_cast<std::size_t>(outcome)], world_.tables.energy_scale, passes); };
-    job::EnergyBalance e;
+    const auto watts = [&](int outcome) {
+      return tracing::mean_watts(sums[static_cast<std::size_t>(outcome)], world_.tables.energy_scale, passes);
+    };
+    EnergyBalance e;
     e.emitted_w = watts(OUTCOME_EMITTED);
     e.deposited_w = watts(OUTCOME_DEPOSITED);
     e.missed_w = watts(OUTCOME_MISSED);
@@ -249,6 +253,7 @@ private:
   std::unique_ptr<PhotonMap> map_;
   std::optional<Smoothing> smoothing_;
   double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
+  bool estimates_error_;
   std::optional<double> stop_seconds_;
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
   std::vector<TimedStage> stages_;
@@ -257,19 +262,10 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
                                    const compute::Context& context)
 {
   return std::make_unique<SpectralJob>(preset, scene, bvh, plan, context);
-}
-
-std::string kernel_sources(const compute::Context& context)
-{
-  std::string all;
-  for (const char* file : {"spectral/direct.cl", "spectral/photons.cl", "spectral/indirect.cl", "spectral/background.cl", "spectral/grid.cl", "spectral/view.cl", "spectral/gather.cl",
-                           "spectral/relight_direct.cl", "spectral/relight_photons.cl", "spectral/relight_weigh.cl"})
-    all += compute::kernel_source(context, file);
-  return all;
 }
 
 } // namespace nephroid::spectral

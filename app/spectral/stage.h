@@ -3,8 +3,9 @@
 // kernels and films; the job gives each its turn. Sums are exact, so how a stage cuts its pass into steps changes no bit.
 #pragma once
 #include "job/job.h"
+#include "spectral/energy.h"
 #include "preset/preset.h"
-#include "spectral/state_bytes.h"
+#include "tracing/state_bytes.h"
 
 #include <cstdint>
 
@@ -20,11 +21,11 @@ public:
   virtual void warm_up()
   {
     ByteStore kept; // little: films are still all 0, and such pieces are left out
-    StateWriter before(kept);
+    tracing::StateWriter before(kept);
     save(before);
     step(0);
     StoredBytes bytes(kept.bytes(), name());
-    StateReader back(bytes);
+    tracing::StateReader back(bytes);
     load(back);
   }
   /// How many passes it takes part in: what has had enough samples takes no more.
@@ -36,15 +37,15 @@ public:
   /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes
   /// and what is done of the one in hand, which has the number `passes`; done: whether it has had its turn in that pass already.
   virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
-  /// Adds to the snapshot what else there is to say of the same passes: an energy balance of its own, refused contributions.
-  virtual void report(std::int64_t /*passes*/, bool /*done*/, job::Snapshot& /*snapshot*/) {}
+  /// Adds where the power of its photons went in the same passes, if it keeps counters of its own.
+  virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
   /// Photons sent in one pass; 0 where it sends none.
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether theirs is the power in DeviceWorld::energy.
   virtual bool counts_energy() const { return false; }
   /// Everything that it needs to go on with the same bits. load() gets what save() wrote.
-  virtual void save(StateWriter& to) const = 0;
-  virtual void load(StateReader& from) = 0;
+  virtual void save(tracing::StateWriter& to) const = 0;
+  virtual void load(tracing::StateReader& from) = 0;
 };
 
 } // namespace nephroid::spectral

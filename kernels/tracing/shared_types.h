@@ -41,7 +41,7 @@ struct alignas(8) uint2 {
 #define LIGHT_DIRECTIONAL 2
 #define LIGHT_AREA 3
 
-// Where a photon ended: the energy counters, in quanta of power (DeviceTables::energy_scale), are in this order.
+// Where a photon ended: the energy counters, in quanta of power (RunTables::energy_scale), are in this order.
 #define OUTCOME_EMITTED 0   // sum of the next five
 #define OUTCOME_DEPOSITED 1 // on a diffuse surface after glass or a mirror
 #define OUTCOME_MISSED 2    // met no glass and no mirror: direct light

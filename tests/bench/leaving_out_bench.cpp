@@ -32,10 +32,10 @@ double processor_seconds()
 /// One of the two ways to make the picture.
 class Side {
 public:
-  Side(const preset::Preset& preset, const compute::Context& context)
-      : preset_(preset), scene_(scene::load_scene(preset)), bvh_(scene::build_bvh(scene_.geometry))
+  Side(const preset::Preset& preset, const tracing::LeaveOut& leave_out, const compute::Context& context)
+      : preset_(preset), leave_out_(leave_out), scene_(scene::load_scene(preset)), bvh_(scene::build_bvh(scene_.geometry))
   {
-    const plan::Plan plan = spectral::make_plan(preset_, scene_, bvh_);
+    const spectral::RunPlan plan = spectral::make_plan(preset_, scene_, bvh_, leave_out_);
     const double begin = processor_seconds();
     job_ = spectral::make_job(preset_, scene_, bvh_, plan, context);
     for (int step = 0; step < 3 && !job_->finished(); ++step) job_->step(); // code is generated at a kernel's first use
@@ -47,7 +47,7 @@ public:
   void turn()
   {
     double begin = processor_seconds();
-    benchmark::DoNotOptimize(spectral::make_plan(preset_, scene_, bvh_));
+    benchmark::DoNotOptimize(spectral::make_plan(preset_, scene_, bvh_, leave_out_));
     plan_s_ = std::min(plan_s_, processor_seconds() - begin);
     begin = processor_seconds();
     if (!job_->finished()) pass();
@@ -94,6 +94,7 @@ private:
   }
 
   preset::Preset preset_;
+  tracing::LeaveOut leave_out_;
   scene::Scene scene_;
   scene::Bvh bvh_;
   std::unique_ptr<job::Job> job_;
@@ -107,13 +108,12 @@ void leaving_out(benchmark::State& state, const test::Omission& omission)
   static const compute::Context context = compute::Context::open();
   preset::Preset without = omission.scene;
   without.scene.camera.resolution = {256, 256};
-  without.spectral.photons_per_pass = 1 << 17;
-  without.spectral.pixel_samples = 1 << 20;
+  spectral::settings(without).photons_per_pass = 1 << 17;
+  spectral::settings(without).pixel_samples = 1 << 20;
   without.stop.passes = 1 << 20;
   preset::Preset with = without;
-  with.spectral.leave_out.*omission.field = false;
   with.seed = 2;
-  Side left_out(without, context), computed(with, context);
+  Side left_out(without, {}, context), computed(with, test::all_but(omission), context);
   for (auto _ : state) {
     left_out.turn();
     computed.turn();

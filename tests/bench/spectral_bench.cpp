@@ -39,24 +39,24 @@ void step_through(benchmark::State& state, const preset::Preset& p, const Count&
 void photons_traced(benchmark::State& state)
 {
   preset::Preset p = first_light();
-  p.spectral.direct = false;
+  spectral::settings(p).direct = false;
   const preset::Vec3 position = p.scene.camera.position, target = p.scene.camera.target;
   for (std::size_t i = 0; i < 3; ++i) p.scene.camera.target[i] = 2 * position[i] - target[i];
-  step_through(state, p, [](const job::Progress& progress) { return static_cast<double>(progress.photons); });
+  step_through(state, p, [](const job::Progress& progress) { return static_cast<double>(progress.work); });
 }
 
 void photons_traced_and_splatted(benchmark::State& state)
 {
   preset::Preset p = first_light();
-  p.spectral.direct = false;
-  step_through(state, p, [](const job::Progress& progress) { return static_cast<double>(progress.photons); });
+  spectral::settings(p).direct = false;
+  step_through(state, p, [](const job::Progress& progress) { return static_cast<double>(progress.work); });
 }
 
 void direct_samples(benchmark::State& state)
 {
   preset::Preset p = first_light();
-  p.spectral.caustic = false;
-  p.spectral.pixel_samples = 1 << 20;
+  spectral::settings(p).caustic = false;
+  spectral::settings(p).pixel_samples = 1 << 20;
   const double pixels = double(p.scene.camera.resolution[0]) * p.scene.camera.resolution[1];
   step_through(state, p, [&](const job::Progress& progress) { return progress.fraction * (1 << 20) * pixels; });
 }
@@ -66,7 +66,7 @@ void picture(benchmark::State& state)
 {
   preset::Preset p = preset::read_preset("spectral/thesis/bunny");
   p.stop.passes = 8;
-  p.spectral.smoothing = state.range(0) != 0;
+  spectral::settings(p).smoothing = state.range(0) != 0;
   const scene::Scene scene = scene::load_scene(p);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const compute::Context context = compute::Context::open();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest hits of kernels/tracing/bvh.h against Embree's rtcIntersect1: the same rays, both in one run. Each benchmark times the two in turn
-// and reports million rays a second of each and their ratio (kernel over Embree; above 1 the kernel is faster), and the ratio by
+// Closest hits of kernels/tracing/bvh.h against Embree's rtcIntersect1: the same rays, both in one run. Each benchmark times the two in
+// turn and reports million rays a second of each and their ratio (kernel over Embree; above 1 the kernel is faster), and the ratio by
 // processor time, which says more where other programs run at the same time. The best of all turns counts on either side,
 // since whatever else the machine does can only slow a turn down.
 // NEPHROID_BENCH_RAYS sets how many rays (default a million), NEPHROID_BENCH_KERNELS a folder to take the kernels from.

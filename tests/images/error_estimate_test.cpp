@@ -27,8 +27,8 @@ preset::Preset small(const std::string& name, int photons_per_pass, std::uint64_
   // The light of the prism is a narrow strip: a smaller picture has a dozen pixels of it, too few for a mean.
   const int size = name == "spectral/prism" ? 96 : 40;
   p.scene.camera.resolution = {size, size};
-  p.spectral.photons_per_pass = photons_per_pass;
-  p.spectral.pixel_samples = 16;
+  spectral::settings(p).photons_per_pass = photons_per_pass;
+  spectral::settings(p).pixel_samples = 16;
   p.seed = seed;
   p.stop = {};
   p.stop.passes = 16;
@@ -46,7 +46,7 @@ Ended run_measured(const preset::Preset& preset)
 {
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const plan::Plan plan = spectral::make_plan(preset, scene, bvh);
+  const spectral::RunPlan plan = spectral::make_plan(preset, scene, bvh);
   const auto job = measure::measured(spectral::make_job(preset, scene, bvh, plan, test::shared_context()), preset, nullptr);
   while (!job->finished()) job->step();
   const job::Snapshot snapshot = job->snapshot();

@@ -4,6 +4,7 @@
 #include "optics/colour.h"
 #include "preset/read.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/shipped_presets.h"
@@ -51,7 +52,7 @@ TEST_P(ShippedPreset, MakesASoundPicture)
     for (const job::Layer& one : picture.layers) total += one.rgb[i];
     ASSERT_EQ(picture.rgb[i], total);
   }
-  const job::EnergyBalance& e = snapshot.energy;
+  const spectral::EnergyBalance& e = spectral::energy_of(snapshot);
   EXPECT_GT(e.emitted_w, 0);
   EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
   EXPECT_LT(e.lost_w, 0.01 * e.emitted_w);
@@ -64,7 +65,7 @@ TEST(Noise, FallsWithThePhotons)
 {
   const auto mean_square = [](int passes) {
     preset::Preset p = small("first-light");
-    p.spectral.direct = false;
+    spectral::settings(p).direct = false;
     p.stop.passes = passes;
     const job::Snapshot a = render(p);
     p.seed = 2;
@@ -84,7 +85,7 @@ TEST(Prism, ColoursComeInTheOrderOfTheirWavelengths)
 {
   preset::Preset p = small("spectral/prism");
   p.scene.camera.resolution = {128, 128};
-  p.spectral.photons_per_pass = 1 << 18;
+  spectral::settings(p).photons_per_pass = 1 << 18;
   const job::Snapshot snapshot = render(p);
   const job::Layer& caustic = layer(snapshot, "caustic");
   std::vector<std::array<double, 3>> columns(128, {0, 0, 0});

@@ -7,6 +7,7 @@
 #include "preset/read.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/stored_statistics.h"
@@ -28,12 +29,12 @@ constexpr std::uint64_t first_stored_seed = 1'000'001, fresh_seed = 7;
 void make_small(preset::Preset& p)
 {
   p.scene.camera.resolution = {stored_size, stored_size};
-  p.spectral.threshold_deg = 0.2;
-  p.spectral.photons_per_pass = 1 << 13;
-  p.spectral.pixel_samples = 16;
-  p.spectral.direct = true;
-  p.spectral.estimator = preset::Spectral::Estimator::splat;
-  p.spectral.jitter = p.spectral.low_discrepancy = false;
+  spectral::settings(p).threshold_deg = 0.2;
+  spectral::settings(p).photons_per_pass = 1 << 13;
+  spectral::settings(p).pixel_samples = 16;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).estimator = spectral::Settings::Estimator::splat;
+  spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = false;
   p.stop = {};
   p.stop.passes = 16;
   p.white = 1;
@@ -138,7 +139,7 @@ void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
 preset::Preset bunny()
 {
   preset::Preset p = shipped("first-light");
-  p.spectral.direct = false;
+  spectral::settings(p).direct = false;
   return p;
 }
 
@@ -174,13 +175,13 @@ public:
     while (!job->finished()) job->step();
     return job->snapshot();
   }
-  int samples() const { return preset_.spectral.pixel_samples; }
+  int samples() const { return spectral::settings(preset_).pixel_samples; }
 
 private:
   preset::Preset preset_;
   scene::Scene scene_;
   scene::Bvh bvh_;
-  plan::Plan plan_;
+  spectral::RunPlan plan_;
 };
 
 std::filesystem::path stored_file(const std::string& name)
@@ -224,7 +225,7 @@ TEST_P(StoredPicture, HasTheStoredMeanAndVariance)
   const StoredStatistics stored = read_statistics(stored_file(GetParam().name));
   const job::Snapshot snapshot = Renderer(GetParam().preset()).render(fresh_seed);
   const Comparison comparison = compare(to_xyz(snapshot.picture->rgb), stored);
-  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
   EXPECT_GT(comparison.block_p, false_alarm) << comparison.worst;
   EXPECT_GT(comparison.z2_p, false_alarm) << "mean of clipped z^2 " << comparison.z2 << ", stored " << stored.mean_z2 << " +- "
                                           << stored.standard_deviation_z2;

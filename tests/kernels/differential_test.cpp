@@ -2,11 +2,11 @@
 // kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in
 // closed form.
 #include "spectral/engine.h"
-#include "spectral/stretch.h"
-#include "spectral/tables/device_world.h"
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
+#include "tracing/stretch.h"
+#include "tracing/world.h"
 
 #include <gtest/gtest.h>
 
@@ -74,7 +74,8 @@ struct Followed {
 
 struct Lab {
   scene::Scene scene;
-  spectral::DeviceWorld world;
+  spectral::RunTables tables;
+  tracing::World world;
   compute::Kernel kernel;
 };
 
@@ -90,10 +91,8 @@ std::unique_ptr<Lab> make_lab(const preset::Preset& preset)
   auto lab = std::make_unique<Lab>();
   lab->scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(lab->scene.geometry);
-  lab->world.context = kernels().context();
-  lab->world.tables = spectral::make_device_tables(preset, lab->scene, bvh);
-  lab->world.tables.scene.root = bvh.root;
-  lab->world.buffers = spectral::upload(lab->world.context, lab->scene, bvh, lab->world.tables);
+  lab->tables = spectral::make_lit_tables(preset, lab->scene, bvh, {});
+  lab->world = tracing::make_world(kernels().context(), lab->scene, bvh, lab->tables, {}, 1);
   compute::Defines defines = spectral::make_plan(preset, lab->scene, bvh).defines;
   defines["NEPHROID_DIFFERENTIALS"] = "1";
   lab->kernel = kernels().kernel("follow", defines);
@@ -153,8 +152,8 @@ preset::Preset room()
   p.scene.objects = {object("room", box(20, 20, 20), "wall")};
   p.scene.lights.resize(1);
   p.scene.lights[0].position = {0, 6, 0};
-  p.spectral.method = preset::Spectral::Method::brute_force;
-  p.spectral.differentials = true;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).differentials = true;
   return p;
 }
 
@@ -253,7 +252,7 @@ struct DifferentialCase {
 class Differential : public testing::TestWithParam<DifferentialCase> {};
 
 /// n of every material where s is larger by ds than in the cluster.
-std::vector<double> indices(const spectral::DeviceTables& tables, int cluster, double ds)
+std::vector<double> indices(const spectral::RunTables& tables, int cluster, double ds)
 {
   const std::size_t materials = static_cast<std::size_t>(tables.scene.material_count), row = static_cast<std::size_t>(cluster) * materials;
   std::vector<double> n;
@@ -265,10 +264,10 @@ std::vector<double> indices(const spectral::DeviceTables& tables, int cluster, d
 TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive)
 {
   const auto lab = make_lab(GetParam().preset());
-  const spectral::DeviceTables& tables = lab->world.tables;
+  const spectral::RunTables& tables = lab->tables;
   const PathReference reference(lab->scene);
   // Of n, or of nanometres, each of which is some 10^-4 of n.
-  const double h = spectral::stretch_parameter(lab->scene) == spectral::StretchParameter::index ? 1e-6 : 1e-2;
+  const double h = tracing::stretch_parameter(lab->scene) == tracing::StretchParameter::index ? 1e-6 : 1e-2;
   const std::vector<Ray64> rays = random_rays(4000, 0.9);
   std::vector<int> clusters;
   for (std::size_t i = 0; i < rays.size(); ++i) clusters.push_back(static_cast<int>(i) % tables.scene.cluster_count);
@@ -315,7 +314,7 @@ TEST(PrismDifferential, IsTheAngularDispersionAtMinimumDeviation)
   preset::Preset p = room();
   p.scene.objects.push_back(object("prism", prism_shape(60), "flint"));
   const auto lab = make_lab(p);
-  const spectral::DeviceTables& tables = lab->world.tables;
+  const spectral::RunTables& tables = lab->tables;
   // The prism's axis is y and its apex points to +z; light goes towards +x and is bent to -z.
   const double half_apex = std::numbers::pi / 6;
   std::vector<Ray64> rays;

@@ -3,8 +3,9 @@
 #include "compute/compute.h"
 #include "optics/colour.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 #include "tests/support/reference_photons.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
@@ -45,8 +46,8 @@ preset::Preset glass_preset()
   p.scene.camera.position = {0, 9, 9};
   p.scene.camera.target = {0, 0, -0.5};
   p.scene.camera.fov_deg = 40;
-  p.spectral.threshold_deg = 1;
-  p.spectral.photons_per_pass = 1 << 16;
+  spectral::settings(p).threshold_deg = 1;
+  spectral::settings(p).photons_per_pass = 1 << 16;
   return p;
 }
 
@@ -98,7 +99,7 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
   for (int run = 0; run < runs; ++run) {
     p.seed = static_cast<std::uint64_t>(run + 1);
     const job::Snapshot snapshot = render(p);
-    absorbed = snapshot.energy.absorbed_w / snapshot.energy.emitted_w;
+    absorbed = spectral::energy_of(snapshot).absorbed_w / spectral::energy_of(snapshot).emitted_w;
     const job::Layer& caustic = layer(snapshot, "caustic");
     for (std::size_t i = 0; i < values; i += 3) {
       const optics::Colour xyz = optics::linear_srgb_to_xyz({caustic.rgb[i], caustic.rgb[i + 1], caustic.rgb[i + 2]});
@@ -111,7 +112,7 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
   for (Moments& m : kernel) m.variance_of_mean = std::max(m.variance_of_mean - m.mean * m.mean, 0.0) / (runs - 1);
 
   const scene::Scene scene = scene::load_scene(p);
-  const spectral::DeviceTables tables = spectral::make_device_tables(p, scene, scene::build_bvh(scene.geometry));
+  const spectral::RunTables tables = spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {});
   constexpr int photons = 1'500'000;
   const ReferenceFilm film = ReferencePhotons(scene, tables, 99).trace(photons);
 
@@ -149,7 +150,7 @@ TEST(Photons, SameSeedSameBitsAnotherSeedNot)
 {
   preset::Preset p = glass_preset();
   p.stop.passes = 3;
-  p.spectral.direct = true;
+  spectral::settings(p).direct = true;
   const job::Snapshot first = render(p), second = render(p);
   EXPECT_EQ(first.picture->rgb, second.picture->rgb);
   p.seed = 2;

@@ -9,6 +9,7 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "spectral/clusters/scene_clusters.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
@@ -57,15 +58,14 @@ preset::Preset tiled_scene()
   second.position = {-0.4, 2.3, 0.5};
   second.power_w = 0;
   p.scene.lights.push_back(second);
-  p.spectral.photons_per_pass = 1 << 13;
-  p.spectral.leave_out.direct = true;
+  spectral::settings(p).photons_per_pass = 1 << 13;
   p.stop.passes = 24;
   return p;
 }
 
 preset::Preset layered(preset::Preset p)
 {
-  p.spectral.relight = true;
+  spectral::settings(p).relight = true;
   return p;
 }
 
@@ -111,7 +111,7 @@ std::vector<Estimate> relit_passes(const preset::Preset& own, const preset::Pres
 /// The same without layers, by other random numbers.
 preset::Preset fresh_run(preset::Preset p)
 {
-  p.spectral.relight = false;
+  spectral::settings(p).relight = false;
   p.seed = 1000;
   return p;
 }
@@ -188,12 +188,12 @@ TEST(Relighting, TheRunGoesOnUnderTheNewLightAndItsEnergyIsThatLights)
   const auto job = job_of(layered(tiled_scene()));
   while (job->progress().step < 3) job->step();
   ASSERT_TRUE(job->adopt(other));
-  EXPECT_EQ(job->snapshot().energy.emitted_w, 0) << "nothing has been sent under the new light yet";
+  EXPECT_EQ(spectral::energy_of(job->snapshot()).emitted_w, 0) << "nothing has been sent under the new light yet";
   while (!job->finished()) job->step();
   preset::Preset fresh = other;
-  fresh.spectral.relight = false;
+  spectral::settings(fresh).relight = false;
   const job::Snapshot relit = job->snapshot(), truth = render(fresh);
-  const job::EnergyBalance &e = relit.energy, &t = truth.energy;
+  const spectral::EnergyBalance &e = spectral::energy_of(relit), &t = spectral::energy_of(truth);
   // Point lamps' photons differ little in power, and of 21 x 2^13 at least a tenth reach the floor through the ball: a standard error
   // of less than 1 %.
   EXPECT_NEAR(e.emitted_w / t.emitted_w, 1, 0.07);
@@ -250,7 +250,7 @@ TEST(Relighting, ACheckpointGoesOnToTheSameBits)
   while (!resumed->finished()) resumed->step();
   const job::Snapshot a = straight->snapshot(), b = resumed->snapshot();
   EXPECT_EQ(a.picture->rgb, b.picture->rgb);
-  EXPECT_EQ(a.energy.emitted_w, b.energy.emitted_w);
+  EXPECT_EQ(spectral::energy_of(a).emitted_w, spectral::energy_of(b).emitted_w);
 }
 
 TEST(Relighting, OnlyTheLightIsAdopted)
@@ -264,7 +264,7 @@ TEST(Relighting, OnlyTheLightIsAdopted)
   broken.scene.lights[0].spectrum.illuminant = "D66";
   EXPECT_THROW(job->adopt(broken), Error);
   while (job->progress().step < 1) job->step();
-  EXPECT_EQ(job->snapshot().energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(job->snapshot()).refused_contributions, 0u);
 }
 
 TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
@@ -272,8 +272,9 @@ TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
   preset::Preset p = layered(ball_scene());
   p.scene.objects.pop_back(); // no diffuse surface
   p.stop.passes = 1;
-  p.spectral.leave_out.direct = p.spectral.leave_out.photons = false;
-  const job::Snapshot snapshot = render(p);
+  tracing::LeaveOut leave_out;
+  leave_out.direct = leave_out.photons = false;
+  const job::Snapshot snapshot = render(*job_of(p, leave_out));
   for (const float value : snapshot.picture->rgb) ASSERT_EQ(value, 0);
 }
 
@@ -283,7 +284,7 @@ TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
   p.scene.camera.resolution = {128, 128};
   const scene::Scene scene = scene::load_scene(p);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const plan::Plan plan = spectral::make_plan(p, scene, bvh);
+  const spectral::RunPlan plan = spectral::make_plan(p, scene, bvh);
   const auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
   EXPECT_THAT(plan.passes, testing::Not(testing::Contains(testing::Field(&plan::Pass::name, "dark lights")))) << "it is kept";
   EXPECT_THAT(plan.passes, testing::Contains(testing::Field(&plan::Pass::name, "relighting")));
@@ -318,9 +319,9 @@ TEST(Relighting, TakesMilliseconds)
   preset::Preset p = tiled_scene();
   p.scene.camera.resolution = {512, 512};
   p.scene.lights.pop_back();
-  p.spectral.threshold_deg = 0.032; // 32 clusters
+  spectral::settings(p).threshold_deg = 0.032; // 32 clusters
   const auto plain = job_of(p);
-  p.spectral.relight = true;
+  spectral::settings(p).relight = true;
   const auto layers = job_of(p);
   for (int i = 0; i < 8; ++i) layers->step(), plain->step();
   const std::string relit = milliseconds([&] {

@@ -7,6 +7,7 @@
 //   Q = 1 - 2 (1 - (1 + tau) exp(-tau)) / tau^2, tau = 2 R a.
 #include "compute/compute.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/ball.h"
 #include "tests/support/closed_form.h"
@@ -57,13 +58,13 @@ TEST(AbsorbingBall, TakesWhatItsChordsTake)
       p.scene.objects = {object("ball", ball, "glass"), object("floor", quad(1, 1), "white", at({0, -1, 0}))}; // it catches some: no matter
       p.scene.objects[0].normals = preset::Object::Normals::smooth;
       p.scene.lights = {parallel_light({0.3, -1, 0.2})};
-      p.spectral.photons_per_pass = 1 << 17;
-      p.spectral.max_surfaces = 100;
-      const job::EnergyBalance e = render(p).energy;
+      spectral::settings(p).photons_per_pass = 1 << 17;
+      spectral::settings(p).max_surfaces = 100;
+      const spectral::EnergyBalance e = spectral::energy_of(render(p));
       const double area = M_PI * radius * radius, q = efficiency(n, per_metre);
       // Photons carry w each and lose a share A <= 1, so the sum's variance is at most w times the power absorbed. The facets' shadow
       // is smaller than the sphere's by up to 8e-4 and their chords are shorter by 3e-4.
-      const double photon_w = directional_photon_w(p, p.spectral.photons_per_pass);
+      const double photon_w = directional_photon_w(p, spectral::settings(p).photons_per_pass);
       expect_truth(fmt::format("absorbing ball: efficiency, n = {}, 2 R a = {}", n, tau), e.absorbed_w / area, q,
                    sigmas * std::sqrt(q * area * photon_w) / area + 1e-3 * q);
       EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);

@@ -37,10 +37,10 @@ preset::Preset floor_under_a_panel(bool sheet)
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.up = {0, 0, -1};
   p.scene.camera.fov_deg = 90;
-  p.spectral.direct = !sheet;
-  p.spectral.caustic = sheet;
-  p.spectral.pixel_samples = 1024;
-  p.spectral.photons_per_pass = 1 << 18;
+  spectral::settings(p).direct = !sheet;
+  spectral::settings(p).caustic = sheet;
+  spectral::settings(p).pixel_samples = 1024;
+  spectral::settings(p).photons_per_pass = 1 << 18;
   p.stop.passes = sheet ? 4 : 1024;
   return p;
 }
@@ -125,8 +125,8 @@ TEST(AreaLight, LowDiscrepancyPhotonsMakeThePanelsIrradiance)
   p.scene.lights[0].spectrum = line(550);
   const Screen screen{{0, 0, 0}, 1, 4};
   screen.fill(p.scene.camera, 0.5);
-  p.spectral.low_discrepancy = true;
-  p.spectral.photons_per_pass = 1 << 15;
+  spectral::settings(p).low_discrepancy = true;
+  spectral::settings(p).photons_per_pass = 1 << 15;
   p.stop.passes = 2;
   const std::vector<Estimate> figures = rendered_power(p, screen, 32);
   const std::vector<double> truth = power_on(screen, p.scene.lights[0]);

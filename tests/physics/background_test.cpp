@@ -26,8 +26,8 @@ namespace {
 preset::Preset with_constant(const preset::Vec3& colour, int resolution, double radiance = 1)
 {
   preset::Preset p = empty_preset(resolution);
-  p.spectral.caustic = false;
-  p.spectral.pixel_samples = 4;
+  spectral::settings(p).caustic = false;
+  spectral::settings(p).pixel_samples = 4;
   p.stop.passes = 4;
   p.scene.environment.emplace();
   p.scene.environment->type = preset::Environment::Type::constant;
@@ -121,7 +121,7 @@ TEST(Background, TheSeamIsBilinearToo)
   const std::vector<float> map{1, 0, 0, 0, 2, 0, 0, 0, 3, 4, 0, 1, 0, 0, 5, 3, 1, 0, 0, 2, 2, 1, 0, 0};
   TemporaryFolder temporary;
   preset::Preset p = with_map(temporary.path(), width, height, map, pixels);
-  p.spectral.pixel_samples = p.stop.passes.emplace(16);
+  spectral::settings(p).pixel_samples = p.stop.passes.emplace(16);
   look_along(p.scene.camera, {0, 0, 1}, 100);
   const job::Snapshot snapshot = render(p);
   const std::vector<float>& rgb = layer(snapshot, "background").rgb;
@@ -166,8 +166,8 @@ TEST_P(WhiteFurnace, GlassCannotBeSeen)
   preset::Preset p = with_constant({0.7, 0.4, 0.2}, pixels);
   p.scene.camera.position = {0.2, 0.3, 2};
   p.scene.camera.fov_deg = 25;
-  p.spectral.max_surfaces = 1000;
-  p.spectral.pixel_samples = p.stop.passes.emplace(64);
+  spectral::settings(p).max_surfaces = 1000;
+  spectral::settings(p).pixel_samples = p.stop.passes.emplace(64);
   GetParam().place(p);
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
     const std::vector<float>& rgb = layer(snapshot, "background").rgb;
@@ -244,7 +244,7 @@ TEST(Background, APlateAbsorbsByBeersLaw)
   p.scene.materials["glass"].dispersion.file = write_constant_nk(temporary.path() / "dark.yml", n, k);
   p.scene.objects = {object("plate", box(2, 2, thickness), "glass", at({0, 0, -0.5}))};
   look_along(p.scene.camera, {0, 0, -1}, 1);
-  p.spectral.pixel_samples = p.stop.passes.emplace(256);
+  spectral::settings(p).pixel_samples = p.stop.passes.emplace(256);
   const double r = std::pow((n - 1) / (n + 1), 2);
   optics::Spectrum left{};
   for (std::size_t w = 0; w < left.size(); ++w) {
@@ -323,7 +323,7 @@ TEST(Background, APrismTakesWhiteApart)
   p.scene.camera.position = {eye.x, eye.y, eye.z};
   p.scene.camera.target = {middle.x, middle.y, middle.z};
   p.scene.camera.fov_deg = 0.01;
-  p.spectral.pixel_samples = p.stop.passes.emplace(256);
+  spectral::settings(p).pixel_samples = p.stop.passes.emplace(256);
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
     const glm::dvec3 mean = mean_of(layer(snapshot, "background").rgb);
     const optics::Colour xyz = optics::linear_srgb_to_xyz({mean.x, mean.y, mean.z});
@@ -345,7 +345,7 @@ TEST(Background, IsLeftOutWhereThereIsNothingToSee)
   preset::Preset p = with_constant({1, 1, 1}, 4);
   EXPECT_TRUE(pass(p).runs);
   EXPECT_EQ(pass(p).field, "/spectral/background");
-  p.spectral.background = false;
+  spectral::settings(p).background = false;
   EXPECT_FALSE(pass(p).runs);
   EXPECT_TRUE(render(p).picture->layers.empty());
   p = with_constant({0, 0, 0}, 4);

@@ -98,7 +98,7 @@ TEST(BallLens, FocusIsWhereTheParaxialFormulaSays)
   for (std::size_t i = 0; i < 2; ++i) {
     preset::Preset p = ball_and_screen(distances[i], 256);
     p.scene.lights = {pencil({0, source, 0}, {0, -1, 0}, std::atan(aperture / source) / degree)};
-    p.spectral.photons_per_pass = photons;
+    spectral::settings(p).photons_per_pass = photons;
     const Screen screen{{0, -distances[i], 0}, 0.006, 100};
     screen.fill(p.scene.camera, 0.1);
     measured[i] = spread(watts(render(p), "caustic", screen, spectrum_of(p.scene.lights[0])), screen);
@@ -118,7 +118,7 @@ TEST(BallLens, IrradianceOnAScreenIsTheIntegralOverHeights)
   constexpr double distance = 2.5;
   preset::Preset p = ball_and_screen(distance, 512);
   p.scene.lights = {parallel_light({0, -1, 0})};
-  p.spectral.photons_per_pass = 1 << 20;
+  spectral::settings(p).photons_per_pass = 1 << 20;
   p.stop.passes = 4;
   const Screen screen{{0, -distance, 0}, 2.4, 120};
   screen.fill(p.scene.camera, 1);

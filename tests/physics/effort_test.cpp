@@ -4,6 +4,7 @@
 #include "optics/colour.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
@@ -18,7 +19,7 @@ using namespace nephroid::test;
 
 namespace {
 
-using Effort = preset::Spectral::Effort;
+using Effort = spectral::Settings::Effort;
 
 /// X, Y and Z of the layer "caustic", and the power that came down.
 std::vector<double> caustic_colour(const job::Snapshot& snapshot)
@@ -27,7 +28,7 @@ std::vector<double> caustic_colour(const job::Snapshot& snapshot)
   optics::Colour sum{};
   for (std::size_t i = 0; i < rgb.size(); ++i) sum[i % 3] += rgb[i];
   const optics::Colour xyz = optics::linear_srgb_to_xyz(sum);
-  return {xyz[0], xyz[1], xyz[2], snapshot.energy.deposited_w};
+  return {xyz[0], xyz[1], xyz[2], spectral::energy_of(snapshot).deposited_w};
 }
 
 /// A ball under daylight and a candle, on a floor that reflects no blue below 480 nm, to which (4.15) gives no importance.
@@ -41,8 +42,8 @@ preset::Preset scene_by(Effort effort, std::uint64_t seed)
   preset::Reflectance& floor = p.scene.materials["white"].reflectance;
   floor.type = preset::Reflectance::Type::table;
   floor.table = {{479, 0}, {480, 0.8}};
-  p.spectral.direct = false;
-  p.spectral.effort = effort;
+  spectral::settings(p).direct = false;
+  spectral::settings(p).effort = effort;
   p.stop.passes = 24;
   return p;
 }

@@ -3,6 +3,7 @@
 #include "compute/compute.h"
 #include "preset/read.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/shipped_presets.h"
@@ -23,7 +24,7 @@ std::vector<preset::Preset> small_runs(const std::string& name)
   std::vector<preset::Preset> runs = preset::read_presets(name);
   for (preset::Preset& p : runs) {
     p.scene.camera.resolution = {16, 16};
-    p.spectral.direct = false;
+    spectral::settings(p).direct = false;
     send_few_photons(p, 1 << 16);
     p.stop = {};
     p.stop.passes = 1;
@@ -36,7 +37,7 @@ std::vector<preset::Preset> small_runs(const std::string& name)
 /// The share of the emitted power that may be lost: met 32 interfaces, which one photon of two thousand does in a bunny of flint.
 constexpr double largest_loss = 1e-3;
 
-bool is_balanced(const job::EnergyBalance& e)
+bool is_balanced(const spectral::EnergyBalance& e)
 {
   const double parts = e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w;
   return std::abs(parts - e.emitted_w) <= 1e-12 * e.emitted_w;
@@ -48,7 +49,7 @@ class ShippedPreset : public testing::TestWithParam<std::string> {};
 TEST_P(ShippedPreset, AccountsForItsEnergy)
 {
   for (const preset::Preset& p : small_runs(GetParam())) {
-    const job::EnergyBalance e = render(p).energy;
+    const spectral::EnergyBalance e = spectral::energy_of(render(p));
     EXPECT_EQ(e.refused_contributions, 0u) << p.name;
     for (const double part : {e.deposited_w, e.missed_w, e.absorbed_w, e.escaped_w, e.lost_w}) EXPECT_GE(part, 0) << p.name;
     ASSERT_GT(e.emitted_w, 0) << p.name;
@@ -56,7 +57,7 @@ TEST_P(ShippedPreset, AccountsForItsEnergy)
     expect_truth("energy: accounted for / emitted, " + GetParam(),
                  (e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1, 1e-12);
     expect_truth("energy: lost / emitted, " + GetParam(), e.lost_w / e.emitted_w, 0,
-                 largest_loss + sigmas * std::sqrt(largest_loss / p.spectral.photons_per_pass));
+                 largest_loss + sigmas * std::sqrt(largest_loss / spectral::settings(p).photons_per_pass));
   }
 }
 
@@ -76,12 +77,12 @@ TEST(Energy, WhatEscapesIsWhatARoomCatches)
   preset::Light light;
   light.position = {0.3, 2, 0.4};
   p.scene.lights = {light};
-  p.spectral.photons_per_pass = 1 << 16;
-  const job::EnergyBalance open = render(p).energy;
+  spectral::settings(p).photons_per_pass = 1 << 16;
+  const spectral::EnergyBalance open = spectral::energy_of(render(p));
   preset::Shape walls = box(8, 8, 8);
   walls.inwards = true;
   p.scene.objects.push_back(object("room", walls, "white"));
-  const job::EnergyBalance room = render(p).energy;
+  const spectral::EnergyBalance room = spectral::energy_of(render(p));
   EXPECT_TRUE(is_balanced(open) && is_balanced(room));
   EXPECT_GT(open.escaped_w, 0.3 * open.emitted_w);
   EXPECT_EQ(room.escaped_w, 0);

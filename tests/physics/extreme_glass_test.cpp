@@ -7,6 +7,7 @@
 #include "preset/read.h"
 #include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/extremes.h"
 #include "tests/support/temporary_folder.h"
@@ -109,7 +110,7 @@ Outcome absorbing_plate(double k)
   m.dispersion.file = write_constant_nk(folder.path() / "glass.yml", 1.5, k);
   p.scene.materials["glass"] = m;
   const double tau = std::exp(-4 * M_PI * k * 2e-3 / 550e-9), r = 0.04, truth = (1 - r) * (1 - r) * tau / (1 - r * r * tau * tau);
-  const job::EnergyBalance e = render(p).energy;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p));
   const double back = r + (1 - r) * (1 - r) * r * tau * tau / (1 - r * r * tau * tau);
   return both(share(e.deposited_w / e.emitted_w, truth, photons), share(e.absorbed_w / e.emitted_w, 1 - truth - back, photons));
 }

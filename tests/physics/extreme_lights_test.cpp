@@ -5,6 +5,7 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/extremes.h"
 
@@ -22,7 +23,7 @@ Outcome power_scales(double watts)
   const job::Snapshot truth = render(p);
   p.scene.lights[0].power_w = watts;
   const job::Snapshot gave = render(p);
-  EXPECT_EQ(gave.energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(gave).refused_contributions, 0u);
   return at_most(largest_difference(gave.picture->rgb, truth.picture->rgb, 1 / watts), 1e-6);
 }
 
@@ -93,7 +94,7 @@ const std::vector<Extreme> extremes = {
        p.scene.lights[0].position = {0, 0.001, 0};
        Screen screen{{0, 0, 0}, 8e-3, 16};
        screen.fill(p.scene.camera, 0.5);
-       p.spectral.pixel_samples = p.stop.passes.emplace(64);
+       spectral::settings(p).pixel_samples = p.stop.passes.emplace(64);
        return share_of_one(mean_irradiance(p), irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI), 8e-3), 0.02);
      }},
     {"BlackBody300", "a black body of 300 K", "Planck's law in long double", [] { return blackbody(300); }},
@@ -129,7 +130,7 @@ const std::vector<Extreme> extremes = {
        Screen screen{{0, 0, 0}, 1e-3, 16};
        screen.fill(p.scene.camera, 0.5);
        p.scene.lights[0] = pencil({0, 1, 0}, {0, -1, 0}, 0.01);
-       p.spectral.pixel_samples = 64;
+       spectral::settings(p).pixel_samples = 64;
        p.stop.passes = 64;
        return share_of_one(mean_irradiance(p) * 1e-6, 1, 0.06);
      }},
@@ -160,7 +161,7 @@ const std::vector<Extreme> extremes = {
        p.scene.lights[0].position = {0, 3, 0};
        p.scene.lights[0].size = {60, 60};
        p.scene.lights[0].power_w = 3600;
-       p.spectral.pixel_samples = p.stop.passes.emplace(1 << 13);
+       spectral::settings(p).pixel_samples = p.stop.passes.emplace(1 << 13);
        // cos^2 / (pi d^2) over the rectangle, from the middle: samples of 1/4 m.
        double sum = 0;
        for (double x = -29.875; x < 30; x += 0.25)
@@ -174,7 +175,7 @@ const std::vector<Extreme> extremes = {
        p.scene.objects.push_back(object("plate", box(1, 0.1, 1), "glass"));
        p.scene.objects.push_back(object("wall", quad(100, 100), "white", at({5, 0, 0}, {0, 0, 90})));
        p.scene.lights = {parallel_light({1, 0, 0})};
-       const job::EnergyBalance e = render(p).energy;
+       const spectral::EnergyBalance e = spectral::energy_of(render(p));
        // 1 m x 0.1 m of edge, T = (1 - R) / (1 + R), and the floor is never reached.
        return near(e.deposited_w, 0.1 * 0.96 / 1.04, 0.007);
      }},
@@ -206,33 +207,33 @@ const std::vector<Extreme> extremes = {
        preset::Preset p = beam({0.01, 2, 0.02}, {0, -1, 0});
        p.scene.materials["mirror"] = mirror(0);
        p.scene.objects.push_back(object("mirror", quad(1, 1), "mirror"));
-       const job::EnergyBalance e = render(p).energy;
+       const spectral::EnergyBalance e = spectral::energy_of(render(p));
        return exactly(e.absorbed_w / e.emitted_w, 1);
      }},
     {"HallOfMirrors", "two parallel mirrors of 0.9, 32 surfaces", "0.9^32 is left and lost",
      [] {
        preset::Preset p = beam({0.01, 0, 0.02}, {0, -1, 0});
        p.scene.materials["mirror"] = mirror(0.9);
-       p.spectral.max_surfaces = 32;
+       spectral::settings(p).max_surfaces = 32;
        for (const double y : {-0.5, 0.5}) p.scene.objects.push_back(object("", quad(1, 1), "mirror", at({0, y, 0})));
-       const job::EnergyBalance e = render(p).energy;
+       const spectral::EnergyBalance e = spectral::energy_of(render(p));
        return near(e.lost_w / e.emitted_w, std::pow(0.9, 32), 1e-6);
      }},
     {"HallOfPerfectMirrors", "two perfect parallel mirrors, 1024 surfaces", "everything is left and lost",
      [] {
        preset::Preset p = beam({0.01, 0, 0.02}, {0, -1, 0});
-       p.spectral.photons_per_pass = 1 << 12;
-       p.spectral.max_surfaces = 1024;
+       spectral::settings(p).photons_per_pass = 1 << 12;
+       spectral::settings(p).max_surfaces = 1024;
        for (const double y : {-0.5, 0.5}) p.scene.objects.push_back(object("", quad(1, 1), "mirror", at({0, y, 0})));
-       const job::EnergyBalance e = render(p).energy;
+       const spectral::EnergyBalance e = spectral::energy_of(render(p));
        return exactly(e.lost_w / e.emitted_w, 1);
      }},
     {"OneSurface", "max_surfaces 1 for a plate", "R goes back, the rest is lost",
      [] {
        preset::Preset p = beam({0.01, 2, 0.02}, {0, -1, 0});
-       p.spectral.max_surfaces = 1;
+       spectral::settings(p).max_surfaces = 1;
        p.scene.objects.push_back(object("plate", box(1, 0.1, 1), "glass"));
-       const job::EnergyBalance e = render(p).energy;
+       const spectral::EnergyBalance e = spectral::energy_of(render(p));
        return share(e.lost_w / e.emitted_w, 0.96, photons);
      }},
     {"Diamond", "n = 2.42, a prism that sends light back: total reflection", "R + (1 - R)^2 + ... comes back: nothing gets through",

@@ -15,8 +15,8 @@ using namespace nephroid::test;
 
 namespace {
 
-using Estimator = preset::Spectral::Estimator;
-using Effort = preset::Spectral::Effort;
+using Estimator = spectral::Settings::Estimator;
+using Effort = spectral::Settings::Effort;
 
 /// Splats, which have no radius.
 const std::vector<Estimate>& truth()
@@ -29,9 +29,9 @@ const std::vector<Estimate>& truth()
 preset::Preset gathered(int passes = 2)
 {
   preset::Preset p = caustic_of_ball();
-  p.spectral.estimator = Estimator::sppm;
-  p.spectral.threshold_deg = 2;
-  p.spectral.jitter = false;
+  spectral::settings(p).estimator = Estimator::sppm;
+  spectral::settings(p).threshold_deg = 2;
+  spectral::settings(p).jitter = false;
   p.stop.passes = passes;
   return p;
 }
@@ -69,7 +69,7 @@ const std::vector<Extreme> extremes = {
     {"RadiusTiny", "sppm, radius 1e-9 of the scene", "no photon is met",
      [] {
        preset::Preset p = scaled(gathered(), 1000);
-       p.spectral.sppm.radius = 1e-6;
+       spectral::settings(p).sppm.radius = 1e-6;
        return noted(p,
                     "spectral.sppm.radius: 1e-06 units are 4.42e-09 pixels: hardly a photon lies so near, and caustics are black but for "
                     "rare bright dots; choose about 452, two pixels, or leave it out",
@@ -78,8 +78,8 @@ const std::vector<Extreme> extremes = {
     {"RadiusHuge", "sppm, radius 1e9 of the scene", "its light is spread over 1e18 scenes",
      [] {
        preset::Preset p = scaled(gathered(1), 0.01);
-       p.spectral.sppm.radius = 1e7;
-       p.spectral.photons_per_pass = 1 << 10;
+       spectral::settings(p).sppm.radius = 1e7;
+       spectral::settings(p).photons_per_pass = 1 << 10;
        return noted(p,
                     "spectral.sppm.radius: 10000000 units are 4.42e+09 pixels: caustics are blurred away, and gathering is slow; choose "
                     "about 0.00452, two pixels, or leave it out",
@@ -93,20 +93,20 @@ const std::vector<Extreme> extremes = {
     {"AlphaTiny", "sppm, alpha 1e-9", "noted: the estimate is right in the mean, but rare bright dots",
      [] {
        preset::Preset p = gathered();
-       p.spectral.sppm.alpha = 1e-9;
+       spectral::settings(p).sppm.alpha = 1e-9;
        return says(notes_of(p), "spectral.sppm.alpha: 1e-09 shrinks a radius from 2 to 6.32e-05 pixels at its first photons, and hardly "
                                 "another one lies so near: caustics grow darker from pass to pass; choose 0.667 or so");
      }},
     {"AlphaSmall", "sppm, alpha 0.01", "the caustic of splats",
      [] {
        preset::Preset p = gathered();
-       p.spectral.sppm.alpha = 0.01;
+       spectral::settings(p).sppm.alpha = 0.01;
        return gathers_the_same(p);
      }},
     {"AlphaAlmostOne", "sppm, alpha 1 - 1e-9: the radius stays", "the same",
      [] {
        preset::Preset p = gathered();
-       p.spectral.sppm.alpha = 1 - 1e-9;
+       spectral::settings(p).sppm.alpha = 1 - 1e-9;
        return gathers_the_same(p);
      }},
     {"AlphaOne", "sppm.alpha 1", "refused",
@@ -116,30 +116,30 @@ const std::vector<Extreme> extremes = {
     {"OneCluster", "sppm, importance, one cluster", "the caustic of splats",
      [] {
        preset::Preset p = gathered(8);
-       p.spectral.threshold_deg = 89.9;
-       p.spectral.effort = Effort::importance;
+       spectral::settings(p).threshold_deg = 89.9;
+       spectral::settings(p).effort = Effort::importance;
        return gathers_the_same(p);
      }},
     {"OneClusterAtRandom", "sppm, a random cluster of one", "the same",
      [] {
        preset::Preset p = gathered(8);
-       p.spectral.threshold_deg = 89.9;
-       p.spectral.effort = Effort::random;
+       spectral::settings(p).threshold_deg = 89.9;
+       spectral::settings(p).effort = Effort::random;
        return gathers_the_same(p);
      }},
     {"OnePhoton", "sppm, one photon a pass, 1024 passes", "the same",
      [] {
        preset::Preset p = gathered(1024);
-       p.spectral.threshold_deg = 89.9;
-       p.spectral.photons_per_pass = 1;
+       spectral::settings(p).threshold_deg = 89.9;
+       spectral::settings(p).photons_per_pass = 1;
        return gathers_the_same(p);
      }},
     {"OnePixel", "sppm, a picture of one pixel", "the same",
      [] {
        preset::Preset p = gathered(256);
        p.scene.camera.resolution = {1, 1};
-       p.spectral.sppm.radius = 0.2;
-       p.spectral.photons_per_pass = 1 << 9;
+       spectral::settings(p).sppm.radius = 0.2;
+       spectral::settings(p).photons_per_pass = 1 << 9;
        return gathers_the_same(p);
      }},
 };

@@ -4,6 +4,7 @@
 #include "compute/compute.h"
 #include "optics/fresnel.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/extremes.h"
 #include "tests/support/temporary_folder.h"
@@ -30,8 +31,8 @@ preset::Preset ball(double size, double shift = 0)
   p.scene.lights[0].power_w = size * size;
   p.scene.camera.position = place(0, 2, 3);
   p.scene.camera.target = place(0, -1, 0);
-  p.spectral.direct = true;
-  p.spectral.pixel_samples = 4;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).pixel_samples = 4;
   p.stop.passes = 4;
   return p;
 }
@@ -40,7 +41,7 @@ preset::Preset ball(double size, double shift = 0)
 Outcome same_picture(const preset::Preset& p, double tolerance)
 {
   const job::Snapshot truth = render(ball(1)), snapshot = render(p);
-  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
   return at_most(largest_difference(snapshot.picture->rgb, truth.picture->rgb), tolerance);
 }
 

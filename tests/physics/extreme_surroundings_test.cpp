@@ -6,6 +6,7 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
 #include "tests/support/temporary_folder.h"
@@ -22,8 +23,8 @@ preset::Preset ball_before_sky(double radiance, int pixels = 8)
 {
   preset::Preset p = empty_preset(pixels);
   p.source = "p.json";
-  p.spectral.caustic = false;
-  p.spectral.pixel_samples = p.stop.passes.emplace(8);
+  spectral::settings(p).caustic = false;
+  spectral::settings(p).pixel_samples = p.stop.passes.emplace(8);
   p.scene.materials["glass"] = glass(1.5);
   p.scene.objects = {object("ball", sphere(0.3), "glass")};
   p.scene.camera.position = {0, 0, 2};
@@ -38,7 +39,7 @@ preset::Preset ball_before_sky(double radiance, int pixels = 8)
 Outcome radiance_scales(double radiance)
 {
   const job::Snapshot gave = render(ball_before_sky(radiance)), right = render(ball_before_sky(1));
-  EXPECT_EQ(gave.energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(gave).refused_contributions, 0u);
   return at_most(largest_difference(gave.picture->rgb, right.picture->rgb, 1 / radiance), 1e-6);
 }
 
@@ -75,7 +76,7 @@ Outcome into(float texel, double tolerance)
   p.scene.camera.up = {0, 0, -1};
   p.scene.camera.fov_deg = 0.01;
   const job::Snapshot snapshot = render(p);
-  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
   return near(mean_xyz(snapshot, "background")[1] / double(texel), 1, tolerance);
 }
 
@@ -101,8 +102,8 @@ preset::Preset furnace(double rho, int max_surfaces, int photons = 1 << 12)
 {
   preset::Preset p = empty_preset(8);
   p.source = "p.json";
-  p.spectral.caustic = false;
-  p.spectral.indirect = true;
+  spectral::settings(p).caustic = false;
+  spectral::settings(p).indirect = true;
   preset::Shape room = check::ball(2);
   room.inwards = true;
   p.scene.materials["wall"] = white(rho);
@@ -113,8 +114,8 @@ preset::Preset furnace(double rho, int max_surfaces, int photons = 1 << 12)
   p.scene.camera.position = {0, 0, 1.5};
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.fov_deg = 90;
-  p.spectral.max_surfaces = max_surfaces;
-  p.spectral.indirect_photons_per_pass = photons;
+  spectral::settings(p).max_surfaces = max_surfaces;
+  spectral::settings(p).indirect_photons_per_pass = photons;
   p.stop.passes = 32;
   return p;
 }
@@ -123,7 +124,7 @@ Outcome furnace_is_even(const preset::Preset& p)
 {
   const double rho = p.scene.materials.at("wall").reflectance.value;
   double sum = 0;
-  for (int k = 1; k <= p.spectral.max_surfaces; ++k) sum += std::pow(rho, k);
+  for (int k = 1; k <= spectral::settings(p).max_surfaces; ++k) sum += std::pow(rho, k);
   const double y = optics::to_xyz(optics::light_lines(p.scene.lights[0].spectrum.table))[1];
   const std::vector<Estimate> gave = colour_by_passes(p, "indirect");
   const double truth = sum / (16 * M_PI) * rho / M_PI * y;

@@ -38,8 +38,8 @@ const std::vector<Extreme> extremes = {
     {"PhotonsOne", "one photon a pass, 2000 passes", "the caustic of many photons",
      [] {
        preset::Preset p = ball_over_lit_floor(), many = p;
-       p.spectral.direct = many.spectral.direct = false;
-       p.spectral.photons_per_pass = 1;
+       spectral::settings(p).direct = spectral::settings(many).direct = false;
+       spectral::settings(p).photons_per_pass = 1;
        p.stop.passes = 1 << 13;
        // 8192 photons at 1 / 401 of a wavelength each; the ball's share of them lands in the picture.
        return share_of_one(mean_y(render(p), "caustic"), mean_y(render(many), "caustic"), 0.15);
@@ -59,7 +59,7 @@ const std::vector<Extreme> extremes = {
     {"OnePixel", "a picture of one pixel", "I cos / d^2, mean over it",
      [] {
        auto p = lit_floor(1);
-       p.stop.passes = p.spectral.pixel_samples = 1 << 12;
+       p.stop.passes = spectral::settings(p).pixel_samples = 1 << 12;
        return share_of_one(mean_irradiance(p), irradiance_of_point(p.scene.lights[0].position, 1 / (4 * M_PI)), 0.05);
      }},
     {"OneByFourThousand", "a picture of 1 x 4096", "the mean over it of a square one's middle column",
@@ -83,7 +83,7 @@ const std::vector<Extreme> extremes = {
      [] {
        preset::Preset p = lit_floor(1);
        p.scene.camera.fov_deg = 179.9;
-       p.spectral.pixel_samples = p.stop.passes.emplace(1 << 14);
+       spectral::settings(p).pixel_samples = p.stop.passes.emplace(1 << 14);
        p.scene.objects[0].shape->size = {1000, 1, 1000};
        p.scene.lights[0].type = preset::Light::Type::directional;
        p.scene.lights[0].direction = {0, -1, 0};
@@ -120,8 +120,8 @@ const std::vector<Extreme> extremes = {
        p.scene.lights[0].direction = {1, -1, 0};
        p.scene.materials["glass"] = glass(1.5);
        p.scene.objects.push_back(object("box", box(0.2, 0.2, 0.2), "glass", at({0, 2, 0})));
-       p.spectral.caustic = false;
-       p.spectral.pixel_samples = p.stop.passes.emplace(1 << 14);
+       spectral::settings(p).caustic = false;
+       spectral::settings(p).pixel_samples = p.stop.passes.emplace(1 << 14);
        return near(mean_irradiance(p) * std::sqrt(2.0), 2.25 / 1.04, 0.02);
      }},
     {"CameraInMirrorBall", "a camera inside a mirror ball", "no light gets in: black, and it ends",
@@ -155,8 +155,8 @@ const std::vector<Extreme> extremes = {
        preset::Preset p = lit_floor(8);
        p.scene.materials["glass"] = glass(1);
        p.scene.objects.push_back(object("sheet", box(2, 0.01, 2), "glass", at({0, 0.5, 0})));
-       p.spectral.direct = false;
-       p.spectral.photons_per_pass = 1 << 18;
+       spectral::settings(p).direct = false;
+       spectral::settings(p).photons_per_pass = 1 << 18;
        p.scene.lights[0].position = {0, 1, 0};
        p.scene.camera.position = {0, 1e-3, 0};
        p.scene.camera.fov_deg = 2 * std::atan(50.0) / degree;

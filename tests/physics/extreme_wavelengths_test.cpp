@@ -19,15 +19,15 @@ using namespace nephroid::test;
 
 namespace {
 
-using Effort = preset::Spectral::Effort;
-using Method = preset::Spectral::Method;
+using Effort = spectral::Settings::Effort;
+using Method = spectral::Settings::Method;
 
 /// Every wavelength on its own, each with as many photons, without jitter, by plain random numbers.
 preset::Preset one_by_one(preset::Preset p)
 {
-  p.spectral.method = Method::brute_force;
-  p.spectral.effort = Effort::equal;
-  p.spectral.jitter = p.spectral.differentials = p.spectral.low_discrepancy = false;
+  spectral::settings(p).method = Method::brute_force;
+  spectral::settings(p).effort = Effort::equal;
+  spectral::settings(p).jitter = spectral::settings(p).differentials = spectral::settings(p).low_discrepancy = false;
   p.seed = 1000;
   return p;
 }
@@ -44,12 +44,12 @@ Outcome is_the_ball(const preset::Preset& p) { return same_colour(colour_by_pass
 preset::Preset in_clusters(double threshold_deg, Effort effort = Effort::power)
 {
   preset::Preset p = caustic_of_ball();
-  p.spectral.threshold_deg = threshold_deg;
-  p.spectral.effort = effort;
+  spectral::settings(p).threshold_deg = threshold_deg;
+  spectral::settings(p).effort = effort;
   return p;
 }
 
-std::size_t clusters_of(const preset::Preset& p) { return spectral::scene_clusters(p.spectral, scene::load_scene(p)).size(); }
+std::size_t clusters_of(const preset::Preset& p) { return spectral::scene_clusters(spectral::settings(p), scene::load_scene(p)).size(); }
 
 /// So many clusters, and the right caustic.
 Outcome clusters_and_colour(const preset::Preset& p, double clusters)
@@ -64,7 +64,7 @@ preset::Preset battlements(bool differentials)
   preset::Dispersion& d = p.scene.materials["glass"].dispersion;
   d.type = preset::Dispersion::Type::table;
   for (int nm = 380; nm <= 780; ++nm) d.table.push_back({double(nm), nm % 2 == 0 ? 1.5 : 1.9});
-  p.spectral.differentials = differentials;
+  spectral::settings(p).differentials = differentials;
   return p;
 }
 
@@ -78,7 +78,7 @@ preset::Preset stairs(bool differentials)
     d.table.push_back({380 + 40.0 * i, 1.9 - 0.04 * i});
     d.table.push_back({419 + 40.0 * i, 1.9 - 0.04 * i});
   }
-  p.spectral.differentials = differentials;
+  spectral::settings(p).differentials = differentials;
   return p;
 }
 
@@ -130,16 +130,16 @@ preset::Preset entering_at_grazing_incidence()
   p.scene.lights[0].spectrum = {};
   p.scene.camera.position = {0.5, 0.8, 0};
   p.scene.camera.target = {2, 0, 2 * s / c};
-  p.spectral.photons_per_pass = 1 << 16;
+  spectral::settings(p).photons_per_pass = 1 << 16;
   p.stop.passes = 128;
-  p.spectral.max_surfaces = 200;
+  spectral::settings(p).max_surfaces = 200;
   return p;
 }
 
 Outcome stretched_is_the_same(preset::Preset p)
 {
   const std::vector<Estimate> points = colour_by_passes(one_by_one(p));
-  p.spectral.differentials = true;
+  spectral::settings(p).differentials = true;
   return same_colour(colour_by_passes(p), points);
 }
 
@@ -156,9 +156,9 @@ preset::Preset lamps(std::size_t count)
 Outcome relit(double own_w, double other_w, Method method, double most = 1e-6)
 {
   preset::Preset p = caustic_of_ball();
-  p.spectral.direct = p.spectral.relight = true;
-  p.spectral.method = method;
-  p.spectral.threshold_deg = 89.9;
+  spectral::settings(p).direct = spectral::settings(p).relight = true;
+  spectral::settings(p).method = method;
+  spectral::settings(p).threshold_deg = 89.9;
   p.stop.passes = 2;
   const job::Snapshot truth = render(p);
   p.scene.lights[0].power_w = own_w;
@@ -177,7 +177,7 @@ const std::vector<Extreme> extremes = {
     {"JitterOfOne", "jitter in 401 clusters of one wavelength", "the same",
      [] {
        preset::Preset p = caustic_of_ball();
-       p.spectral.method = Method::brute_force;
+       spectral::settings(p).method = Method::brute_force;
        return clusters_and_colour(p, 401);
      }},
     {"Battlements", "n(lambda) 1.5 and 1.9 in turn, from nanometre to nanometre",
@@ -199,7 +199,7 @@ const std::vector<Extreme> extremes = {
     {"VarianceOfOnePhoton", "effort variance, one photon a pass, one cluster, 4096 passes", "the same",
      [] {
        preset::Preset p = in_clusters(89.9, Effort::variance);
-       p.spectral.photons_per_pass = 1;
+       spectral::settings(p).photons_per_pass = 1;
        p.stop.passes = 1 << 12;
        return same_colour(colour_by_runs(p, 16), truth());
      }},
@@ -222,16 +222,16 @@ const std::vector<Extreme> extremes = {
     {"OnePhoton", "low discrepancy, one photon a pass, 16384 passes", "401 wavelengths one by one",
      [] {
        preset::Preset p = in_clusters(89.9);
-       p.spectral.photons_per_pass = 1;
+       spectral::settings(p).photons_per_pass = 1;
        p.stop.passes = 1 << 14;
        return is_the_ball(p);
      }},
     {"OnePhotonForAll", "one photon a pass, 401 clusters", "raised, and said",
      [] {
        preset::Preset p = in_clusters(1e-4);
-       p.spectral.photons_per_pass = 1;
+       spectral::settings(p).photons_per_pass = 1;
        const scene::Scene scene = scene::load_scene(p);
-       const plan::Plan plan = spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
+       const spectral::RunPlan plan = spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
        return says(plan.notes.empty() ? "" : plan.notes[0],
                    "spectral.photons_per_pass: raised from 1 to 401, one for each cluster of each light");
      }},

@@ -4,6 +4,7 @@
 #include "compute/compute.h"
 #include "optics/spectrum.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
@@ -24,8 +25,8 @@ namespace {
 preset::Preset indirect_only(int resolution)
 {
   preset::Preset p = empty_preset(resolution);
-  p.spectral.direct = p.spectral.caustic = false;
-  p.spectral.indirect = true;
+  spectral::settings(p).direct = spectral::settings(p).caustic = false;
+  spectral::settings(p).indirect = true;
   return p;
 }
 
@@ -108,13 +109,13 @@ TEST_P(DiffuseFurnace, IsEvenlyLit)
   p.scene.camera.position = {0, 0, -0.8};
   p.scene.camera.target = {0.3, 0, -2};
   p.scene.camera.fov_deg = 70;
-  p.spectral.max_surfaces = 400;
-  p.spectral.indirect_photons_per_pass = 1 << 14;
+  spectral::settings(p).max_surfaces = 400;
+  spectral::settings(p).indirect_photons_per_pass = 1 << 14;
   p.stop.passes = 64;
 
-  job::IndirectBalance energy;
+  spectral::IndirectBalance energy;
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
-    energy = *snapshot.indirect_energy;
+    energy = *spectral::indirect_energy_of(snapshot);
     return squares_of(layer(snapshot, "indirect"), pixels, group);
   });
   const double irradiance = power / (4 * M_PI * radius * radius) * reflectance / (1 - reflectance);
@@ -153,8 +154,8 @@ TEST(Indirect, ARedTileTintsAGreenScreen)
   light.power_w = power;
   p.scene.lights = {light};
   screen.fill(p.scene.camera, 3);
-  p.spectral.max_surfaces = 1; // the tile and the screen
-  p.spectral.indirect_photons_per_pass = 1 << 15;
+  spectral::settings(p).max_surfaces = 1; // the tile and the screen
+  spectral::settings(p).indirect_photons_per_pass = 1 << 15;
   p.stop.passes = 64;
 
   const optics::Colour xyz = seen(optics::illuminant("F10"), {optics::colorchecker_patch("red"), optics::colorchecker_patch("green")});
@@ -192,8 +193,8 @@ TEST(Indirect, ALitTileIsALamp)
   preset::Preset tile = p;
   tile.scene.objects = {thing, object("tile", quad(0.2, 0.2), "tile", at(place))};
   tile.scene.lights = {light};
-  tile.spectral.max_surfaces = 1; // the tile and the ball
-  tile.spectral.indirect_photons_per_pass = 1 << 15;
+  spectral::settings(tile).max_surfaces = 1; // the tile and the ball
+  spectral::settings(tile).indirect_photons_per_pass = 1 << 15;
   tile.stop.passes = 48;
   preset::Preset lamp = p;
   lamp.scene.objects = {thing};
@@ -203,8 +204,8 @@ TEST(Indirect, ALitTileIsALamp)
   lamp.scene.lights[0].direction = {0, -1, 0};
   lamp.scene.lights[0].size = {0.03, 0.03}; // 2 cm is the radius of the spot: seen from 70 cm, its shape changes light by some 1e-4
   lamp.scene.lights[0].power_w = reflectance * power;
-  lamp.spectral.direct = true;
-  lamp.spectral.indirect = false;
+  spectral::settings(lamp).direct = true;
+  spectral::settings(lamp).indirect = false;
   lamp.stop.passes = 64;
 
   const auto truths =
@@ -245,7 +246,7 @@ preset::Preset open_room(const std::filesystem::path& folder)
   sun.type = preset::Light::Type::directional;
   sun.direction = {-1, -1, -1};
   p.scene.lights = {lamp, sun};
-  p.spectral.indirect_photons_per_pass = 1 << 16;
+  spectral::settings(p).indirect_photons_per_pass = 1 << 16;
   p.stop.passes = 3;
   return p;
 }
@@ -255,14 +256,14 @@ TEST(Indirect, AccountsForItsEnergy)
   TemporaryFolder temporary;
   const preset::Preset p = open_room(temporary.path());
   const job::Snapshot snapshot = render(p);
-  ASSERT_TRUE(snapshot.indirect_energy);
-  const job::IndirectBalance& e = *snapshot.indirect_energy;
+  ASSERT_TRUE(spectral::indirect_energy_of(snapshot));
+  const spectral::IndirectBalance& e = *spectral::indirect_energy_of(snapshot);
   expect_truth("indirect, energy: accounted for / emitted", (e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1, 1e-12);
   EXPECT_GT(e.absorbed_w, 0.1 * e.emitted_w);
   EXPECT_GT(e.escaped_w, 0.1 * e.emitted_w);
   EXPECT_LT(e.lost_w, 1e-3 * e.emitted_w);
-  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
-  EXPECT_EQ(snapshot.progress.photons, 3u << 16) << "those of this layer are counted as sent";
+  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_EQ(snapshot.progress.work, 3u << 16) << "those of this layer are counted as sent";
 }
 
 // However long a step is, and where a run is taken up again, the bits are the same.
@@ -273,7 +274,7 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   const job::Snapshot whole = render(p);
   const scene::Scene scene = scene::load_scene(p);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const plan::Plan plan = spectral::make_plan(p, scene, bvh);
+  const spectral::RunPlan plan = spectral::make_plan(p, scene, bvh);
   auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
   for (int i = 0; i < 5; ++i) job->step();
   const std::vector<std::byte> state = test::saved(*job);
@@ -282,7 +283,7 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   while (!job->finished()) job->step();
   const job::Snapshot resumed = job->snapshot();
   EXPECT_EQ(layer(resumed, "indirect").rgb, layer(whole, "indirect").rgb);
-  EXPECT_EQ(resumed.indirect_energy->escaped_w, whole.indirect_energy->escaped_w);
+  EXPECT_EQ(spectral::indirect_energy_of(resumed)->escaped_w, spectral::indirect_energy_of(whole)->escaped_w);
 }
 
 } // namespace

@@ -5,11 +5,12 @@
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
-#include "spectral/tables/targets.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"
+#include "tracing/targets.h"
 
 #include <gmock/gmock.h>
 
@@ -20,24 +21,13 @@ using namespace nephroid::test;
 
 namespace {
 
-plan::Plan plan_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
-}
-
-plan::Pass pass_of(const preset::Preset& p, std::string name)
+plan::Pass pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {})
 {
   std::replace(name.begin(), name.end(), '_', ' ');
-  for (const plan::Pass& pass : plan_of(p).passes)
+  const scene::Scene scene = scene::load_scene(p);
+  for (const plan::Pass& pass : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry), leave_out).passes)
     if (pass.name == name) return pass;
   return {"", false, "no pass " + name, "", false};
-}
-
-preset::Preset with(preset::Preset p, bool preset::LeaveOut::*field, bool value)
-{
-  p.spectral.leave_out.*field = value;
-  return p;
 }
 
 /// Luminance of the layer "caustic" in 4 x 4 blocks of pixels, and the power that came down.
@@ -49,7 +39,7 @@ std::vector<double> caustic_blocks(const job::Snapshot& snapshot)
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column)
       figures[static_cast<std::size_t>(4 * (row / block) + column / block)] += rgb[3 * static_cast<std::size_t>(row * size + column) + 1];
-  figures[16] = snapshot.energy.deposited_w;
+  figures[16] = spectral::energy_of(snapshot).deposited_w;
   return figures;
 }
 
@@ -58,13 +48,13 @@ class LeavingOut : public testing::TestWithParam<Omission> {};
 TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn)
 {
   const Omission& o = GetParam();
-  const plan::Pass out = pass_of(o.scene, o.key), in = pass_of(with(o.scene, o.field, false), o.key);
+  const plan::Pass out = pass_of(o.scene, o.key), in = pass_of(o.scene, o.key, all_but(o));
   EXPECT_FALSE(out.runs);
   EXPECT_GT(out.reason.size(), 10u) << out.reason;
-  EXPECT_EQ(out.field, "/spectral/leave_out/" + o.key);
+  EXPECT_EQ(out.field, "/leave_out");
   EXPECT_FALSE(out.run_value);
   EXPECT_TRUE(in.runs) << in.reason;
-  EXPECT_THAT(in.reason, testing::HasSubstr("but spectral.leave_out." + o.key + " is false"));
+  EXPECT_THAT(in.reason, testing::HasSubstr("but leave_out is false"));
 }
 
 // Where the same photons fly, the sums are the same bits. Where others do, both pictures have the same expectation: of the worst
@@ -72,16 +62,17 @@ TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn)
 TEST_P(LeavingOut, ThePictureIsTheSame)
 {
   const Omission& o = GetParam();
-  const preset::Preset back = with(o.scene, o.field, false);
   if (o.same_bits) {
-    const job::Snapshot out = render(o.scene), in = render(back);
+    const job::Snapshot out = render(o.scene), in = render(*job_of(o.scene, all_but(o)));
     EXPECT_EQ(out.picture->rgb, in.picture->rgb);
-    EXPECT_EQ(out.energy.deposited_w, in.energy.deposited_w);
+    EXPECT_EQ(spectral::energy_of(out).deposited_w, spectral::energy_of(in).deposited_w);
     return;
   }
-  preset::Preset other_seed = back;
+  preset::Preset other_seed = o.scene;
   other_seed.seed = 1000;
-  const std::vector<Estimate> out = render_passes(o.scene, caustic_blocks), in = render_passes(other_seed, caustic_blocks);
+  const std::vector<Estimate> out = render_passes(o.scene, caustic_blocks),
+                              in = step_passes(*job_of(other_seed, all_but(o)),
+                                               [&](job::Job&job) { return caustic_blocks(job.snapshot()); });
   double smallest = 1, out_variance = 0, in_variance = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Estimate difference{out[i].mean - in[i].mean, out[i].variance + in[i].variance, std::min(out[i].degrees, in[i].degrees)};
@@ -183,19 +174,19 @@ TEST(NotLeftOut, WhatAnAreaLightsPlaneCuts)
   scene::Light light;
   light.type = preset::Light::Type::area;
   light.direction = {0, -1, 0};
-  EXPECT_TRUE(spectral::reaches(light, {{5, -1, 0}, 0.5f}));
-  EXPECT_TRUE(spectral::reaches(light, {{5, 0.49f, 0}, 0.5f}));
-  EXPECT_FALSE(spectral::reaches(light, {{5, 0.51f, 0}, 0.5f}));
+  EXPECT_TRUE(tracing::reaches(light, {{5, -1, 0}, 0.5f}));
+  EXPECT_TRUE(tracing::reaches(light, {{5, 0.49f, 0}, 0.5f}));
+  EXPECT_FALSE(tracing::reaches(light, {{5, 0.51f, 0}, 0.5f}));
   light.type = preset::Light::Type::spot;
   light.cos_half_angle = -1; // the whole sphere
-  EXPECT_TRUE(spectral::reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
   light.cos_half_angle = 0.999999;
-  EXPECT_FALSE(spectral::reaches(light, {{0, 9, 0}, 0.5f}));
-  EXPECT_TRUE(spectral::reaches(light, {{0, 0.3f, 0}, 0.5f})); // the light is inside
+  EXPECT_FALSE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(tracing::reaches(light, {{0, 0.3f, 0}, 0.5f})); // the light is inside
   light.type = preset::Light::Type::directional;
-  EXPECT_TRUE(spectral::reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
   light.type = preset::Light::Type::point;
-  EXPECT_TRUE(spectral::reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
 }
 
 } // namespace

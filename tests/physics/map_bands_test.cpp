@@ -17,7 +17,7 @@
 
 using namespace nephroid;
 using namespace nephroid::test;
-using preset::Spectral;
+using spectral::Settings;
 
 namespace {
 
@@ -84,9 +84,9 @@ preset::Preset stripe_through_a_prism(const Line& line)
   p.scene.camera.position = {entry().x + normal_of_entry().x, 0, entry().z + normal_of_entry().z};
   p.scene.camera.target = {entry().x, 0, entry().z};
   p.scene.camera.fov_deg = 0.5;
-  p.spectral.threshold_deg = 80; // one cluster
-  p.spectral.sppm.radius = 0.015;
-  p.spectral.photons_per_pass = 1 << 13;
+  spectral::settings(p).threshold_deg = 80; // one cluster
+  spectral::settings(p).sppm.radius = 0.015;
+  spectral::settings(p).photons_per_pass = 1 << 13;
   p.stop.passes = 192;
   return p;
 }
@@ -119,8 +119,8 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine)
 {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     preset::Preset p = stripe_through_a_prism(lines[i]);
-    p.spectral.estimator = GetParam().estimator;
-    p.spectral.method = GetParam().method;
+    spectral::settings(p).estimator = GetParam().estimator;
+    spectral::settings(p).method = GetParam().method;
     const std::vector<Estimate> figures = render_passes(p, radiance_in_lines);
     const double truth = radiance(lines[i]);
     const bool hang_together = GetParam().estimator == Spectral::Estimator::sppm;

@@ -15,6 +15,7 @@
 #include "compute/compute.h"
 #include "optics/spectrum.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/temporary_folder.h"
@@ -66,7 +67,7 @@ preset::Preset cup(const TemporaryFolder& folder)
   p.scene.objects = {wall, object("floor", quad(4, 4), "white")};
   p.scene.lights = {parallel_light({1, -slope, 0})};
   screen.fill(p.scene.camera, 4);
-  p.spectral.photons_per_pass = 1 << 20;
+  spectral::settings(p).photons_per_pass = 1 << 20;
   p.stop.passes = 4;
   return p;
 }
@@ -125,7 +126,7 @@ protected:
     const TemporaryFolder folder;
     const preset::Preset p = cup(folder);
     const job::Snapshot snapshot = render(p);
-    EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+    EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
     picture = watts(snapshot, "caustic", screen, spectrum_of(p.scene.lights[0]));
     photon_w = directional_photon_w(p, 4.0 * (1 << 20));
   }

@@ -3,6 +3,7 @@
 #include "compute/compute.h"
 #include "plan/plan.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/saved_jobs.h"
@@ -13,8 +14,8 @@
 
 using namespace nephroid;
 using namespace nephroid::test;
-using Estimator = preset::Spectral::Estimator;
-using Effort = preset::Spectral::Effort;
+using Estimator = spectral::Settings::Estimator;
+using Effort = spectral::Settings::Effort;
 
 namespace {
 
@@ -37,11 +38,11 @@ preset::Preset glass_in_view(Estimator estimator, Effort effort = Effort::power)
   p.scene.lights = {lamp, second};
   p.scene.camera.position = {0, 1.5, 4};
   p.scene.camera.target = {0, 0.5, 0};
-  p.spectral.direct = true;
-  p.spectral.estimator = estimator;
-  p.spectral.effort = effort;
-  p.spectral.threshold_deg = 3;
-  p.spectral.photons_per_pass = 1 << 15;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).estimator = estimator;
+  spectral::settings(p).effort = effort;
+  spectral::settings(p).threshold_deg = 3;
+  spectral::settings(p).photons_per_pass = 1 << 15;
   p.stop.passes = 3;
   return p;
 }
@@ -58,8 +59,8 @@ protected:
   static preset::Preset preset()
   {
     preset::Preset p = glass_in_view(GetParam().estimator, GetParam().effort);
-    p.spectral.jitter = GetParam().jitter;
-    p.spectral.low_discrepancy = GetParam().jitter;
+    spectral::settings(p).jitter = GetParam().jitter;
+    spectral::settings(p).low_discrepancy = GetParam().jitter;
     return p;
   }
 };
@@ -71,7 +72,7 @@ TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits)
   const preset::Preset p = preset();
   const scene::Scene scene = scene::load_scene(p);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const plan::Plan plan = spectral::make_plan(p, scene, bvh);
+  const spectral::RunPlan plan = spectral::make_plan(p, scene, bvh);
   const auto make = [&] { return spectral::make_job(p, scene, bvh, plan, shared_context()); };
   const auto whole = make();
   while (!whole->finished()) whole->step();
@@ -92,7 +93,7 @@ TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits)
   const job::Snapshot resumed = job->snapshot();
   EXPECT_EQ(resumed.picture->rgb, truth.picture->rgb);
   EXPECT_EQ(resumed.picture->error_draw, truth.picture->error_draw);
-  EXPECT_EQ(resumed.energy.emitted_w, truth.energy.emitted_w);
+  EXPECT_EQ(spectral::energy_of(resumed).emitted_w, spectral::energy_of(truth).emitted_w);
   EXPECT_EQ(truth.picture->error_draw.empty(), GetParam().estimator == Estimator::sppm);
   EXPECT_GT(*std::max_element(truth.picture->rgb.begin(), truth.picture->rgb.end()), 0);
   EXPECT_THROW(test::load(*make(), std::vector<std::byte>(100)), Error);
@@ -103,8 +104,8 @@ TEST_P(MapRuns, SendTheLampsPower)
 {
   preset::Preset splat = glass_in_view(Estimator::splat);
   preset::Preset p = preset();
-  splat.spectral.direct = p.spectral.direct = false;
-  const job::EnergyBalance truth = render(splat).energy, energy = render(p).energy;
+  spectral::settings(splat).direct = spectral::settings(p).direct = false;
+  const spectral::EnergyBalance truth = spectral::energy_of(render(splat)), energy = spectral::energy_of(render(p));
   // The same spheres are aimed at, so every photon carries what is sent there, but for places where spheres overlap.
   EXPECT_NEAR((energy.deposited_w + energy.missed_w + energy.absorbed_w + energy.escaped_w + energy.lost_w) / energy.emitted_w, 1, 1e-6);
   EXPECT_EQ(energy.refused_contributions, 0u);
@@ -160,7 +161,7 @@ TEST(MapPlan, SaysWhereARadiusLosesTheCaustics)
   // Pixels cover some 0.1 units, and the scene is 8 units across.
   const auto notes = [](double radius, Estimator estimator) {
     preset::Preset p = glass_in_view(estimator);
-    p.spectral.sppm.radius = radius;
+    spectral::settings(p).sppm.radius = radius;
     std::vector<std::string> all = plan_of(p).notes;
     std::erase_if(all, [](const std::string& note) { return !note.starts_with("spectral."); }); // N-SF66 starts at 390 nm
     return all;
@@ -178,9 +179,9 @@ TEST(MapPlan, SaysWhereARadiusLosesTheCaustics)
 TEST(MapPlan, SppmTakesTwentyBytesForEachPixelInEachCluster)
 {
   preset::Preset p = glass_in_view(Estimator::sppm);
-  p.spectral.method = preset::Spectral::Method::brute_force;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
   EXPECT_EQ(bytes_of(plan_of(p), "statistics of pixels"), 401u * 400 * 20);
-  p.spectral.effort = Effort::random;
+  spectral::settings(p).effort = Effort::random;
   EXPECT_EQ(bytes_of(plan_of(p), "statistics of pixels"), 400u * 20);
 }
 

@@ -18,7 +18,7 @@
 
 using namespace nephroid;
 using namespace nephroid::test;
-using Estimator = preset::Spectral::Estimator;
+using Estimator = spectral::Settings::Estimator;
 
 namespace {
 
@@ -42,9 +42,9 @@ preset::Preset lit_floor(double n)
   p.scene.camera.target = {0, -1, 0};
   p.scene.camera.up = {0, 0, -1};
   p.scene.camera.fov_deg = 6; // R as at normal incidence, to 1e-5
-  p.spectral.estimator = Estimator::automatic;
-  p.spectral.sppm.radius = 0.05;
-  p.spectral.photons_per_pass = 1 << 15;
+  spectral::settings(p).estimator = Estimator::automatic;
+  spectral::settings(p).sppm.radius = 0.05;
+  spectral::settings(p).photons_per_pass = 1 << 15;
   p.stop.passes = 32;
   return p;
 }
@@ -57,7 +57,7 @@ TEST_P(MapEstimators, FloorSeenThroughAPlate)
 {
   constexpr double n = 1.6;
   preset::Preset p = lit_floor(n);
-  p.spectral.estimator = GetParam();
+  spectral::settings(p).estimator = GetParam();
   const double r = optics::fresnel_reflectance(1, 1, n), truth = std::pow((1 - r) / (1 + r), 2) / M_PI;
   const Estimate figure = render_passes(p, mean_luminance)[0];
   expect_truth("maps: radiance of a lit floor through a plate, over its truth", figure.mean / truth, 1, tolerance(figure) / truth);
@@ -69,7 +69,7 @@ TEST_P(MapEstimators, FloorSeenInAMirror)
 {
   constexpr double n = 1.6;
   preset::Preset p = lit_floor(n);
-  p.spectral.estimator = GetParam();
+  spectral::settings(p).estimator = GetParam();
   p.scene.objects.push_back(object("mirror", quad(0.5, 0.5), "mirror", at({0, -0.5, 0}, {135, 0, 0})));
   p.scene.objects[0].transform.translate = {-2, 0, 0};
   p.scene.lights[0].direction = {2, -1, 0};
@@ -88,7 +88,7 @@ TEST_P(MapEstimators, FloorSeenInAMirror)
 TEST_P(MapEstimators, ASheetIsDarkOnItsOtherSide)
 {
   preset::Preset p = lit_floor(1.6);
-  p.spectral.estimator = GetParam();
+  spectral::settings(p).estimator = GetParam();
   p.stop.passes = 2;
   p.scene.objects.push_back(object("window", box(1, 0.02, 1), "glass", at({0, -2, 0})));
   EXPECT_GT(mean_luminance(render(p))[0], 0.1);
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MapEstimators, testing::Values(Estimator::a
 TEST(PhotonMaps, SplatsAloneShowNothingBehindGlass)
 {
   preset::Preset p = lit_floor(1.6);
-  p.spectral.estimator = Estimator::splat;
+  spectral::settings(p).estimator = Estimator::splat;
   p.stop.passes = 2;
   EXPECT_EQ(mean_luminance(render(p))[0], 0);
 }
@@ -190,9 +190,9 @@ preset::Preset ball_caustic()
   p.scene.camera.position = {1.2, 2.5, 0.01};
   p.scene.camera.target = {1.2, 0, 0};
   p.scene.camera.fov_deg = 30;
-  p.spectral.threshold_deg = 3;
-  p.spectral.jitter = false;
-  p.spectral.photons_per_pass = 1 << 16;
+  spectral::settings(p).threshold_deg = 3;
+  spectral::settings(p).jitter = false;
+  spectral::settings(p).photons_per_pass = 1 << 16;
   p.stop.passes = 24;
   return p;
 }
@@ -200,16 +200,16 @@ preset::Preset ball_caustic()
 /// Radius of a fraction of a pixel's width on the floor.
 void set_radius(preset::Preset& p, double pixels)
 {
-  p.spectral.sppm.radius = pixels * 2 * 2.5 * std::tan(p.scene.camera.fov_deg / 2 * degree) / size;
+  spectral::settings(p).sppm.radius = pixels * 2 * 2.5 * std::tan(p.scene.camera.fov_deg / 2 * degree) / size;
 }
 
 TEST(PhotonMaps, SppmIsWhatSplatsAre)
 {
   preset::Preset splat = ball_caustic(), sppm = splat;
   sppm.seed = 77;
-  sppm.spectral.estimator = Estimator::sppm;
-  sppm.spectral.effort = preset::Spectral::Effort::equal;
-  sppm.spectral.photons_per_pass = 1 << 14;
+  spectral::settings(sppm).estimator = Estimator::sppm;
+  spectral::settings(sppm).effort = spectral::Settings::Effort::equal;
+  spectral::settings(sppm).photons_per_pass = 1 << 14;
   set_radius(sppm, 0.4);
   expect_same_picture("sppm against splats", render_passes(sppm, block_sums), render_passes(splat, block_sums), 0.4);
 }
@@ -219,17 +219,17 @@ TEST(PhotonMaps, AWindowChangesNothing)
 {
   preset::Preset splat = ball_caustic(), maps = splat;
   maps.seed = 78;
-  maps.spectral.estimator = Estimator::automatic;
+  spectral::settings(maps).estimator = Estimator::automatic;
   maps.scene.materials["air"] = glass(1.00001);
   maps.scene.objects.push_back(object("window", box(0.6, 0.01, 0.6), "air", at({1.2, 2.2, 0})));
   set_radius(maps, 0.4);
   for (const bool jitter : {false, true}) {
-    splat.spectral.jitter = maps.spectral.jitter = jitter;
+    spectral::settings(splat).jitter = spectral::settings(maps).jitter = jitter;
     // Of each cluster a pass has one wavelength: many passes. On a grey floor most wavelengths bring as much X + Y + Z.
     if (jitter)
       for (preset::Preset* p : {&splat, &maps}) {
         p->scene.materials["floor"] = white(0.8);
-        p->spectral.photons_per_pass = 1 << 15;
+        spectral::settings(*p).photons_per_pass = 1 << 15;
         p->stop.passes = 110;
       }
     expect_same_picture(jitter ? "jittered maps through a window" : "maps through a window", render_passes(maps, block_sums),
@@ -252,12 +252,12 @@ TEST(PhotonMaps, AMirrorShowsWhatTheMirroredCameraSees)
   splat.scene.camera.fov_deg = 16;
   preset::Preset maps = splat;
   maps.seed = 79;
-  maps.spectral.estimator = Estimator::automatic;
+  spectral::settings(maps).estimator = Estimator::automatic;
   maps.scene.materials["mirror"] = check::mirror(1);
   maps.scene.objects.push_back(object("mirror", quad(4, 2), "mirror", at({0, 1.02, -1.5}, {90, 0, 0})));
   maps.scene.camera.position[2] = 1; // mirrored about z = -1.5
   maps.scene.camera.target[2] = -3;
-  maps.spectral.sppm.radius = 0.4 * 2 * 4.4 * std::tan(8 * degree) / size;
+  spectral::settings(maps).sppm.radius = 0.4 * 2 * 4.4 * std::tan(8 * degree) / size;
   const auto mirrored = [](const job::Snapshot& snapshot) {
     std::vector<double> figures = block_sums(snapshot);
     for (auto row = figures.begin(); row + 1 != figures.end(); row += blocks) std::reverse(row, row + blocks);

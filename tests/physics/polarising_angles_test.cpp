@@ -5,6 +5,7 @@
 #include "compute/compute.h"
 #include "optics/fresnel.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/test_kernels.h"
@@ -32,9 +33,9 @@ double share_above(double theta, double n, double from_below)
   // A ray that leaves at cos(t) = 1e-3 meets a catcher at 0.01 within 10 m. Light from above starts below the catcher.
   const double s = 0.008 * std::sin(theta), c = 0.008 * std::cos(theta);
   p.scene.lights = {pencil({-s, -c * from_below, 0}, {s, c * from_below, 0}, 1e-6)};
-  p.spectral.photons_per_pass = photons;
-  p.spectral.max_surfaces = 1;
-  const job::EnergyBalance e = render(p).energy;
+  spectral::settings(p).photons_per_pass = photons;
+  spectral::settings(p).max_surfaces = 1;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p));
   EXPECT_NEAR(e.emitted_w, 1, 1e-6);
   return e.deposited_w / e.emitted_w;
 }

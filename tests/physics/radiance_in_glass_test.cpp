@@ -34,8 +34,8 @@ TEST(RadianceInGlass, IsDividedByTheSquareOfTheIndexOnTheWayOut)
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.up = {0, 0, -1};
   p.scene.camera.fov_deg = 1; // over 4 cm the radiance is linear to 1e-3, and R that of normal incidence
-  p.spectral.direct = true;
-  p.spectral.caustic = false;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).caustic = false;
   p.stop.passes = 64;
 
   double mean = 0;

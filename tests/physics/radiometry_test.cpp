@@ -4,6 +4,7 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
@@ -77,7 +78,7 @@ Ratio compare(const job::Snapshot& snapshot, const std::string& name, const Trut
 TEST(Radiometry, DirectLightOfAPoint)
 {
   preset::Preset p = floor_preset();
-  p.spectral.direct = true;
+  spectral::settings(p).direct = true;
   p.stop.passes = 64;
   const double intensity = p.scene.lights[0].power_w / (4 * M_PI);
   const Ratio r = compare(render(p), "direct", [&](double x, double z) { return irradiance_of_point(p.scene.lights[0], intensity, x, z); });
@@ -88,7 +89,7 @@ TEST(Radiometry, DirectLightOfAPoint)
 TEST(Radiometry, DirectLightOfASpotInsideItsCone)
 {
   preset::Preset p = floor_preset();
-  p.spectral.direct = true;
+  spectral::settings(p).direct = true;
   p.stop.passes = 64;
   preset::Light& light = p.scene.lights[0];
   light.type = preset::Light::Type::spot;
@@ -101,7 +102,7 @@ TEST(Radiometry, DirectLightOfASpotInsideItsCone)
 TEST(Radiometry, DirectLightOfADirectionalLight)
 {
   preset::Preset p = floor_preset();
-  p.spectral.direct = true;
+  spectral::settings(p).direct = true;
   p.stop.passes = 4;
   preset::Light& light = p.scene.lights[0];
   light.type = preset::Light::Type::directional;
@@ -116,7 +117,7 @@ TEST(Radiometry, DirectLightOfADirectionalLight)
 TEST(Radiometry, DirectLightOfASmallAreaLight)
 {
   preset::Preset p = floor_preset();
-  p.spectral.direct = true;
+  spectral::settings(p).direct = true;
   p.stop.passes = 64;
   preset::Light& light = p.scene.lights[0];
   light.type = preset::Light::Type::area;
@@ -147,7 +148,7 @@ TEST_P(Photons, ThroughNothingMakeTheDirectPicture)
   light.size = {0.01, 0.01};
   light.up = {0, 0, 1};
   p.stop.passes = 16;
-  p.spectral.photons_per_pass = 1 << 18;
+  spectral::settings(p).photons_per_pass = 1 << 18;
   const double cone = 2 * M_PI * (1 - std::cos(75 * M_PI / 180));
   const double length = std::hypot(0.3, 1, 0.2);
   const auto truth = [&](double x, double z) {
@@ -171,7 +172,7 @@ TEST_P(Photons, ThroughNothingMakeTheDirectPicture)
   // 16 % noise, and 0.5 % for the mean over all pixels; the rms over 1024 pixels is then known to 0.4 %. Six standard deviations of each.
   expect_truth("radiometry: power through n = 1 over direct light", r.mean, 1, 0.031);
   EXPECT_LT(r.rms, 0.185);
-  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
 }
 
 std::string light_name(const testing::TestParamInfo<preset::Light::Type>& parameter)

@@ -63,8 +63,8 @@ preset::Preset glass_between()
 {
   preset::Preset p = empty_preset();
   p.scene.materials["white"] = white();
-  p.spectral.photons_per_pass = 1 << 15;
-  p.spectral.max_surfaces = 200;
+  spectral::settings(p).photons_per_pass = 1 << 15;
+  spectral::settings(p).max_surfaces = 200;
   p.stop.passes = 64;
   return p;
 }
@@ -154,8 +154,8 @@ TEST(Reciprocity, TheEyeSeesThroughGlassWhatPhotonsBring)
     eye.scene.objects.push_back(object("patch", quad(patch.u, patch.v), "white", at(patch.centre, patch.rotate_deg)));
     eye.scene.lights = {parallel_light({1, 0.7, 0})}; // it passes the glass at 0.59 and more
     eye.scene.lights[0].irradiance_w_m2 = M_PI * std::hypot(1, 0.7) / 0.7;
-    eye.spectral.direct = true;
-    eye.spectral.caustic = false;
+    spectral::settings(eye).direct = true;
+    spectral::settings(eye).caustic = false;
     eye.stop.passes = 4;
     constexpr std::array<double, 4> place{-0.8611363116, -0.3399810436, 0.3399810436, 0.8611363116},
         weight{0.1739274226, 0.3260725774, 0.3260725774, 0.1739274226}; // Gauss and Legendre, of four points

@@ -5,6 +5,7 @@
 #include "optics/dispersion.h"
 #include "optics/fresnel.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 // ---- Plate -----------------------------------------------------------------------------------------------------------------
 // A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m that lies in y = 0; a floor below catches what goes through.
-job::EnergyBalance through_plate(double theta_deg, double n, int photons)
+spectral::EnergyBalance through_plate(double theta_deg, double n, int photons)
 {
   preset::Preset p = empty_preset(16);
   p.scene.materials["glass"] = glass(n);
@@ -31,9 +32,9 @@ job::EnergyBalance through_plate(double theta_deg, double n, int photons)
   p.scene.lights.push_back(pencil({-0.1 * s, 0.5e-3 + 0.1 * c, 0}, {s, -c, 0}, 0.01));
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
-  p.spectral.photons_per_pass = photons;
-  p.spectral.max_surfaces = 200;
-  const job::EnergyBalance e = render(p).energy;
+  spectral::settings(p).photons_per_pass = photons;
+  spectral::settings(p).max_surfaces = 200;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p));
   EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
   EXPECT_EQ(e.missed_w, 0);
   EXPECT_EQ(e.lost_w, 0);
@@ -46,7 +47,7 @@ TEST_P(Plate, TransmittanceIsFresnels)
 {
   constexpr double n = 1.5;
   constexpr int photons = 1 << 20;
-  const job::EnergyBalance e = through_plate(GetParam(), n, photons);
+  const spectral::EnergyBalance e = through_plate(GetParam(), n, photons);
   expect_share("plate: transmittance at " + std::to_string(GetParam()) + " degrees", e.deposited_w / e.emitted_w,
                check::plate_transmittance(GetParam() * degree, n), photons);
   EXPECT_NEAR(e.emitted_w, 1, 1e-4); // the whole pencil
@@ -68,19 +69,19 @@ TEST(AbsorbingPlate, TransmittanceFollowsBeerAndLambert)
   p.scene.objects = {object("plate", box(1, 0.05, 1), "glass"), object("floor", quad(100, 100), "white", at({0, -1, 0}))};
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
-  p.spectral.photons_per_pass = 1 << 18;
-  p.spectral.method = preset::Spectral::Method::brute_force;
+  spectral::settings(p).photons_per_pass = 1 << 18;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
   const optics::DispersionCurve curve = optics::load_dispersion(absorbing.dispersion.file);
   for (const double nm : {400.0, 436.0, 500.0, 660.0}) {
     p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05, nm)};
     const optics::IndexSample s = curve.sample(nm);
     const double r = std::pow((*s.n - 1) / (*s.n + 1), 2), tau = std::exp(-4 * M_PI * *s.k * 0.05 / (nm * 1e-9));
     const double truth = std::pow(1 - r, 2) * tau / (1 - r * r * tau * tau);
-    const job::EnergyBalance e = render(p).energy;
+    const spectral::EnergyBalance e = spectral::energy_of(render(p));
     const double measured = e.deposited_w / e.emitted_w;
     // Each photon that gets through carries tau, so the count's error is that of the number of those.
     expect_truth("absorbing plate: transmittance at " + std::to_string(static_cast<int>(nm)) + " nm", measured, truth,
-                 sigmas * std::sqrt(truth * tau / p.spectral.photons_per_pass));
+                 sigmas * std::sqrt(truth * tau / spectral::settings(p).photons_per_pass));
     EXPECT_NEAR(e.deposited_w + e.absorbed_w + e.escaped_w, e.emitted_w, 1e-6);
   }
 }
@@ -128,8 +129,8 @@ preset::Preset prism_before_screen(const std::string& glass_file)
   prism.side = prism.height = prism_side;
   prism.apex_deg = 60;
   p.scene.objects = {object("prism", prism, "glass"), object("screen", quad(4, 4), "white", at({0, 0, screen_z}, {90, 0, 0}))};
-  p.spectral.method = preset::Spectral::Method::brute_force;
-  p.spectral.photons_per_pass = 1 << 15;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).photons_per_pass = 1 << 15;
   return p;
 }
 
@@ -178,8 +179,8 @@ TEST(Nested, OverlappingBoxesOfOneGlassAreOne)
   p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
-  p.spectral.photons_per_pass = 1 << 18;
-  const job::EnergyBalance e = render(p).energy;
+  spectral::settings(p).photons_per_pass = 1 << 18;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p));
   const double r = std::pow(0.8 / 2.8, 2), truth = (1 - r) / (1 + r);
   expect_share("nested: transmittance of overlapping boxes of one glass", e.deposited_w / e.emitted_w, truth, 1 << 18);
 }
@@ -196,9 +197,9 @@ TEST(Nested, AirInsideGlassMakesTwoPlates)
   p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
-  p.spectral.photons_per_pass = 1 << 18;
-  p.spectral.max_surfaces = 200;
-  const job::EnergyBalance e = render(p).energy;
+  spectral::settings(p).photons_per_pass = 1 << 18;
+  spectral::settings(p).max_surfaces = 200;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p));
   const double r = std::pow(0.8 / 2.8, 2), truth = (1 - r) / (1 + 3 * r);
   expect_share("nested: transmittance of a bubble of air in glass", e.deposited_w / e.emitted_w, truth, 1 << 18);
 }
@@ -219,9 +220,9 @@ double standing_on(const preset::Object& below, const char* catcher, bool glass_
   p.scene.lights = {pencil({0.1, 1, 0.07}, {0, -1, 0}, 0.05)};
   p.scene.camera.position = {0, 3, 0};
   p.scene.camera.up = {0, 0, -1};
-  p.spectral.photons_per_pass = 1 << 17;
-  p.spectral.max_surfaces = 200;
-  const job::EnergyBalance e = render(p).energy;
+  spectral::settings(p).photons_per_pass = 1 << 17;
+  spectral::settings(p).max_surfaces = 200;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p));
   EXPECT_EQ(e.lost_w, 0);
   return e.deposited_w / e.emitted_w;
 }
@@ -255,9 +256,9 @@ TEST(TotalReflection, ACubeKeepsWhatIsOutsideItsCones)
   light.spectrum = line(550);
   p.scene.lights = {light};
   constexpr int photons = 1 << 16;
-  p.spectral.photons_per_pass = photons;
-  p.spectral.max_surfaces = 300;
-  const job::EnergyBalance e = render(p).energy;
+  spectral::settings(p).photons_per_pass = photons;
+  spectral::settings(p).max_surfaces = 300;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p));
   // Inside a cone a photon comes back to a face of the same kind at the same angle until it is let out: all of it leaves.
   const double critical = *optics::critical_angle_deg(n, 1) * degree, truth = 6 * (1 - std::cos(critical)) / 2;
   expect_share("total reflection: light that leaves a cube of n = 2", e.deposited_w / e.emitted_w, truth, photons);

@@ -37,7 +37,7 @@ TEST(Slab, MovesLightSideways)
     preset::Preset p = plate_over_floor(d);
     const double theta = theta_deg * degree, t = std::asin(std::sin(theta) / n), truth = d * (std::tan(theta) - std::tan(t));
     p.scene.lights = {pencil({-2 * std::tan(theta), 1, 0}, {std::sin(theta), -std::cos(theta), 0}, 0.02)}; // aims at (0, -1, 0)
-    p.spectral.photons_per_pass = photons;
+    spectral::settings(p).photons_per_pass = photons;
     const Screen screen{{-truth, -1, 0}, 0.02, 100};
     screen.fill(p.scene.camera, 0.5);
     const std::vector<double> picture = watts(render(p), "caustic", screen, spectrum_of(p.scene.lights[0]));
@@ -69,7 +69,7 @@ TEST(Slab, LeavesIrradianceUniform)
     preset::Preset p = plate_over_floor(0.02);
     const double theta = theta_deg * degree;
     p.scene.lights = {parallel_light({std::sin(theta), -std::cos(theta), 0})};
-    p.spectral.photons_per_pass = 1 << 20;
+    spectral::settings(p).photons_per_pass = 1 << 20;
     p.stop.passes = 4;
     const Screen screen{{std::tan(theta), -1, 0}, 1.5, 32}; // where light that met the plate's middle lands
     screen.fill(p.scene.camera, 0.5);

@@ -44,10 +44,10 @@ preset::Preset lit_receiver(const preset::Object& receiver, bool plate)
   p.scene.camera.position = {0.4, 1.2, 2.5};
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.fov_deg = 26;
-  p.spectral.direct = !plate;
-  p.spectral.caustic = plate;
-  p.spectral.photons_per_pass = 1 << 16;
-  p.stop.passes = p.spectral.pixel_samples = 32;
+  spectral::settings(p).direct = !plate;
+  spectral::settings(p).caustic = plate;
+  spectral::settings(p).photons_per_pass = 1 << 16;
+  p.stop.passes = spectral::settings(p).pixel_samples = 32;
   return p;
 }
 
@@ -90,7 +90,7 @@ TEST(SmoothReceiver, ACoarseBallIsLitAsDirectly)
   const preset::Object ball = object("receiver", check::ball(0.5, 8), "white");
   for (const bool relight : {false, true}) {
     preset::Preset with_plate = lit_receiver(ball, true), without = lit_receiver(ball, false);
-    with_plate.spectral.relight = without.spectral.relight = relight;
+    spectral::settings(with_plate).relight = spectral::settings(without).relight = relight;
     expect_lit_as_directly(relight ? "smooth ball, layers" : "smooth ball", with_plate, without);
   }
 }
@@ -126,8 +126,8 @@ TEST(SmoothReceiver, PhotonMapsKnowTheNormalsToo)
   const preset::Object square = leaning_square(folder.path());
   preset::Preset with_plate = lit_receiver(square, true), without = lit_receiver(square, false);
   for (preset::Preset* p : {&with_plate, &without}) p->scene.camera.fov_deg = 6; // well inside, where a map has no edge
-  with_plate.spectral.estimator = preset::Spectral::Estimator::sppm;
-  with_plate.spectral.sppm.radius = 0.05;
+  spectral::settings(with_plate).estimator = spectral::Settings::Estimator::sppm;
+  spectral::settings(with_plate).sppm.radius = 0.05;
   expect_lit_as_directly("leaning square, photon maps", with_plate, without, 0.01);
 }
 
@@ -149,9 +149,9 @@ TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals)
   p.scene.camera.position = {-2, 1, 0};
   p.scene.camera.target = {0.6, 0.5, 0};
   p.scene.camera.fov_deg = 15; // of the wall alone
-  p.spectral.caustic = false;
-  p.spectral.indirect = true;
-  p.spectral.photons_per_pass = 1 << 13;
+  spectral::settings(p).caustic = false;
+  spectral::settings(p).indirect = true;
+  spectral::settings(p).photons_per_pass = 1 << 13;
   p.stop.passes = 24;
   const Estimate faceted = render_passes(p, blocks_of).back();
   p.scene.objects[0].normals = preset::Object::Normals::smooth;

@@ -28,9 +28,9 @@ preset::Preset ball(int passes, bool smoothing)
   p.scene.lights[0].position = {1, 3, 1};
   p.scene.objects[0].normals = preset::Object::Normals::smooth; // facets would cast a pattern of dots
   p.scene.objects[1].transform.translate = {0, -2, 0};          // beyond the focus: a disc, not a spot
-  p.spectral.photons_per_pass = 4096;
-  p.spectral.direct = false;
-  p.spectral.smoothing = smoothing;
+  spectral::settings(p).photons_per_pass = 4096;
+  spectral::settings(p).direct = false;
+  spectral::settings(p).smoothing = smoothing;
   p.stop.passes = passes;
   return p;
 }
@@ -82,7 +82,7 @@ preset::Preset behind_a_window(bool smoothing)
   p.scene.objects.back().transform.scale = {4, 0.1, 4};
   p.scene.objects.back().transform.rotate_deg = {45, 0, 0};
   p.scene.objects.back().transform.translate = {0, 0.94, 2.94};
-  p.spectral.photons_per_pass = 2048;
+  spectral::settings(p).photons_per_pass = 2048;
   return p;
 }
 
@@ -112,7 +112,7 @@ TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
 TEST(SmoothedRun, leaves_other_layers_alone)
 {
   preset::Preset plain = ball(2, false), smooth = ball(2, true);
-  plain.spectral.direct = smooth.spectral.direct = true;
+  spectral::settings(plain).direct = spectral::settings(smooth).direct = true;
   const job::Snapshot a = test::render(plain), b = test::render(smooth);
   EXPECT_EQ(test::layer(a, "direct").rgb, test::layer(b, "direct").rgb);
   EXPECT_NE(test::layer(a, "caustic").rgb, test::layer(b, "caustic").rgb);
@@ -128,7 +128,7 @@ TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
   EXPECT_FALSE(smoothing_pass(whole).runs);
   EXPECT_EQ(smoothing_pass(whole).field, "/measure/estimate");
   EXPECT_TRUE(smoothing_pass(whole).run_value);
-  sppm.spectral.estimator = preset::Spectral::Estimator::sppm;
+  spectral::settings(sppm).estimator = spectral::Settings::Estimator::sppm;
   EXPECT_FALSE(smoothing_pass(sppm).runs);
   EXPECT_EQ(smoothing_pass(sppm).field, "");
 }

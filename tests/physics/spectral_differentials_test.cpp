@@ -3,7 +3,7 @@
 // where Snell puts it, and no light is made or lost at the receiver's edge.
 #include "check/closed_forms.h"
 #include "optics/fresnel.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 #include "tests/support/closed_form.h"
 
 #include <fmt/format.h>
@@ -50,8 +50,8 @@ public:
     const glm::dvec2 from = turned({path.from_x, path.from_z}), direction = turned({path.direction_x, path.direction_z});
     p_.scene.lights[0] = pencil({from.x, from.y, 0}, {direction.x, direction.y, 0}, 0.001);
     p_.scene.lights[0].spectrum = {};
-    p_.spectral.method = preset::Spectral::Method::brute_force;
-    p_.spectral.photons_per_pass = 1 << 17;
+    spectral::settings(p_).method = spectral::Settings::Method::brute_force;
+    spectral::settings(p_).photons_per_pass = 1 << 17;
     see(landing(index(560)), landing(index(700)));
   }
 
@@ -189,7 +189,7 @@ TEST(SpectralDifferentials, CloseTheGapsBetweenTheLinesOfARainbow)
 {
   Newton newton;
   const Columns lines = newton.rendered(render(newton.preset()));
-  newton.preset().spectral.differentials = true;
+  spectral::settings(newton.preset()).differentials = true;
   const Columns band = newton.rendered(render(newton.preset())), truth = newton.truth();
   record("columns without light: lines", dark(lines), 0, 1);
   record("columns without light: stretched", dark(band), 0, 0);
@@ -205,8 +205,8 @@ TEST(SpectralDifferentials, CloseTheGapsBetweenTheLinesOfARainbow)
 TEST(SpectralDifferentials, PutEachWavelengthWhereSnellPutsIt)
 {
   Newton newton;
-  newton.preset().spectral.differentials = true;
-  newton.preset().spectral.photons_per_pass = 1 << 14;
+  spectral::settings(newton.preset()).differentials = true;
+  spectral::settings(newton.preset()).photons_per_pass = 1 << 14;
   double worst = 0;
   for (const double nm : {570.0, 600.0, 630.0, 660.0, 690.0}) {
     newton.preset().scene.lights[0].spectrum = line(nm);
@@ -236,13 +236,13 @@ TEST(SpectralDifferentials, SpreadWholeClustersWithAndWithoutJitter)
     bool jitter;
   };
   Newton newton;
-  newton.preset().spectral.method = preset::Spectral::Method::optimal;
-  newton.preset().spectral.photons_per_pass = 1 << 18;
-  newton.preset().spectral.differentials = true;
+  spectral::settings(newton.preset()).method = spectral::Settings::Method::optimal;
+  spectral::settings(newton.preset()).photons_per_pass = 1 << 18;
+  spectral::settings(newton.preset()).differentials = true;
   const Columns truth = newton.truth();
   for (const Case& c : {Case{0.05, false}, Case{0.05, true}, Case{1, true}}) {
-    newton.preset().spectral.threshold_deg = c.threshold_deg;
-    newton.preset().spectral.jitter = c.jitter;
+    spectral::settings(newton.preset()).threshold_deg = c.threshold_deg;
+    spectral::settings(newton.preset()).jitter = c.jitter;
     const Columns band = newton.rendered(render(newton.preset()));
     const std::string what = fmt::format("clusters of {} degrees{}", c.threshold_deg, c.jitter ? ", jittered" : "");
     record(what + ": mean error of a column", mean_error(band, truth), 0, 0.15);
@@ -256,15 +256,15 @@ TEST(SpectralDifferentials, SpreadWholeClustersWithAndWithoutJitter)
 TEST(SpectralDifferentials, KeepTheLightAtTheEdgeOfAReceiver)
 {
   Newton newton;
-  newton.preset().spectral.jitter = true;
-  newton.preset().spectral.method = preset::Spectral::Method::optimal;
-  newton.preset().spectral.threshold_deg = 0.05;
+  spectral::settings(newton.preset()).jitter = true;
+  spectral::settings(newton.preset()).method = spectral::Settings::Method::optimal;
+  spectral::settings(newton.preset()).threshold_deg = 0.05;
   const double edge = newton.landing(newton.index(640));
   newton.preset().scene.objects[1].shape->size = {edge - 0.3, 1, 1};
   newton.preset().scene.objects[1].transform.translate = {(edge + 0.3) / 2, -drop, 0};
   const int last = static_cast<int>((edge - newton.left()) / newton.pixel());
   const Columns points = newton.rendered(render(newton.preset()));
-  newton.preset().spectral.differentials = true;
+  spectral::settings(newton.preset()).differentials = true;
   const Columns band = newton.rendered(render(newton.preset()));
   EXPECT_NEAR(sum_of(band, 1) / sum_of(points, 1), 1, 0.02);
   for (int i = last + 1; i < columns; ++i) EXPECT_EQ(band[static_cast<std::size_t>(i)][1], 0) << i << " beyond " << last;
@@ -278,7 +278,7 @@ TEST(SpectralDifferentials, AreHiddenByWhatStandsBeforeThem)
                middle = newton.left() + columns / 2 * newton.pixel(); // the camera is 2 + drop above the receiver
   const double from = middle + (400 - columns / 2) * newton.pixel() / 2, to = middle + (600 - columns / 2) * newton.pixel() / 2;
   newton.preset().scene.objects.push_back(object("strip", quad(to - from, 1), "white", at({(from + to) / 2, half_way, 0})));
-  newton.preset().spectral.differentials = true;
+  spectral::settings(newton.preset()).differentials = true;
   const Columns band = newton.rendered(render(newton.preset())), truth = newton.truth();
   double seen = 0, expected = 0;
   for (std::size_t i = 0; i < columns; ++i) {
@@ -296,7 +296,7 @@ TEST(SpectralDifferentials, AreHiddenByWhatStandsBeforeThem)
 TEST(SpectralDifferentials, AreLeftOutWhereNothingDisperses)
 {
   Newton newton;
-  newton.preset().spectral.differentials = true;
+  spectral::settings(newton.preset()).differentials = true;
   const auto plan_of = [](const preset::Preset& preset) {
     const scene::Scene scene = scene::load_scene(preset);
     return spectral::make_plan(preset, scene, scene::build_bvh(scene.geometry));

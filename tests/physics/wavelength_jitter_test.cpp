@@ -5,6 +5,7 @@
 #include "compute/compute.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
@@ -18,7 +19,7 @@ using namespace nephroid::test;
 
 namespace {
 
-using preset::Spectral;
+using spectral::Settings;
 
 /// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
 /// whole clusters, are independent, and are dealt by power: what a test is about it turns on.
@@ -35,9 +36,9 @@ preset::Preset dispersing_ball(bool absorbing)
     p.scene.materials["mirror"].reflectance.patch = "orange";
     p.scene.objects.push_back(object("mirror", quad(1, 1), "mirror", at({0.8, 0.05, 0})));
   }
-  p.spectral.photons_per_pass = 1 << 13;
-  p.spectral.jitter = p.spectral.low_discrepancy = false;
-  p.spectral.effort = Spectral::Effort::power;
+  spectral::settings(p).photons_per_pass = 1 << 13;
+  spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = false;
+  spectral::settings(p).effort = Spectral::Effort::power;
   p.stop.passes = 24;
   return p;
 }
@@ -53,7 +54,9 @@ std::vector<double> figures(const job::Snapshot& snapshot)
       for (int c = 0; c < 3; ++c)
         sums[static_cast<std::size_t>(3 * (3 * (row / block) + column / block) + c)] +=
             rgb[static_cast<std::size_t>(3 * (row * size + column) + c)];
-  for (const double watts : {snapshot.energy.emitted_w, snapshot.energy.deposited_w, snapshot.energy.absorbed_w}) sums.push_back(watts);
+  for (const double watts :
+       {spectral::energy_of(snapshot).emitted_w, spectral::energy_of(snapshot).deposited_w, spectral::energy_of(snapshot).absorbed_w})
+    sums.push_back(watts);
   return sums;
 }
 
@@ -73,19 +76,19 @@ class WavelengthJitter : public testing::TestWithParam<bool> {};
 TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce)
 {
   preset::Preset p = dispersing_ball(GetParam());
-  p.spectral.method = Spectral::Method::brute_force;
+  spectral::settings(p).method = Spectral::Method::brute_force;
   const std::vector<Estimate> truth = render_passes(p, figures);
   p.seed = 2;
-  p.spectral.method = Spectral::Method::optimal;
-  p.spectral.threshold_deg = 80; // one cluster
-  p.spectral.jitter = true;
+  spectral::settings(p).method = Spectral::Method::optimal;
+  spectral::settings(p).threshold_deg = 80; // one cluster
+  spectral::settings(p).jitter = true;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
   p.seed = 3;
-  p.spectral.low_discrepancy = true;
-  p.spectral.threshold_deg = 0.5;
+  spectral::settings(p).low_discrepancy = true;
+  spectral::settings(p).threshold_deg = 0.5;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
   p.seed = 4;
-  p.spectral.effort = Spectral::Effort::variance;
+  spectral::settings(p).effort = Spectral::Effort::variance;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
 }
 
@@ -95,11 +98,11 @@ INSTANTIATE_TEST_SUITE_P(, WavelengthJitter, testing::Bool(), [](const auto& tes
 TEST(WholeClusters, AreBiased)
 {
   preset::Preset p = dispersing_ball(false);
-  p.spectral.method = Spectral::Method::brute_force;
+  spectral::settings(p).method = Spectral::Method::brute_force;
   const std::vector<Estimate> truth = render_passes(p, figures);
   p.seed = 2;
-  p.spectral.method = Spectral::Method::optimal;
-  p.spectral.threshold_deg = 80;
+  spectral::settings(p).method = Spectral::Method::optimal;
+  spectral::settings(p).threshold_deg = 80;
   EXPECT_LT(p_of_same(render_passes(p, figures), truth), false_alarm);
 }
 
@@ -109,11 +112,11 @@ TEST(LowDiscrepancy, SpreadsPhotonsEvenly)
 {
   preset::Preset p = dispersing_ball(false);
   p.scene.materials["glass"].dispersion.coefficients = {1.000001};
-  p.spectral.direct = false;
-  p.spectral.photons_per_pass = 1 << 16;
+  spectral::settings(p).direct = false;
+  spectral::settings(p).photons_per_pass = 1 << 16;
   p.stop.passes = 4;
   const auto scatter = [&](bool low_discrepancy) {
-    p.spectral.low_discrepancy = low_discrepancy;
+    spectral::settings(p).low_discrepancy = low_discrepancy;
     p.seed = 1;
     const job::Snapshot a = render(p);
     p.seed = 2;
@@ -153,9 +156,9 @@ TEST(HalvesOfTheFilm, PhotonsFollowIndependentSequences)
 {
   preset::Preset p = dispersing_ball(false);
   p.scene.materials["glass"].dispersion.coefficients = {1.000001};
-  p.spectral.direct = false;
-  p.spectral.low_discrepancy = true;
-  p.spectral.photons_per_pass = 1 << 12;
+  spectral::settings(p).direct = false;
+  spectral::settings(p).low_discrepancy = true;
+  spectral::settings(p).photons_per_pass = 1 << 12;
   p.stop.passes = 2;
   const double ratio = believed_over_true_error(p);
   EXPECT_GT(ratio, 0.5);
@@ -171,8 +174,8 @@ TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters)
   p.scene.objects[0].transform.translate = {0, 2, 0};
   p.scene.lights[0].position = {0.3, 1.8, 0.2};
   p.scene.camera.position = {0, 6, 0.1};
-  p.spectral.method = Spectral::Method::brute_force;
-  p.spectral.caustic = false;
+  spectral::settings(p).method = Spectral::Method::brute_force;
+  spectral::settings(p).caustic = false;
   p.stop.passes = 2;
   const double ratio = believed_over_true_error(p);
   EXPECT_GT(ratio, 0.5);

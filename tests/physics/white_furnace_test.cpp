@@ -9,6 +9,7 @@
 // direct + caustic = rho L (1 - r).
 #include "compute/compute.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
@@ -60,9 +61,9 @@ preset::Preset furnace(const std::vector<preset::Object>& things)
       p.scene.lights.push_back(area_light(position, direction, cube));
     }
   screen.fill(p.scene.camera, 0.1);
-  p.spectral.direct = true;
-  p.spectral.photons_per_pass = 1 << 15;
-  p.spectral.max_surfaces = 400;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).photons_per_pass = 1 << 15;
+  spectral::settings(p).max_surfaces = 400;
   p.stop.passes = 64;
   return p;
 }
@@ -73,9 +74,9 @@ double returning_share(preset::Preset p)
   preset::Vec3 above = screen.centre;
   above[1] += 1e-4;
   p.scene.lights = {area_light(above, {0, 1, 0}, receiver_side)};
-  p.spectral.direct = false;
+  spectral::settings(p).direct = false;
   p.stop.passes = 4;
-  return render(p).energy.deposited_w / p.scene.lights[0].power_w;
+  return spectral::energy_of(render(p)).deposited_w / p.scene.lights[0].power_w;
 }
 
 preset::Object ball(const std::string& name, double radius, const std::string& material, double x, preset::Object::Normals normals,
@@ -116,10 +117,10 @@ TEST_P(WhiteFurnace, NothingInItCanBeSeen)
   const preset::Preset p = furnace(GetParam().things);
   const double truth = reflectance * radiance * optics::to_xyz(spectrum_of(p.scene.lights[0]))[1], r = returning_share(p);
   EXPECT_LT(r, 0.04);
-  job::EnergyBalance energy;
+  spectral::EnergyBalance energy;
   constexpr std::size_t squares = groups * groups;
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
-    energy = snapshot.energy;
+    energy = spectral::energy_of(snapshot);
     std::vector<double> figures(squares + 2, 0.0); // the squares, their mean, the mean of the direct layer
     const std::vector<double> direct = luminance(layer(snapshot, "direct")), caustic = luminance(layer(snapshot, "caustic"));
     for (std::size_t i = 0; i < screen.count(); ++i) {

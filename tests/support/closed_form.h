@@ -5,9 +5,9 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/scene.h"
-#include "spectral/tables/targets.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
+#include "tracing/targets.h"
 
 #include <gtest/gtest.h>
 
@@ -118,7 +118,7 @@ inline optics::Spectrum spectrum_of(const preset::Light& light) { return optics:
 inline double directional_photon_w(const preset::Preset& preset, double count)
 {
   double square_metres = 0;
-  for (const scene::Sphere& s : spectral::caustic_targets(scene::load_scene(preset)))
+  for (const scene::Sphere& s : tracing::caustic_targets(scene::load_scene(preset)))
     square_metres += std::numbers::pi * s.radius * s.radius;
   return square_metres / count;
 }

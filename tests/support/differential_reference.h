@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What kernels/tracing/differential.h is judged by: a path in double precision, written from the laws themselves, through a given sequence of
-// triangles, so that a slightly different index of refraction sends it through the same ones.
+// What kernels/tracing/differential.h is judged by: a path in double precision, written from the laws themselves, through a given sequence
+// of triangles, so that a slightly different index of refraction sends it through the same ones.
 #pragma once
 #include "scene/scene.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme settings of clusters, maps and lights compared by the colour of one caustic: which way it is estimated must not matter.
 #pragma once
+#include "spectral/energy.h"
 #include "tests/support/extremes.h"
 #include "tests/support/passes.h"
 
@@ -16,7 +17,7 @@ inline preset::Preset caustic_of_ball(int pixels = 16)
 {
   preset::Preset p = lit_floor(pixels);
   Screen{{0, 0, 0}, 4, pixels}.fill(p.scene.camera, 2);
-  p.spectral.direct = false;
+  spectral::settings(p).direct = false;
   p.scene.lights[0].spectrum = {};
   p.scene.lights[0].position = {0, 6, 0};
   p.scene.materials["glass"] = glass(1.5);
@@ -24,7 +25,7 @@ inline preset::Preset caustic_of_ball(int pixels = 16)
   p.scene.materials["glass"].dispersion.coefficients = {1.5, 0.01};
   p.scene.objects.push_back(object("ball", sphere(0.1), "glass", at({0, 3, 0})));
   p.scene.objects.back().normals = preset::Object::Normals::smooth;
-  p.spectral.photons_per_pass = 1 << 13;
+  spectral::settings(p).photons_per_pass = 1 << 13;
   p.stop.passes = 32;
   return p;
 }
@@ -32,7 +33,7 @@ inline preset::Preset caustic_of_ball(int pixels = 16)
 /// Mean X, Y and Z of a layer.
 inline std::vector<double> mean_xyz(const job::Snapshot& snapshot, const std::string& name)
 {
-  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
   const std::vector<float>& rgb = layer(snapshot, name).rgb;
   optics::Colour sum{};
   for (std::size_t i = 0; i < rgb.size(); ++i) sum[i % 3] += rgb[i] / (static_cast<double>(rgb.size()) / 3);

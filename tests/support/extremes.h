@@ -6,6 +6,8 @@
 #include "preset/preset.h"
 #include "preset/read.h"
 #include "scene/scene.h"
+#include "spectral/energy.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/presets.h"
 #include "tests/support/render.h"
@@ -91,8 +93,8 @@ inline preset::Preset over_floor(int photons)
   p.scene.objects.push_back(object("floor", quad(1e4, 1e4), "white", at({0, -1, 0})));
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
-  p.spectral.photons_per_pass = photons;
-  p.spectral.max_surfaces = 200;
+  spectral::settings(p).photons_per_pass = photons;
+  spectral::settings(p).max_surfaces = 200;
   return p;
 }
 
@@ -100,7 +102,7 @@ inline preset::Preset over_floor(int photons)
 /// as a wrong result.
 inline double deposited(const preset::Preset& p)
 {
-  const job::EnergyBalance e = render(p).energy;
+  const spectral::EnergyBalance e = spectral::energy_of(render(p));
   EXPECT_EQ(e.refused_contributions, 0u);
   EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
   return e.deposited_w / e.emitted_w;
@@ -133,8 +135,8 @@ inline preset::Preset lit_floor(int pixels = 16)
   Screen screen;
   screen.pixels = pixels;
   screen.fill(p.scene.camera, 2);
-  p.spectral.direct = true;
-  p.spectral.pixel_samples = 16;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).pixel_samples = 16;
   p.stop.passes = 16;
   return p;
 }
@@ -151,7 +153,7 @@ inline preset::Preset ball_over_lit_floor()
 
 inline double mean_y(const job::Snapshot& snapshot, const std::string& name)
 {
-  EXPECT_EQ(snapshot.energy.refused_contributions, 0u);
+  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
   const std::vector<double> y = luminance(layer(snapshot, name));
   return std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size());
 }

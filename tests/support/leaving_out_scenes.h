@@ -3,7 +3,9 @@
 // the bench how much time that saves.
 #pragma once
 #include "preset/preset.h"
+#include "spectral/settings.h"
 #include "tests/support/presets.h"
+#include "tracing/leave_out.h"
 
 #include <ostream>
 #include <string>
@@ -11,12 +13,22 @@
 
 namespace nephroid::test {
 
+using tracing::LeaveOut;
+
 struct Omission {
-  std::string key; ///< of preset::LeaveOut
-  bool preset::LeaveOut::*field;
+  std::string key; ///< the name of its pass, with _ for each space
+  bool LeaveOut::*field;
   preset::Preset scene;
   bool same_bits = true; ///< else other photons make the picture, and it is the same within the noise
 };
+
+/// Leaves out what a scene does not need but for this.
+inline LeaveOut all_but(const Omission& omission)
+{
+  LeaveOut leave_out;
+  leave_out.*omission.field = false;
+  return leave_out;
+}
 
 inline void PrintTo(const Omission& omission, std::ostream* out) { *out << omission.key; }
 
@@ -37,9 +49,9 @@ inline preset::Preset ball_scene()
   p.scene.lights = {light};
   p.scene.camera.position = {0, 3, 3};
   p.scene.camera.target = {0, 0.3, 0};
-  p.spectral.direct = true;
-  p.spectral.threshold_deg = 0.2;
-  p.spectral.photons_per_pass = 1 << 14;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).threshold_deg = 0.2;
+  spectral::settings(p).photons_per_pass = 1 << 14;
   p.stop.passes = 2;
   return p;
 }
@@ -101,7 +113,7 @@ inline preset::Preset line_light_scene()
 
 inline std::vector<Omission> omissions()
 {
-  using L = preset::LeaveOut;
+  using L = LeaveOut;
   const preset::Preset ball = ball_scene();
   preset::Preset no_floor = ball, no_glass = ball, close_light = ball, straight = ball;
   no_floor.scene.objects.pop_back();
@@ -111,8 +123,8 @@ inline std::vector<Omission> omissions()
   straight.scene.materials["glass"] = glass(1);
   straight.scene.objects[0].shape = box(1, 0.4, 1);
   preset::Preset no_glass_seen = floor_scene();
-  no_glass_seen.spectral.estimator = preset::Spectral::Estimator::automatic;
-  no_glass_seen.spectral.jitter = false; // with maps, all photons of a cluster have one wavelength a pass
+  spectral::settings(no_glass_seen).estimator = spectral::Settings::Estimator::automatic;
+  spectral::settings(no_glass_seen).jitter = false; // with maps, all photons of a cluster have one wavelength a pass
   // A tree of a few triangles is soon searched: all other code has its largest share.
   preset::Preset slab = ball;
   slab.scene.objects[0].shape = box(1, 0.4, 1);

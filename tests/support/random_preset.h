@@ -137,17 +137,17 @@ inline preset::Preset random_preset(std::uint64_t seed)
     if (l.type == Light::Type::area) l.direction = {0.1, -1, 1.0 / 3}, l.up = {0, 0.2, 1};
     if (l.type != Light::Type::point) l.direction[1] += l.direction == Vec3{0, 0, 0} ? 1 : 0;
   }
-  for (Spectral* s : {&p.spectral, p.reference && p.reference->spectral ? &*p.reference->spectral : nullptr}) {
+  for (Spectral* s : {&spectral::settings(p), p.reference && spectral::settings(*p.reference) ? &*p.reference->spectral : nullptr}) {
     if (!s) continue;
     if (s->effort == Spectral::Effort::random) s->estimator = Spectral::Estimator::sppm;
     if (s->effort == Spectral::Effort::variance) s->estimator = Spectral::Estimator::automatic;
   }
-  if (Spectral& s = p.spectral; s.relight) { // what layers cannot keep
+  if (Spectral& s = spectral::settings(p); s.relight) { // what layers cannot keep
     s.estimator = Spectral::Estimator::splat;
     s.effort = Spectral::Effort::power;
     s.differentials = s.indirect = false;
   }
-  const bool estimates = p.measure.estimate && p.spectral.estimator != Spectral::Estimator::sppm;
+  const bool estimates = p.measure.estimate && spectral::settings(p).estimator != Spectral::Estimator::sppm;
   if (!estimates && !p.reference) p.stop.error.reset(); // nothing would measure it
   p.scene.camera.target = {0, 0.1, 1.0 / 3};
   p.scene.camera.position = {3, 2, 1e-5};

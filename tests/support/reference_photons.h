@@ -4,7 +4,7 @@
 #pragma once
 #include "optics/fresnel.h"
 #include "scene/scene.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 #include "tests/support/tracer.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct ReferenceFilm {
 /// Photons from a point light, in the open, into the cone about everything that is glass or a mirror.
 class ReferencePhotons {
 public:
-  ReferencePhotons(const scene::Scene& scene, const spectral::DeviceTables& tables, unsigned seed)
+  ReferencePhotons(const scene::Scene& scene, const spectral::RunTables& tables, unsigned seed)
       : scene_(scene), tables_(tables), tracer_(scene.geometry, RTC_SCENE_FLAG_ROBUST), random_(seed)
   {
     for (const shared::DeviceTarget& target : tables.targets) {
@@ -224,7 +224,7 @@ private:
   }
 
   const scene::Scene& scene_;
-  const spectral::DeviceTables& tables_;
+  const spectral::RunTables& tables_;
   EmbreeTracer tracer_;
   std::mt19937_64 random_;
   std::uniform_real_distribution<double> uniform_{0, 1};

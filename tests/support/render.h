@@ -25,19 +25,28 @@ inline const compute::Context& shared_context()
   return context;
 }
 
-inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const compute::Context& context = shared_context())
+inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const tracing::LeaveOut& leave_out,
+                                        const compute::Context& context = shared_context())
 {
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const plan::Plan plan = spectral::make_plan(preset, scene, bvh);
-  return spectral::make_job(preset, scene, bvh, plan, context);
+  return spectral::make_job(preset, scene, bvh, spectral::make_plan(preset, scene, bvh, leave_out), context);
+}
+
+inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const compute::Context& context = shared_context())
+{
+  return job_of(preset, tracing::leave_out_all(preset.leave_out), context);
+}
+
+inline job::Snapshot render(job::Job& job)
+{
+  while (!job.finished()) job.step();
+  return job.snapshot();
 }
 
 inline job::Snapshot render(const preset::Preset& preset, const compute::Context& context = shared_context())
 {
-  const auto job = job_of(preset, context);
-  while (!job->finished()) job->step();
-  return job->snapshot();
+  return render(*job_of(preset, context));
 }
 
 } // namespace nephroid::test

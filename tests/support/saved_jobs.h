@@ -10,7 +10,7 @@
 
 namespace nephroid::test {
 
-/// saver: a job, or a part of one with a writer of its own (spectral::StateWriter).
+/// saver: a job, or a part of one with a writer of its own (tracing::StateWriter).
 template <class Writer = ByteSink, class Saver>
 std::vector<std::byte> saved(Saver& saver)
 {

@@ -22,8 +22,8 @@ inline std::vector<std::string> shipped_names()
 /// Cuts the photons of a pass down to about `count`, which progressive photon maps send for each of up to 401 clusters.
 inline void send_few_photons(preset::Preset& preset, int count)
 {
-  const bool each = preset.spectral.estimator == preset::Spectral::Estimator::sppm;
-  preset.spectral.photons_per_pass = each ? std::max(1, count / 128) : count;
+  const bool each = spectral::settings(preset).estimator == spectral::Settings::Estimator::sppm;
+  spectral::settings(preset).photons_per_pass = each ? std::max(1, count / 128) : count;
 }
 
 /// The preset's name with what is no letter or digit as '_'.

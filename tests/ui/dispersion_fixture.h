@@ -57,7 +57,7 @@ protected:
   std::size_t true_count(ClusterMethod method) const
   {
     return spectral::cluster_wavelengths(optics::sample_n(optics::control_points(dispersion().table), optics::Outside::automatic),
-                                         workbench.preset()->spectral.threshold_deg, method)
+                                         spectral::settings(*workbench.preset()).threshold_deg, method)
         .clusters.size();
   }
   void expect_true_counts() const

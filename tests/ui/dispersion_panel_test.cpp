@@ -142,8 +142,8 @@ TEST_F(DispersionPanelTest, TheThresholdSliderIsOneEntryAndClustersFollow)
   }
   let_go();
   EXPECT_NE(imgui.pushed<command::EndGesture>(), nullptr);
-  EXPECT_GT(workbench.preset()->spectral.threshold_deg, 0.1);
-  EXPECT_LE(workbench.preset()->spectral.threshold_deg, 10);
+  EXPECT_GT(spectral::settings(*workbench.preset()).threshold_deg, 0.1);
+  EXPECT_LE(spectral::settings(*workbench.preset()).threshold_deg, 10);
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(*workbench.preset(), workbench.history()->opened());
 }
@@ -157,11 +157,11 @@ TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 32.0);
   EXPECT_THAT(panel().model().curve().note, HasSubstr("extrapolated below 390 nm"));
   click("thesis");
-  EXPECT_EQ(workbench.preset()->spectral.method, ClusterMethod::thesis);
+  EXPECT_EQ(spectral::settings(*workbench.preset()).method, ClusterMethod::thesis);
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 41.0);
-  ASSERT_TRUE(workbench.preset()->spectral.jitter);
+  ASSERT_TRUE(spectral::settings(*workbench.preset()).jitter);
   click("Jitter");
-  EXPECT_FALSE(workbench.preset()->spectral.jitter);
+  EXPECT_FALSE(spectral::settings(*workbench.preset()).jitter);
   click("Sorted");
   move(panel().plot().to_screen({200, 1.95}));
   frames(2);
@@ -178,8 +178,8 @@ TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether)
                                                  ClusterMethod::optimal));
   EXPECT_EQ(panel().model().clusters_of_run(), spectral::common_refinement(both).size());
   preset::Preset edited = *workbench.preset();
-  edited.spectral.method = ClusterMethod::brute_force;
-  edited.spectral.step_nm = 4;
+  spectral::settings(edited).method = ClusterMethod::brute_force;
+  spectral::settings(edited).step_nm = 4;
   workbench.apply({command::Edit{"method", edited}});
   frames(2);
   EXPECT_EQ(panel().model().clusters_of_run(), 101u);
@@ -198,7 +198,7 @@ TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
   frames(10);
   EXPECT_EQ(panel().model().curves_made(), curves);
   EXPECT_EQ(panel().model().clusterings_made(), clusterings);
-  edited.spectral.threshold_deg = 0.1;
+  spectral::settings(edited).threshold_deg = 0.1;
   workbench.apply({command::Edit{"threshold", edited}});
   frames(3);
   EXPECT_EQ(panel().model().curves_made(), curves) << "the curve is the same";

@@ -7,7 +7,8 @@
 #include "measure/reference.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
-#include "preset/relight.h"
+#include "spectral/energy.h"
+#include "spectral/relight/only_relit.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/state/workbench.h"
@@ -75,7 +76,7 @@ public:
     p.step = done_;
     p.steps = runs_.steps;
     p.fraction = static_cast<double>(done_) / runs_.steps;
-    p.photons = 1000 * static_cast<std::uint64_t>(done_);
+    p.work = 1000 * static_cast<std::uint64_t>(done_);
     p.work_seconds = 0.002 * done_;
     return p;
   }
@@ -92,7 +93,8 @@ public:
     made.picture = picture;
     made.progress = progress();
     made.phases = {{"photons", 0.002 * done_}};
-    if (!preset_.scene.lights.empty()) made.energy.emitted_w = preset_.scene.lights[0].power_w; // tells which light it is of
+    if (!preset_.scene.lights.empty())
+      made.scalars.push_back({"energy", "emitted_w", preset_.scene.lights[0].power_w}); // tells which light it is of
     if (runs_.history) made.history = runs_.history(done_);
     return made;
   }
@@ -101,7 +103,7 @@ public:
   bool adopt(const preset::Preset& preset) override
   {
     if (preset.scene.lights[0].power_w == 13) throw bad_input("lights/0", "is unlucky");
-    if (!runs_.adopts || !preset::only_relit(preset_, preset)) return false;
+    if (!runs_.adopts || !spectral::only_relit(preset_, preset)) return false;
     preset_ = preset;
     ++runs_.adopted;
     return true;

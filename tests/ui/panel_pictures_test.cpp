@@ -50,7 +50,7 @@ protected:
     scene.camera.target = {11, 0, 0};
     scene.camera.fov_deg = 34;
     scene.camera.resolution = {480, 360};
-    preset.spectral.differentials = false;
+    spectral::settings(preset).differentials = false;
     preset.stop = {};
     preset.stop.seconds = 600;
     return preset;
@@ -170,7 +170,7 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
 {
   preset::Preset preset = prism();
   preset.scene.lights.at(0).spectrum.illuminant = "F10";
-  preset.spectral.relight = true;
+  spectral::settings(preset).relight = true;
   const std::string file = folder.write("prism.json", preset::to_json(preset));
   test::Pixel box, other;
   const Canvas canvas =

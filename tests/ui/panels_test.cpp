@@ -276,7 +276,7 @@ TEST(StatusLine, SaysRatesAndTimesAsAPersonWould)
   EXPECT_LT(seconds_left(p), 0);
   p.fraction = 0.25;
   p.work_seconds = 5;
-  p.photons = 9'000'000;
+  p.work = 9'000'000;
   EXPECT_DOUBLE_EQ(seconds_left(p), 15);
   EXPECT_EQ(rate_text(p), "1.80 M photons/s");
   EXPECT_EQ(duration_text(9.6), "10 s");

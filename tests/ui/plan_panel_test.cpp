@@ -19,9 +19,9 @@ protected:
   {
     runs.plan.engine = "spectral";
     runs.plan.passes = {{"direct", true, "1 diffuse object", "/spectral/direct", true},
-                        {"mirrors", false, "no object is a mirror", "/spectral/leave_out/mirrors", false},
+                        {"mirrors", false, "no object is a mirror", "/leave_out", false},
                         {"indirect", false, "not rendered yet", "", false},
-                        {"fog", false, "there is none", "/spectral/leave_out/fog", false}};
+                        {"fog", false, "there is none", "/leave_out/fog", false}};
     runs.plan.buffers = {{"tree", 1 << 20}, {"film", 3 << 20}};
     runs.plan.defines = {{"NEPHROID_MIRRORS", "0"}};
   }
@@ -53,30 +53,30 @@ TEST_F(PlanPanelTest, ABoxEditsThePresetAndCanBeUndone)
   open();
   const auto edit = click("mirrors");
   ASSERT_TRUE(edit);
-  EXPECT_FALSE(edit->preset.spectral.leave_out.mirrors);
+  EXPECT_FALSE(edit->preset.leave_out);
   EXPECT_EQ(edit->label, "compute mirrors");
   preset::Preset back = edit->preset;
-  back.spectral.leave_out.mirrors = true;
+  back.leave_out = true;
   EXPECT_EQ(back, workbench.history()->opened()) << "nothing else changed";
-  EXPECT_FALSE(workbench.preset()->spectral.leave_out.mirrors);
+  EXPECT_FALSE(workbench.preset()->leave_out);
   const int made = runs.made;
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made || workbench.snapshot_is_current(); }));
   frames(2);
   const auto again = click("mirrors");
   ASSERT_TRUE(again);
-  EXPECT_TRUE(again->preset.spectral.leave_out.mirrors);
+  EXPECT_TRUE(again->preset.leave_out);
   EXPECT_EQ(again->label, "leave out mirrors");
   const auto direct = click("direct");
   ASSERT_TRUE(direct);
-  EXPECT_FALSE(direct->preset.spectral.direct) << "its box was checked: true is to run";
+  EXPECT_FALSE(spectral::settings(direct->preset).direct) << "its box was checked: true is to run";
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
-  EXPECT_TRUE(workbench.preset()->spectral.direct);
+  EXPECT_TRUE(spectral::settings(*workbench.preset()).direct);
 }
 
 TEST_F(PlanPanelTest, AFieldThatThereIsNotIsRefused)
 {
   const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
-  EXPECT_FALSE(with_field(preset, "/spectral/caustic", false).spectral.caustic);
+  EXPECT_FALSE(spectral::settings(with_field(preset, "/spectral/caustic", false)).caustic);
   EXPECT_THROW(with_field(preset, "/spectral/fog", false), Error);
 }
 

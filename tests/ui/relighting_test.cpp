@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An edit of a light in a preset that keeps layers goes to the run in hand; every other edit starts a new run.
+#include "spectral/energy.h"
 #include "workbench_fixture.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +24,7 @@ protected:
   {
     edit([&](preset::Preset& p) { p.scene.lights[0].power_w = watts; }, 1, live);
   }
-  double shown_power() const { return workbench.snapshot()->energy.emitted_w; }
+  double shown_power() const { return spectral::energy_of(*workbench.snapshot()).emitted_w; }
   bool shows(double watts)
   {
     return until([&] { return workbench.snapshot_is_current() && shown_power() == watts; });
@@ -56,7 +57,7 @@ TEST_F(RelightingTest, AnotherSceneOrCameraStartsANewRun)
   ASSERT_TRUE(until([&] { return runs.made == 2; }));
   edit([](preset::Preset& p) { p.scene.camera.fov_deg = 30; });
   ASSERT_TRUE(until([&] { return runs.made == 3; }));
-  edit([](preset::Preset& p) { p.spectral.relight = false; });
+  edit([](preset::Preset& p) { spectral::settings(p).relight = false; });
   ASSERT_TRUE(until([&] { return runs.made == 4; }));
   EXPECT_EQ(runs.adopted, 0);
 }

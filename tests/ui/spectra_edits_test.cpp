@@ -124,7 +124,7 @@ TEST(SpectraMaker, LeavesOutWavelengthsThatNoLightHas)
 TEST(SpectraMaker, LayersHaveTheClustersOfTheRun)
 {
   preset::Preset preset = preset::parse_preset(test::room_text(R"("D65")", "power"), "room.json");
-  preset.spectral.relight = true;
+  spectral::settings(preset).relight = true;
   preset::Dispersion& glass = preset.scene.materials["glass"].dispersion;
   glass.type = preset::Dispersion::Type::file;
   glass.file = "rhodamine-6G-Seckin";
@@ -134,10 +134,10 @@ TEST(SpectraMaker, LayersHaveTheClustersOfTheRun)
   const Spectra& spectra = maker.update(preset, seen);
   const scene::Scene scene = scene::load_scene(preset);
   EXPECT_EQ(spectra.why_no_u, "");
-  EXPECT_THAT(spectra.clusters, SizeIs(spectral::scene_clusters(preset.spectral, scene).size()));
+  EXPECT_THAT(spectra.clusters, SizeIs(spectral::scene_clusters(spectral::settings(preset), scene).size()));
   preset.scene.lights[0].spectrum.illuminant = "A"; // no new run
   EXPECT_EQ(maker.update(preset, seen).why_no_u, "");
-  preset.spectral.threshold_deg = 1;
+  spectral::settings(preset).threshold_deg = 1;
   EXPECT_THAT(maker.update(preset, seen).why_no_u, HasSubstr("not known before a run"));
 }
 
@@ -149,12 +149,12 @@ TEST(SpectraMaker, WeighsSeveralLightsByTheirWattsAsTheyAreNow)
   preset.scene.lights[1].spectrum.illuminant = "A";
   SpectraMaker maker;
   const auto seen = seen_of(preset);
-  for (const auto effort : {preset::Spectral::Effort::importance, preset::Spectral::Effort::power}) {
-    preset.spectral.effort = effort;
+  for (const auto effort : {spectral::Settings::Effort::importance, spectral::Settings::Effort::power}) {
+    spectral::settings(preset).effort = effort;
     for (const double watts : {0.0, 10.0, 90.0}) { // looked at with 10 W
       preset.scene.lights[1].power_w = watts;
       const scene::Scene scene = scene::load_scene(preset);
-      const auto expected = spectral::wavelength_importance(preset.spectral, scene, scene::build_bvh(scene.geometry));
+      const auto expected = spectral::wavelength_importance(spectral::settings(preset), scene, scene::build_bvh(scene.geometry));
       EXPECT_EQ(maker.update(preset, seen).importance.u, expected.u) << watts << " W";
     }
   }

@@ -3,7 +3,7 @@
 // wrong is a sentence in it.
 #include "scene/materials.h"
 #include "spectra_scene.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 #include "ui/spectra/light_edits.h"
 #include "ui/spectra/panel.h"
 #include "window_fixture.h"
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using Type = preset::LightSpectrum::Type;
-using Effort = preset::Spectral::Effort;
+using Effort = spectral::Settings::Effort;
 
 constexpr const char* table = R"({"type": "table", "table": [[400, 0.2], [500, 1], [600, 0.5], [700, 0.8]]})";
 
@@ -167,21 +167,21 @@ TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines)
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   for (const Effort effort : {Effort::power, Effort::equal, Effort::importance, Effort::radziszewski, Effort::random})
-    for (const auto cluster : {preset::Importance::Cluster::maximum, preset::Importance::Cluster::mean})
+    for (const auto cluster : {spectral::Importance::Cluster::maximum, spectral::Importance::Cluster::mean})
       for (const bool geometry : {true, false}) {
-        preset.spectral.effort = effort;
-        preset.spectral.importance = {cluster, geometry};
+        spectral::settings(preset).effort = effort;
+        spectral::settings(preset).importance = {cluster, geometry};
         const int made = runs.made;
         workbench.apply({command::Edit{"effort", preset}});
         ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made && workbench.snapshot_is_current(); }));
         frames(2);
         ASSERT_EQ(spectra().why_no_u, "");
-        const spectral::WavelengthImportance expected = spectral::wavelength_importance(preset.spectral, scene, bvh);
+        const spectral::WavelengthImportance expected = spectral::wavelength_importance(spectral::settings(preset), scene, bvh);
         EXPECT_EQ(spectra().importance.u, expected.u);
         ASSERT_EQ(spectra().importance.surroundings.size(), expected.surroundings.size());
         for (std::size_t i = 0; i < expected.surroundings.size(); ++i)
           EXPECT_EQ(spectra().importance.surroundings[i].lightness, expected.surroundings[i].lightness);
-        const spectral::DeviceTables tables = spectral::make_device_tables(preset, scene, bvh);
+        const spectral::RunTables tables = spectral::make_lit_tables(preset, scene, bvh, {});
         ASSERT_EQ(spectra().clusters.size(), tables.wavelengths.clusters.size());
         std::int64_t sum = 0;
         for (std::size_t c = 0; c < tables.importance.size(); ++c) {
@@ -199,11 +199,11 @@ TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsChosen)
 {
   open_room(R"("D65")");
   click("geometry");
-  EXPECT_FALSE(workbench.preset()->spectral.importance.geometry);
+  EXPECT_FALSE(spectral::settings(*workbench.preset()).importance.geometry);
   EXPECT_EQ(workbench.history()->undo_label(), "importance by geometry");
   const std::int64_t before = spectra().iterations();
   preset::Preset edited = *workbench.preset();
-  edited.spectral.importance.cluster = preset::Importance::Cluster::mean;
+  spectral::settings(edited).importance.cluster = spectral::Importance::Cluster::mean;
   workbench.apply({command::Edit{"mean", edited}});
   frame();
   EXPECT_LT(spectra().iterations(), before) << "without waiting for a run";

@@ -6,10 +6,10 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
-#include "spectral/tables/device_scene.h"
-#include "spectral/tables/targets.h"
+#include "spectral/tables/run_tables.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
+#include "tracing/targets.h"
 
 #include <gmock/gmock.h>
 
@@ -30,7 +30,7 @@ preset::Preset scene_with(const preset::Shape& shape, const preset::Material& ma
   preset::Light light;
   light.position = {0, 5, 0};
   p.scene.lights = {light};
-  p.spectral.direct = true;
+  spectral::settings(p).direct = true;
   return p;
 }
 
@@ -53,25 +53,25 @@ TEST(Targets, ABallIsOneAndARodIsMany)
 {
   preset::Shape ball;
   const scene::Scene round = scene::load_scene(scene_with(ball, glass(1.5)));
-  EXPECT_EQ(spectral::caustic_targets(round).size(), 1u);
-  expect_enclosed(round, spectral::caustic_targets(round));
+  EXPECT_EQ(tracing::caustic_targets(round).size(), 1u);
+  expect_enclosed(round, tracing::caustic_targets(round));
 
   preset::Shape rod;
   rod.type = preset::Shape::Type::sphere;
   preset::Preset p = scene_with(rod, glass(1.5));
   p.scene.objects[0].transform.scale = {1, 8, 1};
   const scene::Scene scene = scene::load_scene(p);
-  const std::vector<scene::Sphere> spheres = spectral::caustic_targets(scene);
+  const std::vector<scene::Sphere> spheres = tracing::caustic_targets(scene);
   EXPECT_GE(spheres.size(), 4u);
-  EXPECT_LE(spheres.size(), spectral::max_targets);
+  EXPECT_LE(spheres.size(), tracing::max_targets);
   expect_enclosed(scene, spheres);
-  EXPECT_LT(spectral::mean_shadow(spheres), 0.5 * M_PI * 4 * 4); // of the one sphere about it, radius 4
+  EXPECT_LT(tracing::mean_shadow(spheres), 0.5 * M_PI * 4 * 4); // of the one sphere about it, radius 4
 }
 
 TEST(Targets, TheShadowOfSpheresInAClosedForm)
 {
-  EXPECT_NEAR(spectral::mean_shadow({{{0, 0, 0}, 2}}), 4 * M_PI, 1e-9);
-  EXPECT_NEAR(spectral::mean_shadow({{{0, 0, 0}, 1}, {{0, 0, 0}, 1}}), M_PI, 1e-6);
+  EXPECT_NEAR(tracing::mean_shadow({{{0, 0, 0}, 2}}), 4 * M_PI, 1e-9);
+  EXPECT_NEAR(tracing::mean_shadow({{{0, 0, 0}, 1}, {{0, 0, 0}, 1}}), M_PI, 1e-6);
   // Two unit spheres touching: the shadow along the line that joins them is one disc, across it two. For the angle t to that line the
   // discs' distance is d = 2 sin t and their union 2 pi - 2 acos(d / 2) + (d / 2) sqrt(4 - d^2); averaged over the sphere by quadrature.
   double mean = 0;
@@ -80,13 +80,13 @@ TEST(Targets, TheShadowOfSpheresInAClosedForm)
     const double c = (i + 0.5) / steps, d = 2 * std::sqrt(1 - c * c);
     mean += (2 * M_PI - 2 * std::acos(d / 2) + d / 2 * std::sqrt(4 - d * d)) / steps;
   }
-  EXPECT_NEAR(spectral::mean_shadow({{{0, 0, -1}, 1}, {{0, 0, 1}, 1}}) / mean, 1, 0.02);
+  EXPECT_NEAR(tracing::mean_shadow({{{0, 0, -1}, 1}, {{0, 0, 1}, 1}}) / mean, 1, 0.02);
 }
 
-spectral::DeviceTables tables_of(const preset::Preset& p)
+spectral::RunTables tables_of(const preset::Preset& p)
 {
   const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_device_tables(p, scene, scene::build_bvh(scene.geometry));
+  return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {});
 }
 
 TEST(WavelengthTables, AddUpToTheWholeSpectrum)
@@ -96,8 +96,8 @@ TEST(WavelengthTables, AddUpToTheWholeSpectrum)
   coloured.dispersion.coefficients = {1.5, 0.01};
   const preset::Preset p = scene_with({}, coloured);
   const scene::Scene scene = scene::load_scene(p);
-  const spectral::DeviceTables tables = tables_of(p);
-  const spectral::WavelengthTables& w = tables.wavelengths;
+  const spectral::RunTables tables = tables_of(p);
+  const tracing::WavelengthTables& w = tables.wavelengths;
   EXPECT_GT(w.clusters.size(), 3u);
   EXPECT_EQ(w.cluster_wavelengths.size(), 401u);
   EXPECT_NEAR(std::accumulate(w.share[0].begin(), w.share[0].end(), 0.0), 1, 1e-12);
@@ -126,13 +126,13 @@ TEST(WavelengthTables, AMirrorOfOneIsNoAttenuatorAndABlackOneIs)
   preset::Preset p = scene_with({}, mirror);
   EXPECT_EQ(tables_of(p).wavelengths.attenuator_count, 0);
   p.scene.materials["thing"].reflectance.value = 0;
-  const spectral::WavelengthTables w = tables_of(p).wavelengths;
+  const tracing::WavelengthTables w = tables_of(p).wavelengths;
   EXPECT_EQ(w.attenuator_count, 1);
   EXPECT_EQ(w.coefficient[0], 200); // exp(-200) is 0 in single precision
 }
 
 // Balls around one another: a path can carry MEDIA_DEPTH of them.
-TEST(DeviceTables, RefuseMoreMediaThanAPathCanCarry)
+TEST(RunTables, RefuseMoreMediaThanAPathCanCarry)
 {
   preset::Preset p = scene_with({}, glass(1.5));
   p.source = "p.json";
@@ -155,7 +155,7 @@ TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
 {
   const auto paths = [](const preset::Preset& p) {
     const scene::Scene scene = scene::load_scene(p);
-    return spectral::make_device_tables(p, scene, scene::build_bvh(scene.geometry)).eye_paths;
+    return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {}).eye_paths;
   };
   preset::Shape ball;
   ball.radius = 1;
@@ -164,13 +164,13 @@ TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.fov_deg = 90;
   p.scene.camera.resolution = {128, 128};
-  p.spectral.photons_per_pass = 1 << 17;
+  spectral::settings(p).photons_per_pass = 1 << 17;
   // Its outline is a disc of radius 1 / sqrt(4^2 - 1) in a square of side 2.
   const double share = M_PI / 15 / 4;
   EXPECT_NEAR(paths(p), (1 << 17) / (3 * 128 * 128 * share), 3);
   p.scene.camera.position = {0, 0, 0.5};
   EXPECT_EQ(paths(p), 2u) << "all pixels look out of the glass";
-  p.spectral.photons_per_pass = 1 << 23;
+  spectral::settings(p).photons_per_pass = 1 << 23;
   EXPECT_EQ(paths(p), 64u);
   p = scene_with({}, white());
   EXPECT_EQ(paths(p), 1u);
@@ -201,7 +201,7 @@ TEST(SpectralPlan, LeavesOutWhatASceneDoesNotNeedAndSaysWhy)
   EXPECT_FALSE(planned_to_run(plan_of(p), "mirrors"));
   EXPECT_EQ(plan_of(p).defines.at("NEPHROID_MIRRORS"), "0");
   std::string reason;
-  p.spectral.caustic = false;
+  spectral::settings(p).caustic = false;
   EXPECT_FALSE(planned_to_run(plan_of(p), "photons", &reason));
   EXPECT_EQ(reason, "spectral.caustic is false");
   p = scene_with({}, white());
@@ -218,8 +218,8 @@ TEST(SpectralPlan, LeavesOutWhatASceneDoesNotNeedAndSaysWhy)
 TEST(SpectralPlan, SaysWhenAPassNeedsMorePhotons)
 {
   preset::Preset p = scene_with({}, glass(1.5));
-  p.spectral.method = preset::Spectral::Method::brute_force;
-  p.spectral.photons_per_pass = 1;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).photons_per_pass = 1;
   EXPECT_THAT(plan_of(p).notes, testing::Contains(testing::HasSubstr("raised from 1 to 401")));
 }
 
@@ -227,10 +227,10 @@ TEST(SpectralPlan, SaysThatStepsDoNothingWithoutBruteForce)
 {
   preset::Preset p = scene_with({}, glass(1.5));
   EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
-  p.spectral.step_nm = 4;
+  spectral::settings(p).step_nm = 4;
   EXPECT_THAT(plan_of(p).notes,
               testing::ElementsAre("spectral.step_nm: 4 does nothing here: spectral.method is optimal, and only brute_force has steps"));
-  p.spectral.method = preset::Spectral::Method::brute_force;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
   EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
 }
 

@@ -4,7 +4,7 @@
 #include "scene/scene.h"
 #include "spectral/effort/importance.h"
 #include "spectral/engine.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 
@@ -15,8 +15,8 @@
 
 using namespace nephroid;
 using namespace nephroid::test;
-using spectral::DeviceTables;
-using Effort = preset::Spectral::Effort;
+using spectral::RunTables;
+using Effort = spectral::Settings::Effort;
 
 namespace {
 
@@ -27,8 +27,8 @@ preset::Preset lit_ball(Effort effort)
 {
   preset::Preset p = empty_preset();
   p.source = "p.json";
-  p.spectral.effort = effort;
-  p.spectral.photons_per_pass = photons;
+  spectral::settings(p).effort = effort;
+  spectral::settings(p).photons_per_pass = photons;
   preset::Material dispersive = glass(1.5);
   dispersive.dispersion.type = preset::Dispersion::Type::cauchy;
   dispersive.dispersion.coefficients = {1.6, 0.02};
@@ -42,14 +42,14 @@ preset::Preset lit_ball(Effort effort)
   return p;
 }
 
-DeviceTables tables_of(const preset::Preset& p)
+RunTables tables_of(const preset::Preset& p)
 {
   const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_device_tables(p, scene, scene::build_bvh(scene.geometry));
+  return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {});
 }
 
 /// [light][cluster] photons of a pass.
-std::vector<std::vector<double>> dealt(const DeviceTables& tables)
+std::vector<std::vector<double>> dealt(const RunTables& tables)
 {
   std::vector<std::vector<double>> counts(tables.lights.size(), std::vector<double>(tables.wavelengths.clusters.size(), 0));
   for (const shared::DeviceEmitter& e : tables.emitters)
@@ -58,20 +58,20 @@ std::vector<std::vector<double>> dealt(const DeviceTables& tables)
 }
 
 /// What of a cluster's watts the second light has: both stand in one place, so only power and spectrum count.
-double candle_part(const DeviceTables& tables, std::size_t cluster)
+double candle_part(const RunTables& tables, std::size_t cluster)
 {
   const auto& share = tables.wavelengths.share;
   return 3 * share[1][cluster] / (share[0][cluster] + 3 * share[1][cluster]);
 }
 
 /// Photons of an emitter: one for each, and of the rest its part of all weights, rounded (deal_out).
-double photons_for(double part, const DeviceTables& tables)
+double photons_for(double part, const RunTables& tables)
 {
   const auto emitters = static_cast<double>(tables.emitters.size());
   return 1 + (photons - emitters) * part;
 }
 
-void expect_clusters_in_proportion(const DeviceTables& tables, const std::vector<double>& importance)
+void expect_clusters_in_proportion(const RunTables& tables, const std::vector<double>& importance)
 {
   const auto counts = dealt(tables);
   const double total = std::accumulate(importance.begin(), importance.end(), 0.0);
@@ -85,7 +85,7 @@ void expect_clusters_in_proportion(const DeviceTables& tables, const std::vector
 
 TEST(DealtEffort, EqualGivesEveryClusterTheSame)
 {
-  const DeviceTables tables = tables_of(lit_ball(Effort::equal));
+  const RunTables tables = tables_of(lit_ball(Effort::equal));
   ASSERT_GT(tables.wavelengths.clusters.size(), 5u);
   EXPECT_THAT(tables.importance, testing::Each(1));
   expect_clusters_in_proportion(tables, tables.importance);
@@ -94,12 +94,12 @@ TEST(DealtEffort, EqualGivesEveryClusterTheSame)
 TEST(DealtEffort, FollowsTheImportanceOfClusters)
 {
   for (const Effort effort : {Effort::importance, Effort::radziszewski})
-    for (const auto which : {preset::Importance::Cluster::maximum, preset::Importance::Cluster::mean}) {
+    for (const auto which : {spectral::Importance::Cluster::maximum, spectral::Importance::Cluster::mean}) {
       preset::Preset p = lit_ball(effort);
-      p.spectral.importance.cluster = which;
-      const DeviceTables tables = tables_of(p);
+      spectral::settings(p).importance.cluster = which;
+      const RunTables tables = tables_of(p);
       const scene::Scene scene = scene::load_scene(p);
-      const optics::Spectrum u = spectral::wavelength_importance(p.spectral, scene, scene::build_bvh(scene.geometry)).u;
+      const optics::Spectrum u = spectral::wavelength_importance(spectral::settings(p), scene, scene::build_bvh(scene.geometry)).u;
       EXPECT_EQ(tables.importance, spectral::cluster_importance(u, tables.wavelengths.clusters, which));
       EXPECT_LT(*std::min_element(tables.importance.begin(), tables.importance.end()), 0.9);
       expect_clusters_in_proportion(tables, tables.importance);
@@ -109,7 +109,7 @@ TEST(DealtEffort, FollowsTheImportanceOfClusters)
 TEST(DealtEffort, OfPowerIsWhatTheEyeMakesOfIt)
 {
   for (const Effort effort : {Effort::power, Effort::variance}) {
-    const DeviceTables tables = tables_of(lit_ball(effort));
+    const RunTables tables = tables_of(lit_ball(effort));
     const auto& w = tables.wavelengths;
     std::vector<double> weights;
     for (std::size_t l = 0; l < 2; ++l)
@@ -132,7 +132,7 @@ TEST(DealtEffort, LeavesNoClusterWithLightOut)
   preset::Reflectance& floor = p.scene.materials["floor"].reflectance;
   floor.type = preset::Reflectance::Type::table;
   floor.table = {{599, 0}, {600, 1}};
-  const DeviceTables tables = tables_of(p);
+  const RunTables tables = tables_of(p);
   EXPECT_EQ(spectral::iterations(*std::min_element(tables.importance.begin(), tables.importance.end()), 2000), 1);
   EXPECT_EQ(tables.emitters.size(), 2 * tables.wavelengths.clusters.size());
 }

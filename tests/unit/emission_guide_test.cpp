@@ -119,8 +119,8 @@ TEST(EmissionGuide, NeighboursLearnFromEachOther)
 }
 
 // Moments over 18 orders of magnitude, several deals, two lights of which one is dark: every chance is above 0 by what is spread evenly,
-// and they are all there is. So with the density chance * cells that a photon is divided by (kernels/spectral/guide.h), the mean of any f over
-// guided photons is sum chance * f / (chance * cells), the even mean.
+// and they are all there is. So with the density chance * cells that a photon is divided by (kernels/spectral/guide.h), the mean of any f
+// over guided photons is sum chance * f / (chance * cells), the even mean.
 TEST(EmissionGuide, EveryCellKeepsAChance)
 {
   EmissionGuide guide(2);
@@ -147,9 +147,9 @@ TEST(EmissionGuide, IsSavedWhole)
   second[2000] = 1 << 30;
   EmissionGuide guide(1);
   guide.learn(first, std::vector<double>{1000}, 2);
-  const std::vector<std::byte> bytes = test::saved<spectral::StateWriter>(guide);
+  const std::vector<std::byte> bytes = test::saved<tracing::StateWriter>(guide);
   EmissionGuide other(1);
-  EXPECT_TRUE(test::load<spectral::StateReader>(other, bytes));
+  EXPECT_TRUE(test::load<tracing::StateReader>(other, bytes));
   EXPECT_EQ(other.table(), guide.table());
   guide.learn(second, std::vector<double>{1000}, 2);
   other.learn(second, std::vector<double>{1000}, 2);

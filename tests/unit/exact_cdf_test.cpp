@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cdf in single precision whose differences are the chances to the bit.
-#include "spectral/effort/exact_cdf.h"
+#include "tracing/exact_cdf.h"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 
 namespace {
 
-using nephroid::spectral::exact_cdf;
-using nephroid::spectral::exact_cdf_from_zero;
+using nephroid::tracing::exact_cdf;
+using nephroid::tracing::exact_cdf_from_zero;
 using testing::ElementsAre;
 
 TEST(ExactCdf, IsInProportion)

@@ -18,7 +18,7 @@
 using namespace nephroid;
 using namespace nephroid::test;
 using spectral::WavelengthImportance;
-using Effort = preset::Spectral::Effort;
+using Effort = spectral::Settings::Effort;
 
 namespace {
 
@@ -61,7 +61,7 @@ preset::Preset ball_in_a_room(const preset::Material& wall)
 {
   preset::Preset p = empty_preset();
   p.source = "p.json";
-  p.spectral.effort = Effort::importance;
+  spectral::settings(p).effort = Effort::importance;
   p.scene.materials = {{"glass", glass(1.5)}, {"wall", wall}};
   p.scene.objects = {object("room", room(6, 4, 5), "wall"), object("ball", check::ball(0.5, 64), "glass")};
   p.scene.lights = {lamp(illuminant("F2"))};
@@ -71,7 +71,7 @@ preset::Preset ball_in_a_room(const preset::Material& wall)
 WavelengthImportance importance_of(const preset::Preset& p)
 {
   const scene::Scene scene = scene::load_scene(p);
-  return spectral::wavelength_importance(p.spectral, scene, scene::build_bvh(scene.geometry));
+  return spectral::wavelength_importance(spectral::settings(p), scene, scene::build_bvh(scene.geometry));
 }
 
 /// The product of spectra divided by its largest value.
@@ -216,7 +216,7 @@ TEST(Importance, WithoutGeometryCountsEveryMaterialInUseAlike)
   p.scene.materials["hidden"] = patch("red");
   p.scene.materials["unused"] = patch("green");
   p.scene.objects.push_back(object("outside", quad(1, 1), "hidden", at({0, 9, 0})));
-  p.spectral.importance.geometry = false;
+  spectral::settings(p).importance.geometry = false;
   const WavelengthImportance result = importance_of(p);
   const Spectrum light = optics::illuminant("F2"), red = optics::colorchecker_patch("red"), cyan = optics::colorchecker_patch("cyan");
   ASSERT_EQ(result.surroundings.size(), 2u);
@@ -224,7 +224,7 @@ TEST(Importance, WithoutGeometryCountsEveryMaterialInUseAlike)
   Spectrum mixed;
   for (std::size_t w = 0; w < mixed.size(); ++w) mixed[w] = red[w] * lightness_under(light, red) + cyan[w] * lightness_under(light, cyan);
   expect_near(result.u, normalised_product(light, optics::cie_1931().y, mixed), 1e-12);
-  p.spectral.importance.geometry = true;
+  spectral::settings(p).importance.geometry = true;
   EXPECT_EQ(importance_of(p).surroundings.size(), 1u);
 }
 
@@ -251,7 +251,7 @@ TEST(Importance, AddsLightsByThePowerTheySendTowardsTheGlass)
 TEST(Importance, OfRadziszewskiIsFixed)
 {
   preset::Preset p = ball_in_a_room(patch("blue"));
-  p.spectral.effort = Effort::radziszewski;
+  spectral::settings(p).effort = Effort::radziszewski;
   const WavelengthImportance result = importance_of(p);
   EXPECT_TRUE(result.surroundings.empty());
   EXPECT_EQ(result.u[538 - 380], 1);
@@ -270,11 +270,11 @@ TEST(Importance, OfOtherEffortsNeedsNoSurroundings)
   Spectrum all;
   for (std::size_t w = 0; w < all.size(); ++w) all[w] = eye.x[w] + eye.y[w] + eye.z[w];
   for (const Effort effort : {Effort::power, Effort::variance}) {
-    p.spectral.effort = effort;
+    spectral::settings(p).effort = effort;
     expect_near(importance_of(p).u, normalised_product(light, all), 1e-12);
   }
   for (const Effort effort : {Effort::equal, Effort::random}) {
-    p.spectral.effort = effort;
+    spectral::settings(p).effort = effort;
     EXPECT_THAT(importance_of(p).u, testing::Each(1));
   }
 }
@@ -298,7 +298,7 @@ TEST(Importance, ThatIsZeroEverywhereIsRefusedWithTheReason)
   p = ball_in_a_room(white());
   p.scene.objects.erase(p.scene.objects.begin());
   EXPECT_THAT(refusal_of_importance(p), HasSubstr("the caustic objects see nothing that diffuses or mirrors light"));
-  p.spectral.importance.geometry = false;
+  spectral::settings(p).importance.geometry = false;
   EXPECT_THAT(refusal_of_importance(p), HasSubstr("no object diffuses or mirrors light"));
   p = ball_in_a_room(white());
   p.scene.objects.pop_back();
@@ -317,7 +317,7 @@ TEST(Importance, OfAClusterIsTheLargestOrTheMean)
   Spectrum u{};
   u[3] = 0.25, u[4] = 1, u[5] = 0.5;
   const std::vector<std::vector<int>> clusters{{3, 4, 5, 6}, {0}, {5, 3}};
-  using Cluster = preset::Importance::Cluster;
+  using Cluster = spectral::Importance::Cluster;
   EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::maximum), testing::ElementsAre(1, 0, 0.5));
   EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::mean), testing::ElementsAre(0.4375, 0, 0.375));
 }

@@ -84,7 +84,7 @@ TEST(LayerBudget, CountsPixelsThatMaySeeASphere)
 
 TEST(LayerEmitters, HalfOfThePhotonsGoEvenlyHalfByThePresentLight)
 {
-  DeviceTables tables;
+  RunTables tables;
   for (int c = 0; c < 4; ++c) tables.wavelengths.clusters.push_back({100 * c, 100 * c + 1});
   tables.towards_targets_w = {0.1, 0.1, 0};
   LayerLight light;

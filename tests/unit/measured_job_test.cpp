@@ -44,7 +44,7 @@ public:
     p.step = done_;
     p.steps = steps_;
     p.fraction = static_cast<double>(done_) / steps_;
-    p.photons = static_cast<std::uint64_t>(done_) * 1000;
+    p.work = static_cast<std::uint64_t>(done_) * 1000;
     p.work_seconds = 10.0 * done_;
     return p;
   }
@@ -64,7 +64,7 @@ public:
   }
   void save(ByteSink& to) override { to.write(std::vector<std::byte>(static_cast<std::size_t>(done_))); }
   void load(ByteSource& from) override { done_ = static_cast<int>(from.left()); }
-  bool adopt(const preset::Preset& preset) override { return preset.spectral.relight; }
+  bool adopt(const preset::Preset& preset) override { return spectral::settings(preset).relight; }
 
 private:
   static std::vector<double> zeros() { return std::vector<double>(3 * size * size); }
@@ -239,7 +239,7 @@ TEST(MeasuredJob, AMaskIsMeasuredOnItsOwn)
 TEST(MeasuredJob, AnotherLightBeginsAHistoryWithoutTheReference)
 {
   preset::Preset p = settings();
-  p.spectral.relight = true;
+  spectral::settings(p).relight = true;
   const auto job = noisy(p, truth());
   EXPECT_THAT(run(*job).columns, Contains("lab_mean"));
   ASSERT_TRUE(job->adopt(p));
@@ -249,7 +249,7 @@ TEST(MeasuredJob, AnotherLightBeginsAHistoryWithoutTheReference)
   EXPECT_THAT(history.columns, Each(StartsWith("estimated_"))) << "the reference is of the old light";
   EXPECT_EQ(history.error_column, "estimated_lab_mean");
 
-  p.spectral.relight = false;
+  spectral::settings(p).relight = false;
   EXPECT_FALSE(job->adopt(p)) << "the job itself refuses";
   EXPECT_EQ(run(*job).rows.size(), 1u) << "and nothing has changed";
 }
@@ -257,7 +257,7 @@ TEST(MeasuredJob, AnotherLightBeginsAHistoryWithoutTheReference)
 TEST(MeasuredJob, ARunThatStopsByItsReferenceStartsAgainUnderAnotherLight)
 {
   preset::Preset p = settings();
-  p.spectral.relight = true;
+  spectral::settings(p).relight = true;
   p.stop.error = 1;
   EXPECT_FALSE(noisy(p, truth())->adopt(p));
   EXPECT_TRUE(noisy(p, nullptr)->adopt(p)) << "its estimate needs none";
@@ -268,10 +268,8 @@ TEST(MeasuredJob, RefusesWhatCannotBeMeasured)
   preset::Preset preset = settings();
   preset.stop.error = 1;
   preset.measure.estimate = false;
-  EXPECT_EQ(
-      error_of([&] { noisy(preset, nullptr); }).line(),
-      "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or 'measure.estimate' true and "
-      "another 'spectral.estimator' than sppm");
+  EXPECT_EQ(error_of([&] { noisy(preset, nullptr); }).line(),
+            "p.json#/stop/error: nothing measures the error of this run in lab_mean; expected a 'reference', or 'measure.estimate' true");
   preset = settings();
   preset.stop.error = 1;
   preset.stop.metric = preset::Stop::Metric::rel_mse;

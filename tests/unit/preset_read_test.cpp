@@ -70,7 +70,7 @@ TEST(PresetOverrides, ReachEveryKindOfValue)
   EXPECT_EQ(p.stop.passes, 3);
   EXPECT_EQ(p.scene.materials.at("g").dispersion.file, "materials/N-BK7.yml");
   EXPECT_EQ(p.name, "1 and 2");
-  EXPECT_FALSE(p.spectral.direct);
+  EXPECT_FALSE(spectral::settings(p).direct);
   EXPECT_THAT(p.scene.camera.position, ElementsAre(1, 2, 4));
   EXPECT_EQ(p.seed, 9u); // the last one wins
   EXPECT_FALSE(parse(R"("stop":{"seconds":5})", {"stop.seconds=null"}).stop.seconds);
@@ -144,7 +144,7 @@ TEST_F(PresetFiles, SweepsAreNestedLoopsInTheOrderOfTheirKeys)
   std::vector<std::pair<double, std::uint64_t>> values;
   for (const Preset& p : preset::read_presets(file)) {
     names.push_back(p.name);
-    values.emplace_back(p.spectral.threshold_deg, p.seed);
+    values.emplace_back(spectral::settings(p).threshold_deg, p.seed);
   }
   using P = std::pair<double, std::uint64_t>;
   EXPECT_THAT(values, ElementsAre(P(.5, 3), P(.5, 1), P(.5, 2), P(.1, 3), P(.1, 1), P(.1, 2)));

@@ -18,21 +18,21 @@ using testing::Not;
 
 job::Progress at(double fraction, std::int64_t step, std::uint64_t photons, double work_seconds)
 {
-  return {.fraction = fraction, .step = step, .steps = 100, .photons = photons, .work_seconds = work_seconds};
+  return {.fraction = fraction, .step = step, .steps = 100, .work = photons, .work_seconds = work_seconds};
 }
 
 TEST(Pace, IsThatOfThisSessionOnly)
 {
   // Resumed at half way after 100 s of work on a slow machine; here a quarter took 5 s.
   const job::Pace pace = job::pace_between(at(0.5, 50, 1'000'000, 100), at(0.75, 75, 3'000'000, 105));
-  EXPECT_DOUBLE_EQ(pace.photons_per_second, 400'000);
+  EXPECT_DOUBLE_EQ(pace.work_per_second, 400'000);
   EXPECT_DOUBLE_EQ(pace.seconds_left, 5);
 }
 
 TEST(Pace, IsUnknownAtTheStart)
 {
   const job::Pace pace = job::pace_between(at(0, 0, 0, 0), at(0, 0, 0, 0));
-  EXPECT_EQ(pace.photons_per_second, 0);
+  EXPECT_EQ(pace.work_per_second, 0);
   EXPECT_LT(pace.seconds_left, 0);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which edits are another light on the same scene.
-#include "preset/relight.h"
+#include "spectral/relight/only_relit.h"
 #include "tests/support/presets.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 preset::Preset layered()
 {
   preset::Preset p = test::empty_preset(8);
-  p.spectral.relight = true;
+  spectral::settings(p).relight = true;
   p.scene.lights.resize(2);
   return p;
 }
@@ -20,13 +20,13 @@ TEST(OnlyRelit, IsAnotherSpectrumPowerWhiteOrName)
 {
   const preset::Preset before = layered();
   preset::Preset now = before;
-  EXPECT_TRUE(preset::only_relit(before, now));
+  EXPECT_TRUE(spectral::only_relit(before, now));
   now.scene.lights[1].spectrum.illuminant = "F10";
   now.scene.lights[1].power_w = 0;
   now.scene.lights[0].irradiance_w_m2 = 7;
   now.white = 3;
   now.name = "evening";
-  EXPECT_TRUE(preset::only_relit(before, now));
+  EXPECT_TRUE(spectral::only_relit(before, now));
 }
 
 TEST(OnlyRelit, IsNothingElse)
@@ -35,19 +35,19 @@ TEST(OnlyRelit, IsNothingElse)
   const auto differs = [&](auto change) {
     preset::Preset now = before;
     change(now);
-    return !preset::only_relit(before, now);
+    return !spectral::only_relit(before, now);
   };
-  EXPECT_TRUE(differs([](preset::Preset& p) { p.spectral.relight = false; }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { spectral::settings(p).relight = false; }));
   EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.lights.pop_back(); }));
   EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.lights[0].position[0] += 1; }));
   EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.lights[0].type = preset::Light::Type::spot; }));
   EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.camera.fov_deg += 1; }));
   EXPECT_TRUE(differs([](preset::Preset& p) { p.seed += 1; }));
-  EXPECT_TRUE(differs([](preset::Preset& p) { p.spectral.threshold_deg *= 2; }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { spectral::settings(p).threshold_deg *= 2; }));
   EXPECT_TRUE(differs([](preset::Preset& p) { p.stop.passes = 3; }));
   preset::Preset without = before;
-  without.spectral.relight = false;
-  EXPECT_FALSE(preset::only_relit(without, without)) << "a run without layers has nothing to weigh";
+  spectral::settings(without).relight = false;
+  EXPECT_FALSE(spectral::only_relit(without, without)) << "a run without layers has nothing to weigh";
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // spectral/stretch.h: what a splat is stretched along, without a device.
 #include "optics/wavelength.h"
-#include "spectral/stretch.h"
+#include "tracing/stretch.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numeric>
 
 using namespace nephroid;
-using spectral::make_stretch_tables;
-using spectral::StretchParameter;
+using tracing::make_stretch_tables;
+using tracing::StretchParameter;
 
 namespace {
 
@@ -54,15 +54,15 @@ std::vector<std::vector<int>> each_alone()
 
 TEST(Stretch, FollowsTheIndexOfOneCurveAndTheWavelengthOfSeveral)
 {
-  EXPECT_EQ(spectral::stretch_parameter(scene_of({})), StretchParameter::none);
-  EXPECT_EQ(spectral::stretch_parameter(scene_of({curve(constant)})), StretchParameter::none);
-  EXPECT_EQ(spectral::stretch_parameter(scene_of({curve(cauchy), curve(constant), curve(cauchy)})), StretchParameter::index);
-  EXPECT_EQ(spectral::stretch_parameter(scene_of({curve(cauchy), curve(crown)})), StretchParameter::wavelength);
+  EXPECT_EQ(tracing::stretch_parameter(scene_of({})), StretchParameter::none);
+  EXPECT_EQ(tracing::stretch_parameter(scene_of({curve(constant)})), StretchParameter::none);
+  EXPECT_EQ(tracing::stretch_parameter(scene_of({curve(cauchy), curve(constant), curve(cauchy)})), StretchParameter::index);
+  EXPECT_EQ(tracing::stretch_parameter(scene_of({curve(cauchy), curve(crown)})), StretchParameter::wavelength);
 }
 
 TEST(Stretch, OfOneCurveSIsTheIndexOfRefraction)
 {
-  const spectral::StretchTables tables = make_stretch_tables(scene_of({curve(cauchy), curve(constant)}), each_alone(), all_lit);
+  const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(cauchy), curve(constant)}), each_alone(), all_lit);
   ASSERT_EQ(tables.index_slope.size(), 2u * 401);
   EXPECT_EQ(tables.index_slope[0], 1);
   EXPECT_EQ(tables.index_slope[1], 0);
@@ -79,7 +79,7 @@ TEST(Stretch, OfOneCurveSIsTheIndexOfRefraction)
 
 TEST(Stretch, OfSeveralCurvesTheSlopesAreThoseOfTheCurves)
 {
-  const spectral::StretchTables tables = make_stretch_tables(scene_of({curve(cauchy), curve(crown)}), {{198, 199, 200, 201, 202}}, all_lit);
+  const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(cauchy), curve(crown)}), {{198, 199, 200, 201, 202}}, all_lit);
   EXPECT_NEAR(tables.index_slope[0], -2 * 15000 / std::pow(580.0, 3), 2e-8);
   EXPECT_NEAR(tables.index_slope[1], -2 * 5000 / std::pow(580.0, 3), 1e-8);
   EXPECT_NEAR(tables.span[0].x, 0, 1e-12);
@@ -89,7 +89,7 @@ TEST(Stretch, OfSeveralCurvesTheSlopesAreThoseOfTheCurves)
 
 TEST(Stretch, NothingLiesBetweenTheSidesOfAJump)
 {
-  const spectral::StretchTables tables = make_stretch_tables(scene_of({curve(staircase)}), each_alone(), all_lit);
+  const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(staircase)}), each_alone(), all_lit);
   EXPECT_EQ(tables.place[119].z, tables.place[119].x); // 499 nm
   EXPECT_EQ(tables.place[120].y, tables.place[120].x);
   EXPECT_NEAR(tables.place[119].x - tables.place[120].x, 0.2, 1e-7);
@@ -97,7 +97,7 @@ TEST(Stretch, NothingLiesBetweenTheSidesOfAJump)
 
 TEST(Stretch, AnExtremeOfACurveIsNoJump)
 {
-  const spectral::StretchTables tables = make_stretch_tables(scene_of({curve(valley)}), each_alone(), all_lit);
+  const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(valley)}), each_alone(), all_lit);
   for (std::size_t w = 1; w < 401; ++w) EXPECT_EQ(tables.place[w].y, tables.place[w - 1].x) << w;
 }
 
@@ -105,7 +105,7 @@ TEST(Stretch, ASpanHoldsTheLitWavelengthsOnlyAndDarkClustersHaveNone)
 {
   std::vector<bool> lit = all_lit;
   lit[10] = lit[11] = lit[20] = false;
-  const spectral::StretchTables tables = make_stretch_tables(scene_of({curve(cauchy)}), {{9, 10, 11}, {20}, {30}}, lit);
+  const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(cauchy)}), {{9, 10, 11}, {20}, {30}}, lit);
   ASSERT_EQ(tables.span.size(), 2u);
   EXPECT_EQ(tables.span[0].z, tables.place[9].y);
   EXPECT_EQ(tables.span[0].y, tables.place[9].z);
@@ -114,7 +114,7 @@ TEST(Stretch, ASpanHoldsTheLitWavelengthsOnlyAndDarkClustersHaveNone)
 
 TEST(Stretch, RunsAreOfNeighboursAndLoseNoWavelength)
 {
-  const auto runs = spectral::split_into_runs({{5, 7, 6, 1}, {2, 3}, {4}});
+  const auto runs = tracing::split_into_runs({{5, 7, 6, 1}, {2, 3}, {4}});
   const std::vector<std::vector<int>> expected{{1}, {2, 3}, {4}, {5, 6, 7}};
   EXPECT_EQ(runs, expected);
 }

@@ -100,11 +100,11 @@ void DispersionModel::update(const preset::Preset& preset, const std::string& ma
   std::erase_if(glasses_, [&](const auto& glass) { return !preset.scene.materials.contains(glass.first); });
   bool changed = std::exchange(material_, material) != material;
   changed |= update_curve(preset, material);
-  changed |= std::exchange(threshold_deg_, preset.spectral.threshold_deg) != preset.spectral.threshold_deg;
+  changed |= std::exchange(threshold_deg_, spectral::settings(preset).threshold_deg) != spectral::settings(preset).threshold_deg;
   curve_ = &glasses_.at(material).curve;
   if (changed) cluster();
 
-  changed |= std::exchange(method_, preset.spectral.method) != preset.spectral.method;
+  changed |= std::exchange(method_, spectral::settings(preset).method) != spectral::settings(preset).method;
   if (changed && error_.empty()) {
     bands_ = bands_of(chosen().clustering);
     cluster_of_ = cluster_of_wavelengths(chosen().clustering);
@@ -113,10 +113,10 @@ void DispersionModel::update(const preset::Preset& preset, const std::string& ma
   for (const std::string& name : used) changed |= update_curve(preset, name);
   changed |= used != used_;
   used_ = std::move(used);
-  changed |= std::exchange(step_nm_, preset.spectral.step_nm) != preset.spectral.step_nm;
-  changed |= std::exchange(differentials_, preset.spectral.differentials) != preset.spectral.differentials;
-  changed |= std::exchange(relight_, preset.spectral.relight) != preset.spectral.relight;
-  if (changed) combine(preset.spectral);
+  changed |= std::exchange(step_nm_, spectral::settings(preset).step_nm) != spectral::settings(preset).step_nm;
+  changed |= std::exchange(differentials_, spectral::settings(preset).differentials) != spectral::settings(preset).differentials;
+  changed |= std::exchange(relight_, spectral::settings(preset).relight) != spectral::settings(preset).relight;
+  if (changed) combine(spectral::settings(preset));
 }
 
 void DispersionModel::cluster()
@@ -133,7 +133,7 @@ void DispersionModel::cluster()
 }
 
 /// By the engine's own rule, which asks for each object's index of refraction only.
-void DispersionModel::combine(const preset::Spectral& settings)
+void DispersionModel::combine(const spectral::Settings& settings)
 {
   clusters_of_run_.reset();
   scene::Scene outline;

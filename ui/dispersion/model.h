@@ -3,6 +3,7 @@
 // by every method and what they mean. No Dear ImGui here.
 #pragma once
 #include "preset/preset.h"
+#include "spectral/settings.h"
 #include "ui/dispersion/figures.h"
 
 #include <array>
@@ -34,7 +35,7 @@ public:
   const GlassCurve& curve() const { return *curve_; }
   /// Empty where there are clusters, else why not.
   const std::string& error() const { return error_; }
-  /// In the order of preset::Spectral::Method; only without an error().
+  /// In the order of spectral::Settings::Method; only without an error().
   const ClusterFigures& figures(spectral::ClusterMethod method) const { return figures_[static_cast<std::size_t>(method)]; }
   /// Of the preset's method: the clusters of the curve, as bands and by wavelength.
   const ClusterFigures& chosen() const { return figures(method_); }
@@ -57,7 +58,7 @@ private:
   /// True where the material's curve was made anew.
   bool update_curve(const preset::Preset& preset, const std::string& material);
   void cluster();
-  void combine(const preset::Spectral& settings);
+  void combine(const spectral::Settings& settings);
 
   std::map<std::string, Glass> glasses_; ///< by material
   std::vector<std::string> used_;        ///< materials of the objects

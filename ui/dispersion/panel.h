@@ -56,7 +56,7 @@ private:
   void make_editable(const Frame& frame);
   /// The control points as they shall be; nothing where there is no edit.
   void edit_points(const Frame& frame, const std::optional<RowsEdit>& edit) const;
-  void edit_spectral(const Frame& frame, const std::string& label, const preset::Spectral& spectral, std::uint64_t gesture = 0,
+  void edit_spectral(const Frame& frame, const std::string& label, const spectral::Settings& spectral, std::uint64_t gesture = 0,
                      bool live = false);
 
   WavelengthAxis& axis_;

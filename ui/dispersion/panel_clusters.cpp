@@ -2,6 +2,7 @@
 // The lower half of the panel "Dispersion": threshold, methods with their counts, and what clustering costs in bias.
 #include "base/counted.h"
 #include "preset/choices.h"
+#include "spectral/describe_settings.h"
 #include "ui/dispersion/panel.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/theme.h"
@@ -41,11 +42,11 @@ void cell(const std::string& text)
 
 } // namespace
 
-void DispersionPanel::edit_spectral(const Frame& frame, const std::string& label, const preset::Spectral& spectral, std::uint64_t gesture,
+void DispersionPanel::edit_spectral(const Frame& frame, const std::string& label, const spectral::Settings& spectral, std::uint64_t gesture,
                                     bool live)
 {
   preset::Preset edited = frame.preset;
-  edited.spectral = spectral;
+  spectral::settings(edited) = spectral;
   frame.commands.push_back(command::Edit{label, std::move(edited), gesture, live});
 }
 
@@ -55,14 +56,15 @@ void DispersionPanel::draw_threshold(const Frame& frame)
   ImGui::TextUnformatted("Threshold");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  preset::Spectral spectral = frame.preset.spectral;
+  spectral::Settings spectral = spectral::settings(frame.preset);
   const bool changed =
       ImGui::SliderScalar("##threshold", ImGuiDataType_Double, &spectral.threshold_deg, &least_threshold_deg, &greatest_threshold_deg,
                           "%.3g degrees", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   places_.note("Threshold");
   if (ImGui::IsItemActivated()) gestures_.begin();
   spectral.threshold_deg = std::clamp(three_digits(spectral.threshold_deg), least_threshold_deg, greatest_threshold_deg);
-  if (changed && spectral != frame.preset.spectral) edit_spectral(frame, "threshold of the clusters", spectral, gestures_.number(), true);
+  if (changed && spectral != spectral::settings(frame.preset))
+    edit_spectral(frame, "threshold of the clusters", spectral, gestures_.number(), true);
   if (ImGui::IsItemDeactivated()) frame.commands.push_back(command::EndGesture{});
   ImGui::SetItemTooltip(
       "Largest change of the refraction angle inside a cluster, as the mean over 0..89 degrees of incidence. Ctrl+click: type it");
@@ -83,8 +85,8 @@ void DispersionPanel::draw_methods(const Frame& frame)
     const std::string name(choice.name == "brute_force" ? "brute force" : choice.name);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    if (ImGui::RadioButton(name.c_str(), frame.preset.spectral.method == choice.value)) {
-      preset::Spectral spectral = frame.preset.spectral;
+    if (ImGui::RadioButton(name.c_str(), spectral::settings(frame.preset).method == choice.value)) {
+      spectral::Settings spectral = spectral::settings(frame.preset);
       spectral.method = choice.value;
       edit_spectral(frame, "method of the clusters: " + name, spectral);
     }
@@ -100,7 +102,7 @@ void DispersionPanel::draw_methods(const Frame& frame)
 
 void DispersionPanel::draw_bias(const Frame& frame)
 {
-  preset::Spectral spectral = frame.preset.spectral;
+  spectral::Settings spectral = spectral::settings(frame.preset);
   if (ImGui::Checkbox("Jitter", &spectral.jitter))
     edit_spectral(frame, spectral.jitter ? "jitter wavelengths" : "do not jitter wavelengths", spectral);
   places_.note("Jitter");
@@ -124,9 +126,9 @@ void DispersionPanel::draw_bias(const Frame& frame)
 /// What unequal work saves on top of the clusters.
 void DispersionPanel::draw_effort(const Frame& frame)
 {
-  using Effort = preset::Spectral::Effort;
+  using Effort = spectral::Settings::Effort;
   saving_by_effort_.reset();
-  const Effort effort = frame.preset.spectral.effort;
+  const Effort effort = spectral::settings(frame.preset).effort;
   if (effort != Effort::importance && effort != Effort::radziszewski) return;
   const Spectra& work = work_.update(frame.preset, frame.workbench.seen_by_glass());
   if (!work.why_no_u.empty() || work.iterations() == 0) return; // the panel "Spectra and importance" says why

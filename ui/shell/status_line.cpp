@@ -62,7 +62,7 @@ const char* name_of(job::State state)
 
 std::string rate_text(const job::Progress& progress)
 {
-  const double rate = job::pace_between({}, progress).photons_per_second;
+  const double rate = job::pace_between({}, progress).work_per_second;
   if (rate <= 0) return {};
   if (rate >= 1e6) return fmt::format("{:.2f} M photons/s", rate / 1e6);
   if (rate >= 1e3) return fmt::format("{:.1f} k photons/s", rate / 1e3);

@@ -9,8 +9,8 @@
 #include "scene/materials.h"
 #include "spectral/clusters/scene_clusters.h"
 #include "spectral/effort/effort.h"
-#include "spectral/omissions.h"
-#include "spectral/tables/wavelength_tables.h"
+#include "tracing/omissions.h"
+#include "tracing/wavelength_tables.h"
 
 #include <fmt/format.h>
 
@@ -86,16 +86,16 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline)
 }
 
 /// What the clusters of a scene hang on.
-auto grouping(const preset::Spectral& settings)
+auto grouping(const spectral::Settings& settings)
 {
   return std::tuple(settings.method, settings.threshold_deg, settings.step_nm, settings.differentials, settings.relight);
 }
 
 /// Of each cluster, as the engine deals out its work.
-std::vector<double> importance_of(const preset::Spectral& settings, const Spectrum& u, const spectral::WavelengthTables& tables,
+std::vector<double> importance_of(const spectral::Settings& settings, const Spectrum& u, const tracing::WavelengthTables& tables,
                                   const scene::Scene& outline, const std::vector<double>& watts)
 {
-  using Effort = preset::Spectral::Effort;
+  using Effort = spectral::Settings::Effort;
   if (settings.effort == Effort::importance || settings.effort == Effort::radziszewski)
     return spectral::cluster_importance(u, tables.clusters, settings.importance.cluster);
   return spectral::make_effort(settings, outline, {}, watts, tables).importance; // without rays
@@ -107,9 +107,9 @@ std::shared_ptr<const SeenByGlass> look_around(const preset::Preset& preset, con
 {
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
-  seen->whereabouts = spectral::whereabouts(preset.spectral, scene, bvh);
-  seen->settings = preset.spectral;
-  seen->clusters = spectral::scene_clusters(preset.spectral, scene);
+  seen->whereabouts = spectral::whereabouts(spectral::settings(preset), scene, bvh);
+  seen->settings = spectral::settings(preset);
+  seen->clusters = spectral::scene_clusters(spectral::settings(preset), scene);
   return seen;
 }
 
@@ -180,31 +180,32 @@ void SpectraMaker::make_materials(const preset::Preset& now)
 
 void SpectraMaker::make_groups(const preset::Preset& now)
 {
-  if (preset_ && !now.spectral.relight && grouping(preset_->spectral) == grouping(now.spectral) &&
+  if (preset_ && !spectral::settings(now).relight && grouping(spectral::settings(*preset_)) == grouping(spectral::settings(now)) &&
       preset_->scene.materials == now.scene.materials && preset_->scene.objects == now.scene.objects)
     return;
   groups_.clear();
   groups_error_.clear();
   if (!materials_error_.empty()) return;
-  if (now.spectral.relight) { // they hang on the lengths of paths in what absorbs, which the outline does not know
-    if (seen_ && seen_->materials == spectra_.materials && grouping(seen_->settings) == grouping(now.spectral))
+  if (spectral::settings(now).relight) { // they hang on the lengths of paths in what absorbs, which the outline does not know
+    if (seen_ && seen_->materials == spectra_.materials && grouping(seen_->settings) == grouping(spectral::settings(now)))
       groups_ = seen_->clusters;
     else
       groups_error_ = "the clusters are not known before a run of this preset is ready";
     return;
   }
   try {
-    groups_ = spectral::scene_clusters(now.spectral, outline_);
+    groups_ = spectral::scene_clusters(spectral::settings(now), outline_);
   } catch (const Error& error) {
     groups_error_ = error.text();
   }
 }
 
 /// Whether what the glass was seen to see is what u hangs on now.
-bool SpectraMaker::is_of_this_scene(const preset::Spectral& settings) const
+bool SpectraMaker::is_of_this_scene(const spectral::Settings& settings) const
 {
   if (!seen_ || seen_->materials != spectra_.materials || seen_->whereabouts.towards.size() != outline_.lights.size()) return false;
-  const bool rays = settings.effort == preset::Spectral::Effort::importance && settings.importance.geometry && seen_->whereabouts.caustics;
+  const bool rays =
+      settings.effort == spectral::Settings::Effort::importance && settings.importance.geometry && seen_->whereabouts.caustics;
   return !rays || !seen_->whereabouts.seen.empty();
 }
 
@@ -215,12 +216,13 @@ void SpectraMaker::make_importance(const preset::Preset& now)
   for (std::size_t i = 0; i < spectra_.lights.size(); ++i)
     if (!spectra_.lights[i].error.empty()) spectra_.why_no_u = fmt::format("light {}: {}", i + 1, spectra_.lights[i].error);
   if (!spectra_.why_no_u.empty()) return;
-  if (!is_of_this_scene(now.spectral)) {
+  if (!is_of_this_scene(spectral::settings(now))) {
     spectra_.why_no_u = "what the glass sees is not known before a run of this preset is ready";
     return;
   }
   try {
-    spectra_.importance = spectral::wavelength_importance(now.spectral, seen_->whereabouts, outline_.lights, outline_.materials, {});
+    spectra_.importance =
+        spectral::wavelength_importance(spectral::settings(now), seen_->whereabouts, outline_.lights, outline_.materials, {});
   } catch (const Error& error) {
     spectra_.why_no_u = error.text();
   }
@@ -237,15 +239,15 @@ void SpectraMaker::make_clusters(const preset::Preset& now)
   std::vector<double> watts;
   const std::vector<double> all_watts = spectral::watts(outline_.lights, seen_->whereabouts.towards);
   for (std::size_t i = 0; i < outline_.lights.size(); ++i)
-    if (spectral::has_power(outline_.lights[i]) || !now.spectral.leave_out.dark_lights) {
+    if (tracing::has_power(outline_.lights[i]) || !now.leave_out) {
       lights.push_back(&outline_.lights[i]);
       watts.push_back(all_watts[i]);
     }
   std::vector<bool> lit(wavelength_count, true);
-  if (now.spectral.leave_out.unlit_wavelengths) lit = spectral::lit_wavelengths(outline_);
+  if (now.leave_out) lit = tracing::lit_wavelengths(outline_);
   std::vector<shared::DeviceMaterial> unused;
-  const spectral::WavelengthTables tables = spectral::make_wavelength_tables(outline_, lights, groups_, lit, unused);
-  const std::vector<double> importance = importance_of(now.spectral, spectra_.importance.u, tables, outline_, watts);
+  const tracing::WavelengthTables tables = tracing::make_wavelength_tables(outline_, lights, groups_, lit, unused);
+  const std::vector<double> importance = importance_of(spectral::settings(now), spectra_.importance.u, tables, outline_, watts);
   for (std::size_t c = 0; c < tables.clusters.size(); ++c) {
     ClusterWork work{tables.clusters[c], importance[c], spectral::iterations(importance[c], spectra_.passes)};
     for (const int w : work.wavelengths) spectra_.cluster_of[static_cast<std::size_t>(w)] = static_cast<int>(c);

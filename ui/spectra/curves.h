@@ -21,7 +21,7 @@ namespace nephroid::ui {
 struct SeenByGlass {
   std::vector<std::string> materials; ///< names of Scene::materials, in whose order the shares are
   spectral::Whereabouts whereabouts;
-  preset::Spectral settings;              ///< of the run,
+  spectral::Settings settings;            ///< of the run,
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
   bool operator==(const SeenByGlass&) const = default;
 };
@@ -75,7 +75,7 @@ private:
   void make_lights(const preset::Scene& now);
   void make_materials(const preset::Preset& now);
   void make_groups(const preset::Preset& now);
-  bool is_of_this_scene(const preset::Spectral& settings) const;
+  bool is_of_this_scene(const spectral::Settings& settings) const;
   void make_importance(const preset::Preset& now);
   void make_clusters(const preset::Preset& now);
 

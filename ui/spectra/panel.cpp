@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/spectra/panel.h"
 
+#include "spectral/describe_settings.h"
+
 #include "base/counted.h"
 #include "optics/spectrum.h"
 #include "preset/describe_limits.h"
@@ -19,7 +21,7 @@
 namespace nephroid::ui {
 namespace {
 
-using Effort = preset::Spectral::Effort;
+using Effort = spectral::Settings::Effort;
 using Type = preset::LightSpectrum::Type;
 
 constexpr std::size_t most_seen = 6; ///< materials around the glass that the table shows without scrolling
@@ -290,7 +292,7 @@ void SpectraPanel::draw_numbers() const
 void SpectraPanel::draw_effort(const Workbench& workbench, Commands& commands)
 {
   preset::Preset edited = *workbench.preset();
-  preset::Spectral& settings = edited.spectral;
+  spectral::Settings& settings = spectral::settings(edited);
   const auto push = [&](const char* label) { commands.push_back(command::Edit{label, edited, gestures_.begin()}); };
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Effort by");

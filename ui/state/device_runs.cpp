@@ -51,8 +51,8 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
   compute::kernels_changed(*context_);
   changed_ = false;
   previous_ = std::move(prepared);
-  plan::Plan plan = previous_->plan;
-  std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan.notes);
+  auto plan = std::make_shared<plan::Plan>(*previous_->plan);
+  std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan->notes);
   auto job = measure::measured(run::make_job(*previous_, *context_), preset, reference);
   auto seen = look_around(preset, previous_->loaded->scene, *previous_->loaded->bvh);
   return {std::move(job), std::move(plan), std::move(reference), std::move(seen)};

@@ -16,7 +16,7 @@ struct SeenByGlass; // ui/spectra/curves.h
 
 struct NewRun {
   std::unique_ptr<job::Job> job;
-  plan::Plan plan;
+  std::shared_ptr<const plan::Plan> plan;
   std::shared_ptr<const measure::Reference> reference; ///< what it is measured against; null where there is none
   std::shared_ptr<const SeenByGlass> seen = nullptr;   ///< null where nobody looked
 };

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "preset/relight.h"
+#include "spectral/relight/only_relit.h"
 #include "ui/dispersion/edits.h"
 #include "ui/state/file_kind.h"
 #include "ui/state/save.h"
@@ -223,7 +223,7 @@ std::function<std::unique_ptr<job::Job>()> Workbench::maker() const
   return [&source = source_, preset = run_preset_, arrival = arrival_] {
     NewRun run = source.make(*preset);
     const std::lock_guard lock(arrival->mutex);
-    arrival->plan = std::make_shared<plan::Plan>(std::move(run.plan));
+    arrival->plan = std::move(run.plan);
     arrival->reference = std::move(run.reference);
     arrival->seen = std::move(run.seen);
     arrival->preset = preset;
@@ -246,7 +246,7 @@ void Workbench::start()
 /// Where only the light differs, the run in hand takes it on and goes on converging. What it was measured against is of the old light.
 void Workbench::adopt_or_start()
 {
-  if (kernels_changed_ || !run_preset_ || !preset::only_relit(*run_preset_, history_->current())) {
+  if (kernels_changed_ || !run_preset_ || !spectral::only_relit(*run_preset_, history_->current())) {
     start();
     return;
   }

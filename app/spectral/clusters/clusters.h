@@ -2,7 +2,7 @@
 // Wavelength clusters: which of the 401 wavelengths may share one path (thesis 4.1.1). No OpenCL here.
 #pragma once
 #include "optics/wavelength.h"
-#include "preset/preset.h"
+#include "spectral/settings.h"
 
 #include <span>
 #include <vector>
@@ -11,7 +11,7 @@ namespace nephroid::spectral {
 
 /// optimal: the fewest clusters under the bound, from exact changes of angle. thesis: bicubic patches and Algorithm 4.1 as
 /// printed. brute_force: every wavelength by itself.
-using ClusterMethod = preset::Spectral::Method;
+using ClusterMethod = Settings::Method;
 
 struct Cluster {
   std::vector<int> wavelengths; ///< indices 0..400 in the order of falling n

@@ -2,6 +2,7 @@
 #include "spectral/clusters/losses.h"
 
 #include "scene/corners.h"
+#include "tracing/wavelength_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,6 @@
 
 namespace nephroid::spectral {
 namespace {
-
-/// A mirror that reflects nothing: exp(-200) is 0 in single precision.
-constexpr double blackest = 200;
 
 /// Of the box about all objects of a material, in metres.
 double diagonal_m(const scene::Scene& scene, std::size_t material)
@@ -40,18 +38,6 @@ void split(std::vector<int> cluster, const std::vector<double>& coefficients, do
 
 } // namespace
 
-std::vector<double> loss_coefficients(const scene::Material& material)
-{
-  std::vector<double> a;
-  if (material.type == scene::Material::Type::dielectric && material.absorbs)
-    for (int w = 0; w < optics::wavelength_count; ++w)
-      a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
-  if (material.type == scene::Material::Type::mirror &&
-      std::any_of(material.reflectance.begin(), material.reflectance.end(), [](double r) { return r != 1; }))
-    for (const double r : material.reflectance) a.push_back(r > 0 ? std::min(-std::log(r), blackest) : blackest);
-  return a;
-}
-
 double largest_difference(double a, double b, double longest)
 {
   if (a == b) return 0;
@@ -66,7 +52,7 @@ std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clus
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const bool used = std::any_of(scene.objects.begin(), scene.objects.end(),
                                   [&](const scene::Object& object) { return static_cast<std::size_t>(object.material) == m; });
-    const std::vector<double> coefficients = used ? loss_coefficients(scene.materials[m]) : std::vector<double>{};
+    const std::vector<double> coefficients = used ? tracing::loss_coefficients(scene.materials[m]) : std::vector<double>{};
     if (coefficients.empty()) continue;
     const double longest = scene.materials[m].type == scene::Material::Type::mirror ? reflections : 2 * diagonal_m(scene, m);
     std::vector<std::vector<int>> parts;

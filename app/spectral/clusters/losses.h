@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What glass and mirrors take away by wavelength, and which wavelengths they take alike.
+// Which wavelengths glass and mirrors take away alike (tracing::loss_coefficients).
 #pragma once
 #include "optics/wavelength.h"
 #include "scene/scene.h"
@@ -7,10 +7,6 @@
 #include <vector>
 
 namespace nephroid::spectral {
-
-/// Of a wavelength, exp(-a s) is left: a = 4 pi k / lambda in 1/m and s metres of glass that absorbs (Beer and Lambert), or a =
-/// -ln(reflectance) and s reflections on a mirror. [401]; empty for a material that takes nothing away.
-std::vector<double> loss_coefficients(const scene::Material& material);
 
 /// The most by which exp(-a s) and exp(-b s) differ for s in 0..longest; a, b >= 0.
 double largest_difference(double a, double b, double longest);

@@ -3,7 +3,7 @@
 
 #include "spectral/clusters/clusters.h"
 #include "spectral/clusters/losses.h"
-#include "spectral/stretch.h"
+#include "tracing/stretch.h"
 
 #include <algorithm>
 #include <utility>
@@ -23,7 +23,7 @@ std::vector<std::vector<int>> neighbours(int step)
 }
 
 /// As scene_clusters, by refraction alone.
-std::vector<std::vector<int>> refraction_clusters(const preset::Spectral& settings, const scene::Scene& scene)
+std::vector<std::vector<int>> refraction_clusters(const Settings& settings, const scene::Scene& scene)
 {
   std::vector<optics::Spectrum> curves;
   for (const scene::Object& object : scene.objects) {
@@ -39,11 +39,12 @@ std::vector<std::vector<int>> refraction_clusters(const preset::Spectral& settin
 
 } // namespace
 
-std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene)
+std::vector<std::vector<int>> scene_clusters(const Settings& settings, const scene::Scene& scene)
 {
   std::vector<std::vector<int>> clusters = refraction_clusters(settings, scene);
   if (settings.relight) return split_by_losses(std::move(clusters), scene, settings.max_surfaces, largest_loss_difference);
-  if (settings.differentials && stretch_parameter(scene) == StretchParameter::wavelength) clusters = split_into_runs(clusters);
+  if (settings.differentials && tracing::stretch_parameter(scene) == tracing::StretchParameter::wavelength)
+    clusters = tracing::split_into_runs(clusters);
   return clusters;
 }
 

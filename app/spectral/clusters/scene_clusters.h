@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wavelength clusters of a whole scene.
 #pragma once
-#include "preset/preset.h"
 #include "scene/scene.h"
+#include "spectral/settings.h"
 
 #include <vector>
 
 namespace nephroid::spectral {
 
-/// Layers keep one number for what is left of a whole cluster (kernels/spectral/layers.h): this is the most by which that may be wrong for a light
-/// that has only one wavelength of it. Light that changes little inside of a cluster is far less off.
+/// Layers keep one number for what is left of a whole cluster (kernels/spectral/layers.h): this is the most by which that may be wrong for
+/// a light that has only one wavelength of it. Light that changes little inside of a cluster is far less off.
 constexpr double largest_loss_difference = 0.1;
 
 /// The clusters (indices of wavelengths) for all dielectrics that an object uses: of one curve its own, of several their common
 /// refinement, of none one group; by brute_force groups of Spectral::step_nm neighbours whatever the glass. Every wavelength is in exactly
 /// one. Where splats are stretched along the wavelength, a cluster is a run of neighbours. Where layers are kept for another light, glass
 /// and mirrors take about as much of each wavelength of a cluster (split_by_losses). Throws bad_input as cluster_wavelengths does.
-std::vector<std::vector<int>> scene_clusters(const preset::Spectral& settings, const scene::Scene& scene);
+std::vector<std::vector<int>> scene_clusters(const Settings& settings, const scene::Scene& scene);
 
 } // namespace nephroid::spectral

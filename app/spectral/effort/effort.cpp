@@ -2,8 +2,8 @@
 #include "spectral/effort/effort.h"
 
 #include "spectral/effort/importance.h"
-#include "spectral/effort/worth.h"
-#include "spectral/omissions.h"
+#include "tracing/omissions.h"
+#include "tracing/worth.h"
 
 #include <fmt/format.h>
 
@@ -13,19 +13,20 @@
 namespace nephroid::spectral {
 namespace {
 
-using Choice = preset::Spectral::Effort;
+using Choice = Settings::Effort;
 
 /// [light][cluster] flat.
-std::vector<double> by_power(const std::vector<double>& watts, const WavelengthTables& tables)
+std::vector<double> by_power(const std::vector<double>& watts, const tracing::WavelengthTables& tables)
 {
   std::vector<double> weights;
   for (std::size_t l = 0; l < watts.size(); ++l)
-    for (std::size_t c = 0; c < tables.clusters.size(); ++c) weights.push_back(watts[l] * worth(tables.seen[l][c], tables.share[l][c]));
+    for (std::size_t c = 0; c < tables.clusters.size(); ++c)
+      weights.push_back(watts[l] * tracing::worth(tables.seen[l][c], tables.share[l][c]));
   return weights;
 }
 
 /// Of each cluster.
-std::vector<double> watts_in_clusters(const std::vector<double>& watts, const WavelengthTables& tables)
+std::vector<double> watts_in_clusters(const std::vector<double>& watts, const tracing::WavelengthTables& tables)
 {
   std::vector<double> sums(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < watts.size(); ++l)
@@ -34,7 +35,8 @@ std::vector<double> watts_in_clusters(const std::vector<double>& watts, const Wa
 }
 
 /// Each cluster's importance, shared by the lights in proportion to their watts in it.
-std::vector<double> by_importance(const std::vector<double>& importance, const std::vector<double>& watts, const WavelengthTables& tables)
+std::vector<double> by_importance(const std::vector<double>& importance, const std::vector<double>& watts,
+                                  const tracing::WavelengthTables& tables)
 {
   const std::vector<double> all = watts_in_clusters(watts, tables);
   std::vector<double> weights;
@@ -55,7 +57,7 @@ std::vector<double> cluster_sums(const std::vector<double>& weights, std::size_t
 
 bool caustics_are_possible(const scene::Scene& scene, const std::vector<double>& watts)
 {
-  const ObjectCounts objects = count_objects(scene);
+  const tracing::ObjectCounts objects = tracing::count_objects(scene);
   return objects.diffuse > 0 && !caustic_objects(scene).empty() && std::any_of(watts.begin(), watts.end(), [](double w) { return w > 0; });
 }
 
@@ -69,8 +71,8 @@ std::string work_left(const std::vector<double>& importance)
 
 } // namespace
 
-Effort make_effort(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<double>& watts,
-                   const WavelengthTables& tables)
+Effort make_effort(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<double>& watts,
+                   const tracing::WavelengthTables& tables)
 {
   const std::size_t clusters = tables.clusters.size();
   if (settings.effort == Choice::power || settings.effort == Choice::variance) {
@@ -92,7 +94,7 @@ Effort make_effort(const preset::Spectral& settings, const scene::Scene& scene, 
   return {by_importance(importance, watts, tables), importance};
 }
 
-plan::Pass effort_pass(const preset::Spectral& settings, const std::vector<double>& importance)
+plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance)
 {
   switch (settings.effort) {
   case Choice::importance:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the work of a pass is dealt to lights and clusters (preset::Spectral::effort).
+// How the work of a pass is dealt to lights and clusters (Settings::effort).
 #pragma once
 #include "plan/plan.h"
-#include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/settings.h"
+#include "spectral/tables/run_tables.h"
 
 #include <vector>
 
@@ -22,10 +22,10 @@ struct Effort {
 /// cluster lights have their part by their watts in it.
 /// Where no caustic can be (no light, nothing that throws or receives one) importance is not asked for: every cluster has 1.
 /// Throws bad_input as wavelength_importance does.
-Effort make_effort(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<double>& watts,
-                   const WavelengthTables& tables);
+Effort make_effort(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<double>& watts,
+                   const tracing::WavelengthTables& tables);
 
 /// The plan's pass "importance": how photons are dealt to clusters, and what of equal work that leaves. importance: Effort::importance.
-plan::Pass effort_pass(const preset::Spectral& settings, const std::vector<double>& importance);
+plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance);
 
 } // namespace nephroid::spectral

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/effort/emission_guide.h"
 
-#include "spectral/effort/exact_cdf.h"
+#include "tracing/exact_cdf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ void append_cdfs(const std::vector<double>& values, std::size_t size, std::vecto
 {
   for (std::size_t i = 0; i < values.size(); i += size) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(i);
-    const std::vector<float> cdf = exact_cdf({first, first + static_cast<std::ptrdiff_t>(size)});
+    const std::vector<float> cdf = tracing::exact_cdf({first, first + static_cast<std::ptrdiff_t>(size)});
     table.insert(table.end(), cdf.begin(), cdf.end());
   }
 }
@@ -86,7 +86,7 @@ void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const
   }
 }
 
-void EmissionGuide::save(StateWriter& to) const
+void EmissionGuide::save(tracing::StateWriter& to) const
 {
   for (std::size_t i = 0; i < chance_.size(); ++i) {
     to.value(chance_[i]);
@@ -96,7 +96,7 @@ void EmissionGuide::save(StateWriter& to) const
   for (const float value : table_) to.value(value);
 }
 
-void EmissionGuide::load(StateReader& from)
+void EmissionGuide::load(tracing::StateReader& from)
 {
   for (std::size_t i = 0; i < chance_.size(); ++i) {
     from.value(chance_[i]);

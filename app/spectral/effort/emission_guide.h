@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a light's photons matter: a histogram over the numbers that their directions are made of (kernels/spectral/guide.h), learned from what
-// earlier photons added to the picture. A photon's chance is proportional to the root of the mean square of what photons of its cell
+// Where a light's photons matter: a histogram over the numbers that their directions are made of (kernels/spectral/guide.h), learned from
+// what earlier photons added to the picture. A photon's chance is proportional to the root of the mean square of what photons of its cell
 // add, which gives the sum of all cells' variances its smallest value. No OpenCL here.
 #pragma once
 #include "kernels/tracing/shared_types.h"
-#include "spectral/state_bytes.h"
+#include "tracing/state_bytes.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +27,8 @@ public:
   /// photons: [light] of a pass, in those passes. Every cell keeps a chance, however dark it was.
   void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes);
 
-  void save(StateWriter& to) const;
-  void load(StateReader& from);
+  void save(tracing::StateWriter& to) const;
+  void load(tracing::StateReader& from);
 
 private:
   std::vector<double> chance_;            ///< [light][cell]: of a photon of the light; sums to 1 for each light

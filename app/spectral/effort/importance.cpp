@@ -7,8 +7,8 @@
 #include "optics/colour.h"
 #include "scene/corners.h"
 #include "scene/ray.h"
-#include "spectral/omissions.h"
-#include "spectral/tables/targets.h"
+#include "tracing/omissions.h"
+#include "tracing/targets.h"
 
 #include <algorithm>
 #include <array>
@@ -94,8 +94,8 @@ std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<s
     light.power_w = light.irradiance_w_m2 = 1;
     std::vector<scene::Sphere> reached;
     std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(reached),
-                 [&](const scene::Sphere& sphere) { return reaches(light, sphere); });
-    parts.push_back(towards_targets_w(light, reached, scene.metres_per_unit));
+                 [&](const scene::Sphere& sphere) { return tracing::reaches(light, sphere); });
+    parts.push_back(tracing::towards_targets_w(light, reached, scene.metres_per_unit));
   }
   return parts;
 }
@@ -206,7 +206,7 @@ std::vector<double> watts(std::span<const scene::Light> lights, const std::vecto
   return result;
 }
 
-Whereabouts whereabouts(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh)
+Whereabouts whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   const std::vector<int> throwers = caustic_objects(scene);
   std::vector<scene::Sphere> receivers;
@@ -215,21 +215,21 @@ Whereabouts whereabouts(const preset::Spectral& settings, const scene::Scene& sc
   where.caustics = !throwers.empty();
   where.used = used_materials(scene);
   where.towards = parts_towards(scene, receivers);
-  where.anywhere = parts_towards(scene, {everything(scene)});
-  if (settings.effort == preset::Spectral::Effort::importance && settings.importance.geometry && where.caustics)
+  where.anywhere = parts_towards(scene, {tracing::everything(scene)});
+  if (settings.effort == Settings::Effort::importance && settings.importance.geometry && where.caustics)
     where.seen = seen_materials(scene, bvh, throwers);
   return where;
 }
 
-WavelengthImportance wavelength_importance(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh)
+WavelengthImportance wavelength_importance(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   return wavelength_importance(settings, whereabouts(settings, scene, bvh), scene.lights, scene.materials, scene.source);
 }
 
-WavelengthImportance wavelength_importance(const preset::Spectral& settings, const Whereabouts& where, std::span<const scene::Light> lights,
+WavelengthImportance wavelength_importance(const Settings& settings, const Whereabouts& where, std::span<const scene::Light> lights,
                                            std::span<const scene::Material> materials, const std::string& file)
 {
-  using Effort = preset::Spectral::Effort;
+  using Effort = Settings::Effort;
   WavelengthImportance result;
   switch (settings.effort) {
   case Effort::importance:
@@ -249,7 +249,7 @@ WavelengthImportance wavelength_importance(const preset::Spectral& settings, con
   return result;
 }
 
-std::vector<double> cluster_importance(const Spectrum& u, std::span<const std::vector<int>> clusters, preset::Importance::Cluster which)
+std::vector<double> cluster_importance(const Spectrum& u, std::span<const std::vector<int>> clusters, spectral::Importance::Cluster which)
 {
   std::vector<double> result;
   for (const std::vector<int>& cluster : clusters) {
@@ -258,7 +258,7 @@ std::vector<double> cluster_importance(const Spectrum& u, std::span<const std::v
       largest = std::max(largest, u[static_cast<std::size_t>(w)]);
       sum += u[static_cast<std::size_t>(w)];
     }
-    result.push_back(which == preset::Importance::Cluster::maximum ? largest : sum / static_cast<double>(cluster.size()));
+    result.push_back(which == spectral::Importance::Cluster::maximum ? largest : sum / static_cast<double>(cluster.size()));
   }
   return result;
 }

@@ -2,9 +2,9 @@
 // How much each wavelength matters to the eye in a scene (thesis 4.1.2), and how many iterations a cluster gets for it. No OpenCL here.
 #pragma once
 #include "optics/wavelength.h"
-#include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
+#include "spectral/settings.h"
 
 #include <cstdint>
 #include <span>
@@ -40,20 +40,20 @@ struct Whereabouts {
 /// W of each light by one of the two vectors above.
 std::vector<double> watts(std::span<const scene::Light> lights, const std::vector<double>& parts);
 /// Traces rays for effort `importance` with geometry only; some milliseconds.
-Whereabouts whereabouts(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh);
+Whereabouts whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
 
 /// u(lambda) of (4.15) for effort `importance`, of Radziszewski et al. for `radziszewski`, of the light alone for `power` and
 /// `variance` (what the eye makes of it, (X + Y + Z) / 3; 0 where no light has power), 1 everywhere for `equal` and `random`.
 /// Throws bad_input at FILE#/spectral/effort where (4.15) is 0 at every wavelength, and says why.
-WavelengthImportance wavelength_importance(const preset::Spectral& settings, const scene::Scene& scene, const scene::Bvh& bvh);
+WavelengthImportance wavelength_importance(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
 /// The same in a fraction of a millisecond, for lights and materials as they are now; of the lights only the spectra count. file: for
 /// messages.
-WavelengthImportance wavelength_importance(const preset::Spectral& settings, const Whereabouts& where, std::span<const scene::Light> lights,
+WavelengthImportance wavelength_importance(const Settings& settings, const Whereabouts& where, std::span<const scene::Light> lights,
                                            std::span<const scene::Material> materials, const std::string& file);
 
 /// Of each cluster (indices of wavelengths, none empty): the largest u in it or the mean.
 std::vector<double> cluster_importance(const optics::Spectrum& u, std::span<const std::vector<int>> clusters,
-                                       preset::Importance::Cluster which);
+                                       spectral::Importance::Cluster which);
 
 /// Iterations of a cluster after `passes` passes: ceil(u passes). It grows with passes by 0 or 1 at a time, so a cluster has its turn in
 /// pass p (from 0) when iterations(u, p + 1) > iterations(u, p). importance: 0..1.

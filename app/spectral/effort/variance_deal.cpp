@@ -57,7 +57,7 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
   first_pass_ = pass;
 }
 
-void VarianceDeal::save(StateWriter& to) const
+void VarianceDeal::save(tracing::StateWriter& to) const
 {
   to.value(first_pass_);
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
@@ -67,7 +67,7 @@ void VarianceDeal::save(StateWriter& to) const
   }
 }
 
-void VarianceDeal::load(StateReader& from)
+void VarianceDeal::load(tracing::StateReader& from)
 {
   from.value(first_pass_);
   for (std::size_t e = 0; e < emitters_.size(); ++e) {

@@ -4,7 +4,7 @@
 // that carries all of the emitter's power. No OpenCL here.
 #pragma once
 #include "kernels/tracing/shared_types.h"
-#include "spectral/state_bytes.h"
+#include "tracing/state_bytes.h"
 
 #include <cstdint>
 #include <span>
@@ -27,8 +27,8 @@ public:
   /// sequence. A tenth of the photons stays as it was dealt first, and every emitter keeps at least one.
   void deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
 
-  void save(StateWriter& to) const;
-  void load(StateReader& from);
+  void save(tracing::StateWriter& to) const;
+  void load(tracing::StateReader& from);
 
 private:
   std::vector<shared::DeviceEmitter> emitters_;

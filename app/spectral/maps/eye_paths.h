@@ -2,8 +2,8 @@
 // Paths from the eye in steps of some rows: kernels/spectral/view.cl finds where they end, the caller gathers photons there.
 #pragma once
 #include "kernels/spectral/photon_map_types.h"
-#include "spectral/pixel_rows.h"
 #include "spectral/tables/device_world.h"
+#include "tracing/pixel_rows.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -41,10 +41,10 @@ public:
   void warm_up() { look({world_.seed, 0, 0, 1, 0, 0, 0}, 1); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
-  const PixelRows& rows() const { return rows_; }
+  const tracing::PixelRows& rows() const { return rows_; }
 
-  void save(StateWriter& to) const { rows_.save(to); }
-  void load(StateReader& from) { rows_.load(from); }
+  void save(tracing::StateWriter& to) const { rows_.save(to); }
+  void load(tracing::StateReader& from) { rows_.load(from); }
 
 private:
   /// Which paths a launch of view.cl has.
@@ -80,7 +80,7 @@ private:
   std::uint32_t paths_;
   compute::Buffer<shared::VisiblePoint> points_;
   compute::Kernel view_;
-  PixelRows rows_;
+  tracing::PixelRows rows_;
 };
 
 } // namespace nephroid::spectral

@@ -6,8 +6,8 @@
 #include "spectral/maps/eye_paths.h"
 #include "spectral/maps/map_radius.h"
 #include "spectral/maps/photon_map.h"
-#include "spectral/omissions.h"
 #include "spectral/sight.h"
+#include "tracing/omissions.h"
 
 #include <fmt/format.h>
 
@@ -38,32 +38,32 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
 unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass)
 {
   constexpr double most = 64, of_photons = 1.0 / 3; // a path takes about twice as long as a photon
-  if (!may_see_glass_or_mirror(scene)) return 1;
+  if (!tracing::may_see_glass_or_mirror(scene)) return 1;
   const double pixels = static_cast<double>(scene.camera.width) * scene.camera.height * bent_share(scene, bvh);
   return static_cast<unsigned>(std::clamp(of_photons * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
 }
 
 namespace {
 
-using Estimator = preset::Spectral::Estimator;
+using Estimator = Settings::Estimator;
 
-plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool caustics)
+plan::Pass map_pass(const Settings& settings, const scene::Scene& scene, const RunTables& tables, bool caustics, bool leave_out)
 {
   if (!caustics) return {"photon maps", false, "there are no caustics to gather", "", false};
   const std::string radius = fmt::format("from {:.3g} units around a visible point", first_map_radius(settings, scene));
   if (settings.estimator == Estimator::sppm)
     return {"photon maps", true,
             fmt::format("spectral.estimator is sppm: every caustic is gathered, {}, {}", radius,
-                        settings.effort == preset::Spectral::Effort::random ? "one cluster a pass in shared statistics"
-                                                                            : "with statistics of each pixel in each cluster"),
+                        settings.effort == Settings::Effort::random ? "one cluster a pass in shared statistics"
+                                                                    : "with statistics of each pixel in each cluster"),
             "", false};
-  const bool sees = may_see_glass_or_mirror(scene);
+  const bool sees = tracing::may_see_glass_or_mirror(scene);
   if (settings.estimator == Estimator::splat) {
     const std::string seen = sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror";
     return {"photon maps", false, "spectral.estimator is splat: " + seen, "", false};
   }
-  return omission(
-      "photon_maps", settings.leave_out.photon_maps, sees,
+  return tracing::omission(
+      "photon maps", leave_out, sees,
       sees ? fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
                          radius, counted(tables.eye_paths, "path"))
            : "the camera sees no glass and no mirror, so every caustic is splatted");
@@ -71,10 +71,10 @@ plan::Pass map_pass(const preset::Spectral& settings, const scene::Scene& scene,
 
 } // namespace
 
-MapPlan plan_maps(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool caustics,
-                  std::uint64_t film_bytes)
+MapPlan plan_maps(const Settings& settings, const scene::Scene& scene, const RunTables& tables, bool caustics, std::uint64_t film_bytes,
+                  bool leave_out)
 {
-  MapPlan plan{map_pass(settings, scene, tables, caustics), {}};
+  MapPlan plan{map_pass(settings, scene, tables, caustics, leave_out), {}};
   if (!plan.pass.runs) return plan;
   const std::uint64_t clusters = tables.wavelengths.clusters.size(), groups = 2 * clusters * scene.objects.size();
   if (groups > MAX_PHOTON_GROUPS)
@@ -92,7 +92,7 @@ MapPlan plan_maps(const preset::Spectral& settings, const scene::Scene& scene, c
     plan.buffers.push_back({"film photon maps", film_bytes});
     return plan;
   }
-  const std::uint64_t runs = settings.effort == preset::Spectral::Effort::random ? 1 : clusters;
+  const std::uint64_t runs = settings.effort == Settings::Effort::random ? 1 : clusters;
   plan.buffers.push_back({"statistics of pixels", runs * pixels * sizeof(shared::PixelStatistics)});
   plan.buffers.push_back({"radiance", 3 * pixels * sizeof(float)});
   return plan;

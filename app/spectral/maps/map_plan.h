@@ -2,10 +2,10 @@
 // Whether a run has photon maps, why, and what memory they take.
 #pragma once
 #include "plan/plan.h"
-#include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/settings.h"
+#include "spectral/tables/run_tables.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,9 +21,9 @@ struct MapPlan {
 /// many in the whole picture as there are photons, so that neither takes most of the time and neither most of the noise.
 unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass);
 
-/// caustics: whether there are any to estimate, by splats or maps. film_bytes: of one film.
+/// caustics: whether there are any to estimate, by splats or maps. film_bytes: of one film. leave_out: maps where nothing needs them.
 /// Throws bad_input at FILE#/scene/objects for more objects than photons in so many clusters can tell apart.
-MapPlan plan_maps(const preset::Spectral& settings, const scene::Scene& scene, const DeviceTables& tables, bool caustics,
-                  std::uint64_t film_bytes);
+MapPlan plan_maps(const Settings& settings, const scene::Scene& scene, const RunTables& tables, bool caustics, std::uint64_t film_bytes,
+                  bool leave_out);
 
 } // namespace nephroid::spectral

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/maps/map_radius.h"
 
-#include "spectral/tables/scales.h"
+#include "tracing/scales.h"
 
 #include <fmt/format.h>
 
@@ -20,17 +20,17 @@ double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds)
 
 } // namespace
 
-double first_map_radius(const preset::Spectral& settings, const scene::Scene& scene)
+double first_map_radius(const Settings& settings, const scene::Scene& scene)
 {
-  return settings.sppm.radius ? *settings.sppm.radius : 2 * pixel_width(scene.camera, scene_bounds(scene));
+  return settings.sppm.radius ? *settings.sppm.radius : 2 * pixel_width(scene.camera, tracing::scene_bounds(scene));
 }
 
-std::string map_radius_note(const preset::Spectral& settings, const scene::Scene& scene)
+std::string map_radius_note(const Settings& settings, const scene::Scene& scene)
 {
   const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha, shrunk = radius * std::sqrt(alpha);
-  const scene::Sphere bounds = scene_bounds(scene);
+  const scene::Sphere bounds = tracing::scene_bounds(scene);
   const double pixel = pixel_width(scene.camera, bounds), least = pixel / 16;
-  if (settings.estimator == preset::Spectral::Estimator::sppm && radius >= least && shrunk < least)
+  if (settings.estimator == Settings::Estimator::sppm && radius >= least && shrunk < least)
     return fmt::format(
         "spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first photons, and hardly another one "
         "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",

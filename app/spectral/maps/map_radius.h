@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far around a visible point photons are gathered: the first radius, and how it shrinks from pass to pass.
 #pragma once
-#include "preset/preset.h"
 #include "scene/scene.h"
+#include "spectral/settings.h"
 
 #include <cstdint>
 #include <string>
@@ -11,12 +11,12 @@ namespace nephroid::spectral {
 
 /// spectral.sppm.radius; without, twice what a pixel covers at the distance of the scene's middle (a quarter of the scene's
 /// radius for a camera that is nearer). In scene units.
-double first_map_radius(const preset::Spectral& settings, const scene::Scene& scene);
+double first_map_radius(const Settings& settings, const scene::Scene& scene);
 
 /// What the plan says of a spectral.sppm.radius that loses the caustics: wider than 32 pixels or than the whole scene, or below 1/16 pixel,
 /// where a pass of as many photons as pixels finds one in some hundred pixels; and of an alpha that makes it so small by the first photons
 /// that a pixel of the estimator sppm finds. Empty for any other.
-std::string map_radius_note(const preset::Spectral& settings, const scene::Scene& scene);
+std::string map_radius_note(const Settings& settings, const scene::Scene& scene);
 
 /// What the first radius is multiplied with in pass p (from 0): r_(p+1)^2 = r_p^2 (p + alpha) / (p + 1), counted from 1 (Knaus and Zwicker
 /// 2011, "Progressive photon mapping: a probabilistic approach", (15)). Squares of radii then fall as p^(alpha - 1): the bias, which is

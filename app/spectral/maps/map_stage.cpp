@@ -2,12 +2,12 @@
 // Caustics seen through glass or in a mirror: paths from the eye gather the photons that the photon stage has splatted elsewhere and
 // stored. The radius shrinks from pass to pass and is the same for all pixels (Knaus and Zwicker 2011), so each pass is an estimate of
 // its own, and the film adds them up like any other's.
-#include "spectral/film.h"
 #include "spectral/maps/eye_paths.h"
 #include "spectral/maps/map_plan.h"
 #include "spectral/maps/map_radius.h"
 #include "spectral/maps/photon_map.h"
 #include "spectral/stages.h"
+#include "tracing/film.h"
 
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,7 @@ namespace {
 
 class MapStage final : public Stage {
 public:
-  MapStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings, PhotonMap& map)
+  MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings, PhotonMap& map)
       : world_(world), map_(map), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
         eye_(world, world.tables.eye_paths), film_(world.zeroed("film photon maps", world.film_size())),
         gather_(compute::Program(world.context, "spectral/gather.cl", world.defines).kernel("gather_to_film"))
@@ -32,7 +32,7 @@ public:
     const double radius = first_radius_ * map_radius_factor(pass, alpha_);
     if (sorted_pass_ != pass) map_.build(radius, world_.tables.photons_per_pass);
     sorted_pass_ = pass;
-    const DeviceTables& t = world_.tables;
+    const RunTables& t = world_.tables;
     const double quanta = photon_scale(t.photons_per_pass, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
     const auto film_per_quantum = static_cast<float>(t.caustic_scale / quanta / std::pow(std::numbers::pi * metres, 2));
     const auto pixels = static_cast<std::uint32_t>(t.camera.width * t.camera.height);
@@ -55,16 +55,16 @@ public:
   {
     const auto samples = [&](int row) { return eye_.rows().samples(row, passes, done); };
     const std::vector<std::int64_t> sums = film_.read();
-    add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
-  void save(StateWriter& to) const override
+  void save(tracing::StateWriter& to) const override
   {
     eye_.save(to);
     to.buffer(film_);
     to.buffer(map_.stored());
   }
-  void load(StateReader& from) override
+  void load(tracing::StateReader& from) override
   {
     eye_.load(from);
     from.buffer(film_);
@@ -84,7 +84,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<Stage> make_map_stage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings, PhotonMap& map)
+std::unique_ptr<Stage> make_map_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings, PhotonMap& map)
 {
   return std::make_unique<MapStage>(world, scene, settings, map);
 }

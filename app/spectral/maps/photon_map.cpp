@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/maps/photon_map.h"
 
-#include "spectral/tables/scales.h"
+#include "tracing/scales.h"
 
 #include <algorithm>
 #include <bit>
@@ -21,7 +21,7 @@ std::uint32_t stride(std::uint32_t slots) { return (slots + 15) / 8 * 8; }
 
 } // namespace
 
-double photon_scale(std::uint32_t photons, double watts) { return power_of_two_below(std::exp2(12) * photons / watts); }
+double photon_scale(std::uint32_t photons, double watts) { return tracing::power_of_two_below(std::exp2(12) * photons / watts); }
 
 PhotonMap::PhotonMap(const compute::Context& context, std::uint32_t slots, const compute::Defines& defines)
     : stored_(context, "photons", slots), starts_(context, "photon grid", bucket_mask(slots) + GRID_BLOCK + 1),

@@ -5,13 +5,13 @@
 #include "optics/colour.h"
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/importance.h"
-#include "spectral/effort/worth.h"
 #include "spectral/maps/eye_paths.h"
 #include "spectral/maps/map_radius.h"
 #include "spectral/maps/photon_map.h"
-#include "spectral/photon_slices.h"
 #include "spectral/stages.h"
-#include "spectral/tables/scales.h"
+#include "tracing/photon_slices.h"
+#include "tracing/scales.h"
+#include "tracing/worth.h"
 
 #include <cmath>
 #include <numbers>
@@ -36,11 +36,11 @@ struct Sender {
 
 class SppmStage final : public Stage {
 public:
-  SppmStage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+  SppmStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
-        random_(settings.effort == preset::Spectral::Effort::random), alpha_(settings.sppm.alpha),
-        first_radius_(first_map_radius(settings, scene)), map_(world.context, photons_, world.defines), eye_(world, 1),
-        unused_(world.context, "unused", 0), no_guide_(world.context, "unused", 0)
+        random_(settings.effort == Settings::Effort::random), alpha_(settings.sppm.alpha), first_radius_(first_map_radius(settings, scene)),
+        map_(world.context, photons_, world.defines), eye_(world, 1), unused_(world.context, "unused", 0),
+        no_guide_(world.context, "unused", 0)
   {
     compute::Defines defines = world.photon_defines();
     defines["NEPHROID_SPLAT"] = std::to_string(0);
@@ -89,9 +89,9 @@ public:
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override;
-  void report(std::int64_t passes, bool done, job::Snapshot& snapshot) override;
+  void report(std::int64_t passes, bool done, Energy& energy) override;
 
-  void save(StateWriter& to) const override
+  void save(tracing::StateWriter& to) const override
   {
     to.value(at_);
     slices_.save(to);
@@ -102,7 +102,7 @@ public:
       to.buffer(run.energy);
     }
   }
-  void load(StateReader& from) override
+  void load(tracing::StateReader& from) override
   {
     from.value(at_);
     slices_.load(from);
@@ -183,20 +183,20 @@ private:
   std::vector<Run> runs_;
   compute::Buffer<std::int64_t> unused_; ///< for what the photon kernel does not do here
   compute::Buffer<float> no_guide_;      ///< likewise
-  PhotonSlices slices_;
+  tracing::PhotonSlices slices_;
   Position at_;
   bool sorted_ = false; ///< the grid has this iteration's photons
 };
 
 Sender SppmStage::make_sender(int cluster) const
 {
-  const DeviceTables& t = world_.tables;
+  const RunTables& t = world_.tables;
   const auto c = static_cast<std::size_t>(cluster);
   std::vector<PhotonSource> sources;
   double weights = 0;
   for (std::size_t l = 0; l < t.lights.size(); ++l) {
     const double share = t.wavelengths.share[l][c];
-    sources.push_back({t.towards_targets_w[l] * worth(t.wavelengths.seen[l][c], share), static_cast<int>(l), cluster, share});
+    sources.push_back({t.towards_targets_w[l] * tracing::worth(t.wavelengths.seen[l][c], share), static_cast<int>(l), cluster, share});
     weights += sources.back().weight;
   }
   std::vector<shared::DeviceEmitter> emitters = make_emitters(sources, photons_);
@@ -210,7 +210,7 @@ void SppmStage::send_photons(std::int64_t pass, std::uint32_t offset, std::uint3
 {
   const int cluster = std::min(at_.cluster, cluster_count() - 1);
   const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
-  const DeviceTables& t = world_.tables;
+  const RunTables& t = world_.tables;
   world_.run_photons(send_, count,
                      {{"targets", world_.buffers.targets},
                       {"emitters", sender.emitters},
@@ -300,7 +300,7 @@ void SppmStage::develop(std::int64_t passes, bool done, job::Picture& picture)
   picture.error_draw.clear(); // there are no two halves: what a radius has become hangs on all photons
 }
 
-void SppmStage::report(std::int64_t passes, bool done, job::Snapshot& snapshot)
+void SppmStage::report(std::int64_t passes, bool done, Energy& energy)
 {
   std::array<double, OUTCOME_COUNT> watts{};
   for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
@@ -311,9 +311,10 @@ void SppmStage::report(std::int64_t passes, bool done, job::Snapshot& snapshot)
     const std::vector<std::int64_t> quanta = runs_[static_cast<std::size_t>(run)].energy.read();
     const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
     for (std::size_t i = 0; i < watts.size(); ++i)
-      watts[i] += i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : share * mean_watts(quanta[i], world_.tables.energy_scale, count);
+      watts[i] +=
+          i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : share * tracing::mean_watts(quanta[i], world_.tables.energy_scale, count);
   }
-  snapshot.energy = {watts[OUTCOME_EMITTED],
+  energy.caustics = {watts[OUTCOME_EMITTED],
                      watts[OUTCOME_DEPOSITED],
                      watts[OUTCOME_MISSED],
                      watts[OUTCOME_ABSORBED],
@@ -324,7 +325,7 @@ void SppmStage::report(std::int64_t passes, bool done, job::Snapshot& snapshot)
 
 } // namespace
 
-std::unique_ptr<Stage> make_sppm_stage(DeviceWorld& world, const scene::Scene& scene, const preset::Spectral& settings)
+std::unique_ptr<Stage> make_sppm_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
 {
   return std::make_unique<SppmStage>(world, scene, settings);
 }

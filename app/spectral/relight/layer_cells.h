@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cells a film of layers has (kernels/spectral/layers.h): a cell is a pixel with one reflector that it sees. On the host, without OpenCL.
+// Which cells a film of layers has (kernels/spectral/layers.h): a cell is a pixel with one reflector that it sees. On the host, without
+// OpenCL.
 #pragma once
 #include "kernels/spectral/layer_types.h"
 #include "kernels/tracing/shared_types.h"

@@ -4,7 +4,7 @@
 #include "compute/compute.h"
 #include "job/job.h"
 #include "spectral/relight/layer_cells.h"
-#include "spectral/state_bytes.h"
+#include "tracing/state_bytes.h"
 
 #include <array>
 #include <cstdint>
@@ -43,8 +43,8 @@ public:
   /// Two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights.
   std::array<std::vector<float>, 2> weigh(const LayerFilmWeights& by);
 
-  void save(StateWriter& to) const { to.buffer(sums_); }
-  void load(StateReader& from) { from.buffer(sums_); }
+  void save(tracing::StateWriter& to) const { to.buffer(sums_); }
+  void load(tracing::StateReader& from) { from.buffer(sums_); }
 
 private:
   compute::Context context_{};

@@ -13,9 +13,9 @@ namespace {
 
 using optics::Colour;
 
-std::size_t reflectors(const WavelengthTables& tables) { return static_cast<std::size_t>(tables.reflector_count); }
+std::size_t reflectors(const tracing::WavelengthTables& tables) { return static_cast<std::size_t>(tables.reflector_count); }
 
-double reflectance(const WavelengthTables& tables, std::size_t reflector, int wavelength)
+double reflectance(const tracing::WavelengthTables& tables, std::size_t reflector, int wavelength)
 {
   return static_cast<double>(tables.reflectance[reflector * optics::wavelength_count + static_cast<std::size_t>(wavelength)]);
 }
@@ -51,7 +51,7 @@ LayerLight layer_light(const preset::Preset& preset)
   return light;
 }
 
-LayerWeights layer_weights(const LayerLight& light, const WavelengthTables& tables)
+LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTables& tables)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
   LayerWeights weights;
@@ -75,7 +75,7 @@ LayerWeights layer_weights(const LayerLight& light, const WavelengthTables& tabl
   return weights;
 }
 
-FlatLight flat_light(const WavelengthTables& tables)
+FlatLight flat_light(const tracing::WavelengthTables& tables)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
   const double luminance = std::accumulate(eye.y.begin(), eye.y.end(), 0.0);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light that layers are weighed by (kernels/spectral/layers.h), which may change while a run goes on, and by how much. On the host, without
-// OpenCL.
+// The light that layers are weighed by (kernels/spectral/layers.h), which may change while a run goes on, and by how much. On the host,
+// without OpenCL.
 #pragma once
 #include "optics/colour.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 
 #include <vector>
 
@@ -29,13 +29,13 @@ struct LayerWeights {
   std::vector<optics::Colour> clusters; ///< [light][cluster][reflector]
   std::vector<optics::Colour> all;      ///< [light][reflector]: of all wavelengths
 };
-LayerWeights layer_weights(const LayerLight& light, const WavelengthTables& tables);
+LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTables& tables);
 
 /// What kernels ask of reflectors where a pixel's survey missed one.
 struct FlatLight {
   std::vector<float> mean_reflectance; ///< [cluster][reflector], then by luminance over all wavelengths: [reflector]
   std::vector<float> luminance_share;  ///< [cluster]; of light that has the same power at every wavelength
 };
-FlatLight flat_light(const WavelengthTables& tables);
+FlatLight flat_light(const tracing::WavelengthTables& tables);
 
 } // namespace nephroid::spectral

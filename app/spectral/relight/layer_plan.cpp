@@ -3,8 +3,8 @@
 
 #include "base/counted.h"
 #include "spectral/clusters/scene_clusters.h"
-#include "spectral/omissions.h"
 #include "spectral/relight/layer_cells.h"
+#include "tracing/omissions.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ plan::Pass no_maps_of_layers()
   return {"photon maps", false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight", false};
 }
 
-void plan_layers(const DeviceTables& tables, bool direct, bool photons, int halves, plan::Plan& plan)
+void plan_layers(const RunTables& tables, bool direct, bool photons, int halves, plan::Plan& plan)
 {
   const std::size_t lights = tables.lights.size(), clusters = tables.wavelengths.clusters.size();
   std::erase_if(plan.passes, [](const plan::Pass& p) { return p.name == "dark lights" || p.name == "unlit wavelengths"; });

@@ -2,9 +2,9 @@
 #include "spectral/relight/layer_tables.h"
 
 #include "spectral/effort/emitters.h"
-#include "spectral/effort/exact_cdf.h"
-#include "spectral/effort/worth.h"
-#include "spectral/tables/scales.h"
+#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
+#include "tracing/worth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace nephroid::spectral {
 namespace {
 
 /// Of each cluster of a light of 1 W.
-std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const WavelengthTables& tables)
+std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracing::WavelengthTables& tables)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
   std::vector<double> power;
@@ -23,7 +23,7 @@ std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const Wavele
     double sum = 0;
     for (const int index : cluster) {
       const auto w = static_cast<std::size_t>(index);
-      sum += worth(spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, spectrum[w]);
+      sum += tracing::worth(spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, spectrum[w]);
     }
     power.push_back(sum);
   }
@@ -48,7 +48,7 @@ scene::Scene with_unit_lights(const scene::Scene& scene)
 
 } // namespace
 
-std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const DeviceTables& tables, unsigned photons)
+std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const RunTables& tables, unsigned photons)
 {
   const std::vector<std::vector<int>>& clusters = tables.wavelengths.clusters;
   std::vector<PhotonSource> sources;
@@ -69,7 +69,7 @@ std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const
   return make_emitters(sources, photons);
 }
 
-std::vector<float> layer_cluster_cdf(const LayerLight& light, const WavelengthTables& tables)
+std::vector<float> layer_cluster_cdf(const LayerLight& light, const tracing::WavelengthTables& tables)
 {
   std::vector<double> parts(tables.clusters.size(), 0);
   for (std::size_t l = 0; l < light.spectra.size(); ++l) {
@@ -77,24 +77,23 @@ std::vector<float> layer_cluster_cdf(const LayerLight& light, const WavelengthTa
     for (std::size_t c = 0; c < parts.size(); ++c) parts[c] += light.power[l] * worth[c];
   }
   parts = half_evenly(std::move(parts), std::vector<bool>(tables.clusters.size(), false));
-  return exact_cdf_from_zero(parts);
+  return tracing::exact_cdf_from_zero(parts);
 }
 
-double layer_energy_scale(const LayerLight& light, const DeviceTables& tables)
+double layer_energy_scale(const LayerLight& light, const RunTables& tables)
 {
   double watts = 0;
   for (std::size_t l = 0; l < light.power.size(); ++l) watts += tables.towards_targets_w[l] * light.power[l];
-  return energy_scale(watts);
+  return tracing::energy_scale(watts);
 }
 
-DeviceTables make_run_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
+RunTables make_run_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, tracing::LeaveOut leave_out)
 {
-  if (!preset.spectral.relight) return make_device_tables(preset, scene, bvh);
-  preset::Preset layered = preset;
-  layered.spectral.leave_out.dark_lights = layered.spectral.leave_out.unlit_wavelengths = false;
-  DeviceTables tables = make_device_tables(layered, with_unit_lights(scene), bvh);
+  if (!spectral::settings(preset).relight) return make_lit_tables(preset, scene, bvh, leave_out);
+  leave_out.dark_lights = leave_out.unlit_wavelengths = false;
+  RunTables tables = make_lit_tables(preset, with_unit_lights(scene), bvh, leave_out);
   const LayerLight light = layer_light(scene, preset.white);
-  tables.emitters = layer_emitters(light, tables, static_cast<unsigned>(preset.spectral.photons_per_pass));
+  tables.emitters = layer_emitters(light, tables, static_cast<unsigned>(spectral::settings(preset).photons_per_pass));
   tables.photons_per_pass = count_photons(tables.emitters);
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
   tables.wavelengths.cluster_cdf = layer_cluster_cdf(light, tables.wavelengths);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer, kept as layers: kernels/spectral/relight_direct.cl.
-#include "spectral/film.h"
-#include "spectral/pixel_rows.h"
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_tables.h"
 #include "spectral/relight/relighting.h"
+#include "tracing/film.h"
+#include "tracing/pixel_rows.h"
 
 #include <cmath>
 #include <utility>
@@ -17,7 +17,7 @@ constexpr double paths_through_glass = 4;
 
 class LayeredDirectStage final : public Stage {
 public:
-  LayeredDirectStage(DeviceWorld& world, const Relighting& relighting, const preset::Spectral& settings)
+  LayeredDirectStage(DeviceWorld& world, const Relighting& relighting, const Settings& settings)
       : world_(world), relighting_(relighting), pixel_samples_(settings.pixel_samples),
         unbent_(world.context, "film direct", relighting.unbent, world.tables.lights.size(), world.halves, world.defines),
         bent_(world.context, "film direct through glass", relighting.bent,
@@ -68,11 +68,11 @@ public:
     const std::array<std::vector<float>, 2> straight = unbent_.weigh(half_sums(relighting_.weights.all, reflectors, world_.halves, quanta)),
                                             through =
                                                 bent_.weigh(half_sums(relighting_.weights.clusters, reflectors, world_.halves, quanta));
-    std::vector<float>& rgb = layer_of(picture, "direct").rgb;
+    std::vector<float>& rgb = tracing::layer_of(picture, "direct").rgb;
     const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width);
     for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
       const bool sampled = done || rows_.is_done(static_cast<std::int64_t>(row));
-      const auto [a, b] = passes >= pixel_samples_ ? halves_of(pixel_samples_, 0) : halves_of(passes, sampled ? 1 : 0);
+      const auto [a, b] = passes >= pixel_samples_ ? tracing::halves_of(pixel_samples_, 0) : tracing::halves_of(passes, sampled ? 1 : 0);
       if (a <= 0 || b <= 0 || world_.halves == 1) picture.error_draw.clear();
       const double mean = a + b > 0 ? 1 / (a + b) : 0, of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
       for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
@@ -83,13 +83,13 @@ public:
     }
   }
 
-  void save(StateWriter& to) const override
+  void save(tracing::StateWriter& to) const override
   {
     rows_.save(to);
     unbent_.save(to);
     bent_.save(to);
   }
-  void load(StateReader& from) override
+  void load(tracing::StateReader& from) override
   {
     rows_.load(from);
     unbent_.load(from);
@@ -104,12 +104,12 @@ private:
   compute::Buffer<float> cluster_cdf_;
   std::uint64_t chosen_for_ = 0; ///< Relighting::changes of the light that cluster_cdf_ is for
   compute::Kernel kernel_;
-  PixelRows rows_;
+  tracing::PixelRows rows_;
 };
 
 } // namespace
 
-std::unique_ptr<Stage> make_layered_direct_stage(DeviceWorld& world, const Relighting& relighting, const preset::Spectral& settings)
+std::unique_ptr<Stage> make_layered_direct_stage(DeviceWorld& world, const Relighting& relighting, const Settings& settings)
 {
   return std::make_unique<LayeredDirectStage>(world, relighting, settings);
 }

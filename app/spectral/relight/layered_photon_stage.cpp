@@ -2,11 +2,11 @@
 // The caustic layer, kept as layers: kernels/spectral/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt
 // anew when the light changes, and what was sent before stays as good as it was.
 #include "spectral/effort/emitters.h"
-#include "spectral/film.h"
-#include "spectral/photon_slices.h"
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_tables.h"
 #include "spectral/relight/relighting.h"
+#include "tracing/film.h"
+#include "tracing/photon_slices.h"
 
 #include <algorithm>
 
@@ -37,7 +37,7 @@ public:
         slices_.step(world_.tables.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
           world_.run_photons(kernel_, count,
                              {{"targets", world_.buffers.targets},
-                              {"emitters", world_.buffers.emitters},
+                              {"emitters", world_.emitters},
                               {"film_first", film_.first()},
                               {"film_cells", film_.cells()},
                               {"film_sums", film_.sums()},
@@ -71,12 +71,12 @@ public:
     if (world_.halves == 1) picture.error_draw.clear();
     const int reflectors = world_.tables.wavelengths.reflector_count;
     const auto [mean, draw] = film_.weigh(mean_and_draw(relighting_.weights.clusters, counts, reflectors, world_.halves, scale_));
-    std::vector<float>& rgb = layer_of(picture, "caustic").rgb;
+    std::vector<float>& rgb = tracing::layer_of(picture, "caustic").rgb;
     for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] += mean[i];
     for (std::size_t i = 0; i < picture.error_draw.size(); ++i) picture.error_draw[i] += draw[i];
   }
 
-  void save(StateWriter& to) const override
+  void save(tracing::StateWriter& to) const override
   {
     to.value(at_);
     to.value(dealt_ == relighting_.changes);
@@ -87,7 +87,7 @@ public:
     }
     film_.save(to);
   }
-  void load(StateReader& from) override
+  void load(tracing::StateReader& from) override
   {
     from.value(at_);
     bool dealt = true;
@@ -99,7 +99,7 @@ public:
       from.value(emitters_[e]);
     }
     film_.load(from);
-    world_.buffers.emitters.write(emitters_);
+    world_.emitters.write(emitters_);
   }
 
 private:
@@ -148,7 +148,7 @@ private:
       dealt_ = relighting_.changes;
       at_.first_pass = pass;
     }
-    world_.buffers.emitters.write(emitters_);
+    world_.emitters.write(emitters_);
   }
 
   DeviceWorld& world_;
@@ -160,7 +160,7 @@ private:
   double scale_; ///< quanta per W m^-2 sr^-1, of one photon that has a layer's whole power
   compute::Kernel kernel_;
   Position at_;
-  PhotonSlices slices_;
+  tracing::PhotonSlices slices_;
 };
 
 } // namespace

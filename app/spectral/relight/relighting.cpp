@@ -9,7 +9,7 @@ namespace nephroid::spectral {
 
 std::unique_ptr<Relighting> make_relighting(DeviceWorld& world, LayerLight light)
 {
-  const DeviceTables& tables = world.tables;
+  const RunTables& tables = world.tables;
   auto made = std::make_unique<Relighting>();
   made->weights = layer_weights(light, tables.wavelengths);
   made->light = std::move(light);

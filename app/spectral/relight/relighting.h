@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages of a run that keeps layers share: the light as it is now, and which cells the films have (thesis 6.2.2).
 #pragma once
+#include "spectral/settings.h"
 #include "spectral/relight/layer_cells.h"
 #include "spectral/relight/layer_light.h"
 #include "spectral/stage.h"
@@ -26,7 +27,7 @@ std::unique_ptr<Relighting> make_relighting(DeviceWorld& world, LayerLight light
 void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light);
 
 /// Layer "direct" and layer "caustic", kept as layers. world and relighting outlive the stage.
-std::unique_ptr<Stage> make_layered_direct_stage(DeviceWorld& world, const Relighting& relighting, const preset::Spectral& settings);
+std::unique_ptr<Stage> make_layered_direct_stage(DeviceWorld& world, const Relighting& relighting, const Settings& settings);
 std::unique_ptr<Stage> make_layered_photon_stage(DeviceWorld& world, const Relighting& relighting);
 
 } // namespace nephroid::spectral

@@ -3,9 +3,9 @@
 
 #include "optics/colour.h"
 #include "optics/primary_spectra.h"
-#include "spectral/effort/exact_cdf.h"
-#include "spectral/effort/worth.h"
-#include "spectral/tables/scales.h"
+#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
+#include "tracing/worth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,13 +39,13 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
     for (const Spectrum& primary : optics::primary_spectra()) {
       const optics::Colour xyz = one_wavelength(primary, w);
       tables.primary_xyz.push_back(to_float4(xyz));
-      weights[w] += worth((xyz[0] + xyz[1] + xyz[2]) / 3, primary[w]);
+      weights[w] += tracing::worth((xyz[0] + xyz[1] + xyz[2]) / 3, primary[w]);
     }
   for (const Spectrum& primary : optics::primary_spectra()) tables.primary_xyz.push_back(to_float4(optics::to_xyz(primary)));
-  tables.spectrum_cdf = exact_cdf(weights);
+  tables.spectrum_cdf = tracing::exact_cdf(weights);
   // 2^24 quanta for a mean texel; all samples of a pixel together cannot leave 63 bits.
   const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) / static_cast<double>(environment.rgb.size());
-  tables.film_scale = power_of_two_below(0x1p24 / mean);
+  tables.film_scale = tracing::power_of_two_below(0x1p24 / mean);
   tables.limit = 0x1p62 / pixel_samples;
   return tables;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as kernels/spectral/background.cl reads it, beside its texels: what the eye makes of the primaries' spectra, which wavelengths
-// paths have, and scales.
+// The environment as kernels/spectral/background.cl reads it, beside its texels: what the eye makes of the primaries' spectra, which
+// wavelengths paths have, and scales.
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "preset/preset.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What photons of the layer "indirect" start with (kernels/spectral/indirect.cl), beside the tables of the scene.
 #pragma once
-#include "spectral/tables/device_scene.h"
+#include "spectral/tables/run_tables.h"
 
 #include <vector>
 
@@ -18,6 +18,6 @@ struct IndirectTables {
 };
 
 /// tables: of the same scene. photons: wanted in a pass.
-IndirectTables make_indirect_tables(const scene::Scene& scene, const DeviceTables& tables, unsigned photons);
+IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons);
 
 } // namespace nephroid::spectral

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/engine.h"
+
+#include "preset/settings_type.h"
+
+#include <stdexcept>
+
+namespace nephroid::engine {
+
+const Engine& engine_of(const preset::Preset& preset)
+{
+  for (const Engine* engine : engines())
+    if (&engine->settings() == &preset.settings.type()) return *engine;
+  throw std::logic_error("settings of an engine that is not in app/engines.cpp");
+}
+
+} // namespace nephroid::engine
+
+const std::vector<const nephroid::preset::SettingsType*>& nephroid::preset::settings_types()
+{
+  static const std::vector<const SettingsType*> all = [] {
+    std::vector<const SettingsType*> types;
+    for (const engine::Engine* engine : engine::engines()) types.push_back(&engine->settings());
+    return types;
+  }();
+  return all;
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an engine is to the rest of the program: everything that run/, cli/ and ui/ know of it. An engine is a folder beside this one,
+// with one constant `engine`, and a line in app/engines.cpp.
+#pragma once
+#include "compute/compute.h"
+#include "job/job.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace nephroid::engine {
+
+struct Engine {
+  /// Its name is what a preset's "engine" says, and the folder in kernels/ that has the engine's own.
+  const preset::SettingsType& (*settings)();
+
+  /// What runs, what is left out and why; with what the engine worked out on the way. Throws bad_input for what it cannot render.
+  std::unique_ptr<plan::Plan> (*plan)(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
+
+  /// The job on a device. plan: what `plan` gave for the same preset and scene. The scene and tree need not outlive the call. Throws failed
+  /// where the device has not enough memory, BuildError for a kernel that does not compile.
+  std::unique_ptr<job::Job> (*job)(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
+                                   const compute::Context& context);
+
+  /// The settings of a reference of `preset` that has so many passes: the recipe's own, or else the preset's, made exact. Nothing in them
+  /// is biased.
+  preset::Settings (*reference)(const preset::Preset& preset, int passes);
+};
+
+/// Every engine there is: app/engines.cpp, a line each. The first is what a preset without "engine" has.
+const std::vector<const Engine*>& engines();
+
+/// Of a preset.
+const Engine& engine_of(const preset::Preset& preset);
+
+} // namespace nephroid::engine

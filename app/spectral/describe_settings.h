@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of engine 1 described for visitors: preset/describe.h says what a visitor is.
+#pragma once
+#include "preset/describe_limits.h"
+#include "preset/field.h"
+#include "spectral/settings.h"
+
+namespace nephroid::preset {
+
+template <>
+struct Choices<spectral::Settings::Method> {
+  using Method = spectral::Settings::Method;
+  static constexpr Choice<Method> all[] = {{Method::optimal, "optimal", "The fewest clusters that keep the threshold."},
+                                           {Method::thesis, "thesis", "Algorithm 4.1 of the thesis, as printed."},
+                                           {Method::brute_force, "brute_force", "Every wavelength on its own."}};
+};
+
+template <>
+struct Choices<spectral::Settings::Estimator> {
+  using Estimator = spectral::Settings::Estimator;
+  static constexpr Choice<Estimator> all[] = {
+      {Estimator::automatic, "automatic", "Splats where the camera sees the receiver directly, photon maps elsewhere."},
+      {Estimator::splat, "splat", "Splats only: what is seen through glass or in a mirror has no caustics."},
+      {Estimator::sppm, "sppm", "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
+};
+
+template <>
+struct Choices<spectral::Settings::Effort> {
+  using Effort = spectral::Settings::Effort;
+  static constexpr Choice<Effort> all[] = {
+      {Effort::power, "power", "By what the eye makes of a cluster's light."},
+      {Effort::equal, "equal", "The same for each cluster."},
+      {Effort::importance, "importance", "By the importance of (4.15): light, luminosity, surroundings."},
+      {Effort::radziszewski, "radziszewski", "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
+      {Effort::variance, "variance",
+       "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm."},
+      {Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
+};
+
+template <>
+struct Choices<spectral::Importance::Cluster> {
+  using Cluster = spectral::Importance::Cluster;
+  static constexpr Choice<Cluster> all[] = {{Cluster::maximum, "maximum", "The one that matters most."},
+                                            {Cluster::mean, "mean", "The mean of all."}};
+};
+
+template <>
+struct About<spectral::Importance> {
+  static constexpr std::string_view name = "Importance", sentence = "How much a wavelength matters.";
+};
+
+template <>
+struct About<spectral::Sppm> {
+  static constexpr std::string_view name = "Sppm", sentence = "Progressive photon mapping.";
+};
+
+template <>
+struct About<spectral::Settings> {
+  static constexpr std::string_view name = "Spectral", sentence = "Settings of the engine \"spectral\".";
+};
+
+} // namespace nephroid::preset
+
+namespace nephroid::spectral {
+
+template <class V, preset::Is<Importance> S>
+void describe(V& v, S& i)
+{
+  v.field({.name = "cluster", .sentence = "Which of its wavelengths speaks for a cluster."}, i.cluster);
+  v.field({.name = "geometry", .sentence = "Weigh materials by how much of them the caustic objects see."}, i.geometry);
+}
+
+template <class V, preset::Is<Sppm> S>
+void describe(V& v, S& s)
+{
+  v.field({.name = "radius",
+           .sentence = "Radius of the first pass; without, what the camera's pixels suggest.",
+           .unit = preset::length_unit,
+           .bounds = preset::length_bounds},
+          s.radius);
+  v.field({.name = "alpha",
+           .sentence = "Part of each pass's photons that is kept: the radius shrinks the faster the smaller it is.",
+           .bounds = preset::between(0, 1)},
+          s.alpha);
+}
+
+template <class V, preset::Is<Settings> S>
+void describe(V& v, S& s)
+{
+  v.field({.name = "method", .sentence = "How wavelengths are put into clusters that share a path."}, s.method);
+  v.field({.name = "threshold_deg",
+           .sentence = "Largest change of the refraction angle inside a cluster.",
+           .unit = "degrees",
+           .bounds = preset::between(0, 90)},
+          s.threshold_deg);
+  v.field({.name = "step_nm",
+           .sentence = "Of the method brute_force: neighbouring wavelengths that share a path all the same.",
+           .unit = "nm",
+           .bounds = preset::within(1, 401)},
+          s.step_nm);
+  v.field({.name = "estimator", .sentence = "How caustics are estimated."}, s.estimator);
+  v.field({.name = "effort", .sentence = "How the work is dealt to the clusters."}, s.effort);
+  v.field({.name = "importance", .sentence = "How much a wavelength matters, where `effort` asks for it."}, s.importance);
+  v.field({.name = "jitter",
+           .sentence = "Each path takes one wavelength of its cluster, so that clusters leave no bias; with photon maps those of a pass "
+                       "share few."},
+          s.jitter);
+  v.field({.name = "low_discrepancy", .sentence = "Photons leave the lights by a scrambled Sobol sequence."}, s.low_discrepancy);
+  v.field({.name = "differentials", .sentence = "A splat is stretched along the way that it moves with wavelength."}, s.differentials);
+  v.field(
+      {.name = "smoothing",
+       .sentence =
+           "Spread caustics over up to 6 pixels around, until their noise is a quarter of them. Needs measure.estimate; not with sppm."},
+      s.smoothing);
+  v.field({.name = "relight", .sentence = "Keep a layer for each cluster, so that the spectrum of a light can change without a new run."},
+          s.relight);
+  v.field({.name = "photons_per_pass",
+           .sentence = "Photons sent towards the caustic objects in one pass; of the estimator sppm, for each cluster.",
+           .bounds = preset::within(1, 1 << 24)},
+          s.photons_per_pass);
+  v.field({.name = "indirect_photons_per_pass",
+           .sentence = "Photons of the layer \"indirect\" in one pass.",
+           .bounds = preset::within(1, 1 << 24)},
+          s.indirect_photons_per_pass);
+  v.field({.name = "pixel_samples",
+           .sentence = "Samples a pixel of the layer \"direct\", one a pass until there are so many.",
+           .bounds = preset::within(1, 1 << 20)},
+          s.pixel_samples);
+  v.field({.name = "max_surfaces", .sentence = "Interfaces a path may meet before it counts as lost.", .bounds = preset::within(1, 1024)},
+          s.max_surfaces);
+  v.field({.name = "sppm", .sentence = "Progressive photon mapping."}, s.sppm);
+  v.field({.name = "direct", .sentence = "Compute the layer \"direct\": light that reaches a diffuse surface unbent."}, s.direct);
+  v.field({.name = "caustic", .sentence = "Compute the layer \"caustic\": light that met glass or a mirror, then one diffuse surface."},
+          s.caustic);
+  v.field({.name = "indirect", .sentence = "Compute the layer \"indirect\": light that met a diffuse surface before the last one."},
+          s.indirect);
+  v.field({.name = "background", .sentence = "Compute the layer \"background\": the environment, seen directly and through glass."},
+          s.background);
+}
+
+} // namespace nephroid::spectral

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the power that photons carried went, as the mean of the passes, and how a snapshot holds it.
+#pragma once
+#include "job/job.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace nephroid::spectral {
+
+/// emitted = deposited + missed + absorbed + escaped + lost but for rounding. kernels/tracing/shared_types.h says what each is (OUTCOME_*).
+struct EnergyBalance {
+  double emitted_w = 0, deposited_w = 0, missed_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
+  std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run
+};
+
+/// The same of the photons of a layer of interreflection: emitted = absorbed (by any surface, or inside glass) + escaped + lost.
+struct IndirectBalance {
+  double emitted_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
+};
+
+struct Energy {
+  EnergyBalance caustics;
+  std::optional<IndirectBalance> indirect; ///< where there is such a layer
+};
+
+/// Adds the scalars of the groups "energy" and "indirect_energy", and a warning where contributions were refused.
+void add_energy(const Energy& energy, job::Snapshot& snapshot);
+/// What add_energy added to a snapshot.
+EnergyBalance energy_of(const job::Snapshot& snapshot);
+std::optional<IndirectBalance> indirect_energy_of(const job::Snapshot& snapshot);
+
+} // namespace nephroid::spectral

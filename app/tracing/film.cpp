@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/film.h"
+
+#include "optics/colour.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::tracing {
+namespace {
+
+/// Linear sRGB of weight_a * a + weight_b * b, where a and b are XYZ sums.
+optics::Colour blend(const std::int64_t* a, double weight_a, const std::int64_t* b, double weight_b)
+{
+  optics::Colour xyz{};
+  for (std::size_t c = 0; c < 3; ++c) xyz[c] = static_cast<double>(a[c]) * weight_a + static_cast<double>(b[c]) * weight_b;
+  return optics::xyz_to_linear_srgb(xyz);
+}
+
+} // namespace
+
+job::Layer& layer_of(job::Picture& picture, const std::string& name)
+{
+  for (job::Layer& layer : picture.layers)
+    if (layer.name == name) return layer;
+  const std::size_t size = 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+  return picture.layers.emplace_back(job::Layer{name, std::vector<float>(size, 0.0f)});
+}
+
+void add_layer(const std::string& name, const Film& film, job::Picture& picture)
+{
+  const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width), size = row_length * static_cast<std::size_t>(picture.height);
+  job::Layer& layer = layer_of(picture, name);
+  std::vector<float>& error_draw = picture.error_draw;
+  const bool halves = film.sums.size() == 2 * size;
+  const std::int64_t* first = film.sums.data();
+  const std::int64_t* second = halves ? first + size : first; // where there is one image, its weight below is 0
+  if (!halves) error_draw.clear();
+  for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
+    const auto [a, b] = film.samples(static_cast<int>(row));
+    const double mean = a + b > 0 ? 1 / ((a + b) * film.quanta_per_unit) : 0;
+    if (a <= 0 || b <= 0) error_draw.clear();
+    // (A / a - B / b) sqrt(a b) / (a + b), with the sums A and B
+    const double of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
+    for (std::size_t i = row * row_length; i < (row + 1) * row_length; i += 3) {
+      const optics::Colour value = blend(first + i, mean, second + i, halves ? mean : 0);
+      for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] += static_cast<float>(value[c]);
+      if (error_draw.empty()) continue;
+      const optics::Colour error = blend(first + i, of_a, second + i, -of_b);
+      for (std::size_t c = 0; c < 3; ++c) error_draw[i + c] += static_cast<float>(error[c]);
+    }
+  }
+}
+
+std::array<double, 2> halves_of(std::int64_t passes, double part)
+{
+  const std::int64_t odd = passes / 2, even = passes - odd; // the first pass is number 0
+  std::array<double, 2> both{static_cast<double>(even), static_cast<double>(odd)};
+  both[static_cast<std::size_t>(passes % 2)] += part;
+  return both;
+}
+
+} // namespace nephroid::tracing

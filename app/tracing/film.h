@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A film read back from the device: fixed-point XYZ sums turned into a layer of linear sRGB.
+#pragma once
+#include "job/job.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nephroid::tracing {
+
+/// What a device added up.
+struct Film {
+  std::span<const std::int64_t> sums; ///< [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples
+  double quanta_per_unit = 1;         ///< quanta of what becomes 1 in the picture
+  /// How many samples, or passes of photons, the sums of a row hold: of the even and of the odd passes. A film of one image has all
+  /// of them in it.
+  std::function<std::array<double, 2>(int row)> samples;
+};
+
+/// The picture's layer of that name, which is made, black, where there is none yet.
+job::Layer& layer_of(job::Picture& picture, const std::string& name);
+
+/// Adds the mean of the samples, 0 where there is none, to layer_of(picture, name). Where
+/// the film has two halves a and b, also adds their (a - b) sqrt(n_a n_b) / (n_a + n_b) to Picture::error_draw, or clears it where a row
+/// lacks one of them; one that is clear already stays so.
+void add_layer(const std::string& name, const Film& film, job::Picture& picture);
+
+/// Even and odd passes of `passes` complete ones, and `part` of the next: what the halves of a film have had.
+std::array<double, 2> halves_of(std::int64_t passes, double part);
+
+} // namespace nephroid::tracing

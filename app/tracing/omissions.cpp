@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/omissions.h"
+
+#include "base/counted.h"
+#include "preset/choices.h"
+#include "scene/corners.h"
+#include "tracing/scene_tables.h"
+#include "tracing/targets.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace nephroid::tracing {
+namespace {
+
+using optics::wavelength_count;
+
+constexpr unsigned all_light_types = 15;
+
+bool is_dielectric(const scene::Scene& scene, const scene::Object& object)
+{
+  return material_of(scene, object).type == scene::Material::Type::dielectric;
+}
+
+/// Whether any glass that an object is of has an index other than 1.
+bool anything_bends(const scene::Scene& scene)
+{
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+    const optics::Spectrum& n = material_of(scene, object).n;
+    return is_dielectric(scene, object) && std::any_of(n.begin(), n.end(), [](double value) { return value != 1; });
+  });
+}
+
+/// False only where all of the object is beyond one side of the camera's pyramid, or behind the camera.
+bool may_be_in_view(const scene::Scene& scene, const scene::Object& object)
+{
+  const scene::Camera& c = scene.camera;
+  const glm::dvec3 eye = c.position, right = c.right, up = c.up, forward = c.forward;
+  std::array<bool, 5> beyond;
+  beyond.fill(true);
+  scene::for_each_corner(scene, object, [&](const glm::dvec3& p) {
+    const glm::dvec3 way = p - eye;
+    const double z = glm::dot(way, forward), x = glm::dot(way, right), y = glm::dot(way, up);
+    // Single precision decides which pixel a point is in: what is outside by less counts as inside.
+    const double margin = 1e-4 * glm::length(way);
+    const double outside[] = {x - c.tan_x * z, -x - c.tan_x * z, y - c.tan_y * z, -y - c.tan_y * z, -z};
+    for (std::size_t side = 0; side < beyond.size(); ++side) beyond[side] = beyond[side] && outside[side] > margin;
+  });
+  return std::none_of(beyond.begin(), beyond.end(), [](bool b) { return b; });
+}
+
+struct Plane {
+  glm::dvec3 point{0}, normal{0};
+  double tolerance = 0; ///< what rounding the corners to single precision may add
+  double height(const glm::dvec3& p) const { return glm::dot(p - point, normal); }
+};
+
+/// The plane that an object lies in, if it is flat.
+std::optional<Plane> plane_of(const scene::Scene& scene, const scene::Object& object)
+{
+  if (object.triangle_count == 0) return std::nullopt;
+  const glm::uvec3 first = scene::triangles_of(scene, object).front();
+  const auto corner = [&](std::uint32_t vertex) { return glm::dvec3(scene.geometry.positions[vertex]); };
+  Plane plane{corner(first.x), glm::normalize(glm::cross(corner(first.y) - corner(first.x), corner(first.z) - corner(first.x))), 0};
+  double largest = 0, highest = 0;
+  scene::for_each_corner(scene, object, [&](const glm::dvec3& p) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    highest = std::max(highest, std::abs(plane.height(p)));
+  });
+  plane.tolerance = 1e-6 * largest;
+  return highest <= plane.tolerance ? std::optional(plane) : std::nullopt;
+}
+
+/// Whether the camera sees all that is in its view: flat objects only, with the camera and all the others on one side of each.
+bool nothing_blocks_the_view(const scene::Scene& scene)
+{
+  const glm::dvec3 eye = scene.camera.position;
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (may_be_in_view(scene, scene.objects[i])) seen.push_back(i);
+  for (const std::size_t i : seen) {
+    const std::optional<Plane> plane = plane_of(scene, scene.objects[i]);
+    if (!plane) return false;
+    const double side = plane->height(eye) > 0 ? 1 : -1;
+    if (side * plane->height(eye) <= plane->tolerance) return false;
+    for (const std::size_t j : seen) {
+      bool behind = false;
+      scene::for_each_corner(scene, scene.objects[j],
+                             [&](const glm::dvec3& p) { behind = behind || side * plane->height(p) < -plane->tolerance; });
+      if (behind) return false;
+    }
+  }
+  return true;
+}
+
+/// NEPHROID_LIGHT_TYPES of kernels/tracing/light.h.
+unsigned light_type_bits(const scene::Scene& scene)
+{
+  unsigned bits = 0;
+  for (const scene::Light& light : scene.lights) bits |= 1u << device_light_type(light.type);
+  return bits;
+}
+
+std::string light_types_reason(unsigned bits)
+{
+  std::vector<std::string_view> names;
+  for (const auto& choice : preset::Choices<preset::Light::Type>::all)
+    if (bits >> device_light_type(choice.value) & 1) names.push_back(choice.name);
+  return names.empty() ? "there is no light" : fmt::format("every light is of type {}", fmt::join(names, " or "));
+}
+
+} // namespace
+
+bool has_power(const scene::Light& light) { return light.power_w + light.irradiance_w_m2 > 0; }
+
+std::vector<bool> lit_wavelengths(const scene::Scene& scene)
+{
+  std::vector<bool> lit(wavelength_count, false);
+  for (const scene::Light& light : scene.lights)
+    for (std::size_t w = 0; w < lit.size(); ++w)
+      if (has_power(light) && light.spectrum[w] > 0) lit[w] = true;
+  if (std::none_of(lit.begin(), lit.end(), [](bool b) { return b; })) lit.assign(lit.size(), true);
+  return lit;
+}
+
+ObjectCounts count_objects(const scene::Scene& scene)
+{
+  ObjectCounts counts;
+  for (const scene::Object& object : scene.objects) {
+    const scene::Material::Type type = material_of(scene, object).type;
+    counts.dielectrics += type == scene::Material::Type::dielectric;
+    counts.mirrors += type == scene::Material::Type::mirror;
+    counts.diffuse += type == scene::Material::Type::diffuse;
+    counts.smooth += object.smooth;
+  }
+  return counts;
+}
+
+bool may_see_glass_or_mirror(const scene::Scene& scene)
+{
+  return !scene.camera.inside.empty() || std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+    return material_of(scene, object).type != scene::Material::Type::diffuse && may_be_in_view(scene, object);
+  });
+}
+
+plan::Pass omission(const std::string& name, bool leave_out, bool needed, std::string reason)
+{
+  plan::Pass pass{name, needed || !leave_out, std::move(reason), "/leave_out", false};
+  if (!needed && !leave_out) pass.reason += ", but leave_out is false";
+  return pass;
+}
+
+std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene, const std::vector<scene::Sphere>& targets)
+{
+  std::vector<plan::Pass> passes;
+  const auto add = [&](const char* name, bool may, std::size_t without, const std::string& reason) {
+    if (without > 0) passes.push_back(omission(name, may, false, reason));
+  };
+  std::size_t dark = 0, ways = 0, unreached = 0;
+  for (const scene::Light& light : scene.lights) {
+    dark += !has_power(light);
+    for (const scene::Sphere& target : targets) ++ways, unreached += !reaches(light, target);
+  }
+  add("dark lights", leave_out.dark_lights, dark, fmt::format("{} of {} without power", dark, counted(scene.lights.size(), "light")));
+  add("unreached targets", leave_out.unreached_targets, unreached,
+      fmt::format("{} of {} from a light to a target {} outside of a spot's cone or behind an area light", unreached, counted(ways, "way"),
+                  unreached == 1 ? "is" : "are"));
+
+  const std::vector<bool> lit = lit_wavelengths(scene);
+  const auto unlit = static_cast<std::size_t>(std::count(lit.begin(), lit.end(), false));
+  add("unlit wavelengths", leave_out.unlit_wavelengths, unlit, fmt::format("no light has {} of the {} wavelengths", unlit, lit.size()));
+  return passes;
+}
+
+CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators)
+{
+  const ObjectCounts counts = count_objects(scene);
+  const unsigned types = light_type_bits(scene);
+  const bool bends = anything_bends(scene), blocked = !nothing_blocks_the_view(scene);
+  CodeOmissions omissions;
+  // Adds a pass, and says whether its code is there.
+  const auto has = [&](const char* name, bool may_leave_out, bool needed, const std::string& yes, const std::string& no) {
+    omissions.passes.push_back(omission(name, may_leave_out, needed, needed ? yes : no));
+    return omissions.passes.back().runs;
+  };
+  const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
+  omissions.defines = {
+      {"NEPHROID_OCCLUSION", flag(has("occlusion", leave_out.occlusion, blocked, "objects in view may stand before each other",
+                                      "the camera sees flat objects only, none before another"))},
+      {"NEPHROID_LIGHT_TYPES", std::to_string(has("light types", leave_out.light_types, types == all_light_types, light_types_reason(types),
+                                                  light_types_reason(types))
+                                                  ? all_light_types
+                                                  : types)},
+      {"NEPHROID_MIRRORS",
+       flag(has("mirrors", leave_out.mirrors, counts.mirrors > 0, counted(counts.mirrors, "mirror object"), "no object is a mirror"))},
+      {"NEPHROID_BENDING",
+       flag(has("bending", leave_out.bending, bends, "glass has another n than its surroundings", "no glass has another n than 1"))},
+      // Without materials that attenuate, one place for none of them: the code is there and does nothing.
+      {"NEPHROID_ATTENUATORS", std::to_string(has("attenuation", leave_out.attenuation, attenuators > 0,
+                                                  counted(attenuators, "material takes", "materials take") + " light away by wavelength",
+                                                  "no glass absorbs and no mirror is coloured")
+                                                  ? std::max(attenuators, 1)
+                                                  : 0)},
+      {"NEPHROID_SMOOTH", flag(has("smooth normals", leave_out.smooth_normals, counts.smooth > 0, counted(counts.smooth, "smooth object"),
+                                   "every object is faceted"))}};
+  return omissions;
+}
+
+} // namespace nephroid::tracing

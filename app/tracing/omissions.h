@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene does not need: the facts that decide it, and the plan's passes that say so.
+#pragma once
+#include "plan/plan.h"
+#include "scene/scene.h"
+#include "tracing/leave_out.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace nephroid::tracing {
+
+bool has_power(const scene::Light& light);
+/// [401]: which wavelengths a light with power has; all of them where no light has power.
+std::vector<bool> lit_wavelengths(const scene::Scene& scene);
+
+/// How many objects there are of each kind.
+struct ObjectCounts {
+  int dielectrics = 0, mirrors = 0, diffuse = 0, smooth = 0;
+};
+ObjectCounts count_objects(const scene::Scene& scene);
+
+/// False only where no object of glass and no mirror is in the camera's view, and none encloses the camera.
+bool may_see_glass_or_mirror(const scene::Scene& scene);
+
+/// A pass of the plan that may be left out: it runs where the scene needs it or where nothing is left out. reason: why the scene needs it
+/// or not.
+plan::Pass omission(const std::string& name, bool leave_out, bool needed, std::string reason);
+
+/// What the tables of a scene do without; only what there is something of to leave out. targets: SceneTables::spheres.
+std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene, const std::vector<scene::Sphere>& targets);
+
+/// What kernels are compiled without.
+struct CodeOmissions {
+  std::vector<plan::Pass> passes;
+  std::map<std::string, std::string> defines; ///< -D flags
+};
+/// attenuators: materials that take light away.
+CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators);
+
+} // namespace nephroid::tracing

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/scene_buffers.h"
+
+namespace nephroid::tracing {
+namespace {
+
+/// glm vectors of three floats or unsigned are three plain numbers in a row.
+template <class T, class V>
+compute::Buffer<T> upload_triples(const compute::Context& context, const char* name, const std::vector<V>& items)
+{
+  static_assert(sizeof(V) == 3 * sizeof(T));
+  return compute::Buffer<T>(context, name, std::span<const T>(reinterpret_cast<const T*>(items.data()), 3 * items.size()));
+}
+
+} // namespace
+
+SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
+{
+  const WavelengthTables& w = tables.wavelengths;
+  SceneBuffers b;
+  b.nodes = upload_vector(context, "tree nodes", bvh.nodes);
+  b.blocks = upload_vector(context, "tree triangles", bvh.blocks);
+  b.positions = upload_triples<float>(context, "vertex positions", scene.geometry.positions);
+  b.normals = upload_triples<float>(context, "vertex normals", scene.geometry.normals);
+  b.corners = upload_triples<std::uint32_t>(context, "triangle corners", scene.geometry.triangles);
+  b.object_of_triangle = upload_vector(context, "object of each triangle", scene.object_of_triangle);
+  b.objects = upload_vector(context, "objects", tables.objects);
+  b.materials = upload_vector(context, "materials", tables.materials);
+  b.lights = upload_vector(context, "lights", tables.lights);
+  b.targets = upload_vector(context, "targets", tables.targets);
+  b.index_of_cluster = upload_vector(context, "index of refraction of each cluster", w.index_of_cluster);
+  b.index_of_wavelength = upload_vector(context, "index of refraction of each wavelength", w.index_of_wavelength);
+  b.wavelength_cdf = upload_vector(context, "choice of a wavelength", w.wavelength_cdf);
+  b.index_slope = upload_vector(context, "slope of the index of refraction", tables.stretch.index_slope);
+  b.stretch_place = upload_vector(context, "stretch of each wavelength", tables.stretch.place);
+  b.stretch_span = upload_vector(context, "stretch of each cluster", tables.stretch.span);
+  b.coefficient = upload_vector(context, "attenuation", w.coefficient);
+  b.reflectance = upload_vector(context, "reflectance", w.reflectance);
+  b.cluster_cdf = upload_vector(context, "cluster choice", w.cluster_cdf);
+  b.cluster_first = upload_vector(context, "cluster starts", w.cluster_first);
+  b.cluster_wavelengths = upload_vector(context, "cluster wavelengths", w.cluster_wavelengths);
+  b.light_xyz = upload_vector(context, "light spectra", w.light_xyz);
+  b.reflected_xyz = upload_vector(context, "reflected colours by cluster", w.reflected_xyz);
+  b.reflected_xyz_all = upload_vector(context, "reflected colours", w.reflected_xyz_all);
+  return b;
+}
+
+} // namespace nephroid::tracing

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/scene_tables.h"
+
+#include "base/error.h"
+#include "tracing/omissions.h"
+#include "tracing/scales.h"
+#include "tracing/targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace nephroid::tracing {
+namespace {
+
+using std::numbers::pi;
+
+shared::float4 to_float4(const glm::vec3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
+
+/// where: of the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
+shared::Media to_media(const std::vector<int>& inside, const std::string& where)
+{
+  if (inside.size() > MEDIA_DEPTH)
+    throw bad_input(where, fmt::format("is inside {} dielectric objects", inside.size()),
+                    fmt::format("expected at most {} around one point", MEDIA_DEPTH), "move it, or take some of them away");
+  shared::Media media{};
+  media.count = static_cast<int>(inside.size());
+  std::copy_n(inside.begin(), media.count, media.objects);
+  return media;
+}
+
+shared::DeviceLight device_light(const scene::Light& light, double power_unit, const std::string& where)
+{
+  shared::DeviceLight out{};
+  out.position = to_float4(light.position);
+  out.direction = to_float4(light.direction);
+  out.edge_u = to_float4(light.edge_u);
+  out.edge_v = to_float4(light.edge_v);
+  using Type = preset::Light::Type;
+  out.type = device_light_type(light.type);
+  out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
+  out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
+  out.radiometric = static_cast<float>((light.type == Type::directional ? light.irradiance_w_m2 : light.power_w) / power_unit);
+  out.inside = to_media(light.inside, where + "/position");
+  return out;
+}
+
+shared::DeviceCamera device_camera(const scene::Camera& camera, const std::string& where)
+{
+  shared::DeviceCamera out{};
+  out.position = to_float4(camera.position);
+  out.right = to_float4(camera.right);
+  out.up = to_float4(camera.up);
+  out.forward = to_float4(camera.forward);
+  out.tan_x = static_cast<float>(camera.tan_x);
+  out.tan_y = static_cast<float>(camera.tan_y);
+  out.width = camera.width;
+  out.height = camera.height;
+  out.inside = to_media(camera.inside, where + "/position");
+  return out;
+}
+
+/// Appends the spheres to the table of targets, unless an earlier light has the very same ones.
+void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& spheres, SceneTables& tables)
+{
+  std::vector<shared::DeviceTarget> list;
+  for (const scene::Sphere& sphere : spheres) list.push_back({to_float4(sphere.centre, sphere.radius)});
+  const auto same = [](const shared::DeviceTarget& a, const shared::DeviceTarget& b) {
+    const shared::float4 &p = a.centre_radius, &q = b.centre_radius;
+    return p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w;
+  };
+  auto found = std::search(tables.targets.begin(), tables.targets.end(), list.begin(), list.end(), same);
+  if (found == tables.targets.end()) found = tables.targets.insert(found, list.begin(), list.end());
+  light.first_target = static_cast<int>(found - tables.targets.begin());
+  light.target_count = static_cast<int>(list.size());
+}
+
+/// All targets of the scene: where photons go whatever the light.
+std::vector<scene::Sphere> scene_targets(const LeaveOut& leave_out, const scene::Scene& scene)
+{
+  std::vector<scene::Sphere> targets;
+  if (leave_out.stray_photons) targets = caustic_targets(scene);
+  // Photons that are asked for where nothing needs them have nothing to aim at.
+  if (!leave_out.stray_photons || (targets.empty() && !leave_out.photons)) return {everything(scene)};
+  return targets;
+}
+
+/// Adds the light, its targets, and what it sends towards them.
+void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, const scene::Scene& scene, const LeaveOut& leave_out,
+               SceneTables& tables)
+{
+  const auto number = static_cast<int>(&light - scene.lights.data());
+  shared::DeviceLight out = device_light(light, tables.power_unit, fmt::format("{}#/scene/lights/{}", scene.source, number));
+  out.number = number;
+  if (leave_out.unreached_targets) std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });
+  set_targets(out, targets, tables);
+  tables.lights.push_back(out);
+  tables.towards_targets_w.push_back(towards_targets_w(light, targets, scene.metres_per_unit));
+}
+
+/// A power of two near the power of the strongest light.
+double choose_power_unit(const scene::Scene& scene)
+{
+  double strongest = 0;
+  for (const scene::Light& light : scene.lights) strongest = std::max({strongest, light.power_w, light.irradiance_w_m2});
+  return power_of_two_below(strongest);
+}
+
+} // namespace
+
+int device_light_type(preset::Light::Type type)
+{
+  using Type = preset::Light::Type;
+  return type == Type::point ? LIGHT_POINT : type == Type::spot ? LIGHT_SPOT : type == Type::directional ? LIGHT_DIRECTIONAL : LIGHT_AREA;
+}
+
+SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const LeaveOut& leave_out)
+{
+  SceneTables tables;
+  tables.power_unit = choose_power_unit(scene);
+  std::vector<const scene::Light*> lights;
+  for (const scene::Light& light : scene.lights)
+    if (has_power(light) || !leave_out.dark_lights) lights.push_back(&light);
+  const std::vector<bool> lit = leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(optics::wavelength_count, true);
+  tables.wavelengths = make_wavelength_tables(scene, lights, clusters, lit, tables.materials);
+  tables.stretch = make_stretch_tables(scene, clusters, lit);
+  for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority, object.smooth ? 1 : 0, 0});
+  tables.spheres = scene_targets(leave_out, scene);
+  for (const scene::Light* light : lights) add_light(*light, tables.spheres, scene, leave_out, tables);
+  tables.light_towards_targets_w = std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
+  tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");
+
+  tables.scene.material_count = static_cast<int>(scene.materials.size());
+  tables.scene.light_count = static_cast<int>(tables.lights.size());
+  tables.scene.cluster_count = static_cast<int>(tables.wavelengths.clusters.size());
+  tables.scene.metres_per_unit = static_cast<float>(scene.metres_per_unit);
+  // Enough from any place on the disc of any target, also of the one about everything.
+  tables.scene.outside_distance = 2.5f * std::max(scene_bounds(scene).radius, leave_out.stray_photons ? 0.0f : everything(scene).radius);
+  return tables;
+}
+
+} // namespace nephroid::tracing

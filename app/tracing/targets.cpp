@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/targets.h"
+
+#include "scene/ray.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+namespace nephroid::tracing {
+namespace {
+
+using Triangles = std::vector<glm::uvec3>;
+
+struct Piece {
+  Triangles triangles;
+  scene::Sphere sphere;
+};
+
+glm::vec3 centroid(const scene::Mesh& mesh, const glm::uvec3& corner)
+{
+  return (mesh.positions[corner.x] + mesh.positions[corner.y] + mesh.positions[corner.z]) / 3.0f;
+}
+
+/// Two halves of equal count along the axis on which the centroids spread most.
+std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles)
+{
+  glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+  for (const glm::uvec3& t : triangles) low = glm::min(low, centroid(mesh, t)), high = glm::max(high, centroid(mesh, t));
+  const glm::vec3 extent = high - low;
+  const int axis = extent.x > extent.y ? (extent.x > extent.z ? 0 : 2) : (extent.y > extent.z ? 1 : 2);
+  const auto middle = triangles.begin() + static_cast<std::ptrdiff_t>(triangles.size() / 2);
+  std::nth_element(triangles.begin(), middle, triangles.end(), [&](const glm::uvec3& a, const glm::uvec3& b) {
+    const float at_a = centroid(mesh, a)[axis], at_b = centroid(mesh, b)[axis];
+    // Ties are broken by the corners, so that the halves do not depend on the library's way of sorting.
+    return std::tuple(at_a, a.x, a.y, a.z) < std::tuple(at_b, b.x, b.y, b.z);
+  });
+  Piece first{{triangles.begin(), middle}, {}}, second{{middle, triangles.end()}, {}};
+  first.sphere = enclosing_sphere(mesh, first.triangles);
+  second.sphere = enclosing_sphere(mesh, second.triangles);
+  return {std::move(first), std::move(second)};
+}
+
+std::vector<Piece> one_piece_an_object(const scene::Scene& scene)
+{
+  std::vector<Piece> pieces;
+  for (const scene::Object& object : scene.objects) {
+    const scene::Material::Type type = material_of(scene, object).type;
+    if (object.triangle_count == 0 || type == scene::Material::Type::diffuse) continue;
+    const auto first = scene.geometry.triangles.begin() + object.first_triangle;
+    pieces.push_back({{first, first + object.triangle_count}, object.bounds});
+  }
+  return pieces;
+}
+
+std::vector<scene::Sphere> spheres_of(const std::vector<Piece>& pieces)
+{
+  std::vector<scene::Sphere> spheres;
+  for (const Piece& piece : pieces) spheres.push_back(piece.sphere);
+  return spheres;
+}
+
+} // namespace
+
+scene::Sphere everything(const scene::Scene& scene)
+{
+  std::vector<glm::vec3> points = scene.geometry.positions;
+  for (const scene::Light& light : scene.lights)
+    if (light.type != preset::Light::Type::directional)
+      for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
+        points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
+  glm::vec3 low{0}, high{0};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    low = i == 0 ? points[i] : glm::min(low, points[i]);
+    high = i == 0 ? points[i] : glm::max(high, points[i]);
+  }
+  // Larger than need be, so that rounding leaves no light on its surface or outside; not a point where there is only one.
+  return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};
+}
+
+bool reaches(const scene::Light& light, const scene::Sphere& sphere)
+{
+  const glm::dvec3 way = glm::dvec3(sphere.centre) - glm::dvec3(light.position);
+  const double distance = glm::length(way), along = glm::dot(way, glm::dvec3(light.direction));
+  // Kernels tell directions in single precision: what is outside by less than these is kept.
+  constexpr double angle_margin = 1e-3, length_margin = 1e-4;
+  if (light.type == preset::Light::Type::area) return along + sphere.radius + length_margin * distance > 0;
+  if (light.type != preset::Light::Type::spot || distance <= sphere.radius) return true;
+  const double off_axis = std::acos(std::clamp(along / distance, -1.0, 1.0));
+  return off_axis - std::asin(sphere.radius / distance) <= std::acos(std::clamp(light.cos_half_angle, -1.0, 1.0)) + angle_margin;
+}
+
+double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit)
+{
+  using std::numbers::pi;
+  double steradians = 0, square_metres = 0;
+  for (const scene::Sphere& target : targets) {
+    const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
+    const double radius2 = double(target.radius) * target.radius;
+    const double sine2 = radius2 / distance2; // 1 - cos = sin^2 / (1 + cos), which does not vanish for a far target
+    steradians += sine2 >= 1 ? 4 * pi : 2 * pi * sine2 / (1 + std::sqrt(1 - sine2));
+    square_metres += pi * radius2 * metres_per_unit * metres_per_unit;
+  }
+  switch (light.type) {
+  case preset::Light::Type::directional:
+    return light.irradiance_w_m2 * square_metres;
+  case preset::Light::Type::spot:
+    return light.power_w * std::min(1.0, steradians / (2 * pi * (1 - light.cos_half_angle)));
+  case preset::Light::Type::area:
+    return light.power_w * std::min(1.0, steradians / pi);
+  case preset::Light::Type::point:
+    break;
+  }
+  return light.power_w * std::min(1.0, steradians / (4 * pi));
+}
+
+// The mean over directions of the area that the spheres' shadows cover together. Each shadow is a disc; points spread evenly over it
+// count by 1 / (number of discs over the point), so the union is measured once. Points are Vogel's sunflower.
+double mean_shadow(const std::vector<scene::Sphere>& spheres)
+{
+  constexpr int directions = 32, points = 64;
+  constexpr double pi = std::numbers::pi, golden_angle = pi * 0.7639320225002103; // pi (3 - sqrt 5)
+  static const std::array<glm::dvec2, points> disc = [] {
+    std::array<glm::dvec2, points> places;
+    for (int p = 0; p < points; ++p)
+      places[static_cast<std::size_t>(p)] =
+          std::sqrt((p + 0.5) / points) * glm::dvec2(std::cos(p * golden_angle), std::sin(p * golden_angle));
+    return places;
+  }();
+  std::vector<glm::dvec2> centres(spheres.size());
+  double sum = 0;
+  for (int d = 0; d < directions; ++d) {
+    const glm::dvec3 direction = scene::even_direction(d, directions);
+    const glm::dvec3 x = glm::normalize(glm::cross(direction, std::abs(direction.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+    const glm::dvec3 y = glm::cross(direction, x);
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+      centres[i] = {glm::dot(glm::dvec3(spheres[i].centre), x), glm::dot(glm::dvec3(spheres[i].centre), y)};
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      const double radius = spheres[i].radius;
+      for (const glm::dvec2& offset : disc) {
+        const glm::dvec2 place = centres[i] + radius * offset;
+        int over = 1;
+        for (std::size_t j = 0; j < spheres.size(); ++j) {
+          const glm::dvec2 way = place - centres[j];
+          over += j != i && glm::dot(way, way) <= double(spheres[j].radius) * spheres[j].radius;
+        }
+        sum += pi * radius * radius / (points * over);
+      }
+    }
+  }
+  return sum / directions;
+}
+
+std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
+{
+  std::vector<Piece> pieces = one_piece_an_object(scene);
+  if (pieces.empty()) return {};
+  if (pieces.size() > max_targets) {
+    Triangles all;
+    for (const Piece& piece : pieces) all.insert(all.end(), piece.triangles.begin(), piece.triangles.end());
+    return {enclosing_sphere(scene.geometry, all)};
+  }
+  std::vector<scene::Sphere> best = spheres_of(pieces);
+  double best_shadow = mean_shadow(best);
+  while (pieces.size() < max_targets) {
+    const auto widest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+      return (a.triangles.size() > 1 ? a.sphere.radius : 0) < (b.triangles.size() > 1 ? b.sphere.radius : 0);
+    });
+    if (widest->triangles.size() < 2) break;
+    auto [first, second] = halves(scene.geometry, std::move(widest->triangles));
+    *widest = std::move(first);
+    pieces.push_back(std::move(second));
+    const double shadow = mean_shadow(spheres_of(pieces));
+    // A sphere more costs every photon a little, so it has to make the shadow smaller by more than the estimate's error.
+    if (shadow < 0.97 * best_shadow) {
+      best = spheres_of(pieces);
+      best_shadow = shadow;
+    }
+  }
+  return best;
+}
+
+} // namespace nephroid::tracing

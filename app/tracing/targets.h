@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where photons are sent: spheres that together enclose every caustic object, as tightly as a few spheres can.
+#pragma once
+#include "kernels/tracing/shared_types.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace nephroid::tracing {
+
+inline constexpr std::size_t max_targets = MAX_TARGETS;
+
+/// At most max_targets spheres that hold every triangle of every dielectric and mirror object. A bunny in one sphere lets two photons
+/// of three pass beside it; an object is cut into pieces, each with its own sphere, as long as that makes the shadow of all spheres
+/// smaller. Empty where there is no such object.
+std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);
+
+/// One sphere about the whole scene and every light, so that a light sends its photons wherever it shines.
+scene::Sphere everything(const scene::Scene& scene);
+
+/// Whether any light from the light can start towards a point of the sphere: not where it is outside of a spot's cone or behind an area
+/// light. True in doubt.
+bool reaches(const scene::Light& light, const scene::Sphere& sphere);
+
+/// Watts of the light that start towards the targets; targets that overlap count twice, which is good enough for dealing out photons.
+double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit);
+
+/// The area of the shadow that the spheres cast together, as a mean over directions, in square units; estimated to about 2 %.
+double mean_shadow(const std::vector<scene::Sphere>& spheres);
+
+} // namespace nephroid::tracing

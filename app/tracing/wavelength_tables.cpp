@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracing/wavelength_tables.h"
+
+#include "optics/colour.h"
+#include "tracing/exact_cdf.h"
+#include "tracing/worth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <numeric>
+
+namespace nephroid::tracing {
+namespace {
+
+using optics::Spectrum;
+using optics::wavelength_count;
+using shared::float4;
+
+static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the same wavelengths");
+
+float4 to_float4(const std::array<double, 4>& v)
+{
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(v[3])};
+}
+
+std::vector<bool> used_materials(const scene::Scene& scene)
+{
+  std::vector<bool> used(scene.materials.size(), false);
+  for (const scene::Object& object : scene.objects) used[static_cast<std::size_t>(object.material)] = true;
+  return used;
+}
+
+/// A mirror that reflects nothing: exp(-200) is 0 in single precision.
+constexpr double blackest = 200;
+
+/// Rows of the reflectance and attenuation tables, one for each material that needs one.
+void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std::vector<shared::DeviceMaterial>& materials)
+{
+  const std::vector<bool> used = used_materials(scene);
+  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, 0});
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const scene::Material& material = scene.materials[i];
+    shared::DeviceMaterial& row = materials[i];
+    row.type = material.type == scene::Material::Type::diffuse      ? MATERIAL_DIFFUSE
+               : material.type == scene::Material::Type::dielectric ? MATERIAL_DIELECTRIC
+                                                                    : MATERIAL_MIRROR;
+    if (!used[i]) continue;
+    if (material.type == scene::Material::Type::diffuse) {
+      row.reflector = tables.reflector_count++;
+      tables.reflectance.insert(tables.reflectance.end(), material.reflectance.begin(), material.reflectance.end());
+    } else if (const std::vector<double> coefficients = loss_coefficients(material); !coefficients.empty()) {
+      row.attenuator = tables.attenuator_count++;
+      for (const double a : coefficients) tables.coefficient.push_back(static_cast<float>(a));
+    }
+  }
+}
+
+bool bends(const scene::Material& material) { return material.type == scene::Material::Type::dielectric; }
+
+/// The clusters with the wavelengths that are lit, and their indices of refraction.
+void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
+                      WavelengthTables& tables)
+{
+  tables.cluster_first.push_back(0);
+  for (const std::vector<int>& cluster : clusters) {
+    std::vector<int> left;
+    std::copy_if(cluster.begin(), cluster.end(), std::back_inserter(left), [&](int w) { return lit[static_cast<std::size_t>(w)]; });
+    if (left.empty()) continue;
+    tables.cluster_wavelengths.insert(tables.cluster_wavelengths.end(), left.begin(), left.end());
+    tables.cluster_first.push_back(static_cast<int>(tables.cluster_wavelengths.size()));
+    tables.clusters.push_back(std::move(left));
+    for (const scene::Material& material : scene.materials) {
+      double sum = 0;
+      for (const int w : cluster) sum += material.n[static_cast<std::size_t>(w)];
+      tables.index_of_cluster.push_back(bends(material) ? static_cast<float>(sum / static_cast<double>(cluster.size())) : 1.0f);
+    }
+  }
+}
+
+/// The index of refraction of each wavelength, and whether any cluster has more than one.
+void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables)
+{
+  for (std::size_t w = 0; w < wavelength_count; ++w)
+    for (const scene::Material& material : scene.materials)
+      tables.index_of_wavelength.push_back(bends(material) ? static_cast<float>(material.n[w]) : 1.0f);
+  const std::vector<bool> used = used_materials(scene);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    if (!used[m] || !bends(scene.materials[m])) continue;
+    const Spectrum& n = scene.materials[m].n;
+    for (const std::vector<int>& cluster : tables.clusters)
+      for (const int w : cluster)
+        tables.clusters_spread = tables.clusters_spread || n[static_cast<std::size_t>(w)] != n[static_cast<std::size_t>(cluster.front())];
+  }
+}
+
+/// Sum over wavelengths of light share times reflectance times (xbar, ybar, zbar), and of the light share.
+std::array<double, 4> reflected(const Spectrum& light, const float* reflectance, const std::vector<int>& wavelengths)
+{
+  const optics::ColourMatching& eye = optics::cie_1931();
+  std::array<double, 4> sum{};
+  for (const int index : wavelengths) {
+    const auto w = static_cast<std::size_t>(index);
+    const double reflected = light[w] * (reflectance ? reflectance[w] : 1.0);
+    sum[0] += reflected * eye.x[w];
+    sum[1] += reflected * eye.y[w];
+    sum[2] += reflected * eye.z[w];
+    sum[3] += light[w];
+  }
+  return sum;
+}
+
+/// One row of WavelengthTables::reflectance.
+const float* reflectance_row(const WavelengthTables& tables, int reflector)
+{
+  return tables.reflectance.data() + static_cast<std::size_t>(reflector) * wavelength_count;
+}
+
+void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
+{
+  std::vector<int> all(wavelength_count);
+  std::iota(all.begin(), all.end(), 0);
+  for (const scene::Light* light : lights) {
+    for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(light->spectrum, nullptr, {w})));
+    std::vector<double>& share = tables.share.emplace_back();
+    std::vector<double>& seen = tables.seen.emplace_back();
+    for (const std::vector<int>& cluster : tables.clusters) {
+      const std::array<double, 4> sum = reflected(light->spectrum, nullptr, cluster);
+      share.push_back(sum[3]);
+      seen.push_back((sum[0] + sum[1] + sum[2]) / 3);
+      for (int r = 0; r < tables.reflector_count; ++r)
+        tables.reflected_xyz.push_back(to_float4(reflected(light->spectrum, reflectance_row(tables, r), cluster)));
+    }
+    for (int r = 0; r < tables.reflector_count; ++r)
+      tables.reflected_xyz_all.push_back(to_float4(reflected(light->spectrum, reflectance_row(tables, r), all)));
+  }
+}
+
+double radiometric(const scene::Light& light) { return light.power_w + light.irradiance_w_m2; }
+
+void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
+{
+  std::vector<double> weights(tables.clusters.size(), 0);
+  for (std::size_t l = 0; l < lights.size(); ++l)
+    for (std::size_t c = 0; c < weights.size(); ++c) weights[c] += radiometric(*lights[l]) * worth(tables.seen[l][c], tables.share[l][c]);
+  tables.cluster_cdf = exact_cdf_from_zero(weights);
+}
+
+/// A cdf of each cluster, one after the other, by the worth of the members' light.
+void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
+{
+  for (const std::vector<int>& cluster : tables.clusters) {
+    std::vector<double> weights;
+    for (const int w : cluster) {
+      double all = 0;
+      for (const scene::Light* light : lights) {
+        const std::array<double, 4> xyz_power = reflected(light->spectrum, nullptr, {w});
+        all += radiometric(*light) * worth((xyz_power[0] + xyz_power[1] + xyz_power[2]) / 3, xyz_power[3]);
+      }
+      weights.push_back(all);
+    }
+    const std::vector<float> cdf = exact_cdf(weights);
+    tables.wavelength_cdf.insert(tables.wavelength_cdf.end(), cdf.begin(), cdf.end());
+  }
+}
+
+} // namespace
+
+std::vector<double> loss_coefficients(const scene::Material& material)
+{
+  std::vector<double> a;
+  if (material.type == scene::Material::Type::dielectric && material.absorbs)
+    for (int w = 0; w < optics::wavelength_count; ++w)
+      a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
+  if (material.type == scene::Material::Type::mirror &&
+      std::any_of(material.reflectance.begin(), material.reflectance.end(), [](double r) { return r != 1; }))
+    for (const double r : material.reflectance) a.push_back(r > 0 ? std::min(-std::log(r), blackest) : blackest);
+  return a;
+}
+
+WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
+                                        const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
+                                        std::vector<shared::DeviceMaterial>& materials)
+{
+  WavelengthTables tables;
+  add_material_rows(scene, tables, materials);
+  add_cluster_rows(scene, clusters, lit, tables);
+  add_wavelength_rows(scene, tables);
+  add_light_rows(lights, tables);
+  add_cluster_cdf(lights, tables);
+  for (const scene::Light* light : lights) add_wavelength_cdf({light}, tables);
+  add_wavelength_cdf(lights, tables);
+  return tables;
+}
+
+} // namespace nephroid::tracing

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene on a device, and how kernels are run in it.
+#pragma once
+#include "compute/compute.h"
+#include "tracing/scene_buffers.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+
+namespace nephroid::tracing {
+
+struct World {
+  compute::Context context;
+  SceneBuffers buffers;
+  shared::DeviceScene scene{};
+  int reflector_count = 0;
+  compute::Defines defines; ///< for every kernel
+  shared::uint2 seed{};
+
+  compute::Buffer<std::int64_t> zeroed(const std::string& name, std::size_t count) const
+  {
+    compute::Buffer<std::int64_t> buffer(context, name, count);
+    buffer.fill_zero();
+    return buffer;
+  }
+
+  /// Runs a kernel that has WORLD_ARGUMENTS (kernels/tracing/world.h) beside its `own`, and waits for it.
+  void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own)
+  {
+    const SceneBuffers& b = buffers;
+    const compute::Argument world[] = {{"nodes", b.nodes},
+                                       {"blocks", b.blocks},
+                                       {"corners", b.corners},
+                                       {"positions", b.positions},
+                                       {"normals", b.normals},
+                                       {"object_of_triangle", b.object_of_triangle},
+                                       {"objects", b.objects},
+                                       {"materials", b.materials},
+                                       {"lights", b.lights},
+                                       {"index_of_cluster", b.index_of_cluster},
+                                       {"index_of_wavelength", b.index_of_wavelength},
+                                       {"wavelength_cdf", b.wavelength_cdf},
+                                       {"index_slope", b.index_slope},
+                                       {"stretch_place", b.stretch_place},
+                                       {"stretch_span", b.stretch_span},
+                                       {"reflected_xyz", b.reflected_xyz},
+                                       {"cluster_first", b.cluster_first},
+                                       {"cluster_wavelengths", b.cluster_wavelengths},
+                                       {"coefficient", b.coefficient},
+                                       {"light_xyz", b.light_xyz},
+                                       {"reflectance", b.reflectance},
+                                       {"reflector_count", reflector_count},
+                                       {"scene", scene}};
+    kernel.run(global, local, world, own);
+    context.finish();
+  }
+
+  /// Photons that one work item follows, one after the other, so that what an item adds up for itself is worth while: on a CPU.
+  unsigned photons_per_item() const { return context.device().type == "cpu" ? 16 : 1; }
+  /// For a kernel that run_photons runs.
+  compute::Defines photon_defines() const
+  {
+    compute::Defines all = defines;
+    all["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item());
+    return all;
+  }
+  /// As run, with items for `count` photons, and one at least.
+  void run_photons(compute::Kernel& kernel, std::uint32_t count, std::initializer_list<compute::Argument> own)
+  {
+    run(kernel, std::max(1u, (count + photons_per_item() - 1) / photons_per_item()), 32, own);
+  }
+};
+
+/// The scene and tree are copied to the device; they need not outlive the call. defines: of the plan. Throws as upload.
+inline World make_world(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
+                        const compute::Defines& defines, std::uint64_t seed)
+{
+  World world{context, upload(context, scene, bvh, tables), tables.scene, tables.wavelengths.reflector_count, defines, {}};
+  world.scene.root = bvh.root;
+  world.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+  return world;
+}
+
+} // namespace nephroid::tracing

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an engine gets by being registered: the program of this folder has the engine of gradient.cpp, which nothing else knows of.
+#include "base/files.h"
+#include "image/image.h"
+#include "tests/support/program_test.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+using namespace nephroid::test;
+using nlohmann::json;
+using testing::HasSubstr;
+
+namespace {
+
+class GradientEngine : public ProgramTest {
+protected:
+  GradientEngine()
+  {
+    write("g.json", R"({"engine": "gradient", "name": "g", "gradient": {"noise": 0.2}, "scene": {"camera": {"resolution": [32, 16]}}})");
+  }
+
+  Ended run_to(const std::string& name, std::vector<std::string> more = {}) const
+  {
+    more.insert(more.begin(), {"run", "g.json", "-o", name});
+    return run(more);
+  }
+  std::string bytes(const std::string& file) const { return nephroid::read_file(folder / file); }
+  json of(const std::string& file) const { return json::parse(bytes(file)); }
+};
+
+TEST_F(GradientEngine, RunsAndWritesWhateverItFound)
+{
+  const Ended ended = run_to("out", {"--passes", "20"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("20 sweeps, 0.2 million samples"));
+  const nephroid::image::Image picture = nephroid::image::read_image(folder / "out/image.exr");
+  ASSERT_EQ(picture.width, 32);
+  // The mean over 16 rows of 20 * 16 samples: noise / sqrt(5120) = 0.0028.
+  double right = 0;
+  const std::size_t channels = picture.channels.size();
+  for (std::size_t row = 0; row < 16; ++row) right += picture.data[(row * 32 + 31) * channels] / 16;
+  EXPECT_NEAR(right, 31.5 / 32, 5 * 0.0028);
+  const json all = of("out/run.json");
+  EXPECT_EQ(all.at("engine"), "gradient");
+  EXPECT_EQ(all.at("sweeps"), 20);
+  EXPECT_EQ(all.at("samples"), 20 * 16 * 32 * 16);
+  EXPECT_EQ(all.at("gradient").at("level"), 1);
+  EXPECT_EQ(bytes("out/gradient.txt"), "32 16\n");
+  EXPECT_THAT(bytes("out/settling.csv"), HasSubstr("sweep,standard_deviation\n1,0.2\n"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/upside_down.exr") && std::filesystem::exists(folder / "out/upside_down.png"));
+}
+
+// The noise of a pixel after p sweeps is noise / sqrt(16 p), the same in three channels: its mean square is that of 0.2^2 / 16 / 64.
+TEST_F(GradientEngine, MeasuresItsErrorAgainstARecipeAndByItself)
+{
+  const Ended ended = run_to("out", {"--set", R"(reference={"type": "recipe", "passes": 1})"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const json errors = of("out/run.json").at("errors");
+  const double truth = 0.2 * 0.2 / 16 / 64;
+  EXPECT_NEAR(errors.at("mse").get<double>() / truth, 1, 5 * std::sqrt(2.0 / 512));
+  EXPECT_NEAR(errors.at("estimated_mse").get<double>() / truth, 1, 5 * std::sqrt(2.0 / 512));
+}
+
+TEST_F(GradientEngine, ResumesToTheSameBits)
+{
+  ASSERT_EQ(run_to("whole", {"--passes", "9"}).exit_code, 0);
+  ASSERT_EQ(run_to("parts", {"--passes", "4"}).exit_code, 0);
+  const Ended resumed = run_to("parts", {"--passes", "9", "--resume"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("going on in"));
+  EXPECT_EQ(nephroid::image::read_image(folder / "whole/image.exr").data, nephroid::image::read_image(folder / "parts/image.exr").data);
+}
+
+TEST_F(GradientEngine, IsPlannedAndInTheSchema)
+{
+  const Ended planned = run({"plan", "g.json", "--json", "--set", "gradient.noise=0"});
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  EXPECT_EQ(json::parse(planned.out).at("passes").at(1).at("reason"), "gradient.noise is 0");
+  const json schema = json::parse(run({"schema"}).out);
+  EXPECT_EQ(schema.at("$defs").at("Gradient").at("properties").at("noise").at("maximum"), 1);
+  EXPECT_TRUE(schema.at("properties").contains("gradient") && schema.at("properties").contains("spectral"));
+}
+
+TEST_F(GradientEngine, RefusesWhatIsNotItsOwn)
+{
+  const auto refuses = [&](const std::vector<std::string>& set, const std::string& says) {
+    std::vector<std::string> arguments{"plan", "g.json"};
+    for (const std::string& s : set) arguments.insert(arguments.end(), {"--set", s});
+    expect_refused(run(arguments), {arguments, says});
+  };
+  refuses({"spectral.method=thesis"},
+          "'spectral' has no meaning for the engine 'gradient'; it belongs to 'spectral'; remove it or change the engine");
+  refuses({"engine=spectral"}, "'gradient' has no meaning for the engine 'spectral'; it belongs to 'gradient'");
+  refuses({"engine=graident"}, "did you mean 'gradient'?");
+  refuses({"gradient.noise=2"}, "expected a number from 0 to 1");
+  refuses({"gradient.noize=1"}, "did you mean 'noise'?");
+  refuses({"gradient.level=0", "gradient.noise=0"}, "is black");
+  refuses({R"(reference={"type": "recipe", "spectral": {}})"}, "'spectral' has no meaning for the engine 'gradient'");
+}
+
+TEST_F(GradientEngine, ACheckpointOfAnotherEngineIsRefused)
+{
+  ASSERT_EQ(run_to("out", {"--passes", "2"}).exit_code, 0);
+  write("s.json", R"({"engine": "spectral", "name": "g", "scene": {"camera": {"resolution": [32, 16]}}})");
+  const Ended ended = run({"run", "s.json", "-o", "out", "--passes", "4", "--resume"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("out/checkpoint.bin: belongs to another preset or seed"));
+}
+
+} // namespace

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gradient.h"
+
+#include "base/error.h"
+#include "preset/settings_type.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace nephroid::preset {
+
+template <>
+struct About<gradient::Settings> {
+  static constexpr std::string_view name = "Gradient", sentence = "A picture of a gradient.";
+};
+
+} // namespace nephroid::preset
+
+namespace nephroid::gradient {
+
+template <class V, preset::Is<Settings> S>
+void describe(V& v, S& s)
+{
+  v.field({.name = "level", .sentence = "Brightness at the right edge.", .bounds = preset::within(0, 10)}, s.level);
+  v.field({.name = "noise", .sentence = "Standard deviation of one sample.", .bounds = preset::within(0, 1)}, s.noise);
+  v.field({.name = "samples_per_pass", .sentence = "Samples of a pixel in one pass.", .bounds = preset::within(1, 1000)},
+          s.samples_per_pass);
+}
+
+namespace {
+
+const Settings& settings(const preset::Preset& preset) { return preset.settings.as<Settings>(); }
+
+void check(const preset::Preset& preset, const preset::Where& where)
+{
+  if (settings(preset).level == 0 && settings(preset).noise == 0)
+    throw bad_input(where("/gradient"), "is black", "expected a level or noise above 0");
+}
+
+struct GradientPlan : plan::Plan {
+  Settings settings;
+};
+
+/// A pass adds a mean of samples to every pixel, to one half of the sums after the other.
+class GradientJob final : public job::Job {
+public:
+  GradientJob(const preset::Preset& preset, const GradientPlan& plan)
+      : settings_(plan.settings), seed_(preset.seed), width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
+        passes_(preset.stop.passes.value_or(preset::default_passes)), estimates_(plan.estimates_error)
+  {
+    for (auto& half : sums_) half.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+  }
+
+  void step() override
+  {
+    std::mt19937_64 random(seed_ * 1000003 + static_cast<std::uint64_t>(done_));
+    std::normal_distribution<double> noise(0, settings_.noise / std::sqrt(settings_.samples_per_pass));
+    auto& half = sums_[static_cast<std::size_t>(done_ % 2)];
+    for (std::size_t i = 0; i < half.size(); ++i) half[i] += truth(i) + noise(random);
+    ++done_;
+  }
+  bool finished() const override { return done_ >= passes_; }
+  bool estimates_error() const override { return estimates_; }
+
+  job::Progress progress() const override
+  {
+    job::Progress p;
+    p.fraction = static_cast<double>(done_) / passes_;
+    p.step = done_;
+    p.steps = passes_;
+    p.work = static_cast<std::uint64_t>(done_) * static_cast<std::uint64_t>(settings_.samples_per_pass) * sums_[0].size();
+    p.work_seconds = 1e-3 * static_cast<double>(done_);
+    p.units = {.step = "sweep", .steps = "sweeps", .work = "sample", .works = "samples"};
+    return p;
+  }
+
+  job::Snapshot snapshot() override
+  {
+    auto picture = std::make_shared<job::Picture>();
+    picture->width = width_;
+    picture->height = height_;
+    const double a = static_cast<double>((done_ + 1) / 2), b = static_cast<double>(done_ / 2);
+    for (std::size_t i = 0; i < sums_[0].size(); ++i)
+      for (int channel = 0; channel < 3; ++channel) {
+        picture->rgb.push_back(static_cast<float>(done_ > 0 ? (sums_[0][i] + sums_[1][i]) / (a + b) : 0));
+        if (estimates_ && b > 0)
+          picture->error_draw.push_back(static_cast<float>((sums_[0][i] / a - sums_[1][i] / b) * std::sqrt(a * b) / (a + b)));
+      }
+    picture->layers.push_back({"gradient", picture->rgb});
+    job::Snapshot snapshot;
+    snapshot.picture = picture;
+    snapshot.pictures.push_back({"upside_down", picture});
+    snapshot.progress = progress();
+    snapshot.scalars.push_back({"gradient", "level", settings_.level});
+    snapshot.curves.push_back({"settling",
+                               {"sweep", "standard_deviation"},
+                               {{1, settings_.noise}, {static_cast<double>(done_), settings_.noise / std::sqrt(a + b)}}});
+    snapshot.files.push_back({"gradient.txt", std::make_shared<const std::string>(fmt::format("{} {}\n", width_, height_))});
+    return snapshot;
+  }
+
+  void save(ByteSink& to) override
+  {
+    to.value(done_);
+    for (const auto& half : sums_) to.write(std::as_bytes(std::span(half)));
+  }
+  void load(ByteSource& from) override
+  {
+    from.value(done_);
+    for (auto& half : sums_) from.read(std::as_writable_bytes(std::span(half)));
+  }
+
+private:
+  double truth(std::size_t pixel) const
+  {
+    return settings_.level * (static_cast<double>(pixel % static_cast<std::size_t>(width_)) + 0.5) / width_;
+  }
+
+  Settings settings_;
+  std::uint64_t seed_;
+  int width_, height_;
+  std::int64_t passes_, done_ = 0;
+  bool estimates_;
+  std::array<std::vector<double>, 2> sums_; ///< [half][pixel]
+};
+
+const preset::SettingsType& settings_type()
+{
+  static const preset::SettingsType type = preset::settings_type<Settings>("gradient", "A gradient, for tests.", check);
+  return type;
+}
+
+std::unique_ptr<plan::Plan> make_plan(const preset::Preset& preset, const scene::Scene&, const scene::Bvh&)
+{
+  auto plan = std::make_unique<GradientPlan>();
+  plan->engine = "gradient";
+  plan->settings = settings(preset);
+  plan->layers = 1;
+  plan->estimates_error = preset.measure.estimate;
+  plan->passes.push_back({"gradient", true, "every pixel by its column"});
+  plan->passes.push_back({"noise", plan->settings.noise > 0, plan->settings.noise > 0 ? "as asked for" : "gradient.noise is 0"});
+  return plan;
+}
+
+preset::Settings reference(const preset::Preset& preset, int)
+{
+  preset::Settings made = preset.reference->settings.value_or(preset.settings);
+  if (!preset.reference->settings) made.as<Settings>().noise = 0;
+  return made;
+}
+
+} // namespace
+
+constinit const engine::Engine engine{.settings = settings_type,
+                                      .plan = make_plan,
+                                      .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&,
+                                                const plan::Plan& plan, const compute::Context&) -> std::unique_ptr<job::Job> {
+                                        return std::make_unique<GradientJob>(preset, dynamic_cast<const GradientPlan&>(plan));
+                                      },
+                                      .reference = reference};
+
+} // namespace nephroid::gradient
