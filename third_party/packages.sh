@@ -5,13 +5,13 @@
 
 # Configuring and compiling. python3-pip downloads two source archives (pip_fetch.cmake).
 build_packages=(g++ cmake ninja-build pkg-config python3-pip)
-# Libraries of the program itself, the bunny that the first-light preset shows, and gnuplot, which draws the charts of reports.
+# Libraries of the program itself, the bunny that the first-light preset shows, and the chart library that reports hold.
 # zlib1g-dev: Assimp's CMake package names zlib.
 program_packages=(
   opencl-clhpp-headers ocl-icd-opencl-dev pocl-opencl-icd
   libfmt-dev nlohmann-json3-dev libyaml-cpp-dev libcli11-dev
   libglm-dev libassimp-dev zlib1g-dev libembree-dev libopenimageio-dev libeigen3-dev
-  glmark2-data gnuplot-nox)
+  glmark2-data libjs-chart.js)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
 # The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets.

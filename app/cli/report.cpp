@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid report`: one page over finished runs, error against time first.
-#include "measure/report.h"
+#include "report/report.h"
 #include "base/files.h"
 #include "cli/verbs.h"
 #include "plan/plan.h"
@@ -24,7 +24,7 @@ void write_report(const ReportOptions& options)
   const fs::path file = !options.output.empty()      ? options.output
                         : options.folders.size() > 1 ? fs::path("report.html")
                                                      : options.folders.front() / "report.html";
-  const std::string html = measure::report_html(options.folders);
+  const std::string html = report::report_html(options.folders);
   write_file_whole(file, html);
   fmt::print("{}: {}, opens in a browser without a network\n", file.string(), plan::readable_bytes(html.size()));
 }

@@ -224,7 +224,7 @@ private:
                   "the image and a checkpoint are saved", "go on with --resume");
   }
 
-  /// The picture is what the run was for: without gnuplot there is one file less.
+  /// The picture is what the run was for: where a report cannot be made there is one file less.
   void write_report() const
   {
     try {

@@ -57,7 +57,7 @@ std::optional<job::Progress> finished_run(const std::filesystem::path& folder, c
 /// missing), each whole. reference: what the run was measured against, or null.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
                const job::Snapshot& snapshot, const measure::Reference* reference, bool finished);
-/// report.html of a run whose other files are written. Throws as measure::report_html does.
+/// report.html of a run whose other files are written. Throws as report::report_html does.
 void write_report(const std::filesystem::path& folder);
 /// history.csv alone, while the run goes on.
 void write_history(const std::filesystem::path& folder, const job::History& history);

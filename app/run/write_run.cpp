@@ -6,9 +6,9 @@
 #include "base/json_output.h"
 #include "image/image.h"
 #include "measure/history_file.h"
-#include "measure/report.h"
 #include "plan/plan.h"
 #include "preset/read.h"
+#include "report/report.h"
 #include "run/picture.h"
 #include "run/run.h"
 
@@ -108,7 +108,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
 
 void write_report(const std::filesystem::path& folder)
 {
-  write_file_whole(folder / "report.html", measure::report_html(std::span(&folder, 1)));
+  write_file_whole(folder / "report.html", report::report_html(std::span(&folder, 1)));
 }
 
 void write_history(const std::filesystem::path& folder, const job::History& history)

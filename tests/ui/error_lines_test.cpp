@@ -3,7 +3,7 @@
 #include "fake_job.h"
 #include "image/image.h"
 #include "measure/history_file.h"
-#include "measure/report_curves.h"
+#include "measure/run_curves.h"
 #include "ui/error/lines.h"
 #include "ui/state/pinned_runs.h"
 

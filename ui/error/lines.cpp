@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/error/lines.h"
 
-#include "measure/report_curves.h"
-#include "measure/report_metrics.h"
+#include "measure/run_curves.h"
 
 #include <fmt/format.h>
 
@@ -41,14 +40,6 @@ measure::Curve thinned(const measure::Curve& curve)
   return kept;
 }
 
-ErrorLine line_of(const job::History& history, std::size_t column)
-{
-  ErrorLine line;
-  line.curve = measure::column_curve(history, column);
-  line.drawn = thinned(line.curve);
-  return line;
-}
-
 /// The step at or below (above) a value, in eighths of a decade.
 double step_below(double value) { return std::pow(10.0, std::floor(8 * std::log10(value)) / 8); }
 double step_above(double value) { return std::pow(10.0, std::ceil(8 * std::log10(value)) / 8); }
@@ -65,21 +56,17 @@ std::array<double, 2> axis_ends(const std::array<double, 2>& values, double room
 
 RunLines lines_of(const job::History& history, const std::string& metric)
 {
+  const measure::RunCurves curves = measure::run_curves(history, metric, measure::is_error(history, metric));
   RunLines lines;
-  lines.falls = measure::metric_text(metric).falls;
-  for (std::size_t column = 0; column < history.columns.size(); ++column) {
-    const measure::ErrorColumn is = measure::error_column_of(history.columns[column]);
-    if (is.metric != metric) continue;
-    (is.is_estimate ? lines.estimate : lines.error) = line_of(history, column);
-    if (!is.is_estimate && column < history.noise_floor.size() && history.noise_floor[column] > 0)
-      lines.noise_floor = history.noise_floor[column];
-  }
+  lines.falls = curves.falls;
+  lines.error = {curves.error, thinned(curves.error), {}};
+  lines.estimate = {curves.estimate, thinned(curves.estimate), {}};
+  if (curves.noise_floor > 0) lines.noise_floor = curves.noise_floor;
   if (!lines.falls) return lines;
   // As the report has them: what is too near to the noise floor bends the line and is left out.
-  const measure::MetricCurves curves{metric, {{lines.error.curve, lines.estimate.curve, lines.noise_floor.value_or(0)}}};
-  if (!lines.error.curve.seconds.empty()) lines.error.fit = curves.slope(0);
-  lines.estimate.fit = measure::fit_power_law(lines.estimate.curve);
-  lines.lowest_meaningful = curves.lowest_meaningful(0);
+  if (!curves.is_judged_by_estimate()) lines.error.fit = curves.slope();
+  lines.estimate.fit = measure::fit_power_law(curves.estimate);
+  lines.lowest_meaningful = curves.lowest_meaningful();
   return lines;
 }
 
@@ -108,22 +95,23 @@ std::optional<CurvePoint> nearest_point(const measure::Curve& curve, double seco
 PlotRange plot_range(std::span<const RunLines* const> runs, std::span<const double> extra_errors)
 {
   constexpr double none = std::numeric_limits<double>::infinity();
-  std::array<double, 2> seconds{none, 0}, errors{none, 0};
-  const auto widen = [](std::array<double, 2>& range, double value) {
-    if (!(value > 0) || !std::isfinite(value)) return;
+  const bool is_linear = std::any_of(runs.begin(), runs.end(), [](const RunLines* run) { return !run->falls; });
+  std::array<double, 2> seconds{none, -none}, errors{none, -none};
+  const auto widen = [](std::array<double, 2>& range, double value, bool is_log = true) {
+    if (!std::isfinite(value) || (is_log && value <= 0)) return;
     range = {std::min(range[0], value), std::max(range[1], value)};
   };
   for (const RunLines* run : runs)
     for (const ErrorLine* line : {&run->error, &run->estimate}) {
       for (const double value : line->drawn.seconds) widen(seconds, value);
-      for (const double value : line->drawn.errors) widen(errors, value);
+      for (const double value : line->drawn.errors) widen(errors, value, !is_linear);
     }
-  if (errors[1] > 0)
-    for (const double value : extra_errors) widen(errors, value);
+  const bool is_empty = errors[0] > errors[1];
+  if (!is_empty)
+    for (const double value : extra_errors) widen(errors, value, !is_linear);
   const PlotRange empty;
-  const bool is_linear = std::any_of(runs.begin(), runs.end(), [](const RunLines* run) { return !run->falls; });
-  if (is_linear && errors[1] > 0) {
-    const double room = std::max(0.1 * (errors[1] - errors[0]), 0.01 * errors[1]);
+  if (is_linear && !is_empty) {
+    const double room = std::max({0.1 * (errors[1] - errors[0]), 0.01 * std::abs(errors[1]), 1e-6});
     return {axis_ends(seconds, 1.1, empty.seconds), {errors[0] - room, errors[1] + room}};
   }
   return {axis_ends(seconds, 1.1, empty.seconds), axis_ends(errors, 1.3, empty.errors)};

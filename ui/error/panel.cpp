@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/error/panel.h"
 
-#include "measure/report_curves.h"
-#include "measure/report_metrics.h"
+#include "measure/run_curves.h"
 #include "ui/shell/actions.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/theme.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/error/plot.h"
 
-#include "measure/report_metrics.h"
+#include "measure/run_curves.h"
 #include "ui/widgets/plots.h"
 #include "ui/widgets/theme.h"
 
@@ -127,7 +127,7 @@ std::string axis_label(const std::string& metric)
 
 void set_up_axes(const PlotContents& contents, const PlotRange& range, bool follows)
 {
-  const bool is_log = measure::metric_text(contents.metric).falls;
+  const bool is_log = std::all_of(contents.runs.begin(), contents.runs.end(), [](const PlottedRun& run) { return run.lines->falls; });
   ImPlot::SetupAxes("seconds of work", contents.metric.empty() ? nullptr : axis_label(contents.metric).c_str());
   ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
   ImPlot::SetupAxisScale(ImAxis_Y1, is_log ? ImPlotScale_Log10 : ImPlotScale_Linear);

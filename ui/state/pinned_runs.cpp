@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "measure/history_file.h"
 #include "measure/read_picture.h"
-#include "measure/run_summary.h"
+#include "measure/run_files.h"
 
 #include <fmt/format.h>
 
@@ -39,14 +39,7 @@ std::filesystem::path history_file(const std::filesystem::path& path)
 /// The history with what the run's folder knows of the reference: the table itself has no noise floor.
 std::shared_ptr<const job::History> history_with_floor(const std::filesystem::path& file, const std::filesystem::path& folder)
 {
-  auto history = std::make_shared<job::History>(measure::read_history(file));
-  const auto reference = file.filename() == history_name ? measure::read_run_reference(folder) : std::nullopt;
-  if (!reference) return history;
-  for (const std::string& column : history->columns) {
-    const auto floor = reference->noise_floor.find(column);
-    history->noise_floor.push_back(floor == reference->noise_floor.end() ? std::numeric_limits<double>::quiet_NaN() : floor->second);
-  }
-  return history;
+  return std::make_shared<job::History>(file.filename() == history_name ? measure::read_run_history(folder) : measure::read_history(file));
 }
 
 } // namespace

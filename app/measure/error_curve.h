@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a report reads off curves of error against time: slopes, the time to an error, speed-ups at equal error. Pure functions.
+// What the window and the report read off curves of error against time: slopes, the time to an error, speed-ups at equal error. Pure functions.
 // Between its points a curve is a straight line on two logarithmic axes, where Monte Carlo's error = c / sqrt(t) is one.
 #pragma once
 #include <cstddef>
@@ -11,13 +11,10 @@ namespace nephroid::measure {
 /// Whether a value has a place on a logarithmic axis: above 0, and within 1e-100..1e100 so that its powers are finite as well.
 bool can_be_drawn(double value);
 
-/// Errors at times, in the order of time; all can be drawn.
+/// Errors at times, in the order of time; on logarithmic axes all can be drawn.
 struct Curve {
   std::vector<double> seconds, errors;
 };
-
-/// Without what cannot be drawn: times that are 0, errors that are 0, undefined or infinite. The vectors are of one length.
-Curve curve_of(const std::vector<double>& seconds, const std::vector<double>& errors);
 
 /// error = factor * seconds^exponent.
 struct PowerLaw {

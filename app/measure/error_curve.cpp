@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/report_analysis.h"
+#include "measure/error_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,17 +33,6 @@ double seconds_on_segment(const Curve& curve, std::size_t end, double error)
 } // namespace
 
 bool can_be_drawn(double value) { return value > 1e-100 && value < 1e100; }
-
-Curve curve_of(const std::vector<double>& seconds, const std::vector<double>& errors)
-{
-  Curve curve;
-  for (std::size_t i = 0; i < seconds.size(); ++i) {
-    if (!can_be_drawn(seconds[i]) || !can_be_drawn(errors[i])) continue;
-    curve.seconds.push_back(seconds[i]);
-    curve.errors.push_back(errors[i]);
-  }
-  return curve;
-}
 
 std::optional<PowerLaw> fit_power_law(const Curve& curve, double lowest_error)
 {

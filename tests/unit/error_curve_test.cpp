@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes, times to an error and speed-ups on curves whose answers are known in closed form.
-#include "measure/report_analysis.h"
+#include "measure/error_curve.h"
 
 #include <gmock/gmock.h>
 

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every run writes is required: a report with holes would be believed.
+#include "report/run_folder.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "measure/run_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+namespace nephroid::report {
+namespace fs = std::filesystem;
+namespace {
+
+using measure::RunDocument;
+using Type = RunDocument::Type;
+
+Json read_run_json(const fs::path& folder)
+{
+  const RunDocument run(folder / "run.json");
+  const std::int64_t passes = run.at("/passes", Type::whole);
+  if (!run.at("/finished", Type::flag))
+    throw bad_input(folder.string(), fmt::format("this run is not finished: it stopped in pass {}", passes + 1), "expected a finished run",
+                    "go on with `nephroid run --resume`");
+  for (const char* text : {"/name", "/engine", "/version", "/commit", "/compiler"}) run.at(text, Type::text);
+  run.at("/seed", Type::whole);
+  run.at("/device", Type::object);
+  run.at("/work_seconds", Type::number);
+  for (const auto& [pointer, type] : {std::pair{"/photons", Type::whole},
+                                      {"/phase_seconds", Type::numbers},
+                                      {"/energy", Type::numbers},
+                                      {"/errors", Type::numbers},
+                                      {"/wall_seconds", Type::number},
+                                      {"/measuring_seconds", Type::number},
+                                      {"/error_column", Type::text}})
+    if (run.has(pointer)) run.at(pointer, type);
+  if (run.has("/reference")) run.at("/reference/origin", Type::text);
+  return run.json();
+}
+
+std::map<std::string, std::string> read_settings(const fs::path& folder)
+{
+  std::map<std::string, std::string> settings;
+  for (const auto& [pointer, value] : RunDocument(folder / "preset.json").json().flatten().items()) { // "/scene/lights/0/power_w"
+    std::string key = pointer.substr(std::min<std::size_t>(1, pointer.size()));
+    std::replace(key.begin(), key.end(), '/', '.');
+    settings[key] = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  return settings;
+}
+
+Json read_plan(const fs::path& folder)
+{
+  const RunDocument plan(folder / "plan.json");
+  plan.at("/engine", Type::text);
+  const auto each = [&](const std::string& list, std::initializer_list<std::pair<const char*, Type>> members) {
+    for (std::size_t i = 0; i < plan.at(list, Type::list).size(); ++i)
+      for (const auto& [member, type] : members) plan.at(fmt::format("{}/{}/{}", list, i, member), type);
+  };
+  each("/passes", {{"name", Type::text}, {"runs", Type::flag}, {"reason", Type::text}});
+  each("/buffers", {{"name", Type::text}, {"bytes", Type::whole}});
+  return plan.json();
+}
+
+/// A run's folder before or while it runs: begin_run has written these two, nothing has written run.json.
+bool is_begun_run(const fs::path& folder) { return is_there(folder / "plan.json") && is_there(folder / "preset.json"); }
+
+/// The run in a folder, or the runs in its folders; those that have begun but not ended are among them, for read_run to refuse.
+std::vector<fs::path> runs_in(const fs::path& folder)
+{
+  const auto is_run = [](const fs::path& path) { return is_there(path / "run.json") || is_begun_run(path); };
+  std::error_code error;
+  if (!fs::exists(folder, error)) throw bad_input(folder.string(), "there is no such folder");
+  if (!fs::is_directory(folder, error)) throw bad_input(folder.string(), "is a file", "expected the folder of a run");
+  if (is_run(folder)) return {folder};
+  std::vector<fs::path> runs;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (std::error_code ignored; entry->is_directory(ignored) && is_run(entry->path())) runs.push_back(entry->path());
+  if (error) throw bad_input(folder.string(), "cannot be read: " + error.message());
+  if (runs.empty())
+    throw bad_input(folder.string(), "holds no run", "expected a folder with run.json, or one of a sweep with such folders inside",
+                    "make one with `nephroid run`");
+  std::sort(runs.begin(), runs.end());
+  return runs;
+}
+
+} // namespace
+
+std::vector<fs::path> find_runs(std::span<const fs::path> folders)
+{
+  std::vector<fs::path> runs;
+  std::set<fs::path> seen;
+  for (const fs::path& folder : folders)
+    for (fs::path& run : runs_in(folder)) {
+      if (!seen.insert(fs::weakly_canonical(run)).second)
+        throw bad_input(run.string(), "this run is named twice", "expected every run once");
+      runs.push_back(std::move(run));
+    }
+  if (runs.size() > max_runs)
+    throw bad_input(folders.front().string(), fmt::format("{} runs are too many for one page", runs.size()),
+                    fmt::format("expected at most {}", max_runs), "name the folders of some of them");
+  return runs;
+}
+
+RunFolder read_run(const fs::path& folder)
+{
+  if (!is_there(folder / "run.json") && is_begun_run(folder))
+    throw bad_input(folder.string(), "this run is not finished: it has no run.json", "expected a finished run",
+                    "wait for it, or go on with `nephroid run --resume`");
+  RunFolder run{folder, read_run_json(folder), read_plan(folder), read_settings(folder), {}};
+  if (is_there(folder / "history.csv")) run.history = measure::read_run_history(folder);
+  return run;
+}
+
+} // namespace nephroid::report
