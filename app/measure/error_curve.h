@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window and the report read off curves of error against time: slopes, the time to an error, speed-ups at equal error. Pure functions.
-// Between its points a curve is a straight line on two logarithmic axes, where Monte Carlo's error = c / sqrt(t) is one.
+// What the window and the report read off curves of error against time: slopes, the time to an error, speed-ups at equal error. Pure
+// functions. Between its points a curve is a straight line on two logarithmic axes, where Monte Carlo's error = c / sqrt(t) is one.
 #pragma once
 #include <cstddef>
 #include <optional>

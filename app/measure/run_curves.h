@@ -24,8 +24,8 @@ struct MetricText {
   std::string unit;  ///< "CIELAB units", "dB"; empty: a ratio without one
   /// The error of n independent samples is in proportion to n to this power; none where there is no such law.
   std::optional<double> law;
-  bool falls = true;              ///< an error, drawn on a logarithmic axis; what does not fall is on a linear one
-  bool larger_is_better = false;  ///< as psnr_db is
+  bool falls = true;             ///< an error, drawn on a logarithmic axis; what does not fall is on a linear one
+  bool larger_is_better = false; ///< as psnr_db is
 
   bool is_mean_square() const { return law == -1.0; }
 };

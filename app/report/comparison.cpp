@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/comparison.h"
-
 #include "measure/run_curves.h"
+#include "report/data.h"
 
 #include <fmt/format.h>
 
@@ -22,10 +21,7 @@ struct MetricCurves {
   bool falls = false;
 };
 
-std::string main_metric(const RunFolder& run)
-{
-  return run.history ? measure::error_column_of(run.history->error_column).metric : "";
-}
+std::string main_metric(const RunFolder& run) { return run.history ? measure::error_column_of(run.history->error_column).metric : ""; }
 
 std::vector<MetricCurves> curves_of(std::span<const RunFolder> runs)
 {
@@ -138,7 +134,8 @@ std::string remarks(const RunFolder& a, const RunFolder& b, bool have_one_refere
 std::vector<double> levels_for_pair(const measure::ErrorRange& both, std::size_t count)
 {
   std::vector<double> levels = measure::round_levels(both.lowest, both.highest);
-  if (levels.empty()) return {std::clamp(std::stod(fmt::format("{:.2e}", std::sqrt(both.lowest * both.highest))), both.lowest, both.highest)};
+  if (levels.empty())
+    return {std::clamp(std::stod(fmt::format("{:.2e}", std::sqrt(both.lowest * both.highest))), both.lowest, both.highest)};
   if (levels.size() > count) levels.erase(levels.begin(), levels.end() - static_cast<std::ptrdiff_t>(count));
   return levels;
 }
@@ -205,14 +202,10 @@ Json metrics_json(std::span<const RunFolder> runs, const std::vector<std::option
   Json all = Json::array();
   for (const MetricCurves& curves : curves_of(runs)) {
     const measure::MetricText text = measure::metric_text(curves.metric);
-    Json metric{{"metric", curves.metric},
-                {"label", text.label},
-                {"unit", text.unit},
-                {"law", text.law ? Json(*text.law) : Json()},
-                {"falls", curves.falls},
-                {"larger_is_better", text.larger_is_better},
-                {"lines", Json::array()},
-                {"biased", Json::array()}};
+    Json metric{{"metric", curves.metric}, {"label", text.label},
+                {"unit", text.unit},       {"law", text.law ? Json(*text.law) : Json()},
+                {"falls", curves.falls},   {"larger_is_better", text.larger_is_better},
+                {"lines", Json::array()},  {"biased", Json::array()}};
     for (std::size_t i = 0; i < runs.size(); ++i) {
       for (const bool is_estimate : {false, true})
         if (!(is_estimate ? curves.runs[i].estimate : curves.runs[i].error).errors.empty())

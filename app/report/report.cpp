@@ -4,14 +4,45 @@
 
 #include "base/json_output.h"
 #include "measure/difference.h"
-#include "report/comparison.h"
-#include "report/overview.h"
-#include "report/pictures.h"
+#include "report/data.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace nephroid::report {
 namespace {
+
+/// A sweep's runs are called "NAME,key=value".
+std::string sweep_of(const RunFolder& run) { return run.name().substr(0, run.name().find(',')); }
+
+bool have_one_sweep(std::span<const RunFolder> runs)
+{
+  return std::all_of(runs.begin(), runs.end(), [&](const RunFolder& run) { return sweep_of(run) == sweep_of(runs.front()); });
+}
+
+/// Names that tell the runs apart: the preset's, with the folder where two have one name; of a sweep's runs the part that differs.
+std::vector<std::string> labels_of(std::span<const RunFolder> runs)
+{
+  std::vector<std::string> names, swept, with_folder, with_path;
+  for (const RunFolder& run : runs) {
+    const std::string name = run.name();
+    swept.push_back(name.substr(std::min(sweep_of(run).size() + 1, name.size())));
+    names.push_back(name);
+    with_folder.push_back(fmt::format("{} ({})", name, std::filesystem::weakly_canonical(run.folder).filename().string()));
+    with_path.push_back(fmt::format("{} ({})", name, run.folder.string()));
+  }
+  const auto all_differ = [](const auto& labels) { return std::set(labels.begin(), labels.end()).size() == labels.size(); };
+  if (have_one_sweep(runs) && std::find(swept.begin(), swept.end(), "") == swept.end() && all_differ(swept)) return swept;
+  return all_differ(names) ? names : all_differ(with_folder) ? with_folder : with_path;
+}
+
+std::string title_of(std::span<const RunFolder> runs)
+{
+  if (runs.size() == 1) return runs.front().name();
+  return fmt::format(fmt::runtime(have_one_sweep(runs) ? "{1}: {0} runs" : "{0} runs compared"), runs.size(), sweep_of(runs.front()));
+}
 
 Json colours()
 {
@@ -44,22 +75,20 @@ const std::string& page_file(std::string_view name)
 
 Json report_data(std::span<const std::filesystem::path> run_folders)
 {
-  std::vector<RunFolder> runs;
-  for (const std::filesystem::path& folder : find_runs(run_folders)) runs.push_back(read_run(folder));
+  std::vector<RunFolder> runs = read_runs(run_folders);
   Pictures pictures = read_pictures(runs);
   Json data{{"title", title_of(runs)},
             {"runs", Json::array()},
-            {"settings", differing_settings(runs)},
-            {"errors", final_errors(runs)},
             {"metrics", metrics_json(runs, pictures.reference_of_run)},
             {"pictures", std::move(pictures.groups)},
-            {"colours", colours()},
-            {"notes", std::move(pictures.notes)}};
+            {"notes", std::move(pictures.notes)},
+            {"colours", colours()}};
   const std::vector<std::string> labels = labels_of(runs);
   for (std::size_t i = 0; i < runs.size(); ++i)
     data["runs"].push_back({{"label", labels[i]},
                             {"folder", runs[i].folder.string()},
                             {"measurements", runs[i].history ? Json(runs[i].history->rows.size()) : Json()},
+                            {"settings", std::move(runs[i].settings)},
                             {"run", std::move(runs[i].run)},
                             {"plan", std::move(runs[i].plan)}});
   return data;

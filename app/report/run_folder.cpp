@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every run writes is required: a report with holes would be believed.
-#include "report/run_folder.h"
-
 #include "base/error.h"
 #include "base/files.h"
 #include "measure/run_files.h"
+#include "report/data.h"
 
 #include <fmt/format.h>
 
@@ -45,7 +44,8 @@ Json read_run_json(const fs::path& folder)
 std::map<std::string, std::string> read_settings(const fs::path& folder)
 {
   std::map<std::string, std::string> settings;
-  for (const auto& [pointer, value] : RunDocument(folder / "preset.json").json().flatten().items()) { // "/scene/lights/0/power_w"
+  const Json flat = RunDocument(folder / "preset.json").json().flatten();
+  for (const auto& [pointer, value] : flat.items()) { // "/scene/lights/0/power_w"
     std::string key = pointer.substr(std::min<std::size_t>(1, pointer.size()));
     std::replace(key.begin(), key.end(), '/', '.');
     settings[key] = value.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -88,24 +88,6 @@ std::vector<fs::path> runs_in(const fs::path& folder)
   return runs;
 }
 
-} // namespace
-
-std::vector<fs::path> find_runs(std::span<const fs::path> folders)
-{
-  std::vector<fs::path> runs;
-  std::set<fs::path> seen;
-  for (const fs::path& folder : folders)
-    for (fs::path& run : runs_in(folder)) {
-      if (!seen.insert(fs::weakly_canonical(run)).second)
-        throw bad_input(run.string(), "this run is named twice", "expected every run once");
-      runs.push_back(std::move(run));
-    }
-  if (runs.size() > max_runs)
-    throw bad_input(folders.front().string(), fmt::format("{} runs are too many for one page", runs.size()),
-                    fmt::format("expected at most {}", max_runs), "name the folders of some of them");
-  return runs;
-}
-
 RunFolder read_run(const fs::path& folder)
 {
   if (!is_there(folder / "run.json") && is_begun_run(folder))
@@ -114,6 +96,26 @@ RunFolder read_run(const fs::path& folder)
   RunFolder run{folder, read_run_json(folder), read_plan(folder), read_settings(folder), {}};
   if (is_there(folder / "history.csv")) run.history = measure::read_run_history(folder);
   return run;
+}
+
+} // namespace
+
+std::vector<RunFolder> read_runs(std::span<const fs::path> folders)
+{
+  std::vector<fs::path> found;
+  std::set<fs::path> seen;
+  for (const fs::path& folder : folders)
+    for (fs::path& run : runs_in(folder)) {
+      if (!seen.insert(fs::weakly_canonical(run)).second)
+        throw bad_input(run.string(), "this run is named twice", "expected every run once");
+      found.push_back(std::move(run));
+    }
+  if (found.size() > max_runs)
+    throw bad_input(folders.front().string(), fmt::format("{} runs are too many for one page", found.size()),
+                    fmt::format("expected at most {}", max_runs), "name the folders of some of them");
+  std::vector<RunFolder> runs;
+  for (const fs::path& folder : found) runs.push_back(read_run(folder));
+  return runs;
 }
 
 } // namespace nephroid::report

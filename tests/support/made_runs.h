@@ -77,8 +77,10 @@ inline void write_measured_run(const std::filesystem::path& folder, const std::s
 {
   nlohmann::ordered_json run_json = made_run_json(name);
   run_json["reference"] = {{"origin", origin}, {"noise_floor", {{"lab_mean", floor}}}};
+  const job::History history = made_history({{"lab_mean", factor, -0.5, floor}});
+  run_json["errors"] = {{"lab_mean", history.rows.back().errors[0]}};
   write_made_run(folder, run_json);
-  write_file_whole(folder / "history.csv", measure::to_csv(made_history({{"lab_mean", factor, -0.5, floor}})));
+  write_file_whole(folder / "history.csv", measure::to_csv(history));
 }
 
 } // namespace nephroid::test

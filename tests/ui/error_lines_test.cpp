@@ -53,7 +53,9 @@ TEST(ErrorLines, WhatHasNoLogarithmIsLeftOut)
   job::History history;
   history.columns = {"psnr_db"};
   history.rows = {{0, 0, 0, 0, {1}}, {1, 1, 1, 10, {nan}}, {2, 2, 2, 20, {0}}, {3, 3, 3, 30, {-4}}, {4, 4, 4, 40, {}}, {5, 5, 5, 50, {7}}};
-  EXPECT_THAT(lines_of(history, "psnr_db").error.curve.seconds, ElementsAre(5));
+  EXPECT_THAT(lines_of(history, "psnr_db").error.curve.seconds, ElementsAre(2, 3, 5)) << "on a linear axis";
+  history.columns = {"lab_mean"};
+  EXPECT_THAT(lines_of(history, "lab_mean").error.curve.seconds, ElementsAre(5)) << "on a logarithmic one";
   EXPECT_TRUE(lines_of(job::History{}, "").empty());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes, times to an error and speed-ups on curves whose answers are known in closed form.
 #include "measure/error_curve.h"
+#include "measure/run_curves.h"
 
 #include <gmock/gmock.h>
 
@@ -25,12 +26,18 @@ Curve power_curve(double factor, double exponent, double first, double ratio, in
   return curve;
 }
 
-TEST(CurveOf, leaves_out_what_cannot_be_drawn)
+TEST(RunCurves, leave_out_what_cannot_be_drawn)
 {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  const Curve curve = curve_of({0, 1, 2, 3, 4, 5, 6, 7}, {1, nan, infinity, 0, -1, 2, 1e300, 5e-324});
-  EXPECT_THAT(curve.seconds, ElementsAre(5));
-  EXPECT_THAT(curve.errors, ElementsAre(2));
+  nephroid::job::History history;
+  history.columns = {"lab_mean", "psnr_db", "estimated_lab_mean"};
+  const double errors[] = {1, nan, infinity, 0, -1, 2, 1e300, 5e-324};
+  for (int i = 0; i < 8; ++i) history.rows.push_back({static_cast<double>(i), 0, i, 0, {errors[i], errors[i]}});
+  const RunCurves error = run_curves(history, "lab_mean", true), quality = run_curves(history, "psnr_db", false);
+  EXPECT_THAT(error.error.seconds, ElementsAre(5));
+  EXPECT_THAT(error.error.errors, ElementsAre(2));
+  EXPECT_TRUE(error.estimate.errors.empty()) << "no row has the cell";
+  EXPECT_THAT(quality.error.seconds, ElementsAre(3, 4, 5, 7)) << "its axis is linear";
 }
 
 TEST(Slope, of_a_power_law_is_its_exponent)

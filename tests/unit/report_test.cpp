@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page over runs whose slopes, speed-ups and floors are known: its figures, its form (by Python's own HTML parser), that it
-// loads nothing, and what it says where something is missing.
+// The report over runs whose slopes, speed-ups and floors are known: its data, and the page that holds them. tests/hostile/report_test.cpp
+// looks at it in a browser.
 #include "base/files.h"
 #include "image/image.h"
-#include "measure/program.h"
-#include "measure/report.h"
-#include "measure/report_charts.h"
-#include "measure/report_text.h"
-#include "tests/support/errors.h"
+#include "report/data.h"
+#include "report/report.h"
 #include "tests/support/made_runs.h"
 #include "tests/support/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <regex>
@@ -20,366 +18,332 @@ namespace {
 namespace fs = std::filesystem;
 using namespace nephroid;
 using namespace nephroid::test;
+using report::Json;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-class ReportPage : public testing::Test {
+class Report : public testing::Test {
 protected:
   TemporaryFolder temporary;
   fs::path folder = temporary.path();
 
-  std::string page(const std::vector<std::string>& names) const
+  std::vector<fs::path> folders(const std::vector<std::string>& names) const
   {
-    std::vector<fs::path> folders;
-    for (const std::string& name : names) folders.push_back(folder / name);
-    return measure::report_html(folders);
+    std::vector<fs::path> all;
+    for (const std::string& name : names) all.push_back(folder / name);
+    return all;
+  }
+  Json data(const std::vector<std::string>& names) const { return report::report_data(folders(names)); }
+  /// The metric that comes first.
+  Json metric(const std::vector<std::string>& names) const { return data(names).at("metrics").at(0); }
+  void write_history(const std::string& run, const std::vector<MadeColumn>& columns, int rows = 30) const
+  {
+    write_file_whole(folder / run / "history.csv", measure::to_csv(made_history(columns, rows)));
   }
 };
 
-/// Every match of the pattern's first group.
-std::vector<std::string> all_matches(const std::string& text, const std::string& pattern)
-{
-  const std::regex regex(pattern);
-  std::vector<std::string> all;
-  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) all.push_back(match->str(1));
-  return all;
-}
-
-/// A row of the speed-up table as text: cells joined by " | ", tags and the names' numbers left in.
-std::vector<std::string> speed_ups(const std::string& html)
+/// The rows of the speed-up table: "faster < slower at error: seconds, seconds, speed-up", runs from 1 as the page counts them.
+std::vector<std::string> speed_ups(const Json& metric)
 {
   std::vector<std::string> rows;
-  for (const std::string& row : all_matches(html, "<tr>(<td>.*<strong>.*)</tr>")) {
-    const std::string cells = std::regex_replace(row, std::regex("</td><td[^>]*>"), " | ");
-    rows.push_back(std::regex_replace(std::regex_replace(cells, std::regex("<[^>]*>"), ""), std::regex("&nbsp;"), " "));
-  }
+  for (const Json& pair : metric.at("pairs"))
+    rows.push_back(fmt::format("{} < {} at {:.3g}{}: {:.3g} s, {:.3g} s, {:.3g}", pair["faster"].get<int>() + 1,
+                               pair["slower"].get<int>() + 1, pair["error"].get<double>(), pair["estimate"] ? " (estimate)" : "",
+                               pair["faster_seconds"].get<double>(), pair["slower_seconds"].get<double>(), pair["speed_up"].get<double>()));
   return rows;
 }
+std::string remark(const Json& metric) { return metric.at("pairs").at(0).at("remark"); }
 
-/// What Python's parser finds wrong: tags that are not closed in order, ids that are there twice; and how many scripts there are.
-std::string complaints(const std::string& html, const fs::path& file)
-{
-  write_file_whole(file, html);
-  const std::string script = R"python(
-import sys
-from html.parser import HTMLParser
-class Check(HTMLParser):
-    void = {'meta', 'img', 'input', 'br', 'link'}
-    def __init__(self):
-        super().__init__(); self.open = []; self.ids = set(); self.wrong = []; self.scripts = 0
-    def handle_starttag(self, tag, attributes):
-        if tag == 'script': self.scripts += 1
-        for name, value in attributes:
-            if name == 'id':
-                if value in self.ids: self.wrong.append('id ' + value + ' twice')
-                self.ids.add(value)
-        if tag not in self.void: self.open.append(tag)
-    def handle_startendtag(self, tag, attributes):
-        self.handle_starttag(tag, attributes)
-        if tag not in self.void: self.open.pop()
-    def handle_endtag(self, tag):
-        if not self.open or self.open.pop() != tag: self.wrong.append(f'</{tag}> at {self.getpos()}')
-check = Check()
-check.feed(sys.stdin.read()); check.close()
-print(check.wrong + check.open, check.scripts)
-)python";
-  return measure::run_program({"python3", "-c", script}, html, std::chrono::seconds(20));
-}
-
-TEST_F(ReportPage, finds_the_slope_and_the_speed_up_of_known_curves)
+TEST_F(Report, finds_the_slope_and_the_speed_up_of_known_curves)
 {
   write_measured_run(folder / "slow", "slow", 3);
   write_measured_run(folder / "fast", "fast", 2);
-  const std::string html = page({"slow", "fast"});
-  EXPECT_THAT(html, HasSubstr("1 slow, slope −0.50"));
-  EXPECT_THAT(html, HasSubstr("2 fast, slope −0.50"));
+  const Json lab = metric({"slow", "fast"});
+  EXPECT_EQ(lab.at("label"), "mean CIELAB distance");
+  ASSERT_EQ(lab.at("lines").size(), 2u);
+  for (const Json& line : lab.at("lines")) {
+    EXPECT_NEAR(line.at("slope"), -0.5, 1e-9);
+    EXPECT_EQ(line.at("points").size(), 30u);
+  }
   // t = (factor / error)^2: at 0.5 after 16 s and 36 s, a speed-up of (3 / 2)^2. Rows go to 0.5 * 1.25^29 = 323 s, errors of 0.167, 0.111.
-  EXPECT_THAT(speed_ups(html),
-              ElementsAre("2 fast | 1 slow | 1 | 4.00 s | 9.00 s | 2.25 × | ", "2 fast | 1 slow | 0.5 | 16.0 s | 36.0 s | 2.25 × | ",
-                          "2 fast | 1 slow | 0.2 | 1 min 40 s | 3 min 45 s | 2.25 × | "));
-  EXPECT_THAT(html, HasSubstr("17.0 s (5.0 %)")); // of 323 s of work and 17 s of measuring
+  EXPECT_THAT(speed_ups(lab),
+              ElementsAre("2 < 1 at 1: 4 s, 9 s, 2.25", "2 < 1 at 0.5: 16 s, 36 s, 2.25", "2 < 1 at 0.2: 100 s, 225 s, 2.25"));
 }
 
-TEST_F(ReportPage, is_well_formed_and_loads_nothing)
+TEST_F(Report, knows_when_each_run_came_to_a_round_error)
+{
+  write_measured_run(folder / "slow", "slow", 3); // from 3 / sqrt(0.5) = 4.24 to 0.167
+  write_measured_run(folder / "fast", "fast", 2); // from 2.83 to 0.111
+  const Json lab = metric({"slow", "fast"});
+  EXPECT_EQ(lab.at("levels"), Json({2.0, 1.0, 0.5, 0.2}));
+  write_measured_run(folder / "late", "late", 0.5); // from 0.707 to 0.028
+  const Json cells = metric({"slow", "late"}).at("times");
+  const auto cell = [&](int run, int level) { return cells.at(run).at("cells").at(level); };
+  ASSERT_EQ(metric({"slow", "late"}).at("levels"), Json({2.0, 1.0, 0.5, 0.2, 0.1, 0.05}));
+  EXPECT_NEAR(cell(0, 0).at("seconds"), 2.25, 1e-9);
+  EXPECT_FALSE(cell(0, 0).at("earlier"));
+  EXPECT_TRUE(cell(0, 4).is_null()) << "never";
+  EXPECT_TRUE(cell(1, 0).at("earlier")) << "below 2 at its first measurement";
+  EXPECT_EQ(cell(1, 0).at("seconds"), 0.5);
+  EXPECT_NEAR(cell(1, 5).at("seconds"), 100, 1e-9);
+}
+
+/// A browser loads nothing: the policy forbids it, and nothing of ours names an address.
+TEST_F(Report, is_a_page_that_holds_all_it_needs)
 {
   write_measured_run(folder / "a", "a", 3, 0.1);
-  write_measured_run(folder / "b", "b", 2, 0.1);
-  image::write_exr(folder / "reference.exr", {4, 3, {"R", "G", "B"}, std::vector<float>(36, 0.4f), {}});
-  for (const char* name : {"a", "b"}) {
-    nlohmann::ordered_json run_json = nlohmann::ordered_json::parse(read_file(folder / name / "run.json"));
-    run_json["reference"]["origin"] = (folder / "reference.exr").string();
-    write_file_whole(folder / name / "run.json", run_json.dump());
-    write_file_whole(
-        folder / name / "history.csv",
-        measure::to_csv(made_history({{"lab_mean", 3}, {"psnr_db", 9, 0.2}, {"masked_mse", 1, -1}, {"estimated_mse", 1, -1}})));
-  }
-  const std::string html = page({"a", "b"});
-  EXPECT_EQ(complaints(html, folder / "page.html"), "[] 1\n"); // the flipping script
-  for (const std::string& address : all_matches(html, R"re((?:src|href|action|data)\s*=\s*["']([^"']{1,30}))re"))
-    EXPECT_TRUE(address.starts_with("data:image/png;base64,") || address.starts_with("#")) << address;
-  for (const char* load : {"http://", "https://", "//cdn", "@import", "url(", "fetch(", "import("}) EXPECT_THAT(html, Not(HasSubstr(load)));
-  EXPECT_EQ(all_matches(html, "(<svg)").size(), 4u);  // lab_mean, masked_mse, mse and psnr_db
-  EXPECT_EQ(all_matches(html, "(<img )").size(), 5u); // two runs, their one reference, two differences
+  const std::string html = report::report_html(folders({"a"}));
+  EXPECT_THAT(html, AllOf(testing::StartsWith("<!DOCTYPE html>"), testing::EndsWith("</html>\n"), HasSubstr("Chart.js v"),
+                          HasSubstr("Released under the MIT License"), HasSubstr("content=\"default-src 'none'; img-src data:;"),
+                          Not(HasSubstr("{{"))));
+  EXPECT_FALSE(std::regex_search(html.substr(0, html.find("Chart.js v")), std::regex("<(link|img|iframe)|@import|url\\(|src=|href=")));
+  for (const report::PageFile& file : report::page_files())
+    EXPECT_THAT(file.name == "chart.min.js" ? "" : file.text, AllOf(Not(HasSubstr("://")), Not(HasSubstr("innerHTML")))) << file.name;
 }
 
-TEST_F(ReportPage, escapes_what_files_say)
+/// What files say cannot end the element that holds the data, and is there as it was.
+TEST_F(Report, holds_what_files_say_as_data)
 {
-  const std::string hostile = "</title><script>alert(1)</script>'\"&\xff `touch x` \x01";
   write_measured_run(folder / "a", "x", 3);
-  nlohmann::ordered_json run_json = made_run_json("");
-  run_json["name"] = nlohmann::ordered_json::parse(R"("</title><script>alert(1)</script>' \"& `touch x` $(touch x) \u0001 \\")");
+  Json run_json = made_run_json("</script><script>alert(1)</script><!-- '\"&\\");
   run_json["device"]["name"] = "<script>alert(2)</script>";
+  run_json["another"] = {{"engine's", {1, "<b>", nullptr}}};
   write_file_whole(folder / "a" / "run.json", run_json.dump());
-  const std::string html = page({"a"});
-  EXPECT_EQ(complaints(html, folder / "page.html"), "[] 1\n");
-  EXPECT_THAT(html, AllOf(Not(HasSubstr("<script>alert")), HasSubstr("&lt;script&gt;alert(2)")));
-  EXPECT_FALSE(fs::exists("x")); // gnuplot would run what stands in backquotes, outside single quotes
-  EXPECT_EQ(measure::escaped(hostile), "&lt;/title&gt;&lt;script&gt;alert(1)&lt;/script&gt;&#39;&quot;&amp;\xef\xbf\xbd `touch x`  ");
+  const std::string html = report::report_html(folders({"a"}));
+  const std::string begin = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t from = html.find(begin) + begin.size();
+  const Json embedded = Json::parse(html.substr(from, html.find('<', from) - from));
+  EXPECT_EQ(embedded, data({"a"}));
+  EXPECT_EQ(embedded.at("runs").at(0).at("run"), run_json);
 }
 
-TEST_F(ReportPage, shows_the_noise_floor_and_does_not_compare_near_it)
+TEST_F(Report, shows_the_noise_floor_and_does_not_compare_near_it)
 {
   write_measured_run(folder / "slow", "slow", 3, 0.4);
   write_measured_run(folder / "fast", "fast", 2, 0.4);
-  const std::string html = page({"slow", "fast"});
-  EXPECT_THAT(html, HasSubstr("noise floor of the reference"));
-  EXPECT_THAT(html, HasSubstr("*: near the reference's own noise floor"));
+  const Json lab = metric({"slow", "fast"});
+  EXPECT_EQ(lab.at("lines").at(0).at("floor"), 0.4);
+  EXPECT_EQ(lab.at("levels"), Json({2.0, 1.0, 0.5}));
+  EXPECT_TRUE(lab.at("times").at(0).at("cells").at(2).at("near_floor"));
+  EXPECT_FALSE(lab.at("times").at(0).at("cells").at(1).at("near_floor"));
   // Both come down to 0.4, but below twice that the floor is a good part of the error: 1 is compared, 0.5 is not. error^2 = f^2/t + .16
-  EXPECT_THAT(speed_ups(html),
-              ElementsAre("2 fast | 1 slow | 2 | 1.04 s | 2.34 s | 2.25 × | ", "2 fast | 1 slow | 1 | 4.76 s | 10.7 s | 2.25 × | "));
+  EXPECT_THAT(speed_ups(lab), ElementsAre("2 < 1 at 2: 1.04 s, 2.34 s, 2.25", "2 < 1 at 1: 4.76 s, 10.7 s, 2.25"));
   // From three floors on the slope of the distance is -1/2 (1 - 1/9) or steeper
-  const std::string slope = all_matches(html, "1 slow, slope −(0\\.[0-9]+)").at(0);
-  EXPECT_GT(std::stod(slope), 0.44);
-  EXPECT_LE(std::stod(slope), 0.50);
+  EXPECT_LT(lab.at("lines").at(0).at("slope"), -0.44);
+  EXPECT_GE(lab.at("lines").at(0).at("slope"), -0.50);
 }
 
-TEST_F(ReportPage, never_compares_an_error_with_an_estimate)
+TEST_F(Report, never_compares_an_error_with_an_estimate)
 {
   write_measured_run(folder / "measured", "measured", 3);
   write_made_run(folder / "alone", made_run_json("alone"));
-  write_file_whole(folder / "alone" / "history.csv", measure::to_csv(made_history({{"estimated_lab_mean", 2}})));
-  const std::string html = page({"measured", "alone"});
-  EXPECT_THAT(html, HasSubstr("2 alone (estimate), slope −0.50"));
-  EXPECT_THAT(speed_ups(html), ElementsAre());
-  EXPECT_THAT(html, HasSubstr("Not compared: 1 and 2 (one is measured against a reference, the other only estimated)"));
+  write_history("alone", {{"estimated_lab_mean", 2}});
+  const Json lab = metric({"measured", "alone"});
+  EXPECT_TRUE(lab.at("lines").at(1).at("estimate"));
+  EXPECT_NEAR(lab.at("lines").at(1).at("slope"), -0.5, 1e-9);
+  EXPECT_THAT(speed_ups(lab), ElementsAre());
+  EXPECT_EQ(lab.at("not_compared"), Json({"1 and 2 (one is measured against a reference, the other only estimated)"}));
 
   // With estimates of both there is something to compare: the estimates.
-  write_file_whole(folder / "measured" / "history.csv", measure::to_csv(made_history({{"lab_mean", 3}, {"estimated_lab_mean", 4}})));
-  EXPECT_THAT(speed_ups(page({"measured", "alone"})).at(0),
-              AllOf(HasSubstr("2 alone | 1 measured"), HasSubstr("estimate"), HasSubstr("4.00 ×")));
+  write_history("measured", {{"lab_mean", 3}, {"estimated_lab_mean", 4}});
+  EXPECT_EQ(speed_ups(metric({"measured", "alone"})).at(0), "2 < 1 at 2 (estimate): 1 s, 4 s, 4");
 }
 
-TEST_F(ReportPage, warns_of_estimates_with_other_settings)
+TEST_F(Report, warns_of_estimates_with_other_settings)
 {
-  const auto write = [&](const char* name, double factor, const nlohmann::ordered_json& spectral) {
+  const auto write = [&](const char* name, double factor, const Json& spectral) {
     write_made_run(folder / name, made_run_json(name), {{"spectral", spectral}});
-    write_file_whole(folder / name / "history.csv", measure::to_csv(made_history({{"estimated_lab_mean", factor}})));
+    write_history(name, {{"estimated_lab_mean", factor}});
   };
   write("fine", 3, {{"threshold_deg", 0.05}, {"photons_per_pass", 1000}});
   write("coarse", 2, {{"threshold_deg", 0.5}, {"photons_per_pass", 1000}});
-  const std::string remark = "estimates do not see the bias of different settings: give both a reference";
-  EXPECT_THAT(speed_ups(page({"fine", "coarse"})).at(0), AllOf(HasSubstr("2 coarse | 1 fine"), HasSubstr(remark)));
+  EXPECT_EQ(remark(metric({"fine", "coarse"})), "estimates do not see the bias of different settings: give both a reference");
   write("coarse", 2, {{"threshold_deg", 0.05}, {"photons_per_pass", 2000}}); // photons a pass are no bias
-  EXPECT_THAT(speed_ups(page({"fine", "coarse"})).at(0), Not(HasSubstr(remark)));
+  EXPECT_EQ(remark(metric({"fine", "coarse"})), "");
   // Against references the bias is part of the error.
   for (const char* name : {"fine", "coarse"}) write_measured_run(folder / name, name, 3);
   write_file_whole(folder / "coarse" / "preset.json", R"({"spectral": {"threshold_deg": 0.5}})");
-  EXPECT_THAT(speed_ups(page({"fine", "coarse"})).at(0), Not(HasSubstr(remark)));
+  EXPECT_EQ(remark(metric({"fine", "coarse"})), "");
 }
 
-TEST_F(ReportPage, says_which_run_was_better_from_the_start)
+TEST_F(Report, says_which_run_was_better_from_the_start)
 {
   write_measured_run(folder / "a", "a", 100); // down to 100 / sqrt(323) = 5.6
   write_measured_run(folder / "b", "b", 3);   // from 3 / sqrt(0.5) = 4.2
-  EXPECT_THAT(page({"a", "b"}), HasSubstr("Not compared: 1 and 2 (2 was better at its first measurement than 1 ever was)"));
-  EXPECT_THAT(page({"b", "a"}), HasSubstr("Not compared: 1 and 2 (1 was better at its first measurement than 2 ever was)"));
+  EXPECT_EQ(metric({"a", "b"}).at("not_compared"), Json({"1 and 2 (2 was better at its first measurement than 1 ever was)"}));
+  EXPECT_EQ(metric({"b", "a"}).at("not_compared"), Json({"1 and 2 (1 was better at its first measurement than 2 ever was)"}));
 }
 
 /// a goes from 7 to 5.90, b from 9 to 6.44: they have 6.44 .. 7 in common, whose middle is 6.71436.
-TEST_F(ReportPage, compares_at_three_figures_where_no_round_error_is_common)
+TEST_F(Report, compares_at_three_figures_where_no_round_error_is_common)
 {
   for (const auto& [name, begin] : {std::pair{"a", 7.0}, std::pair{"b", 9.0}}) {
     write_measured_run(folder / name, name, 1);
     const double exponent = name == std::string("a") ? -0.026426 : -0.051712; // over a factor of 1.25^29 in time
-    const MadeColumn column{"lab_mean", begin / std::pow(0.5, exponent), exponent};
-    write_file_whole(folder / name / "history.csv", measure::to_csv(made_history({column})));
+    write_history(name, {{"lab_mean", begin / std::pow(0.5, exponent), exponent}});
   }
-  const std::vector<std::string> rows = speed_ups(page({"a", "b"}));
+  const std::vector<std::string> rows = speed_ups(metric({"a", "b"}));
   ASSERT_EQ(rows.size(), 1u);
-  EXPECT_THAT(rows[0], HasSubstr("1 a | 2 b | 6.71 | "));
+  EXPECT_THAT(rows[0], testing::StartsWith("1 < 2 at 6.71: "));
 }
 
 /// error^2 = 2^2 / t + bias^2 against an estimate of 2 / sqrt(t): at the end, 323 s, noise is 0.11.
-TEST_F(ReportPage, says_where_noise_does_not_explain_the_error)
+TEST_F(Report, says_where_noise_does_not_explain_the_error)
 {
   write_measured_run(folder / "a", "a", 2);
   const auto with_bias = [&](double bias) {
-    write_file_whole(folder / "a" / "history.csv", measure::to_csv(made_history({{"lab_mean", 2, -0.5, bias}, {"estimated_lab_mean", 2}})));
-    return page({"a"});
+    write_history("a", {{"lab_mean", 2, -0.5, bias}, {"estimated_lab_mean", 2}});
+    return metric({"a"}).at("biased");
   };
-  EXPECT_THAT(with_bias(0), Not(HasSubstr("Biased")));
-  EXPECT_THAT(with_bias(0.1), Not(HasSubstr("Biased")));
-  EXPECT_THAT(with_bias(0.25), HasSubstr("Biased:</span> <span"));
+  EXPECT_EQ(with_bias(0), Json::array());
+  EXPECT_EQ(with_bias(0.1), Json::array());
+  EXPECT_EQ(with_bias(0.25), Json({0}));
 }
 
-TEST_F(ReportPage, warns_of_other_scenes_devices_builds_and_references)
+TEST_F(Report, warns_of_other_scenes_devices_builds_and_references)
 {
   write_measured_run(folder / "a", "a", 3);
   write_measured_run(folder / "b", "b", 2, 0, "another.exr");
-  EXPECT_THAT(speed_ups(page({"a", "b"})).at(0), HasSubstr("different references"));
+  EXPECT_EQ(remark(metric({"a", "b"})), "different references");
   write_measured_run(folder / "b", "b", 2);
-  EXPECT_THAT(speed_ups(page({"a", "b"})).at(0), Not(HasSubstr("different")));
-  nlohmann::ordered_json other = nlohmann::ordered_json::parse(read_file(folder / "b" / "run.json"));
+  EXPECT_EQ(remark(metric({"a", "b"})), "");
+  Json other = Json::parse(read_file(folder / "b" / "run.json"));
   other["device"]["name"] = "some GPU";
   other["commit"] = "1234567";
   write_file_whole(folder / "b" / "run.json", other.dump());
-  EXPECT_THAT(speed_ups(page({"a", "b"})).at(0), HasSubstr("different devices, different builds of the program"));
+  EXPECT_EQ(remark(metric({"a", "b"})), "different devices, different builds of the program");
   write_file_whole(folder / "b" / "preset.json", R"({"seed": 1, "scene": {"lights": [{"power_w": 2}]}})");
-  EXPECT_THAT(speed_ups(page({"a", "b"})).at(0), HasSubstr("different scenes, different devices"));
+  EXPECT_EQ(remark(metric({"a", "b"})), "different scenes, different devices, different builds of the program");
+}
+
+/// What an engine measures beside errors is a curve as well: no slope, no comparison, values of any sign; unless the run is judged by it.
+TEST_F(Report, shows_curves_of_any_name)
+{
+  write_measured_run(folder / "a", "a", 3);
+  write_history("a", {{"temperature", -7, 0.5}, {"cost", 5, -0.25}, {"psnr_db", 3, 0.1}, {"lab_mean", 3}});
+  const Json metrics = data({"a"}).at("metrics");
+  ASSERT_EQ(metrics.size(), 4u);
+  EXPECT_EQ(metrics[0].at("metric"), "lab_mean") << "error against time comes first";
+  const Json& temperature = metrics[1];
+  EXPECT_EQ(temperature.at("label"), "temperature");
+  EXPECT_EQ(temperature.at("lines").at(0).at("points").size(), 30u);
+  EXPECT_TRUE(temperature.at("lines").at(0).at("slope").is_null());
+  EXPECT_FALSE(temperature.at("falls") || temperature.at("larger_is_better") || temperature.contains("pairs"));
+  EXPECT_TRUE(metrics[3].at("larger_is_better")) << "psnr_db";
+
+  Json run_json = made_run_json("a");
+  run_json["error_column"] = "cost";
+  write_file_whole(folder / "a" / "run.json", run_json.dump());
+  const Json cost = metric({"a"});
+  EXPECT_EQ(cost.at("metric"), "cost");
+  EXPECT_TRUE(cost.at("falls"));
+  EXPECT_NEAR(cost.at("lines").at(0).at("slope"), -0.25, 1e-9);
+}
+
+/// The kinds of a group's pictures with their runs: "run 0, run 1, reference 0 1, difference 0".
+std::string kinds(const Json& group)
+{
+  std::string words;
+  for (const Json& picture : group.at("pictures")) {
+    words += (words.empty() ? "" : ", ") + picture.at("kind").get<std::string>();
+    for (const int run : picture.at("runs")) words += fmt::format(" {}", run);
+    if (!picture.at("from").is_null()) words += fmt::format(" from {}", picture.at("from").get<int>());
+  }
+  return words;
 }
 
 /// Two files with one picture are one reference.
-TEST_F(ReportPage, knows_one_reference_by_its_picture)
-{
-  for (const char* name : {"one.exr", "copy.exr"})
-    image::write_exr(folder / name, {4, 3, {"R", "G", "B"}, std::vector<float>(36, 0.4f), {}});
-  write_measured_run(folder / "a", "a", 3, 0, (folder / "one.exr").string());
-  write_measured_run(folder / "b", "b", 2, 0, (folder / "copy.exr").string());
-  EXPECT_THAT(speed_ups(page({"a", "b"})).at(0), Not(HasSubstr("different")));
-}
-
-TEST_F(ReportPage, says_whose_a_reference_is_where_there_are_several)
+TEST_F(Report, knows_references_by_their_pictures)
 {
   float value = 0.4f;
   for (const char* name : {"one.exr", "two.exr"})
     image::write_exr(folder / name, {4, 3, {"R", "G", "B"}, std::vector<float>(36, value += 0.1f), {}});
+  fs::copy_file(folder / "one.exr", folder / "copy.exr");
   write_measured_run(folder / "a", "a", 3, 0, (folder / "one.exr").string());
   write_measured_run(folder / "b", "b", 2, 0, (folder / "two.exr").string());
-  write_measured_run(folder / "c", "c", 2, 0, (folder / "one.exr").string());
-  EXPECT_THAT(page({"a", "b", "c"}), AllOf(HasSubstr("</kbd> reference of 1, 3</button>"), HasSubstr("</kbd> reference of 2</button>"),
-                                           HasSubstr("data-kind=\"reference\" data-runs=\"0 2\"")));
-  EXPECT_THAT(page({"a", "c"}), HasSubstr("</kbd> reference</button>"));
+  write_measured_run(folder / "c", "c", 2, 0, (folder / "copy.exr").string());
+  EXPECT_EQ(kinds(data({"a", "b", "c"}).at("pictures").at(0)),
+            "run 0, run 1, run 2, reference 0 2, reference 1, difference 0, difference 1, difference 2");
+  EXPECT_EQ(kinds(data({"a", "c"}).at("pictures").at(0)), "run 0, run 1, reference 0 1, difference 0, difference 1");
+  EXPECT_EQ(remark(metric({"a", "c"})), "");
+  EXPECT_EQ(remark(metric({"a", "b"})), "different references");
 }
 
-TEST_F(ReportPage, takes_a_sweep_as_its_runs)
+TEST_F(Report, takes_a_sweep_as_its_runs)
 {
   for (const char* seed : {"1", "2", "3"}) {
     const fs::path run = folder / "sweep" / ("00" + std::string(seed));
     write_measured_run(run, "plate,seed=" + std::string(seed), 3);
-    write_file_whole(run / "preset.json", nlohmann::ordered_json{{"seed", std::stoi(seed)}, {"unit", "m"}}.dump());
+    write_file_whole(run / "preset.json", Json{{"seed", std::stoi(seed)}, {"scene", {{"lights", {{{"power_w", 2}}}}}}}.dump());
   }
-  const std::string html = page({"sweep"});
-  EXPECT_THAT(html, HasSubstr("<h1>plate: 3 runs</h1>"));
-  EXPECT_THAT(html, HasSubstr("3 seed=3, slope")); // the part of the name that differs
-  EXPECT_THAT(html, HasSubstr("<tr><th><code>seed</code></th><td><code>1</code></td><td><code>2</code></td><td><code>3</code></td></tr>"));
-  EXPECT_THAT(html, Not(HasSubstr("<code>unit</code>")));
+  const Json sweep = data({"sweep"});
+  EXPECT_EQ(sweep.at("title"), "plate: 3 runs");
+  EXPECT_EQ(sweep.at("runs").at(2).at("label"), "seed=3"); // the part of the name that differs
+  EXPECT_EQ(sweep.at("runs").at(2).at("settings"), Json({{"scene.lights.0.power_w", "2"}, {"seed", "3"}}));
+  EXPECT_EQ(data({"sweep/001"}).at("title"), "plate,seed=1");
 }
 
-TEST_F(ReportPage, says_what_is_not_there)
+TEST_F(Report, says_what_is_not_there)
 {
   write_made_run(folder / "none", made_run_json("none"));
-  EXPECT_THAT(page({"none"}), AllOf(HasSubstr("Nothing to draw"), HasSubstr("1&nbsp;none: has no history.csv")));
+  EXPECT_EQ(data({"none"}).at("metrics"), Json::array());
+  EXPECT_TRUE(data({"none"}).at("runs").at(0).at("measurements").is_null());
   write_made_run(folder / "zero", made_run_json("zero"));
-  write_file_whole(folder / "zero" / "history.csv", measure::to_csv(made_history({{"lab_mean"}}, 0)));
-  EXPECT_THAT(page({"zero"}), AllOf(HasSubstr("Nothing to draw"), HasSubstr("has no row")));
+  write_history("zero", {{"lab_mean"}}, 0);
+  EXPECT_EQ(data({"zero"}).at("metrics"), Json::array());
+  EXPECT_EQ(data({"zero"}).at("runs").at(0).at("measurements"), 0);
   write_measured_run(folder / "one", "one", 3);
-  write_file_whole(folder / "one" / "history.csv", measure::to_csv(made_history({{"lab_mean"}}, 1)));
-  EXPECT_THAT(page({"one"}), AllOf(HasSubstr("<svg"), Not(HasSubstr(", slope −"))));
-  EXPECT_THAT(page({"one"}), HasSubstr("The reference reference.exr is not there any more."));
+  write_history("one", {{"lab_mean"}}, 1);
+  EXPECT_TRUE(metric({"one"}).at("lines").at(0).at("slope").is_null());
+  EXPECT_EQ(data({"one"}).at("notes"), Json({"The reference reference.exr is not there any more."}));
   fs::remove(folder / "one" / "image.exr");
-  EXPECT_THAT(page({"one"}), AllOf(HasSubstr("image.exr is missing."), HasSubstr("No run has its picture any more")));
+  EXPECT_THAT(data({"one"}).at("notes").at(1).get<std::string>(), testing::EndsWith("image.exr is missing."));
+  EXPECT_EQ(data({"one"}).at("pictures"), Json::array());
 }
 
-TEST_F(ReportPage, groups_pictures_by_size)
+TEST_F(Report, groups_pictures_by_name_and_size)
 {
   write_made_run(folder / "a", made_run_json("a"), {{"seed", 1}}, 4, 3, 0.5f);
   write_made_run(folder / "b", made_run_json("b"), {{"seed", 2}}, 4, 3, 0.25f);
   write_made_run(folder / "c", made_run_json("c"), {{"seed", 1}}, 5, 3);
-  const std::string html = page({"a", "b", "c"});
-  EXPECT_EQ(all_matches(html, "(<figure class=\"viewer\")").size(), 2u);
-  EXPECT_THAT(html, AllOf(HasSubstr("4 × 3 pixels"), HasSubstr("5 × 3 pixels"), HasSubstr("2 − 1"), Not(HasSubstr("3 − 1"))));
+  for (const char* run : {"a", "c"})
+    image::write_exr(folder / run / "receiver_1.exr", {2, 1, {"R", "G", "B"}, std::vector<float>(6, 0.4f), {}});
+  const Json groups = data({"a", "b", "c"}).at("pictures");
+  ASSERT_EQ(groups.size(), 3u);
+  EXPECT_EQ(groups[0].at("name"), "image");
+  EXPECT_EQ(kinds(groups[0]), "run 0, run 1, difference 1 from 0");
+  EXPECT_EQ(groups[1].at("name"), "receiver_1");
+  EXPECT_EQ(kinds(groups[1]), "run 0, run 2, difference 2 from 0");
+  EXPECT_EQ(groups[2].at("width"), 5);
+  EXPECT_EQ(kinds(groups[2]), "run 2");
+}
+
+/// By the alphabet of RFC 4648.
+std::string decoded_base64(const std::string& text)
+{
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0, count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    if ((count += 6) >= 8) bytes += static_cast<char>(bits >> (count -= 8));
+  }
+  EXPECT_EQ(text.size(), (bytes.size() + 2) / 3 * 4) << "filled up with =";
+  return bytes;
 }
 
 /// The embedded picture is what a display shows of the linear one.
-TEST_F(ReportPage, embeds_pictures_as_shown)
+TEST_F(Report, embeds_pictures_as_shown)
 {
   write_made_run(folder / "a", made_run_json("a"));
-  const std::string encoded = all_matches(page({"a"}), "base64,([A-Za-z0-9+/=]+)").at(0);
-  const std::string bytes = measure::run_program({"base64", "--decode"}, encoded, std::chrono::seconds(10));
-  write_file_whole(folder / "a.png", bytes);
+  write_file_whole(folder / "a.png", decoded_base64(data({"a"}).at("pictures").at(0).at("pictures").at(0).at("png")));
   const image::Image picture = image::read_image(folder / "a.png");
   EXPECT_EQ(picture.width, 4);
   EXPECT_EQ(picture.height, 3);
   for (const float value : picture.data) EXPECT_NEAR(value, 188 / 255.0, 1e-6); // sRGB of 0.5 is 187.5
-}
-
-TEST(Charts, have_ids_of_their_own_and_the_colours_of_the_page)
-{
-  measure::Chart chart{"a \"title\"", "it's \"1\" (unit)", true, {{"a", 0, false, {{1, 10}, {1, 0.1}}}}, -0.5, {0.05}};
-  const std::vector<std::string> svgs = measure::draw_charts(std::vector{chart, chart});
-  ASSERT_EQ(svgs.size(), 2u);
-  for (const std::string& svg : svgs) {
-    EXPECT_THAT(svg, AllOf(testing::StartsWith("<svg aria-label=\"a &quot;title&quot;\" "), testing::EndsWith("</svg>")));
-    EXPECT_THAT(svg, AllOf(HasSubstr("it's \"1\" (unit)"), HasSubstr("currentColor"), Not(HasSubstr("black")), Not(HasSubstr("xmlns"))));
-  }
-  EXPECT_THAT(svgs[0], Not(HasSubstr("chart1-")));
-  EXPECT_THAT(svgs[1], Not(HasSubstr("chart0-")));
-  EXPECT_THAT(measure::draw_charts({}), ElementsAre());
-}
-
-/// Errors from 2.9 down to 2.2 have no power of ten among them, and of 1, 2 and 5 times one only 2.
-TEST(Charts, have_several_numbers_on_an_axis_within_a_decade)
-{
-  const measure::Chart chart{"narrow", "error", true, {{"a", 0, false, {{1, 10, 100}, {2.9, 2.5, 2.2}}}}, {}, {}};
-  const std::string svg = measure::draw_charts(std::vector{chart}).at(0);
-  for (const char* number : {"2", "2.5", "3", "3.5", "4"}) EXPECT_THAT(svg, HasSubstr(fmt::format(">{}</", number))) << number;
-}
-
-TEST(ReportText, reads_as_people_write)
-{
-  using namespace measure;
-  EXPECT_EQ(three_figures(9.9996), "10.0");
-  EXPECT_EQ(three_figures(0.00123456), "0.00123");
-  EXPECT_EQ(three_figures(1234567), "1230000");
-  EXPECT_EQ(three_figures(1.5e-7), "1.50e-07");
-  EXPECT_EQ(readable_seconds(0.0123), "12.3 ms");
-  EXPECT_EQ(readable_seconds(99.99), "1 min 40 s");
-  EXPECT_EQ(readable_seconds(3599.7), "1 h 00 min");
-  EXPECT_EQ(readable_seconds(7505), "2 h 05 min");
-  EXPECT_EQ(readable_count(9999), "9999");
-  EXPECT_EQ(readable_count(8388608), "8.39 million");
-  EXPECT_EQ(shortened("aéé", 4), "aé…"); // é takes two bytes
-}
-
-/// The vectors of RFC 4648.
-TEST(ReportText, base64_is_that_of_the_standard)
-{
-  const std::string word = "foobar";
-  const char* const expected[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
-  for (std::size_t length = 0; length <= word.size(); ++length) EXPECT_EQ(measure::base64(word.substr(0, length)), expected[length]);
-  EXPECT_EQ(measure::base64("\xff\xfe\xfd"), "//79");
-}
-
-TEST(Program, gives_back_what_it_reads_however_much)
-{
-  const std::string large(3'000'000, 'x'); // more than any pipe holds
-  EXPECT_EQ(measure::run_program({"cat"}, large, std::chrono::seconds(20)), large);
-  EXPECT_EQ(measure::run_program({"printf", "%s", "$(id) `id` *"}, "", std::chrono::seconds(20)), "$(id) `id` *"); // no shell
-}
-
-TEST(Program, says_why_it_failed)
-{
-  const auto line = [](const std::vector<std::string>& command, int milliseconds = 20000) {
-    const Error error = error_of([&] { measure::run_program(command, "", std::chrono::milliseconds(milliseconds)); });
-    EXPECT_EQ(error.kind(), ErrorKind::failed);
-    return error.line();
-  };
-  EXPECT_EQ(line({"no-such-program"}), "no-such-program: is not installed; install no-such-program");
-  EXPECT_EQ(line({"sh", "-c", "echo a reason >&2; exit 3"}), "sh: failed with exit code 3; a reason ");
-  EXPECT_EQ(line({"sh", "-c", "kill -9 $$"}), "sh: was ended by signal 9");
-  EXPECT_EQ(line({"sleep", "30"}, 100), "sleep: was still at work after 0.1 s");
 }
 
 } // namespace

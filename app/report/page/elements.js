@@ -55,6 +55,7 @@ function dot(run) {
 }
 /// "1 first-light" with the run's colour before it; a line may end after a comma.
 const runName = run => [dot(run), `${run + 1}\u00a0`, data.runs[run].label.split(/(?<=,)/).flatMap(part => [part, element("wbr")])];
+const allNames = () => data.runs.map((_, run) => runName(run));
 const number = (...text) => element("td.number", ...text);
 const note = (...text) => element("p.note", ...text);
 const tag = text => element("span.tag", text);

@@ -17,25 +17,25 @@ function runsTable() {
 
 function settingsTable() {
   if (data.runs.length < 2) return [];
-  const value = text => text === null ? "–" : element("code", text.length > 60 ? text.slice(0, 60) + "…" : text);
-  return [element("h3", "Settings that differ"), data.settings.length
-    ? table(["setting", ...data.runs.map((_, run) => runName(run))],
-      data.settings.map(({ key, values }) => [element("th", element("code", key)), ...values.map(value)]))
-    : element("p", "None: the presets of all runs are the same.")];
+  const keys = [...new Set(data.runs.flatMap(run => Object.keys(run.settings)))].sort().filter(key =>
+    key !== "name" && key !== "description" && new Set(data.runs.map(run => run.settings[key])).size > 1);
+  const value = text => text === undefined ? "–" : element("code", text.length > 60 ? text.slice(0, 60) + "…" : text);
+  const rows = keys.map(key => [element("th", element("code", key)), ...data.runs.map(run => value(run.settings[key]))]);
+  return [element("h3", "Settings that differ"),
+    rows.length ? table(["setting", ...allNames()], rows) : element("p", "None: the presets of all runs are the same.")];
 }
 
 function errorsTable() {
-  const estimated = /^estimated_/;
-  const rows = data.errors.map(({ column, values, floors }) => {
-    const metric = data.metrics.find(({ metric }) => metric === column.replace(estimated, ""));
-    if (!metric) return null;
-    const heading = element("th", metric.label, " ", element("small", metric.unit), " ", estimated.test(column) ? tag("estimate") : null);
-    return [heading, ...values.map((value, run) =>
-      number(threeFigures(value), floors[run] === null ? null : element("small", `floor ${threeFigures(floors[run])}`)))];
-  }).filter(row => row);
-  if (!rows.length) return [];
-  return [element("h3", "Errors at the end"), table(["metric", ...data.runs.map((_, run) => runName(run))], rows),
-    note("Floor: what the reference itself is off by. An estimate is a run's own, made from two independent halves of its samples.")];
+  const cell = ({ run }, column) => {
+    const floor = run.reference?.noise_floor?.[column];
+    return number(threeFigures(run.errors?.[column]), floor === undefined ? null : element("small", `floor ${threeFigures(floor)}`));
+  };
+  const rows = ["", "estimated_"].flatMap(prefix => data.metrics
+    .filter(({ metric }) => data.runs.some(({ run }) => run.errors && prefix + metric in run.errors))
+    .map(({ metric, label, unit }) => [element("th", label, " ", element("small", unit), " ", prefix ? tag("estimate") : null),
+      ...data.runs.map(run => cell(run, prefix + metric))]));
+  return rows.length ? [element("h3", "Errors at the end"), table(["metric", ...allNames()], rows),
+    note("Floor: what the reference itself is off by. An estimate is a run's own, made from two independent halves of its samples.")] : [];
 }
 
 /// The same details for every run, folded away where there are several.
