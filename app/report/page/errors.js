@@ -102,11 +102,13 @@ function timesTable(metric) {
 }
 
 function speedUps(metric) {
+  const anyRemark = metric.pairs.some(pair => pair.remark);
   const rows = metric.pairs.map(pair => [element("td", runName(pair.faster)), element("td", runName(pair.slower)),
     number(level(pair.error), pair.estimate ? [" ", tag("estimate")] : null), number(duration(pair.faster_seconds)),
-    number(duration(pair.slower_seconds)), number(element("strong", threeFigures(pair.speed_up) + " ×")), element("td.warn", pair.remark)]);
+    number(duration(pair.slower_seconds)), number(element("strong", threeFigures(pair.speed_up) + " ×")),
+    ...(anyRemark ? [element("td.warn", pair.remark)] : [])]);
   const headings = ["faster", "slower", `at the error${metric.unit && ` (${metric.unit})`}`, "faster takes", "slower takes", "speed-up",
-    metric.pairs.some(pair => pair.remark) ? "to be read with care" : ""];
+    ...(anyRemark ? ["to be read with care"] : [])];
   const care = "Times are those of each run's own file: compare runs of one machine, made in one go.";
   return [data.runs.length > 1 ? element("h3", "Speed-up at equal error") : null, ...(rows.length ? [table(headings, rows), note(care)] : []),
     metric.not_compared.length ? note(`Not compared: ${metric.not_compared.join("; ")}.`) : null];

@@ -48,7 +48,7 @@ const forEachRun = details => data.runs.map(({ run, plan }, i) => {
 function planOf(run, { passes, buffers, notes }) {
   const rows = passes.map(pass => [element("th", pass.name), pass.runs ? "runs" : tag("left out"), pass.reason]);
   const total = buffers.reduce((sum, buffer) => sum + buffer.bytes, 0);
-  return [table(["pass", "", "reason"], rows), note(`${buffers.length} buffers, ${bytes(total)}.`),
+  return [table(["pass", "", "reason"], rows), note(`Buffers: ${buffers.length}, ${bytes(total)}.`),
     ...(Array.isArray(notes) ? notes : []).map(text => note(String(text)))];
 }
 
@@ -65,8 +65,8 @@ function facts(value, key, run) {
 }
 
 function machineOf(run) {
-  const elsewhere = ["name", "finished", "fraction", "notes", "errors", "error_column"];
-  const shown = Object.entries(run).filter(([key]) => !elsewhere.includes(key));
+  const elsewhere = ["name", "finished", "notes", "errors", "error_column"]; // as the numbers are, but for the seed
+  const shown = Object.entries(run).filter(([key, value]) => key === "seed" || !(typeof value === "number" || elsewhere.includes(key)));
   return [table([], shown.map(([key, value]) => [element("th", nameOf(key)), facts(value, key, run)]))];
 }
 
