@@ -24,22 +24,9 @@ struct Module {
   NephroidEncode encode = nullptr;
 };
 
-/// lib/nephroid/MODULE in the installation or build folder that the program lies in (bin/), or a test program (deeper).
-fs::path find_module()
-{
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  fs::path folder = program;
-  for (int level = 0; level < 3 && folder.has_relative_path(); ++level) {
-    folder = folder.parent_path();
-    if (const fs::path candidate = folder / "lib/nephroid" / module_name; fs::exists(candidate, ignored)) return candidate;
-  }
-  throw failed(module_name, fmt::format("not found in lib/nephroid beside {}", program.string()), {}, "build or install Nephroid again");
-}
-
 Module load_module()
 {
-  const fs::path file = find_module();
+  const fs::path file = library_file(module_name);
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install OpenImageIO");
   return {reinterpret_cast<NephroidRead>(::dlsym(library, read_symbol)), reinterpret_cast<NephroidEncode>(::dlsym(library, encode_symbol))};
