@@ -210,17 +210,17 @@ bool is_folder(const fs::path& path)
   return fs::is_directory(path, ignored);
 }
 
-/// Where presets_folder looks: an installation has bin/nephroid and share/nephroid/presets, and a build folder is laid out the
+/// Where a file of ours may lie: an installation has bin/nephroid, lib/nephroid and share/nephroid, and a build folder is laid out the
 /// same way. Test programs lie up to two folders deeper.
-std::vector<fs::path> preset_candidates()
+std::vector<fs::path> candidates(const fs::path& name)
 {
-  std::vector<fs::path> candidates;
+  std::vector<fs::path> result;
   fs::path folder = program_folder();
   for (int level = 0; level < 3 && folder.has_relative_path(); ++level) {
     folder = folder.parent_path();
-    candidates.push_back(folder / "share/nephroid/presets");
+    result.push_back(folder / name);
   }
-  return candidates;
+  return result;
 }
 
 /// The system's folders of models, from the data folders of the XDG base directory specification.
@@ -294,13 +294,19 @@ fs::path presets_folder()
     if (!is_folder(variable)) throw failed("NEPHROID_PRESETS", fmt::format("'{}' is no folder", variable), "the folder of the presets");
     return variable;
   }
-  const std::vector<fs::path> candidates = preset_candidates();
   std::vector<std::string> names;
-  for (const fs::path& candidate : candidates) {
+  for (const fs::path& candidate : candidates("share/nephroid/presets")) {
     if (is_folder(candidate)) return candidate;
     names.push_back(candidate.string());
   }
   throw failed("presets", fmt::format("not found in {}", fmt::join(names, ", ")), {}, "set NEPHROID_PRESETS to their folder");
+}
+
+fs::path library_file(const std::string& name)
+{
+  for (const fs::path& candidate : candidates(fs::path("lib/nephroid") / name))
+    if (is_there(candidate)) return candidate;
+  throw failed(name, fmt::format("not found in lib/nephroid beside {}", program_folder().string()), {}, "build or install Nephroid again");
 }
 
 FileNotFound::FileNotFound(std::string where, const std::string& name, const std::string& looked_in)

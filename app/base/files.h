@@ -36,6 +36,10 @@ bool is_temporary_name(const std::filesystem::path& path);
 /// program's build folder or installed share folder. Throws failed where none is found.
 std::filesystem::path presets_folder();
 
+/// lib/nephroid/NAME of the build or installation folder that the program lies in: a module or a helper of ours.
+/// Throws failed where it is not there.
+std::filesystem::path library_file(const std::string& name);
+
 /// A file that is in none of the folders that were looked into.
 class FileNotFound : public Error {
 public:

@@ -6,6 +6,7 @@
 #include "image/seam.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -24,22 +25,9 @@ struct Module {
   NephroidEncode encode = nullptr;
 };
 
-/// lib/nephroid/MODULE in the installation or build folder that the program lies in (bin/), or a test program (deeper).
-fs::path find_module()
-{
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  fs::path folder = program;
-  for (int level = 0; level < 3 && folder.has_relative_path(); ++level) {
-    folder = folder.parent_path();
-    if (const fs::path candidate = folder / "lib/nephroid" / module_name; fs::exists(candidate, ignored)) return candidate;
-  }
-  throw failed(module_name, fmt::format("not found in lib/nephroid beside {}", program.string()), {}, "build or install Nephroid again");
-}
-
 Module load_module()
 {
-  const fs::path file = find_module();
+  const fs::path file = library_file(module_name);
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install OpenImageIO");
   return {reinterpret_cast<NephroidRead>(::dlsym(library, read_symbol)), reinterpret_cast<NephroidEncode>(::dlsym(library, encode_symbol))};
@@ -116,6 +104,26 @@ std::vector<unsigned char> shown_bytes(const std::vector<float>& rgb, double exp
   return bytes;
 }
 
+/// Where R, G and B are among the channels; all three at Y where the picture is grey.
+struct Layout {
+  std::array<std::size_t, 3> at{};
+  bool grey = false;
+};
+
+Layout layout_of(const Image& picture, const std::string& name)
+{
+  const auto& channels = picture.channels;
+  const auto index = [&](const char* channel) {
+    return static_cast<std::size_t>(std::find(channels.begin(), channels.end(), channel) - channels.begin());
+  };
+  const Layout colour{{index("R"), index("G"), index("B")}, false};
+  if (std::all_of(colour.at.begin(), colour.at.end(), [&](std::size_t i) { return i < channels.size(); })) return colour;
+  const std::size_t y = index("Y");
+  if (y < channels.size() && std::all_of(channels.begin(), channels.end(), [](const std::string& c) { return c == "Y" || c == "A"; }))
+    return {{y, y, y}, true};
+  throw bad_input(name, fmt::format("has the channels {}", fmt::join(channels, ", ")), "expected R, G, B or Y alone");
+}
+
 } // namespace
 
 Image read_image(const fs::path& file)
@@ -140,6 +148,16 @@ Image read_image(const fs::path& file)
   };
   if (const char* reason = module().read(file.c_str(), take, &image)) refuse(reason);
   return image;
+}
+
+Rgb rgb_of(const Image& picture, const std::string& name)
+{
+  const Layout layout = layout_of(picture, name);
+  const std::size_t stride = picture.channels.size(), pixels = picture.data.size() / stride;
+  Rgb rgb{std::vector<float>(3 * pixels), layout.grey};
+  for (std::size_t p = 0; p < pixels; ++p)
+    for (std::size_t c = 0; c < 3; ++c) rgb.values[3 * p + c] = picture.data[p * stride + layout.at[c]];
+  return rgb;
 }
 
 void write_exr(const fs::path& file, const Image& image)

@@ -20,6 +20,16 @@ struct Image {
 
 /// Colours are as the file has them, not multiplied by its alpha. Throws bad_input naming the file and OpenImageIO's reason.
 Image read_image(const std::filesystem::path& file);
+
+struct Rgb {
+  std::vector<float> values; ///< 3 a pixel, row 0 at the top, as the file has them
+  bool grey = false;         ///< the file has one channel, here thrice
+};
+
+/// The picture's channels R, G, B or, alone or with alpha, Y; alpha and further layers are left out. name: of the file, for messages.
+/// Throws bad_input where there are others.
+Rgb rgb_of(const Image& picture, const std::string& name);
+
 /// 32-bit float EXR with every channel and attribute. The same image gives the same bytes:
 /// no date goes in. NaN and infinities are kept.
 void write_exr(const std::filesystem::path& file, const Image& image);

@@ -2,7 +2,7 @@
 #include "measure/read_picture.h"
 
 #include "base/parallel.h"
-#include "image/rgb.h"
+#include "image/image.h"
 #include "measure/pixels.h"
 
 #include <utility>

@@ -2,7 +2,7 @@
 #include "scene/environment.h"
 
 #include "base/error.h"
-#include "image/rgb.h"
+#include "image/image.h"
 
 #include <fmt/format.h>
 

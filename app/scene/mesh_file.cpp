@@ -1,186 +1,91 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mesh files by Assimp, read in a child process because corrupt ones crash it or never end.
+// Mesh files, read by a small program of its own (reader/main.cpp), which may crash, hang or run out of memory over them.
 #include "base/error.h"
 #include "base/files.h"
-#include "scene/isolated.h"
 #include "scene/mesh.h"
 #include "scene/mesh_check.h"
 #include "scene/mesh_parts.h"
 
-#include <assimp/Importer.hpp>
-#include <assimp/importerdesc.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <cstring>
-#include <string_view>
+#include <fcntl.h>
+#include <memory>
+#include <spawn.h>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
 
 namespace nephroid::scene {
 namespace {
 
-constexpr std::string_view formats = "a triangle mesh as OBJ, PLY, STL, glTF or 3DS";
+constexpr const char* formats = "a triangle mesh as OBJ, PLY, STL, glTF or 3DS";
 
-glm::dmat4 to_glm(const aiMatrix4x4& m)
-{
-  return {{m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
-}
-
-bool is_finite(const aiVector3D& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-/// What the triangulation relies on. The messages have no file name: load_mesh adds it.
-void check(const aiScene& scene)
-{
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& part = *scene.mMeshes[m];
-    for (unsigned i = 0; i < part.mNumVertices; ++i)
-      if (!is_finite(part.mVertices[i])) throw std::runtime_error(fmt::format("vertex {} has a coordinate that is not a finite number", i));
-    for (unsigned f = 0; f < part.mNumFaces; ++f)
-      for (unsigned i = 0; i < part.mFaces[f].mNumIndices; ++i)
-        if (part.mFaces[f].mIndices[i] >= part.mNumVertices)
-          throw std::runtime_error(
-              fmt::format("face {} names vertex {} of {}", f, static_cast<int>(part.mFaces[f].mIndices[i]), part.mNumVertices));
+/// The reader at its work.
+class Reader {
+public:
+  /// Throws failed where it is not installed, or the system has no process or pipe left.
+  Reader(const std::filesystem::path& file, unsigned cpu_seconds, std::size_t memory_bytes)
+  {
+    const std::string program = library_file("nephroid_mesh_reader").string();
+    std::array<std::string, 4> words{program, file.string(), std::to_string(cpu_seconds), std::to_string(memory_bytes)};
+    std::array<char*, 5> arguments{words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw failed("pipe", std::strerror(errno), {}, "close some programs or files");
+    answer_.reset(fdopen(ends[0], "rb"));
+    posix_spawn_file_actions_t streams;
+    posix_spawn_file_actions_init(&streams);
+    posix_spawn_file_actions_adddup2(&streams, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    const int reason = posix_spawn(&id_, program.c_str(), &streams, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&streams);
+    close(ends[1]);
+    if (reason != 0)
+      throw failed(program, fmt::format("cannot be started: {}", std::strerror(reason)), {}, "build or install Nephroid again");
   }
-}
 
-void append(Mesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool with_normals)
-{
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  if (std::uint64_t{first} + part.mNumVertices > 3 * max_triangles || mesh.triangles.size() + part.mNumFaces > max_triangles)
-    throw std::runtime_error(fmt::format("more than {} triangles", max_triangles));
-  const glm::dmat3 linear(transform);
-  const glm::dmat3 normal_transform = glm::transpose(glm::inverse(linear));
-  for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    const aiVector3D& p = part.mVertices[i];
-    mesh.positions.emplace_back(transform * glm::dvec4(p.x, p.y, p.z, 1));
-    if (!with_normals) continue;
-    const aiVector3D n = part.HasNormals() ? part.mNormals[i] : aiVector3D(0);
-    const glm::dvec3 normal = normal_transform * glm::dvec3(n.x, n.y, n.z);
-    const double length = glm::length(normal);
-    mesh.normals.emplace_back(length > 0 && std::isfinite(length) ? normal / length : glm::dvec3(0));
-  }
-  const bool mirrored = glm::determinant(linear) < 0;
-  for (unsigned f = 0; f < part.mNumFaces; ++f) {
-    const aiFace& face = part.mFaces[f];
-    if (face.mNumIndices != 3) continue; // a point or a line
-    const glm::uvec3 triangle{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
-    mesh.triangles.push_back(first + (mirrored ? glm::uvec3(triangle.x, triangle.z, triangle.y) : triangle));
-  }
-}
-
-void append(Mesh& mesh, const aiScene& scene, const aiNode& node, const glm::dmat4& parent, bool with_normals)
-{
-  const glm::dmat4 transform = parent * to_glm(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) append(mesh, *scene.mMeshes[node.mMeshes[i]], transform, with_normals);
-  for (unsigned i = 0; i < node.mNumChildren; ++i) append(mesh, scene, *node.mChildren[i], transform, with_normals);
-}
-
-/// Joins equal vertices and removes those that no triangle uses.
-void join_vertices(Mesh& mesh)
-{
-  const std::vector<std::uint32_t> first = first_equal_vertex(mesh, true);
-  constexpr std::uint32_t unused = ~0u;
-  std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
-  Mesh joined;
-  for (glm::uvec3 triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t old = first[triangle[i]];
-      if (new_index[old] == unused) {
-        new_index[old] = static_cast<std::uint32_t>(joined.positions.size());
-        joined.positions.push_back(mesh.positions[old]);
-        if (!mesh.normals.empty()) joined.normals.push_back(mesh.normals[old]);
-      }
-      triangle[i] = new_index[old];
-    }
-    joined.triangles.push_back(triangle);
-  }
-  mesh = std::move(joined);
-}
-
-/// A file's normal that is missing, or lies on the other side of the surface than its triangles say, would bend light the wrong
-/// way: the mean of the triangles at that vertex takes its place.
-void mend_normals(Mesh& mesh)
-{
-  std::vector<std::uint32_t> itself(mesh.positions.size());
-  for (std::uint32_t i = 0; i < itself.size(); ++i) itself[i] = i;
-  const std::vector<glm::vec3> means = mean_normals(mesh, itself);
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    if (glm::dot(mesh.normals[i], means[i]) > 0) continue;
-    mesh.normals[i] = means[i] == glm::vec3(0) ? glm::vec3(0, 1, 0) : means[i];
-    ++mesh.mended_normals;
-  }
-}
-
-/// STL stores a facet's normal, from which Assimp makes vertex normals that are not meant to be smooth.
-bool is_stl(const Assimp::Importer& importer)
-{
-  const int index = importer.GetPropertyInteger("importerIndex", -1);
-  const aiImporterDesc* format = index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));
-  return format != nullptr && std::string_view(format->mFileExtensions) == "stl";
-}
-
-Mesh read_with_assimp(const std::filesystem::path& file)
-{
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), 0);
-  if (scene == nullptr) {
-    const std::string reason = importer.GetErrorString();
-    if (reason == "std::bad_alloc") throw std::bad_alloc();
-    throw std::runtime_error(reason);
-  }
-  check(*scene);
-  scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
-
-  bool with_normals = false;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) with_normals |= scene->mMeshes[m]->HasNormals();
-  with_normals = with_normals && !is_stl(importer);
-  Mesh mesh;
-  append(mesh, *scene, *scene->mRootNode, glm::dmat4(1), with_normals);
-  for (const glm::vec3& p : mesh.positions)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw std::runtime_error("a node's transform makes a coordinate infinite");
-  join_vertices(mesh);
-  if (with_normals) mend_normals(mesh);
-  return mesh;
-}
-
-/// The mesh as bytes, for the way out of the child process: the number of items of each array, then the arrays.
-std::string pack(const Mesh& mesh)
-{
-  std::string bytes;
-  const auto add = [&bytes](const auto& items) {
-    const std::uint64_t count = items.size();
-    bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
-    bytes.append(reinterpret_cast<const char*>(items.data()), items.size() * sizeof items[0]);
-  };
-  add(mesh.positions);
-  add(mesh.normals);
-  add(mesh.triangles);
-  add(std::array{mesh.mended_normals});
-  return bytes;
-}
-
-Mesh unpack(std::string_view bytes)
-{
-  const auto take = [&bytes](auto& items) {
+  /// Fills `items` with the answer's next ones; false where it ends before them.
+  template <class Items>
+  bool take(Items& items)
+  {
     std::uint64_t count = 0;
-    std::memcpy(&count, bytes.data(), sizeof count);
+    if (std::fread(&count, sizeof count, 1, answer_.get()) != 1) return false;
     items.resize(count);
-    if (count > 0) std::memcpy(static_cast<void*>(items.data()), bytes.data() + sizeof count, count * sizeof items[0]);
-    bytes.remove_prefix(sizeof count + count * sizeof items[0]);
+    return std::fread(static_cast<void*>(items.data()), sizeof *items.data(), count, answer_.get()) == count;
+  }
+
+  /// Waits for its end; the status as waitpid gives it.
+  int wait()
+  {
+    answer_.reset();
+    int status = 0;
+    while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+  }
+
+private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  Mesh mesh;
-  take(mesh.positions);
-  take(mesh.normals);
-  take(mesh.triangles);
-  std::vector<std::uint32_t> mended;
-  take(mended);
-  mesh.mended_normals = mended.at(0);
-  return mesh;
+  std::unique_ptr<std::FILE, Close> answer_;
+  pid_t id_ = -1;
+};
+
+/// Why the reader gave no whole answer, as the rest of a sentence.
+std::string reason_of_death(int status, unsigned cpu_seconds)
+{
+  if (!WIFSIGNALED(status)) return "ended early";
+  const int signal = WTERMSIG(status);
+  if (signal == SIGXCPU) return fmt::format("did not end within {} s of processor time", cpu_seconds);
+  if (signal == SIGALRM) return fmt::format("did not end within {} s", mesh_reader_patience * cpu_seconds);
+  return fmt::format("crashed ({})", strsignal(signal));
 }
 
 } // namespace
@@ -191,25 +96,26 @@ Mesh load_mesh(const std::filesystem::path& file)
   std::size_t size = 0;
   {
     const std::string bytes = read_file(file);
-    if (bytes.empty()) throw bad_input(where, "the mesh file is empty", std::string(formats));
+    if (bytes.empty()) throw bad_input(where, "the mesh file is empty", formats);
     check_declared_size(bytes, where);
     size = bytes.size();
   }
   // Good files need some 20 times their size and a second for 50 MB; glTF may keep its data in another file.
-  IsolationLimits limits;
-  limits.cpu_seconds += static_cast<unsigned>(size >> 20);
-  limits.extra_memory_bytes += 64 * size;
+  const unsigned cpu_seconds = 5 + static_cast<unsigned>(size >> 20);
+  Reader reader(file, cpu_seconds, (std::size_t{2} << 30) + 64 * size);
   Mesh mesh;
-  try {
-    mesh = unpack(run_isolated([&file] { return pack(read_with_assimp(file)); }, limits));
-  } catch (const IsolatedFailure& failure) {
-    throw bad_input(where, "the mesh cannot be read: " + printable(failure.what()), std::string(formats),
-                    "check the file in another program");
-  }
+  std::string refusal;
+  std::vector<std::uint32_t> mended;
+  const bool whole = reader.take(refusal) && reader.take(mesh.positions) && reader.take(mesh.normals) && reader.take(mesh.triangles) &&
+                     reader.take(mended);
+  const int status = reader.wait();
+  if (!whole) refusal = reason_of_death(status, cpu_seconds);
+  if (!refusal.empty())
+    throw bad_input(where, "the mesh cannot be read: " + printable(refusal), formats, "check the file in another program");
+  mesh.mended_normals = mended.at(0);
   if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                   [&mesh](const glm::uvec3& triangle) { return is_degenerate(mesh, triangle); }))
-    throw bad_input(where, mesh.triangles.empty() ? "the mesh has no triangles" : "no triangle of the mesh has an area",
-                    std::string(formats));
+    throw bad_input(where, mesh.triangles.empty() ? "the mesh has no triangles" : "no triangle of the mesh has an area", formats);
   return mesh;
 }
 

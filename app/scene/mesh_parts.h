@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What checks of meshes (mesh.cpp) and the reader of mesh files (mesh_file.cpp) share. Private to scene/.
+// What checks of meshes (mesh.cpp), mesh files (mesh_file.cpp) and their reader (reader/main.cpp) share. Private to scene/.
 #pragma once
 #include "scene/mesh.h"
 
@@ -7,6 +7,9 @@
 #include <vector>
 
 namespace nephroid::scene {
+
+/// The reader may take so many times its limit of processor time, where what a file names never answers: a pipe, say.
+inline constexpr unsigned mesh_reader_patience = 5;
 
 /// For each vertex the first vertex with exactly the same position (0 and -0 are the same), or with the same position and normal.
 std::vector<std::uint32_t> first_equal_vertex(const Mesh& mesh, bool compare_normals);

@@ -7,31 +7,40 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <iterator>
+#include <map>
+#include <string>
 
 using namespace nephroid::test;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
+using testing::SizeIs;
 
 namespace {
 
-/// Every library that a run of the program initialised, one a line.
-std::string loaded_by(const std::vector<std::string>& arguments)
+/// By the file name of each program that a run of nephroid started, itself among them: every library that it initialised, one a line.
+std::map<std::string, std::string> programs_of(const std::vector<std::string>& arguments)
 {
   const TemporaryFolder folder;
   Child child(arguments, folder.path(), folder.path(), {{"LD_DEBUG", "libs"}, {"LD_DEBUG_OUTPUT", (folder.path() / "loader").string()}});
   const Ended ended = child.wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  std::string loaded;
+  std::map<std::string, std::string> programs;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     if (entry.path().filename().string().rfind("loader.", 0) != 0) continue;
     std::ifstream file(entry.path());
-    for (std::string line; std::getline(file, line);)
-      if (line.find("calling init: ") != std::string::npos) loaded += line.substr(line.find("calling init: ") + 14) + "\n";
+    std::string program, loaded;
+    for (std::string line; std::getline(file, line);) {
+      if (const std::size_t at = line.find("calling init: "); at != std::string::npos) loaded += line.substr(at + 14) + "\n";
+      if (line.find("initialize program: ") != std::string::npos) program = line.substr(line.rfind('/') + 1);
+    }
+    programs[program] += loaded;
   }
-  EXPECT_THAT(loaded, HasSubstr("libc.so")); // the loader was heard at all
-  return loaded;
+  EXPECT_THAT(programs["nephroid"], HasSubstr("libc.so")); // the loader was heard at all
+  return programs;
 }
+
+std::string loaded_by(const std::vector<std::string>& arguments) { return programs_of(arguments)["nephroid"]; }
 
 const char* const pictures = "libOpenImageIO";
 #ifndef NEPHROID_UI
@@ -51,6 +60,18 @@ TEST(LoadedLibraries, VerbsThatOnlyReadLoadNoPicturesNoWindowAndNoDriver)
 #endif
     EXPECT_THAT(loaded, Not(HasSubstr(compiler))) << verb[0];
   }
+}
+
+// Its reader meets corrupt files in a process of its own, which has neither the driver nor the window nor their threads.
+TEST(LoadedLibraries, OnlyTheMeshReaderLoadsAssimp)
+{
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  std::map<std::string, std::string> programs = programs_of({"plan", "first-light", "--set", "scene.objects.0.mesh=" + mesh});
+  EXPECT_THAT(programs, SizeIs(2));
+  EXPECT_THAT(programs["nephroid"], Not(HasSubstr("libassimp")));
+  EXPECT_THAT(programs["nephroid_mesh_reader"], HasSubstr("libassimp"));
+  EXPECT_THAT(programs["nephroid_mesh_reader"], Not(AnyOf(HasSubstr("libOpenCL"), HasSubstr("libembree"), HasSubstr("libGL"))));
 }
 
 TEST(LoadedLibraries, ARunLoadsPicturesAndTheDriver)

@@ -3,7 +3,6 @@
 // crashes, hangs or takes all memory, whatever the reader underneath does.
 #include "base/error.h"
 #include "base/files.h"
-#include "scene/isolated.h"
 #include "scene/mesh.h"
 #include "tests/support/temporary_folder.h"
 
@@ -11,14 +10,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <random>
 #include <string>
-#include <unistd.h>
 
 namespace nephroid::scene {
 namespace {
@@ -189,46 +186,6 @@ TEST_F(HostileMesh, CutAndChangedFilesDoNotBringTheProgramDown)
       EXPECT_EQ(error.kind(), ErrorKind::bad_input) << error.line();
     }
   }
-}
-
-std::string failure_of(const std::function<std::string()>& work, const IsolationLimits& limits = {})
-{
-  try {
-    run_isolated(work, limits);
-    return "came back";
-  } catch (const IsolatedFailure& failure) {
-    return failure.what();
-  }
-}
-
-TEST(Isolated, GivesBackBytesAndReasons)
-{
-  std::string large(3'000'000, 'x');
-  large[7] = '\0';
-  EXPECT_EQ(run_isolated([&] { return large; }), large);
-  EXPECT_EQ(run_isolated([] { return std::string(); }), "");
-  EXPECT_EQ(failure_of([]() -> std::string { throw std::runtime_error("no good"); }), "no good");
-  EXPECT_THAT(failure_of([]() -> std::string {
-                std::raise(SIGSEGV);
-                return {};
-              }),
-              HasSubstr("crashed ("));
-  EXPECT_THAT(failure_of([]() -> std::string { std::abort(); }), HasSubstr("crashed ("));
-  EXPECT_EQ(failure_of([]() -> std::string { _exit(0); }), "ended early");
-}
-
-TEST(Isolated, EndsWorkThatNeverEnds)
-{
-  IsolationLimits limits;
-  limits.cpu_seconds = 1;
-  EXPECT_EQ(failure_of(
-                []() -> std::string {
-                  for (volatile bool on = true; on;) {
-                  }
-                  return {};
-                },
-                limits),
-            "did not end within 1 s of processor time");
 }
 
 } // namespace

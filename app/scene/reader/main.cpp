@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// nephroid_mesh_reader FILE CPU_SECONDS MEMORY_BYTES: the only program that links Assimp. It is one of its own because corrupt files
+// make Assimp crash, loop for ever or ask for all memory: Assimp 5.2's PLY and glTF readers overrun the stack on some.
+// The answer on standard output: why the file is refused (empty: it is not), positions, normals, triangles, and one number, of the
+// mended normals; each as its 64-bit count and then the items, as they lie in memory.
+#include "scene/mesh.h"
+#include "scene/mesh_parts.h"
+
+#include <assimp/Importer.hpp>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace nephroid::scene {
+namespace {
+
+glm::dmat4 to_glm(const aiMatrix4x4& m)
+{
+  return {{m.a1, m.b1, m.c1, m.d1}, {m.a2, m.b2, m.c2, m.d2}, {m.a3, m.b3, m.c3, m.d3}, {m.a4, m.b4, m.c4, m.d4}};
+}
+
+bool is_finite(const aiVector3D& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// What the triangulation relies on. The messages have no file name: load_mesh() adds it.
+void check(const aiScene& scene)
+{
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned i = 0; i < part.mNumVertices; ++i)
+      if (!is_finite(part.mVertices[i])) throw std::runtime_error(fmt::format("vertex {} has a coordinate that is not a finite number", i));
+    for (unsigned f = 0; f < part.mNumFaces; ++f)
+      for (unsigned i = 0; i < part.mFaces[f].mNumIndices; ++i)
+        if (part.mFaces[f].mIndices[i] >= part.mNumVertices)
+          throw std::runtime_error(
+              fmt::format("face {} names vertex {} of {}", f, static_cast<int>(part.mFaces[f].mIndices[i]), part.mNumVertices));
+  }
+}
+
+void append(Mesh& mesh, const aiMesh& part, const glm::dmat4& transform, bool with_normals)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  if (std::uint64_t{first} + part.mNumVertices > 3 * max_triangles || mesh.triangles.size() + part.mNumFaces > max_triangles)
+    throw std::runtime_error(fmt::format("more than {} triangles", max_triangles));
+  const glm::dmat3 linear(transform);
+  const glm::dmat3 normal_transform = glm::transpose(glm::inverse(linear));
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& p = part.mVertices[i];
+    mesh.positions.emplace_back(transform * glm::dvec4(p.x, p.y, p.z, 1));
+    if (!with_normals) continue;
+    const aiVector3D n = part.HasNormals() ? part.mNormals[i] : aiVector3D(0);
+    const glm::dvec3 normal = normal_transform * glm::dvec3(n.x, n.y, n.z);
+    const double length = glm::length(normal);
+    mesh.normals.emplace_back(length > 0 && std::isfinite(length) ? normal / length : glm::dvec3(0));
+  }
+  const bool mirrored = glm::determinant(linear) < 0;
+  for (unsigned f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices != 3) continue; // a point or a line
+    const glm::uvec3 triangle{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
+    mesh.triangles.push_back(first + (mirrored ? glm::uvec3(triangle.x, triangle.z, triangle.y) : triangle));
+  }
+}
+
+void append(Mesh& mesh, const aiScene& scene, const aiNode& node, const glm::dmat4& parent, bool with_normals)
+{
+  const glm::dmat4 transform = parent * to_glm(node.mTransformation);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) append(mesh, *scene.mMeshes[node.mMeshes[i]], transform, with_normals);
+  for (unsigned i = 0; i < node.mNumChildren; ++i) append(mesh, scene, *node.mChildren[i], transform, with_normals);
+}
+
+/// Joins equal vertices and removes those that no triangle uses.
+void join_vertices(Mesh& mesh)
+{
+  const std::vector<std::uint32_t> first = first_equal_vertex(mesh, true);
+  constexpr std::uint32_t unused = ~0u;
+  std::vector<std::uint32_t> new_index(mesh.positions.size(), unused);
+  Mesh joined;
+  for (glm::uvec3 triangle : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t old = first[triangle[i]];
+      if (new_index[old] == unused) {
+        new_index[old] = static_cast<std::uint32_t>(joined.positions.size());
+        joined.positions.push_back(mesh.positions[old]);
+        if (!mesh.normals.empty()) joined.normals.push_back(mesh.normals[old]);
+      }
+      triangle[i] = new_index[old];
+    }
+    joined.triangles.push_back(triangle);
+  }
+  mesh = std::move(joined);
+}
+
+/// A file's normal that is missing, or lies on the other side of the surface than its triangles say, would bend light the wrong
+/// way: the mean of the triangles at that vertex takes its place.
+void mend_normals(Mesh& mesh)
+{
+  std::vector<std::uint32_t> itself(mesh.positions.size());
+  for (std::uint32_t i = 0; i < itself.size(); ++i) itself[i] = i;
+  const std::vector<glm::vec3> means = mean_normals(mesh, itself);
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (glm::dot(mesh.normals[i], means[i]) > 0) continue;
+    mesh.normals[i] = means[i] == glm::vec3(0) ? glm::vec3(0, 1, 0) : means[i];
+    ++mesh.mended_normals;
+  }
+}
+
+/// STL stores a facet's normal, from which Assimp makes vertex normals that are not meant to be smooth.
+bool is_stl(const Assimp::Importer& importer)
+{
+  const int index = importer.GetPropertyInteger("importerIndex", -1);
+  const aiImporterDesc* format = index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));
+  return format != nullptr && std::string_view(format->mFileExtensions) == "stl";
+}
+
+Mesh read(Assimp::Importer& importer, const char* file)
+{
+  const aiScene* scene = importer.ReadFile(file, 0);
+  if (scene == nullptr) {
+    const std::string reason = importer.GetErrorString();
+    if (reason == "std::bad_alloc") throw std::bad_alloc();
+    throw std::runtime_error(reason);
+  }
+  check(*scene);
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
+
+  bool with_normals = false;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) with_normals |= scene->mMeshes[m]->HasNormals();
+  with_normals = with_normals && !is_stl(importer);
+  Mesh mesh;
+  append(mesh, *scene, *scene->mRootNode, glm::dmat4(1), with_normals);
+  for (const glm::vec3& p : mesh.positions)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw std::runtime_error("a node's transform makes a coordinate infinite");
+  join_vertices(mesh);
+  if (with_normals) mend_normals(mesh);
+  return mesh;
+}
+
+void lower_limit(__rlimit_resource_t resource, rlim_t value)
+{
+  rlimit limit{};
+  if (getrlimit(resource, &limit) != 0) return;
+  limit.rlim_cur = std::min(value, limit.rlim_cur); // RLIM_INFINITY is the largest value
+  setrlimit(resource, &limit);
+}
+
+/// The address space that this process has: the first number of /proc/self/statm. Under sanitizers it is terabytes.
+rlim_t address_space_bytes()
+{
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// So that every way of going wrong ends this process, by a signal that says which.
+void set_limits(unsigned cpu_seconds, rlim_t memory_bytes)
+{
+  for (int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, SIG_DFL); // sanitizers have handlers of their own
+  lower_limit(RLIMIT_CORE, 0);
+  lower_limit(RLIMIT_CPU, cpu_seconds);
+  lower_limit(RLIMIT_AS, address_space_bytes() + memory_bytes);
+  lower_limit(RLIMIT_STACK, 8 << 20); // endless recursion ends early whatever the shell's limit
+  alarm(mesh_reader_patience * cpu_seconds);
+}
+
+template <class Items>
+void put(std::FILE* answer, const Items& items)
+{
+  const std::uint64_t count = items.size();
+  std::fwrite(&count, sizeof count, 1, answer);
+  std::fwrite(items.data(), sizeof *items.data(), count, answer);
+}
+
+} // namespace
+} // namespace nephroid::scene
+
+int main(int count, char** arguments)
+{
+  using namespace nephroid::scene;
+  if (count != 4) {
+    std::fputs("usage: nephroid_mesh_reader FILE CPU_SECONDS MEMORY_BYTES\n", stderr);
+    return 2;
+  }
+  std::FILE* const answer = fdopen(dup(STDOUT_FILENO), "wb");
+  dup2(STDERR_FILENO, STDOUT_FILENO); // what a library prints is no part of the answer
+  set_limits(static_cast<unsigned>(std::strtoul(arguments[2], nullptr, 10)), std::strtoull(arguments[3], nullptr, 10));
+  Assimp::Importer importer;
+  Mesh mesh;
+  std::string refusal;
+  try {
+    mesh = read(importer, arguments[1]);
+  } catch (const std::bad_alloc&) {
+    refusal = "asked for more memory than its size explains";
+  } catch (const std::exception& e) {
+    refusal = e.what();
+  }
+  put(answer, refusal);
+  put(answer, mesh.positions);
+  put(answer, mesh.normals);
+  put(answer, mesh.triangles);
+  put(answer, std::array{mesh.mended_normals});
+  _exit(std::fflush(answer) == 0 ? 0 : 1); // nothing is given back: it takes time, and a corrupt file may have damaged it
+}
