@@ -54,7 +54,7 @@ std::string help_command(const CLI::App& app) { return app.get_parent() ? "nephr
 Error usage_error(const CLI::App& program, const CLI::ParseError& error)
 {
   const CLI::App& app = erring_app(program);
-  const std::string where = app.get_parent() ? app.get_name() : "";
+  const Place where = app.get_parent() ? app.get_name() : "";
   const std::string see = fmt::format("see {}", help_command(app));
   const std::vector<std::string> extras = program.remaining(true);
   for (const std::string& extra : extras) // before what is missing: a mistyped option often explains it

@@ -37,7 +37,7 @@ inline Json read_json(const std::filesystem::path& file)
 /// kind.
 class JsonObject {
 public:
-  JsonObject(const Json& json, std::string place) : json_(json), place_(std::move(place))
+  JsonObject(const Json& json, Place place) : json_(json), place_(std::move(place))
   {
     if (!json_.is_object()) throw bad_input(place_, "is no object");
   }
@@ -90,7 +90,7 @@ public:
   std::vector<JsonObject> objects(const char* key) const
   {
     std::vector<JsonObject> all;
-    for (const Json& item : array(key)) all.emplace_back(item, fmt::format("{}/{}", place_of(key), all.size()));
+    for (const Json& item : array(key)) all.emplace_back(item, place_of(key) / all.size());
     return all;
   }
 
@@ -98,14 +98,14 @@ public:
   {
     std::vector<std::string> all;
     for (const Json& item : array(key)) {
-      if (!item.is_string()) throw bad_input(fmt::format("{}/{}", place_of(key), all.size()), "is no text");
+      if (!item.is_string()) throw bad_input(place_of(key) / all.size(), "is no text");
       all.push_back(item.get<std::string>());
     }
     return all;
   }
 
 private:
-  std::string place_of(const std::string& key) const { return place_ + (place_.find('#') == std::string::npos ? "#/" : "/") + key; }
+  Place place_of(const std::string& key) const { return place_ / key; }
 
   const Json& at(const char* key) const
   {
@@ -120,14 +120,14 @@ private:
     return value;
   }
 
-  static double number_in(const Json& value, const std::string& place)
+  static double number_in(const Json& value, const Place& place)
   {
     if (!value.is_number() || !std::isfinite(value.get<double>())) throw bad_input(place, "is no number");
     return value.get<double>();
   }
 
   const Json& json_;
-  std::string place_;
+  Place place_;
 };
 
 } // namespace nephroid::measure

@@ -4,7 +4,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/json_output.h"
-#include "base/json_pointer.h"
+#include "base/place.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ public:
   bool key(string_t& name) override
   {
     Level& level = levels_.back();
-    const std::string where = source_ + "#" + child(level.pointer, name);
+    const Place where(source_, child(level.pointer, name));
     if (!level.keys.insert(name).second)
       throw bad_input(where, fmt::format("key {} is given twice", in_quotes(name)), "expected each key once");
     if (level.keys.size() > max_keys) throw bad_input(where, "too many keys", fmt::format("expected at most {} in one object", max_keys));
@@ -49,7 +49,7 @@ public:
     const std::string_view before = text_.substr(0, std::min(position == 0 ? 0 : position - 1, text_.size()));
     const std::size_t line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
     const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1; // npos + 1 is 0: the first line
-    throw bad_input(fmt::format("{}:{}:{}", source_, line, column), "is not JSON", reason(error.what()));
+    throw bad_input({source_, line, column}, "is not JSON", reason(error.what()));
   }
 
 private:
@@ -106,7 +106,7 @@ private:
   bool open(Json&& empty)
   {
     std::string pointer = next_pointer();
-    if (levels_.size() >= max_depth) throw bad_input(source_ + "#" + pointer, fmt::format("is nested deeper than {} levels", max_depth));
+    if (levels_.size() >= max_depth) throw bad_input({source_, pointer}, fmt::format("is nested deeper than {} levels", max_depth));
     levels_.push_back({insert(std::move(empty)), std::move(pointer)});
     return true;
   }

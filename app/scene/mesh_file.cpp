@@ -187,7 +187,7 @@ Mesh unpack(std::string_view bytes)
 
 Mesh load_mesh(const std::filesystem::path& file)
 {
-  const std::string where = file.string();
+  const Place where = file.string();
   std::size_t size = 0;
   {
     const std::string bytes = read_file(file);
