@@ -51,6 +51,7 @@ BuildError build_error(const std::string& file, const std::string& device, const
 
 cl::Program build(const detail::ContextState& context, const std::string& file, const std::string& source, const std::string& options)
 {
+  context.tell_of_compiling();
   cl::Program program(context.context, source);
   try {
     program.build(context.device, options.c_str());

@@ -4,6 +4,8 @@
 #include "base/place.h"
 #include "compute/compute.h"
 
+#include <functional>
+
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
@@ -30,6 +32,7 @@ struct ContextState {
   std::filesystem::path kernels;               ///< empty: the embedded sources
   FileTimes kernel_times;                      ///< of the files in `kernels` when last looked at
   std::map<std::string, cl::Program> programs; ///< by compiler options and full text
+  std::function<void()> tell_of_compiling = [] {};
 };
 
 struct ProgramState {

@@ -125,15 +125,12 @@ void apply_override(Document& document, const std::string& text)
                       "for instance scene.lights.0.power_w=2");
   if (path.size() > max_depth) throw bad_input(origin.place, fmt::format("is nested deeper than {} levels", max_depth));
 
-  const std::string value = text.substr(equals + 1);
-  Json parsed;
-  try {
-    parsed = parse_json(value, origin.place.name);
-  } catch (const Error& error) {
-    // A bare string, unless it sets out to be JSON.
-    if (value.starts_with('{') || value.starts_with('[') || value.starts_with('"')) throw;
-    parsed = value;
-  }
+  const std::string value = text.substr(equals + 1), as_json = with_json_numbers(value);
+  Json parsed = value; // a bare string, unless it is or sets out to be JSON
+  if (Json::accept(as_json))
+    parsed = parse_json(as_json, origin.place.name);
+  else if (value.starts_with('{') || value.starts_with('[') || value.starts_with('"'))
+    parsed = parse_json(value, origin.place.name); // throws, at the column as typed
   document.set(path, std::move(parsed), origin);
 }
 

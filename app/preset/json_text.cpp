@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <vector>
 
@@ -167,6 +168,16 @@ std::string printable(std::string_view text)
   return escaped.substr(1, escaped.size() - 2);
 }
 
+std::string json_number(const std::string& word)
+{
+  static const std::regex number(R"(([+-]?)(\d*)(?:\.(\d*))?([eE][+-]?\d+)?)");
+  constexpr std::size_t longest = 64; // of a number that somebody types
+  std::smatch parts;
+  if (word.size() > longest || !std::regex_match(word, parts, number) || parts.length(2) + parts.length(3) == 0) return word;
+  return fmt::format("{}{}{}{}{}", parts[1] == "-" ? "-" : "", parts.length(2) > 0 ? parts.str(2) : "0", parts.length(3) > 0 ? "." : "",
+                     parts.str(3), parts.str(4));
+}
+
 } // namespace
 
 Json parse_json(std::string_view text, const std::string& source)
@@ -174,6 +185,27 @@ Json parse_json(std::string_view text, const std::string& source)
   Builder builder(text, source);
   Json::sax_parse(text, &builder);
   return builder.take();
+}
+
+std::string with_json_numbers(std::string_view text)
+{
+  constexpr std::string_view between = " \t\r\n,:[]{}";
+  std::string all;
+  while (!text.empty()) {
+    std::size_t size = 1;
+    if (text.front() == '"') {
+      while (size < text.size() && text[size] != '"') size += text[size] == '\\' ? 2 : 1;
+      size = std::min(size + 1, text.size());
+      all += text.substr(0, size);
+    } else if (between.find(text.front()) != std::string_view::npos) {
+      all += text.front();
+    } else {
+      size = std::min(text.find_first_of(between), text.size());
+      all += json_number(std::string(text.substr(0, size)));
+    }
+    text.remove_prefix(size);
+  }
+  return all;
 }
 
 bool is_utf8(std::string_view text)
