@@ -3,6 +3,7 @@
 #include "cli/command_line.h"
 
 #ifdef NEPHROID_UI
+#include "cli/numbers.h"
 #include "ui/shell/window.h"
 
 #include <CLI/CLI.hpp>
@@ -27,18 +28,18 @@ void add_window_options(CLI::App& program, nephroid::ui::Options& options)
       ->group(group);
   program.add_option("--screenshot", options.screenshot, "Write the window as PNG, then close")->type_name("FILE")->group(group);
   program.add_option("--frames", options.frames, "Close after this many frames (with --screenshot: 60)")
-      ->check(CLI::Range(0, 1 << 30))
+      ->transform(nephroid::cli::number_from_to(0, 1 << 30))
       ->type_name("N")
       ->group(group);
   program.add_option("--until", options.until, "Before closing by --frames wait for this part of the run; 1: until it is over")
-      ->check(CLI::Range(0.0, 1.0))
+      ->transform(nephroid::cli::number_from_to(0.0, 1.0))
       ->type_name("F")
       ->group(group);
   program.add_option("--frame-times", options.frame_times, "Write every frame's time as CSV")->type_name("FILE")->group(group);
   program.add_option("--layout", options.layout, "Where the panels are")->type_name("NAME")->group(group);
   program.add_option("--size", options.size, "Width and height of the window's content")
       ->delimiter('x')
-      ->check(CLI::Range(64, 16384))
+      ->transform(nephroid::cli::number_from_to(64, 16384))
       ->type_name("WxH")
       ->group(group);
 }

@@ -60,7 +60,7 @@ private:
 /// Bytes in memory, which outlive it. `where`: what an error calls them.
 class StoredBytes final : public ByteSource {
 public:
-  StoredBytes(std::span<const std::byte> bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
+  StoredBytes(std::span<const std::byte> bytes, Place where) : bytes_(bytes), where_(std::move(where)) {}
   void read(std::span<std::byte> into) override
   {
     if (into.size() > bytes_.size()) throw bad_input(where_, "is cut short");
@@ -71,7 +71,7 @@ public:
 
 private:
   std::span<const std::byte> bytes_;
-  std::string where_;
+  Place where_;
 };
 
 } // namespace nephroid

@@ -4,20 +4,31 @@
 namespace nephroid {
 namespace {
 
-std::string one_line(const std::string& where, const std::string& what, const std::string& expected, const std::string& remedy)
+std::string on_one_line(std::string text)
 {
-  std::string line = where.empty() ? what : where + ": " + what;
-  for (const std::string* part : {&expected, &remedy})
-    if (!part->empty()) line += "; " + *part;
-  for (char& c : line)
+  for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' '; // also what would move a terminal's cursor
-  return line;
+  return text;
+}
+
+std::string joined(std::string what, const std::string& expected, const std::string& remedy)
+{
+  for (const std::string* part : {&expected, &remedy})
+    if (!part->empty()) what += "; " + *part;
+  return on_one_line(what);
+}
+
+std::string line_of(const Place& place, const std::string& text)
+{
+  const std::string where = place.text();
+  return where.empty() ? text : on_one_line(where) + ": " + text;
 }
 
 } // namespace
 
-Error::Error(ErrorKind kind, std::string where, std::string what, std::string expected, std::string remedy)
-    : std::runtime_error(one_line(where, what, expected, remedy)), kind_(kind), where_(std::move(where))
+Error::Error(ErrorKind kind, Place place, std::string what, std::string expected, std::string remedy)
+    : std::runtime_error(line_of(place, joined(what, expected, remedy))), kind_(kind), place_(std::move(place)),
+      text_(joined(std::move(what), expected, remedy))
 {
 }
 

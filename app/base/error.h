@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one kind of error of the whole program: what went wrong, where, and what to do, as one line.
 #pragma once
+#include "base/place.h"
+
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,36 +15,36 @@ enum class ErrorKind { failed = 1, bad_input = 2, no_device = 3, interrupted = 1
 /// Thrown everywhere; caught at the edge (a verb, the worker, a panel) and shown as line().
 class Error : public std::runtime_error {
 public:
-  /// where: a file, FILE:LINE, FILE#/json/pointer, a command line option, a kernel or a call; may be empty.
   /// what: what is wrong. expected, remedy: what is expected, what to do; either may be empty.
-  Error(ErrorKind kind, std::string where, std::string what, std::string expected = {}, std::string remedy = {});
+  Error(ErrorKind kind, Place place, std::string what, std::string expected = {}, std::string remedy = {});
 
   ErrorKind kind() const { return kind_; }
   int exit_code() const { return static_cast<int>(kind_); }
-  const std::string& where() const { return where_; }
-  /// "WHERE: what is wrong; what is expected; what to do", always one line, without the program's name.
+  const Place& place() const { return place_; }
+  /// "PLACE: what is wrong; what is expected; what to do", always one line, without the program's name.
   std::string line() const { return what(); }
-  /// The line without "WHERE: ".
-  std::string text() const { return line().substr(where_.empty() ? 0 : where_.size() + 2); }
+  /// The line without "PLACE: ".
+  const std::string& text() const { return text_; }
 
   /// The same error at another place.
-  Error at(std::string where) const { return Error(kind_, std::move(where), text()); }
+  Error at(Place place) const { return Error(kind_, std::move(place), text_); }
   /// The same error with one more thing said at the end of its line.
-  Error noting(std::string note) const { return Error(kind_, where_, text(), std::move(note)); }
+  Error noting(std::string note) const { return Error(kind_, place_, text_, std::move(note)); }
 
 private:
   ErrorKind kind_;
-  std::string where_;
+  Place place_;
+  std::string text_;
 };
 
-inline Error bad_input(std::string where, std::string what, std::string expected = {}, std::string remedy = {})
+inline Error bad_input(Place place, std::string what, std::string expected = {}, std::string remedy = {})
 {
-  return Error(ErrorKind::bad_input, std::move(where), std::move(what), std::move(expected), std::move(remedy));
+  return Error(ErrorKind::bad_input, std::move(place), std::move(what), std::move(expected), std::move(remedy));
 }
 
-inline Error failed(std::string where, std::string what, std::string expected = {}, std::string remedy = {})
+inline Error failed(Place place, std::string what, std::string expected = {}, std::string remedy = {})
 {
-  return Error(ErrorKind::failed, std::move(where), std::move(what), std::move(expected), std::move(remedy));
+  return Error(ErrorKind::failed, std::move(place), std::move(what), std::move(expected), std::move(remedy));
 }
 
 } // namespace nephroid

@@ -309,7 +309,7 @@ fs::path library_file(const std::string& name)
   throw failed(name, fmt::format("not found in lib/nephroid beside {}", program_folder().string()), {}, "build or install Nephroid again");
 }
 
-FileNotFound::FileNotFound(std::string where, const std::string& name, const std::string& looked_in)
+FileNotFound::FileNotFound(Place where, const std::string& name, const std::string& looked_in)
     : Error(ErrorKind::bad_input, std::move(where), fmt::format("'{}' not found", name), "looked in " + looked_in), name_(name),
       looked_in_(looked_in)
 {
@@ -332,7 +332,7 @@ void FileFinder::add(fs::path folder)
   if (std::find(folders_.begin(), folders_.end(), folder) == folders_.end()) folders_.push_back(std::move(folder));
 }
 
-fs::path FileFinder::find(const std::string& name, const std::string& where) const
+fs::path FileFinder::find(const std::string& name, const Place& where) const
 {
   if (name.empty()) throw bad_input(where, "the file name is empty");
   std::string other_kind; // what has the name but cannot be read: a file of that name in a later folder still counts

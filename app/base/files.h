@@ -44,7 +44,7 @@ std::filesystem::path library_file(const std::string& name);
 class FileNotFound : public Error {
 public:
   /// looked_in: the folders, joined by commas.
-  FileNotFound(std::string where, const std::string& name, const std::string& looked_in);
+  FileNotFound(Place where, const std::string& name, const std::string& looked_in);
   const std::string& name() const { return name_; }
   const std::string& looked_in() const { return looked_in_; }
 
@@ -58,7 +58,7 @@ public:
   explicit FileFinder(std::filesystem::path beside = {});
   /// The first existing match of name (absolute names stand for themselves).
   /// Throws FileNotFound at `where`, or bad_input where something has the name and is no regular file.
-  std::filesystem::path find(const std::string& name, const std::string& where) const;
+  std::filesystem::path find(const std::string& name, const Place& where) const;
   const std::vector<std::filesystem::path>& folders() const { return folders_; }
 
 private:

@@ -119,7 +119,7 @@ void add_check(CLI::App& program, Session&)
   verb->add_option("--kernels", options->device.kernels, "Load kernels from this folder instead of the built-in ones")->type_name("DIR");
   verb->add_option("--seed", options->seed, "Of the random numbers (default 1); a right device passes with every one")
       ->type_name("N")
-      ->check(any_seed());
+      ->transform(any_seed());
   verb->add_flag("--details", options->details, "Say under each line what was compared with what");
   verb->add_flag("--json", options->json,
                  "One object a device: {\"device\",\"checks\":[{\"name\",\"figure\",\"tolerance\",\"unit\",\"pass\",\"detail\"}]}");

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
-#include "base/json_pointer.h"
 #include "cli/dispersion_input.h"
 #include "cli/verbs.h"
 #include "cli/wavelength_runs.h"
@@ -75,7 +74,7 @@ Task preset_task(const ClusterOptions& options)
   const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
   const std::string name = chosen_material(preset, options.material);
   const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
-  const std::string where = preset.source + "#/scene/materials/" + pointer_key(name) + "/dispersion";
+  const Place where = Place(preset.source) / "scene" / "materials" / name / "dispersion";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   return {preset::at_origins(preset, [&] { return scene::make_curve(dispersion, finder, where); }),
           scene::outside_policy(dispersion.outside), spectral::settings(preset).threshold_deg, spectral::settings(preset).method};

@@ -54,7 +54,7 @@ std::string help_command(const CLI::App& app) { return app.get_parent() ? "nephr
 Error usage_error(const CLI::App& program, const CLI::ParseError& error)
 {
   const CLI::App& app = erring_app(program);
-  const std::string where = app.get_parent() ? app.get_name() : "";
+  const Place where = app.get_parent() ? app.get_name() : "";
   const std::string see = fmt::format("see {}", help_command(app));
   const std::vector<std::string> extras = program.remaining(true);
   for (const std::string& extra : extras) // before what is missing: a mistyped option often explains it
@@ -75,7 +75,9 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error)
 void refuse_mistyped_verb(const CLI::App& program, const std::string& word)
 {
   if (word.find_first_of("./") != std::string::npos || is_there(word)) return;
-  const std::string verb = nearest(word, verb_names(program));
+  std::vector<std::string> known = verb_names(program);
+  known.insert(known.end(), {"--help", "--version"}); // "help"
+  const std::string verb = nearest(word, known);
   if (verb.empty()) return;
   try {
     if (is_there(presets_folder() / (word + ".json"))) return;

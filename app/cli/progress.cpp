@@ -104,6 +104,20 @@ std::string progress_json(const ProgressSubject& subject, const job::Progress& n
   return json_text(all);
 }
 
+void ActivityLine::show(const char* doing)
+{
+  if (style_ != ProgressStyle::live || std::exchange(is_shown_, true)) return;
+  fmt::print(stderr, "\r{}  {}\033[K", label_, doing);
+  std::fflush(stderr);
+}
+
+void ActivityLine::clear()
+{
+  if (!std::exchange(is_shown_, false)) return;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
+}
+
 ProgressDisplay::ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start)
     : style_(style), subject_(std::move(subject)), start_(start), next_(Clock::now() + rhythm(style))
 {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace nephroid::cli {
 
@@ -25,6 +26,22 @@ struct ProgressSubject {
 std::string progress_line(const std::string& label, const job::Progress& now, const job::Pace& pace, int columns);
 /// {"type":"progress","name","stage","fraction","step","steps","photons","work_seconds","photons_per_second","seconds_left"}
 std::string progress_json(const ProgressSubject& subject, const job::Progress& now, const job::Pace& pace);
+
+/// The live line while there are no figures yet; nothing where there is no live line.
+class ActivityLine {
+public:
+  ActivityLine(ProgressStyle style, std::string label) : style_(style), label_(std::move(label)) {}
+  ~ActivityLine() { clear(); }
+  ActivityLine(const ActivityLine&) = delete;
+  ActivityLine& operator=(const ActivityLine&) = delete;
+  void show(const char* doing);
+  void clear();
+
+private:
+  ProgressStyle style_;
+  std::string label_;
+  bool is_shown_ = false;
+};
 
 /// Shows a run's progress at the rhythm of its style. Call update as often as you like.
 class ProgressDisplay {

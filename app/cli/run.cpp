@@ -7,27 +7,33 @@
 #include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
+#include "compute/compiling.h"
 #include "measure/measured_job.h"
 #include "preset/check.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "run/pictures_at.h"
 #include "run/reference.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace nephroid::cli {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* result_files[] = {"image.exr", "image.png",   "preset.json", "plan.json",
-                                        "run.json",  "history.csv", "report.html", "checkpoint.bin"};
+constexpr const char* result_files[] = {"image.exr",   "image.png",   "preset.json",   "plan.json",     "run.json",
+                                        "history.csv", "report.html", "pictures.json", "checkpoint.bin"};
 
 struct RunOptions {
   std::string preset;
@@ -39,6 +45,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;
   compute::DeviceOptions device;
   double checkpoint_seconds = 10;
+  std::vector<double> pictures_at; ///< seconds of work, in order, each once
   bool resume = false, json = false;
 };
 
@@ -79,6 +86,10 @@ void report_result(const RunOptions& options, const Target& target, const job::P
   std::vector<std::string> files;
   for (const char* name : result_files)
     if (fs::exists(target.folder / name)) files.emplace_back(name);
+  for (const auto& made : run::pictures_at(target.folder)) {
+    const fs::path picture = made["picture"].get<std::string>();
+    files.insert(files.end(), {picture.string(), fs::path(picture).replace_extension(".exr").string()});
+  }
   if (options.json) {
     const nlohmann::ordered_json all{{"type", "result"},
                                      {"name", target.preset.name},
@@ -96,6 +107,10 @@ void report_result(const RunOptions& options, const Target& target, const job::P
                units.works, progress.work_seconds);
   }
   std::fflush(stdout);
+  if (!finished || options.pictures_at.empty() || options.pictures_at.back() <= progress.work_seconds) return;
+  const auto beyond = std::upper_bound(options.pictures_at.begin(), options.pictures_at.end(), progress.work_seconds);
+  fmt::print(stderr, "note: {}: the run ended after {:.1f} s of work: no picture at {} s\n", target.label, progress.work_seconds,
+             fmt::join(beyond, options.pictures_at.end(), ", "));
 }
 
 /// Renders one target on a device that is open for all of them.
@@ -115,11 +130,15 @@ public:
       if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
       context = compute::Context::open(options_.device);
     }
+    compute::tell_of_compiling(*context, [this] { activity_.show("compiling kernels"); });
     run::require_memory(*prepared, *context); // a run that cannot be leaves no folder
     run::claim_folder(target_.folder);
     try {
       reference_ = reference(*prepared, *context);
-      const std::unique_ptr<job::Job> job = measure::measured(run::make_job(*prepared, *context), prepared->preset, reference_, began_);
+      const std::unique_ptr<job::Job> job =
+          measure::measured(run::make_job(*prepared, *context), prepared->preset, reference_, began_, options_.pictures_at);
+      activity_.clear();
+      compute::tell_of_compiling(*context, [] {}); // the context outlives this
       stop_if_interrupted_early();
       begin_or_resume(*prepared, *context, *job);
       stop_if_interrupted_early();
@@ -143,6 +162,7 @@ private:
       const job::Progress progress = job.progress();
       fmt::print(stderr, "{}: going on in pass {} ({:.1f} s of work so far)\n", target_.label, progress.step + 1, progress.work_seconds);
       run::write_settings(target_.folder, prepared);
+      run::remove_pictures_after(target_.folder, progress.work_seconds);
       return;
     }
     if (options_.resume)
@@ -173,6 +193,7 @@ private:
 
   void work(const run::Prepared& prepared, const compute::Context& context, job::Job& job)
   {
+    skip_pictures(job.progress().work_seconds);
     ProgressDisplay display(progress_style(options_.json), {target_.label, target_.preset.name}, job.progress());
     double saved_at = job.progress().work_seconds;
     while (!job.finished() && !interrupted_.stop_requested()) {
@@ -180,11 +201,56 @@ private:
       const job::Progress progress = job.progress();
       display.update(progress);
       note_history(job, display);
+      if (!take_pictures(prepared, context.device(), job, display)) continue;
       if (progress.work_seconds - saved_at < options_.checkpoint_seconds) continue;
       saved_at = progress.work_seconds;
       on_disk(display, [&] { run::write_checkpoint(target_.folder, prepared, context, job); });
     }
     display.finish(job.progress());
+  }
+
+  /// A resumed run has those of the time before, or cannot have them any more.
+  void skip_pictures(double work_seconds)
+  {
+    const auto& times = options_.pictures_at;
+    std::set<double> made;
+    for (const auto& picture : run::pictures_at(target_.folder)) made.insert(picture["seconds"].get<double>());
+    for (; next_picture_ < times.size() && times[next_picture_] <= work_seconds; ++next_picture_)
+      if (work_seconds > 0 && !made.contains(times[next_picture_]))
+        fmt::print(stderr, "note: {}: {} s of work are past: no picture of then\n", target_.label, times[next_picture_]);
+  }
+
+  /// The pictures whose time has come, once their error is measured. False where that is the next step: a checkpoint in between would be of
+  /// a run that never takes them.
+  bool take_pictures(const run::Prepared& prepared, const compute::DeviceInfo& device, job::Job& job, ProgressDisplay& display)
+  {
+    const auto& times = options_.pictures_at;
+    const double work_seconds = job.progress().work_seconds;
+    for (; next_picture_ < times.size() && times[next_picture_] <= work_seconds; ++next_picture_) {
+      const auto history = job.history();
+      if (history && !history->rows.empty() && history->rows.back().seconds < times[next_picture_]) return false;
+      on_disk(display, [&] {
+        const auto made = run::write_picture_at(target_.folder, times[next_picture_], prepared, device, job.snapshot());
+        display.clear();
+        say_picture(made, history ? history->error_column : "");
+      });
+    }
+    return true;
+  }
+
+  void say_picture(nlohmann::ordered_json made, const std::string& error_column) const
+  {
+    if (options_.json) {
+      nlohmann::ordered_json line{{"type", "picture"}, {"name", target_.preset.name}};
+      line.update(made);
+      fmt::print("{}\n", json_text(line));
+      std::fflush(stdout);
+      return;
+    }
+    const auto error = made["errors"].find(error_column);
+    const bool is_known = error != made["errors"].end() && error->is_number();
+    fmt::print(stderr, "{}: {} after {:.1f} s of work{}\n", target_.label, (target_.folder / made["picture"].get<std::string>()).string(),
+               made["work_seconds"].get<double>(), is_known ? fmt::format(", {} {:.3g}", error_column, error->get<double>()) : "");
   }
 
   void note_history(const job::Job& job, ProgressDisplay& display)
@@ -238,10 +304,20 @@ private:
   const Target& target_;
   std::stop_token interrupted_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  ActivityLine activity_{progress_style(options_.json), target_.label};
   std::shared_ptr<const measure::Reference> reference_;
   std::size_t rows_written_ = 0; ///< of the history
+  std::size_t next_picture_ = 0; ///< of RunOptions::pictures_at
   bool warned_ = false;
 };
+
+/// Rounded to the milliseconds that their files' names have.
+std::vector<double> in_order(const std::vector<double>& times)
+{
+  std::set<double> sorted;
+  for (const double time : times) sorted.insert(std::round(time * 1000) / 1000);
+  return {sorted.begin(), sorted.end()};
+}
 
 void run_preset(const RunOptions& options)
 {
@@ -278,20 +354,28 @@ void add_run(CLI::App& program, Session&)
       ->take_all();
   verb->add_option("--seconds", options->seconds, "Stop after this much work, instead of where the preset says")
       ->type_name("S")
-      ->check(number_from_to(0.001, 1e9));
+      ->transform(number_from_to(0.001, 1e9));
   verb->add_option("--passes", options->passes, "Stop after this many passes, instead of where the preset says")
       ->type_name("N")
-      ->check(number_from_to(1, preset::max_passes));
+      ->transform(number_from_to(1, preset::max_passes));
   verb->add_option("--until-error", options->until_error,
                    "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says")
       ->type_name("E")
-      ->check(number_from_to(1e-9, 1e9));
-  verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")->type_name("N")->check(any_seed());
+      ->transform(number_from_to(1e-9, 1e9));
+  verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")->type_name("N")->transform(any_seed());
   verb->add_option("--device", options->device.selector, "An index or part of a name (see nephroid devices)")->type_name("SEL");
   verb->add_option("--kernels", options->device.kernels, "Load kernels from this folder instead of the built-in ones")->type_name("DIR");
   verb->add_option("--checkpoint-seconds", options->checkpoint_seconds, "Work between checkpoints (default 10)")
       ->type_name("S")
-      ->check(number_from_to(0.0, 1e9));
+      ->transform(number_from_to(0.0, 1e9));
+  verb->add_option_function<std::vector<double>>(
+          "--pictures-at", [options](const std::vector<double>& times) { options->pictures_at = in_order(times); },
+          "Also write the picture after this much work, with its error: 2,10,60 gives at-0002s.png and .exr, at-0010s.png, ...")
+      ->type_name("S,S,...")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->transform(number_from_to(0.001, 1e9));
   verb->add_flag("--resume", options->resume, "Go on from the folder's checkpoint");
   verb->add_flag("--json", options->json, "Progress and result as JSON lines on standard output");
   verb->callback([options] { run_preset(*options); });

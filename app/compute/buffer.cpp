@@ -33,7 +33,7 @@ RawBuffer::RawBuffer(const Context& context, std::string name, std::size_t bytes
     state->buffer = cl::Buffer(context.state->context, CL_MEM_READ_WRITE, allocated);
     if (bytes > 0 && initial) write(initial, bytes, 0);
   } catch (const cl::Error& error) {
-    const std::string where = fmt::format("buffer {} of {} on {}", state->name, megabytes(bytes), device.name);
+    const Place where = fmt::format("buffer {} of {} on {}", state->name, megabytes(bytes), device.name);
     throw failed(where, fmt::format("{} gave {}", error.what(), detail::error_name(error.err())),
                  fmt::format("the device has {}", megabytes(device.memory_bytes)), "use a smaller image, mesh or number of photons");
   }

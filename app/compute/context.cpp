@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choosing a device and opening it with one queue.
+#include "compute/compiling.h"
 #include "compute/state.h"
 
 #include <fmt/format.h>
@@ -86,6 +87,11 @@ Context Context::open(const DeviceOptions& options)
     throw Error(ErrorKind::no_device, {}, failure.line());
   }
   return context;
+}
+
+void tell_of_compiling(const Context& context, std::function<void()> tell)
+{
+  context.state->tell_of_compiling = std::move(tell);
 }
 
 const DeviceInfo& Context::device() const { return state->info; }

@@ -57,7 +57,7 @@ std::string error_name(cl_int code)
 #undef NEPHROID_NAME
 }
 
-Error call_failed(const cl::Error& error, const std::string& where)
+Error call_failed(const cl::Error& error, const Place& where)
 {
   const std::string what = fmt::format("{} gave {}", error.what(), error_name(error.err()));
   if (const std::string problem = kernel_cache_problem(); !problem.empty())
@@ -67,7 +67,7 @@ Error call_failed(const cl::Error& error, const std::string& where)
 
 } // namespace detail
 
-BuildError::BuildError(std::string where, std::string what, std::string log)
+BuildError::BuildError(Place where, std::string what, std::string log)
     : Error(ErrorKind::failed, std::move(where), std::move(what)), log_(std::move(log))
 {
 }

@@ -36,14 +36,14 @@ std::string compiler_options(const DeviceInfo& device, const Defines& defines)
 /// "error: trace.cl:12:5: ...".
 BuildError build_error(const std::string& file, const std::string& device, const std::string& log)
 {
-  static const std::regex located(R"(^\s*(?:(?:fatal )?error: )?([^\s:]+:\d+)(?::\d+)?: (?:(?:fatal )?error: )?(.*)$)");
+  static const std::regex located(R"(^\s*(?:(?:fatal )?error: )?([^\s:]+):(\d{1,9})(?::\d+)?: (?:(?:fatal )?error: )?(.*)$)");
   std::istringstream lines(log);
   std::string first;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("error: ") == std::string::npos) continue;
     std::smatch match;
     if (std::regex_match(line, match, located))
-      return {match[1], fmt::format("{} (building {} for {})", match[2].str(), file, device), log};
+      return {{match[1], std::stoul(match[2])}, fmt::format("{} (building {} for {})", match[3].str(), file, device), log};
     if (first.empty()) first = line;
   }
   return {file, fmt::format("clBuildProgram gave CL_BUILD_PROGRAM_FAILURE for {}: {}", device, first.empty() ? log : first), log};
@@ -51,6 +51,7 @@ BuildError build_error(const std::string& file, const std::string& device, const
 
 cl::Program build(const detail::ContextState& context, const std::string& file, const std::string& source, const std::string& options)
 {
+  context.tell_of_compiling();
   cl::Program program(context.context, source);
   try {
     program.build(context.device, options.c_str());

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string source_text(const fs::path& folder, const std::string& file, const std::string& where)
+std::string source_text(const fs::path& folder, const std::string& file, const Place& where)
 {
   if (!folder.empty()) {
     if (!fs::exists(folder / file)) throw failed(where, fmt::format("there is no kernel source {}", (folder / file).string()));
@@ -35,7 +35,7 @@ struct Joiner {
   std::set<std::string> included = {};
   std::string text = {};
 
-  void add(const std::string& file, const std::string& where)
+  void add(const std::string& file, const Place& where)
   {
     if (!included.insert(file).second) return;
     static const std::regex include(R"(^\s*#\s*include\s+"(?:kernels/)?([^"]+)\".*)");
@@ -49,7 +49,7 @@ struct Joiner {
         text += line + '\n';
         continue;
       }
-      add(match[1], fmt::format("{}:{}", file, number));
+      add(match[1], Place(file, number));
       text += fmt::format("#line {} \"{}\"\n", number + 1, file);
     }
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What compute.h hides: the OpenCL objects behind its handles and how a failed call becomes an Error. Private to this folder.
 #pragma once
+#include "base/place.h"
 #include "compute/compute.h"
+
+#include <functional>
 
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_HPP_TARGET_OPENCL_VERSION 120
@@ -29,6 +32,7 @@ struct ContextState {
   std::filesystem::path kernels;               ///< empty: the embedded sources
   FileTimes kernel_times;                      ///< of the files in `kernels` when last looked at
   std::map<std::string, cl::Program> programs; ///< by compiler options and full text
+  std::function<void()> tell_of_compiling = [] {};
 };
 
 struct ProgramState {
@@ -60,7 +64,7 @@ std::string error_name(cl_int code);
 
 /// Error(failed) at `where` for a call that failed: names the call and the code, and a full or unwritable kernel cache,
 /// which PoCL itself reports as an unrelated code without a reason.
-Error call_failed(const cl::Error& error, const std::string& where);
+Error call_failed(const cl::Error& error, const Place& where);
 
 /// The whole text of `file` for the compiler, every #include "NAME" of another kernel source put in its place, once each.
 /// Sources come from `folder`, or from the program itself where that is empty.

@@ -102,7 +102,7 @@ struct Worker::Impl {
   {
     update(generation, [&] {
       status.state = state;
-      status.message.clear();
+      status.error.reset();
     });
   }
 
@@ -110,8 +110,7 @@ struct Worker::Impl {
   {
     update(generation, [&] {
       status.state = State::failed;
-      status.message = error.line();
-      status.error_kind = error.kind();
+      status.error = error;
       ++status.failures;
     });
   }
@@ -166,7 +165,7 @@ struct Worker::Impl {
       }
       adopted = number;
       publish(generation, job);
-      update(generation, [&] { status.message.clear(); });
+      update(generation, [&] { status.error.reset(); });
       return true;
     } catch (...) {
       set_failed(generation, error_of(std::current_exception()));

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
+#include <optional>
 
 namespace nephroid::job {
 
@@ -18,10 +18,9 @@ enum class State { idle, preparing, running, paused, finished, cancelled, failed
 struct Status {
   State state = State::idle;
   Progress progress;
-  std::string message;                      ///< the error line where state is failed, else empty
-  std::uint64_t generation = 0;             ///< counts start() calls: which job this is about
-  ErrorKind error_kind = ErrorKind::failed; ///< of the message
-  std::uint64_t failures = 0;               ///< how often the state became failed: which failure the message is about
+  std::optional<Error> error;   ///< where state is failed
+  std::uint64_t generation = 0; ///< counts start() calls: which job this is about
+  std::uint64_t failures = 0;   ///< how often the state became failed: which failure the error is about
 };
 
 class Worker {

@@ -34,13 +34,6 @@ std::vector<std::string_view> cells_of(std::string_view line)
   }
 }
 
-/// Where a cell is, for messages.
-struct Place {
-  const fs::path& file;
-  std::size_t line;
-  std::string text() const { return fmt::format("{}:{}", file.string(), line); }
-};
-
 /// A cell as a message may show it: short, on one line, without control characters.
 std::string quoted(std::string_view cell)
 {
@@ -56,7 +49,7 @@ Number number(std::string_view cell, std::string_view column, const Place& place
   Number value{};
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size())
-    throw bad_input(place.text(), fmt::format("{} {} is no number", column, quoted(cell)));
+    throw bad_input(place, fmt::format("{} {} is no number", column, quoted(cell)));
   return value;
 }
 
@@ -64,7 +57,7 @@ Number number(std::string_view cell, std::string_view column, const Place& place
 double seconds(std::string_view cell, std::string_view column, const Place& place)
 {
   const double value = number<double>(cell, column, place);
-  if (!std::isfinite(value) || value < 0) throw bad_input(place.text(), fmt::format("{} is {}", column, cell), "expected seconds from 0");
+  if (!std::isfinite(value) || value < 0) throw bad_input(place, fmt::format("{} is {}", column, cell), "expected seconds from 0");
   return value;
 }
 
@@ -73,7 +66,7 @@ double error_value(std::string_view cell, std::string_view column, const Place& 
 {
   if (cell.empty()) return std::nan("");
   const double value = number<double>(cell, column, place);
-  if (std::isnan(value)) throw bad_input(place.text(), fmt::format("{} is {}", column, cell), "an undefined error is an empty cell");
+  if (std::isnan(value)) throw bad_input(place, fmt::format("{} is {}", column, cell), "an undefined error is an empty cell");
   return value;
 }
 
@@ -88,14 +81,14 @@ std::vector<std::string> columns_of(std::string_view line, const Place& place)
   const std::vector<std::string_view> cells = cells_of(line);
   const std::string expected = fmt::format("expected '{}', then a column a metric", fixed_header);
   if (cells.size() < std::size(fixed_columns) || !std::equal(std::begin(fixed_columns), std::end(fixed_columns), cells.begin()))
-    throw bad_input(place.text(), "this is no history of a run", expected);
+    throw bad_input(place, "this is no history of a run", expected);
   std::vector<std::string> columns;
   for (std::size_t i = std::size(fixed_columns); i < cells.size(); ++i) {
     if (!is_column_name(cells[i]))
-      throw bad_input(place.text(), fmt::format("column {} has the name {}", i + 1, quoted(cells[i])), "expected a metric's name");
+      throw bad_input(place, fmt::format("column {} has the name {}", i + 1, quoted(cells[i])), "expected a metric's name");
     if (std::find(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(i), cells[i]) !=
         cells.begin() + static_cast<std::ptrdiff_t>(i))
-      throw bad_input(place.text(), fmt::format("two columns have the name {}", quoted(cells[i])));
+      throw bad_input(place, fmt::format("two columns have the name {}", quoted(cells[i])));
     columns.emplace_back(cells[i]);
   }
   return columns;
@@ -106,7 +99,7 @@ job::HistoryRow row_of(std::string_view line, const std::vector<std::string>& co
   const std::vector<std::string_view> cells = cells_of(line);
   const std::size_t expected = std::size(fixed_columns) + columns.size();
   if (cells.size() != expected)
-    throw bad_input(place.text(), "the row has " + counted(cells.size(), "cell"), fmt::format("expected {}", expected));
+    throw bad_input(place, "the row has " + counted(cells.size(), "cell"), fmt::format("expected {}", expected));
   job::HistoryRow row;
   row.seconds = seconds(cells[0], fixed_columns[0], place);
   row.wall_seconds = seconds(cells[1], fixed_columns[1], place);
@@ -152,7 +145,7 @@ job::History read_history(const std::filesystem::path& file)
   job::History history;
   std::string_view rest = text;
   for (std::size_t line = 1; !rest.empty(); ++line) {
-    const Place place{file, line};
+    const Place place(file.string(), line);
     const std::size_t end = rest.find('\n');
     const std::string_view row = rest.substr(0, end);
     if (line == 1)
@@ -160,11 +153,10 @@ job::History read_history(const std::filesystem::path& file)
     else
       history.rows.push_back(row_of(row, history.columns, place));
     // A cut number is a number as well, so the end of the last line is looked for; after the line, which may show a better reason.
-    if (end == std::string_view::npos) throw bad_input(place.text(), "the file is cut in this line", "every line ends with a line feed");
+    if (end == std::string_view::npos) throw bad_input(place, "the file is cut in this line", "every line ends with a line feed");
     const std::size_t count = history.rows.size();
     if (count > 1 && history.rows[count - 1].seconds < history.rows[count - 2].seconds)
-      throw bad_input(place.text(),
-                      fmt::format("seconds fall from {} to {}", history.rows[count - 2].seconds, history.rows[count - 1].seconds));
+      throw bad_input(place, fmt::format("seconds fall from {} to {}", history.rows[count - 2].seconds, history.rows[count - 1].seconds));
     rest.remove_prefix(end + 1);
   }
   return history;

@@ -44,8 +44,8 @@ void add(Errors& errors, const std::string& prefix, const Metrics& metrics, bool
 class MeasuredJob final : public job::Job {
 public:
   MeasuredJob(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
-              Clock::time_point began)
-      : job_(std::move(job)), settings_(preset.measure), reference_(std::move(reference)), began_(began)
+              Clock::time_point began, std::vector<double> times)
+      : job_(std::move(job)), settings_(preset.measure), reference_(std::move(reference)), times_(std::move(times)), began_(began)
   {
     if (!job_->estimates_error()) settings_.estimate = false;
     if (reference_) {
@@ -60,7 +60,7 @@ public:
       if (history_.error_column.empty() && std::count(history_.columns.begin(), history_.columns.end(), column) > 0)
         history_.error_column = column;
     if (history_.target && !history_.error_column.ends_with(metric))
-      throw bad_input(preset.source + "#/stop/error", "nothing measures the error of this run in " + metric,
+      throw bad_input(Place(preset.source) / "stop" / "error", "nothing measures the error of this run in " + metric,
                       settings_.estimate
                           ? "expected a 'reference', or a 'stop.metric' that can be estimated: lab_mean, lab_rms, mse, rel_l2"
                           : "expected a 'reference', or 'measure.estimate' true");
@@ -238,6 +238,8 @@ private:
     double wanted = last_seconds_ * spacing;
     if (const std::optional<double> at = target_seconds()) wanted = std::min(wanted, *at);
     next_ = std::max(wanted, affordable);
+    if (const auto time = std::upper_bound(times_.begin(), times_.end(), last_seconds_); time != times_.end())
+      next_ = std::min(next_, *time);
   }
 
   std::unique_ptr<job::Job> job_;
@@ -247,6 +249,7 @@ private:
   bool is_mean_square_ = false; ///< the error that may stop the run
   job::History history_;
   std::shared_ptr<const job::History> shown_;
+  std::vector<double> times_; ///< to measure at whatever it takes
   Clock::time_point began_;
   double wall_before_ = 0;  ///< of a resumed run's earlier parts
   double last_seconds_ = 0; ///< of work at the newest row
@@ -256,9 +259,9 @@ private:
 } // namespace
 
 std::unique_ptr<job::Job> measured(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
-                                   std::chrono::steady_clock::time_point began)
+                                   std::chrono::steady_clock::time_point began, std::vector<double> times)
 {
-  return std::make_unique<MeasuredJob>(std::move(job), preset, std::move(reference), began);
+  return std::make_unique<MeasuredJob>(std::move(job), preset, std::move(reference), began, std::move(times));
 }
 
 } // namespace nephroid::measure

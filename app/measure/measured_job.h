@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <memory>
+#include <vector>
 
 namespace nephroid::measure {
 
@@ -17,8 +18,9 @@ inline constexpr double measuring_share = 0.04;
 /// Wraps a job. reference: null where there is none. began: when the run's wall clock started. Measurements come at times that grow by
 /// a fifth, and where stop.error is about to be reached; a step measures or works, never both, and measuring is not in
 /// Progress::work_seconds. Throws bad_input where stop.error is asked for with neither a reference nor an estimate. The reference
-/// has the picture's size.
+/// has the picture's size. times: of work, in order, at which to measure besides.
 std::unique_ptr<job::Job> measured(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
-                                   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now());
+                                   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now(),
+                                   std::vector<double> times = {});
 
 } // namespace nephroid::measure

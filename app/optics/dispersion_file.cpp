@@ -23,8 +23,8 @@ namespace nephroid::optics {
 namespace {
 
 /// "FILE:LINE" of a place in the text; lines count from 0 in yaml-cpp and from 1 for people.
-std::string place(const std::string& file, int line) { return line < 0 ? file : fmt::format("{}:{}", file, line + 1); }
-std::string place(const std::string& file, const YAML::Node& node) { return place(file, node.Mark().line); }
+Place place(const std::string& file, int line) { return {file, static_cast<std::size_t>(line + 1)}; }
+Place place(const std::string& file, const YAML::Node& node) { return place(file, node.Mark().line); }
 
 std::vector<std::string_view> words(std::string_view text)
 {
@@ -40,7 +40,7 @@ std::vector<std::string_view> words(std::string_view text)
   }
 }
 
-double number(std::string_view word, const std::string& where)
+double number(std::string_view word, const Place& where)
 {
   const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
   double value = 0;
@@ -50,7 +50,7 @@ double number(std::string_view word, const std::string& where)
   return value;
 }
 
-std::vector<double> numbers(std::string_view text, const std::string& where)
+std::vector<double> numbers(std::string_view text, const Place& where)
 {
   std::vector<double> result;
   for (std::string_view word : words(text)) result.push_back(number(word, where));
@@ -95,7 +95,7 @@ std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t
   std::string_view rest = data.Scalar();
   while (!rest.empty()) {
     const std::size_t end = rest.find('\n');
-    const std::string where = place(file, line++);
+    const Place where = place(file, line++);
     std::vector<double> row = numbers(rest.substr(0, end), where);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (row.empty()) continue;
@@ -109,7 +109,7 @@ std::vector<std::vector<double>> table_rows(const YAML::Node& block, std::size_t
   return rows;
 }
 
-Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t column, const std::string& where)
+Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t column, const Place& where)
 {
   std::vector<Row> pairs;
   for (const auto& row : rows) pairs.push_back({row[0] * 1000, row[column]});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interpolation between rows of (wavelength in nm, value): linear, and a cubic that never overshoots its control points.
 #pragma once
+#include "base/place.h"
 #include "optics/dispersion.h"
 
 #include <array>
@@ -18,7 +19,7 @@ enum class Repeats { refuse, mean };
 
 /// The rows by rising wavelength, each wavelength once. Throws bad_input at `where` for no rows, a number that is not finite,
 /// a wavelength that is not positive, or a repeat that is refused.
-std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const std::string& where);
+std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const Place& where);
 
 /// The widest step between neighbouring rows that reaches into low..high, where it is a hole in the data and not their usual
 /// step: at least 20 nm of it lie there, and it is five times the median of the steps there, which are four or more. rows: sorted.

@@ -30,7 +30,7 @@ Json& item(Json& list, const std::string& key, const std::string& path, const Or
   const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
   if (error == std::errc() && end == key.data() + key.size() && index < list.size()) return list[index];
   const std::string range = list.empty() ? "it is empty" : fmt::format("its items are 0 to {}", list.size() - 1);
-  throw bad_input(origin.name, fmt::format("{} is a list and has no item {}", in_quotes(path), in_quotes(key)), range);
+  throw bad_input(origin.place, fmt::format("{} is a list and has no item {}", in_quotes(path), in_quotes(key)), range);
 }
 
 } // namespace
@@ -81,7 +81,7 @@ void Document::set(const std::vector<std::string>& path, Json value, const Origi
       if (!slot->contains(key)) replace((*slot)[key], i + 1 < path.size() ? Json::object() : Json(), child(pointer, key), shared);
       slot = &(*slot)[key];
     } else
-      throw bad_input(origin.name, fmt::format("{} is {} and has no fields", in_quotes(dotted(path, i)), shown(*slot)), {},
+      throw bad_input(origin.place, fmt::format("{} is {} and has no fields", in_quotes(dotted(path, i)), shown(*slot)), {},
                       "set the whole value instead");
     pointer = child(pointer, key);
   }
@@ -112,27 +112,25 @@ void apply_override(Document& document, const std::string& text)
 {
   if (!is_utf8(text)) throw bad_input("--set", in_quotes(text) + " is not UTF-8", "expected KEY=VALUE in UTF-8");
   Origin origin{"--set " + text, false, document.origins().main().folder, true};
-  if (text.size() > 200) origin.name = "--set " + text.substr(0, 200) + "...";
+  if (text.size() > 200) origin.place = "--set " + text.substr(0, 200) + "...";
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos)
-    throw bad_input(origin.name, "has no '='", "expected KEY=VALUE, for instance spectral.threshold_deg=0.1");
+    throw bad_input(origin.place, "has no '='", "expected KEY=VALUE, for instance spectral.threshold_deg=0.1");
   const std::vector<std::string> path = split_path(std::string_view(text).substr(0, equals));
-  if (path.empty()) throw bad_input(origin.name, "has an empty key", "expected keys joined by dots, for instance scene.lights.0.power_w=2");
+  if (path.empty())
+    throw bad_input(origin.place, "has an empty key", "expected keys joined by dots, for instance scene.lights.0.power_w=2");
   for (const std::string& key : path)
     if (key.size() > 2 && key.find('[') != std::string::npos && key.back() == ']')
-      throw bad_input(origin.name, fmt::format("{} is no key", in_quotes(key)), "items of a list go by number after a dot",
+      throw bad_input(origin.place, fmt::format("{} is no key", in_quotes(key)), "items of a list go by number after a dot",
                       "for instance scene.lights.0.power_w=2");
-  if (path.size() > max_depth) throw bad_input(origin.name, fmt::format("is nested deeper than {} levels", max_depth));
+  if (path.size() > max_depth) throw bad_input(origin.place, fmt::format("is nested deeper than {} levels", max_depth));
 
-  const std::string value = text.substr(equals + 1);
-  Json parsed;
-  try {
-    parsed = parse_json(value, origin.name);
-  } catch (const Error& error) {
-    // A bare string, unless it sets out to be JSON.
-    if (value.starts_with('{') || value.starts_with('[') || value.starts_with('"')) throw;
-    parsed = value;
-  }
+  const std::string value = text.substr(equals + 1), as_json = with_json_numbers(value);
+  Json parsed = value; // a bare string, unless it is or sets out to be JSON
+  if (Json::accept(as_json))
+    parsed = parse_json(as_json, origin.place.name);
+  else if (value.starts_with('{') || value.starts_with('[') || value.starts_with('"'))
+    parsed = parse_json(value, origin.place.name); // throws, at the column as typed
   document.set(path, std::move(parsed), origin);
 }
 

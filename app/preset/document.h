@@ -21,7 +21,7 @@ public:
   const Json& value() const { return value_; }
   const Origins& origins() const { return origins_; }
   /// For messages: "FILE#/pointer" or "--set a.b=c".
-  std::string where(const std::string& pointer) const { return origins_.where(pointer); }
+  Place where(const std::string& pointer) const { return origins_.where(pointer); }
 
   /// A child's values over this one, which then is its parent.
   void merge(const Json& over, const Origin& origin);
@@ -52,6 +52,6 @@ Document parse_document(const std::string& text, const std::string& source);
 
 /// The file that a person means by name: beside `folder`, then in presets/, each also with ".json" behind it.
 /// Throws bad_input at where.
-std::filesystem::path find_preset(const std::string& name, const std::filesystem::path& folder, const std::string& where);
+std::filesystem::path find_preset(const std::string& name, const std::filesystem::path& folder, const Place& where);
 
 } // namespace nephroid::preset

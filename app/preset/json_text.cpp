@@ -4,11 +4,12 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/json_output.h"
-#include "base/json_pointer.h"
+#include "base/place.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 #include <vector>
 
@@ -36,7 +37,7 @@ public:
   bool key(string_t& name) override
   {
     Level& level = levels_.back();
-    const std::string where = source_ + "#" + child(level.pointer, name);
+    const Place where(source_, child(level.pointer, name));
     if (!level.keys.insert(name).second)
       throw bad_input(where, fmt::format("key {} is given twice", in_quotes(name)), "expected each key once");
     if (level.keys.size() > max_keys) throw bad_input(where, "too many keys", fmt::format("expected at most {} in one object", max_keys));
@@ -49,7 +50,7 @@ public:
     const std::string_view before = text_.substr(0, std::min(position == 0 ? 0 : position - 1, text_.size()));
     const std::size_t line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
     const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1; // npos + 1 is 0: the first line
-    throw bad_input(fmt::format("{}:{}:{}", source_, line, column), "is not JSON", reason(error.what()));
+    throw bad_input({source_, line, column}, "is not JSON", reason(error.what()));
   }
 
 private:
@@ -106,7 +107,7 @@ private:
   bool open(Json&& empty)
   {
     std::string pointer = next_pointer();
-    if (levels_.size() >= max_depth) throw bad_input(source_ + "#" + pointer, fmt::format("is nested deeper than {} levels", max_depth));
+    if (levels_.size() >= max_depth) throw bad_input({source_, pointer}, fmt::format("is nested deeper than {} levels", max_depth));
     levels_.push_back({insert(std::move(empty)), std::move(pointer)});
     return true;
   }
@@ -167,6 +168,16 @@ std::string printable(std::string_view text)
   return escaped.substr(1, escaped.size() - 2);
 }
 
+std::string json_number(const std::string& word)
+{
+  static const std::regex number(R"(([+-]?)(\d*)(?:\.(\d*))?([eE][+-]?\d+)?)");
+  constexpr std::size_t longest = 64; // of a number that somebody types
+  std::smatch parts;
+  if (word.size() > longest || !std::regex_match(word, parts, number) || parts.length(2) + parts.length(3) == 0) return word;
+  return fmt::format("{}{}{}{}{}", parts[1] == "-" ? "-" : "", parts.length(2) > 0 ? parts.str(2) : "0", parts.length(3) > 0 ? "." : "",
+                     parts.str(3), parts.str(4));
+}
+
 } // namespace
 
 Json parse_json(std::string_view text, const std::string& source)
@@ -174,6 +185,27 @@ Json parse_json(std::string_view text, const std::string& source)
   Builder builder(text, source);
   Json::sax_parse(text, &builder);
   return builder.take();
+}
+
+std::string with_json_numbers(std::string_view text)
+{
+  constexpr std::string_view between = " \t\r\n,:[]{}";
+  std::string all;
+  while (!text.empty()) {
+    std::size_t size = 1;
+    if (text.front() == '"') {
+      while (size < text.size() && text[size] != '"') size += text[size] == '\\' ? 2 : 1;
+      size = std::min(size + 1, text.size());
+      all += text.substr(0, size);
+    } else if (between.find(text.front()) != std::string_view::npos) {
+      all += text.front();
+    } else {
+      size = std::min(text.find_first_of(between), text.size());
+      all += json_number(std::string(text.substr(0, size)));
+    }
+    text.remove_prefix(size);
+  }
+  return all;
 }
 
 bool is_utf8(std::string_view text)

@@ -19,6 +19,9 @@ inline constexpr std::size_t max_keys = 1000;
 /// SOURCE:LINE:COLUMN; a key given twice, too many keys or too deep nesting at SOURCE#/pointer.
 Json parse_json(std::string_view text, const std::string& source);
 
+/// The text with numbers as people type them (".02", "+3", "5.") as JSON writes them ("0.02", "3", "5"); all else, strings too, as it is.
+std::string with_json_numbers(std::string_view text);
+
 bool is_utf8(std::string_view text);
 
 /// Indented by two; lists of plain values and of pairs of numbers stay on one line each. Numbers read back exactly.

@@ -17,10 +17,13 @@ Origins::Shared Origins::shared_at(const std::string& pointer) const
   }
 }
 
-std::string Origins::where(const std::string& pointer) const
+Place Origins::where(const std::string& pointer) const
 {
   const Origin& from = at(pointer);
-  return from.is_file ? from.name + "#" + pointer : from.name;
+  Place place = from.place;
+  if (from.is_file) place.pointer = pointer;
+  place.field = pointer;
+  return place;
 }
 
 void Origins::set_whole(const std::string& pointer, Shared origin)
@@ -36,38 +39,37 @@ void Origins::set_whole(const std::string& pointer, Shared origin)
 void set_origin(Preset& preset, const std::string& pointer, const std::string& name)
 {
   const Origins* before = preset.provenance.origins.get();
-  auto origins = before ? std::make_shared<Origins>(*before) : std::make_shared<Origins>(Origin{.name = preset.source, .folder = {}});
-  origins->set_whole(pointer, std::make_shared<const Origin>(Origin{.name = name, .is_file = false, .folder = {}, .is_typed = true}));
+  auto origins = before ? std::make_shared<Origins>(*before) : std::make_shared<Origins>(Origin{.place = preset.source, .folder = {}});
+  origins->set_whole(pointer, std::make_shared<const Origin>(Origin{.place = name, .is_file = false, .folder = {}, .is_typed = true}));
   preset.provenance.origins = std::move(origins);
 }
 
 namespace {
 
-/// Of the value that the error is about; empty where it is about no value of the preset as it was read.
-std::string pointer_of(const Preset& preset, const Error& error)
-{
-  const Origins* origins = preset.provenance.origins.get();
-  const std::string file = preset.source + "#";
-  const bool is_known = origins && origins->main().name == preset.source && error.where().starts_with(file + "/");
-  return is_known ? error.where().substr(file.size()) : std::string();
-}
+/// Whether the preset is still the one that its origins tell of.
+bool is_as_read(const Preset& preset) { return preset.provenance.origins && preset.provenance.origins->main().place.name == preset.source; }
 
 Error at_origin(const Origins& origins, const std::string& pointer, const Error& error)
 {
-  const std::string where = origins.where(pointer);
+  const Place where = origins.where(pointer);
   const auto* missing = dynamic_cast<const FileNotFound*>(&error);
   if (missing && origins.at(pointer).is_typed) return FileNotFound(where, missing->name(), "the current folder, " + missing->looked_in());
   return error.at(where);
 }
 
 /// At an item of the sweep's list, which says already what runs it is about.
-bool is_at_swept_value(const Error& error) { return error.where().find("#/sweep/") != std::string::npos; }
+bool is_at_swept_value(const Error& error) { return error.place().pointer.value_or("").starts_with("/sweep/"); }
 
 } // namespace
 
+std::string field_of(const Preset& preset, const Place& place)
+{
+  return place.field.empty() && place.name == preset.source ? place.pointer.value_or("") : place.field;
+}
+
 void rethrow_at_origin(const Preset& preset, const Error& error)
 {
-  const std::string pointer = pointer_of(preset, error), &run = preset.provenance.run;
+  const std::string pointer = is_as_read(preset) ? field_of(preset, error.place()) : std::string(), &run = preset.provenance.run;
   if (pointer.empty() && run.empty()) throw;
   const Error told = pointer.empty() ? error : at_origin(*preset.provenance.origins, pointer, error);
   // A missing device is missing for every run, and what is interrupted names the run's folder.

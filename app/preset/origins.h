@@ -14,8 +14,8 @@ namespace nephroid::preset {
 
 /// Who gave a value: a file, or something in it or on the command line that has a name of its own.
 struct Origin {
-  std::string name;             ///< "FILE" or "--set a.b=c" or "FILE#/sweep/seed/0"
-  bool is_file = true;          ///< then "#/pointer" follows
+  Place place;                  ///< the file, or "--set a.b=c", or FILE#/sweep/seed/0
+  bool is_file = true;          ///< then the value is at its own pointer in it
   std::filesystem::path folder; ///< where the file names in the value are looked up first
   bool is_typed = false;        ///< on a command line: file names are looked up in the current folder before that
 };
@@ -29,8 +29,8 @@ public:
   const Origin& main() const { return *main_; }
   /// Who gave the value at pointer.
   const Origin& at(const std::string& pointer) const { return *shared_at(pointer); }
-  /// For messages: "FILE#/pointer" or "--set a.b=c".
-  std::string where(const std::string& pointer) const;
+  /// For messages: FILE#/pointer or "--set a.b=c"; its Place::field is the pointer.
+  Place where(const std::string& pointer) const;
 
   using Shared = std::shared_ptr<const Origin>;
   Shared shared_at(const std::string& pointer) const;
@@ -50,7 +50,10 @@ private:
 /// For a value that was changed after the preset was read: its giver is now called `name`, an option of the command line for instance.
 void set_origin(Preset& preset, const std::string& pointer, const std::string& name);
 
-/// Throws the error that is being caught as a person can use it: one at preset.source#/pointer stands at who gave the value there (unless
+/// JSON pointer of the preset's field that an error at this place is about, whoever gave its value; empty where it is about none.
+std::string field_of(const Preset& preset, const Place& place);
+
+/// Throws the error that is being caught as a person can use it: one at a value of preset.source stands at who gave the value there (unless
 /// the preset has been saved as another file since it was read), and one about a run of a sweep says which run it is, unless it stands at
 /// one of the swept values.
 [[noreturn]] void rethrow_at_origin(const Preset& preset, const Error& error);

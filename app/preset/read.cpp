@@ -18,7 +18,7 @@ std::string base_name(const Document& document)
 {
   const auto own = document.value().find("name");
   const bool is_named = own != document.value().end() && own->is_string();
-  return is_named ? own->get<std::string>() : std::filesystem::path(document.origins().main().name).stem().string();
+  return is_named ? own->get<std::string>() : std::filesystem::path(document.origins().main().place.name).stem().string();
 }
 
 /// Every field of the preset but `source`.
@@ -39,7 +39,7 @@ Preset finish(const SweptDocument& run)
   return at_origins(unread, [&] {
     Preset preset = read_fields(document);
     preset.name = name;
-    preset.source = document.origins().main().name;
+    preset.source = document.origins().main().place.name;
     preset.provenance = provenance;
     check(preset, [&](const std::string& pointer) { return document.where(pointer); });
     return preset;
@@ -55,7 +55,7 @@ std::vector<SweptDocument> runs_of(Document document, const Overrides& overrides
 const SweptDocument& only(const std::vector<SweptDocument>& runs)
 {
   if (runs.size() != 1)
-    throw bad_input(runs.front().document.origins().main().name + "#/sweep", fmt::format("gives {} runs", runs.size()),
+    throw bad_input(runs.front().document.origins().main().place / "sweep", fmt::format("gives {} runs", runs.size()),
                     "one preset is wanted here", "fix the swept keys by --set, or --set sweep=null");
   return runs.front();
 }

@@ -121,7 +121,7 @@ private:
     const Keys keys = keys_of(s);
     for (const auto& [key, value] : object_.items()) {
       if (keys.hold(key)) continue;
-      const std::string where = document_.where(child(pointer_, key));
+      const Place where = document_.where(child(pointer_, key));
       if constexpr (Variant<S>) refuse_of_other_type(where, key, s);
       if constexpr (Is<S, Preset>)
         if (is_engine(key)) refuse_of_other_engine(key, keys.engine_name);
@@ -131,7 +131,7 @@ private:
   }
 
   template <Variant S>
-  static void refuse_of_other_type(const std::string& where, const std::string& key, S& s)
+  static void refuse_of_other_type(const Place& where, const std::string& key, S& s)
   {
     std::string others;
     for_each_type<S>([&](const auto& choice, S& other) {

@@ -16,7 +16,7 @@
 namespace nephroid::preset {
 
 /// Where a JSON pointer's value came from, for messages.
-using Where = std::function<std::string(const std::string& pointer)>;
+using Where = std::function<Place(const std::string& pointer)>;
 
 struct SettingsType {
   std::string_view name;     ///< of the engine: the word in "engine" and the key of the section

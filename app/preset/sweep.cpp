@@ -17,7 +17,7 @@ struct Axis {
   Json values;
   std::vector<std::string> labels;
   Origin origin;
-  std::string where; ///< for messages
+  Place where; ///< for messages
 };
 
 bool starts_with(const std::vector<std::string>& path, const std::vector<std::string>& start)
@@ -91,7 +91,7 @@ void append_suffix(std::string& suffix, const Axis& axis, const std::vector<Axis
 
 std::vector<Axis> read_axes(Document& document, const std::vector<std::string>& overrides)
 {
-  const std::string where = document.where("/sweep");
+  const Place where = document.where("/sweep");
   const Json sweep = document.take("sweep");
   if (sweep.is_null()) return {};
   if (!sweep.is_object()) throw bad_input(where, "is " + shown(sweep), "expected an object of lists, for instance {\"seed\": [1, 2]}");
@@ -110,7 +110,7 @@ std::vector<Axis> read_axes(Document& document, const std::vector<std::string>& 
 Origin origin_of_value(const Axis& axis, std::size_t index)
 {
   Origin origin = axis.origin;
-  if (origin.is_file) origin.name = fmt::format("{}/{}", axis.where, index);
+  if (origin.is_file) origin.place = axis.where / index;
   origin.is_file = false;
   return origin;
 }

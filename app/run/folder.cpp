@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "plan/plan.h"
 #include "preset/read.h"
+#include "run/pictures_at.h"
 #include "run/run.h"
 
 #include <nlohmann/json.hpp>
@@ -70,6 +71,7 @@ void begin_run(const fs::path& folder, const Prepared& prepared)
     std::error_code ignored;
     fs::remove(folder / name, ignored);
   }
+  remove_pictures_after(folder, -1);
   write_settings(folder, prepared);
 }
 

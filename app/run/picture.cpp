@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/picture.h"
 
+#include "base/build_info.h"
+#include "preset/read.h"
+
 namespace nephroid::run {
 
 image::Image with_layers(const job::Picture& picture)
@@ -20,6 +23,18 @@ image::Image with_layers(const job::Picture& picture)
   for (std::size_t pixel = 0; pixel < pixels; ++pixel)
     for (const float* source : sources) image.data.insert(image.data.end(), source + 3 * pixel, source + 3 * pixel + 3);
   return image;
+}
+
+void write_picture(const std::filesystem::path& stem, const preset::Preset& preset, const compute::DeviceInfo& device,
+                   const job::Picture& picture)
+{
+  image::Image exr = with_layers(picture);
+  exr.attributes = {{"nephroid:preset", preset::to_json(preset, stem.parent_path())},
+                    {"nephroid:seed", std::to_string(preset.seed)},
+                    {"nephroid:device", device.name},
+                    {"nephroid:version", version()}};
+  image::write_exr(stem.string() + ".exr", exr);
+  image::write_png(stem.string() + ".png", picture.width, picture.height, picture.rgb);
 }
 
 } // namespace nephroid::run

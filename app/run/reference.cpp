@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* first_channels[] = {"first_seed.R", "first_seed.G", "first_seed.B"};
 
-std::string pointer(const Prepared& prepared, const char* field) { return prepared.preset.source + "#/reference" + field; }
+Place place(const Prepared& prepared, const char* field) { return Place(prepared.preset.source) / "reference" / field; }
 
 /// The preset of one seed of the recipe.
 preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
@@ -112,7 +112,7 @@ std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, c
                     "expected another seed", "run with another --seed");
   if (const auto& mask = prepared.preset.measure.mask) {
     const FileFinder finder(fs::path(prepared.preset.source).parent_path());
-    reference.mask = measure::read_mask(finder.find(*mask, prepared.preset.source + "#/measure/mask"), width, height);
+    reference.mask = measure::read_mask(finder.find(*mask, Place(prepared.preset.source) / "measure" / "mask"), width, height);
   }
   if (const std::vector<float> first = first_seed_of(image::read_image(file)); !first.empty()) {
     reference.noise_floor = noise_floor(reference, first, {}, prepared.preset.measure.perceptual);
@@ -153,7 +153,7 @@ private:
     const auto& limit = prepared.preset.reference->seconds;
     const double expected = now.fraction > 0 ? 2 * now.work_seconds / now.fraction : 0;
     if (!limit || now.work_seconds < 0.5 || expected <= *limit) return;
-    throw failed(pointer(prepared, "/seconds"), fmt::format("making the reference would take about {:.0f} s", expected),
+    throw failed(place(prepared, "seconds"), fmt::format("making the reference would take about {:.0f} s", expected),
                  fmt::format("{} s are allowed", *limit), "allow more, lower reference.passes, or name a file");
   }
 
@@ -192,14 +192,14 @@ std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepare
 {
   if (!prepared.preset.reference) {
     if (prepared.preset.measure.mask)
-      throw bad_input(prepared.preset.source + "#/measure/mask", "there is no reference to compare the mask's pixels with",
+      throw bad_input(Place(prepared.preset.source) / "measure" / "mask", "there is no reference to compare the mask's pixels with",
                       "expected a 'reference'");
     return nullptr;
   }
   const preset::Reference& reference = *prepared.preset.reference;
   if (reference.type == preset::Reference::Type::file) {
     const FileFinder finder(fs::path(prepared.preset.source).parent_path());
-    return read_reference(finder.find(reference.file, pointer(prepared, "/file")), prepared);
+    return read_reference(finder.find(reference.file, place(prepared, "file")), prepared);
   }
   const fs::path file = cache_file(prepared, context);
   if (!is_there(file)) return nullptr;

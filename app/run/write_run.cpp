@@ -4,12 +4,11 @@
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/json_output.h"
-#include "image/image.h"
 #include "measure/history_file.h"
 #include "plan/plan.h"
-#include "preset/read.h"
 #include "report/report.h"
 #include "run/picture.h"
+#include "run/pictures_at.h"
 #include "run/run.h"
 
 #include <fmt/format.h>
@@ -24,15 +23,6 @@ namespace nephroid::run {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::map<std::string, std::string> attributes(const preset::Preset& preset, const std::filesystem::path& folder,
-                                              const compute::DeviceInfo& device)
-{
-  return {{"nephroid:preset", preset::to_json(preset, folder)},
-          {"nephroid:seed", std::to_string(preset.seed)},
-          {"nephroid:device", device.name},
-          {"nephroid:version", version()}};
-}
 
 /// {"GROUP": {"NAME": value}}; whole numbers as such, what is no number as null.
 void add_scalars(Json& run, const std::vector<job::Scalar>& scalars)
@@ -56,14 +46,6 @@ Json device_json(const compute::DeviceInfo& device)
           {"driver", device.driver}, {"version", device.version}, {"compute_units", device.compute_units}};
 }
 
-/// The values of a row by column; what is undefined is null.
-Json by_column(const std::vector<std::string>& columns, const std::vector<double>& values)
-{
-  Json all = Json::object();
-  for (std::size_t i = 0; i < columns.size() && i < values.size(); ++i) all[columns[i]] = std::isnan(values[i]) ? Json() : Json(values[i]);
-  return all;
-}
-
 /// The run's error: contract.md's "errors", with what they were measured against and what the measuring cost.
 void add_errors(Json& run, const job::History& history, const measure::Reference* reference)
 {
@@ -80,7 +62,7 @@ void add_errors(Json& run, const job::History& history, const measure::Reference
 }
 
 std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device, const job::Snapshot& snapshot,
-                     const measure::Reference* reference, bool finished)
+                     const measure::Reference* reference, const Json& pictures, bool finished)
 {
   const job::Progress& progress = snapshot.progress;
   Json phases = Json::object();
@@ -101,6 +83,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
            {"notes", prepared.plan->notes}};
   add_scalars(all, snapshot.scalars);
   if (snapshot.history) add_errors(all, *snapshot.history, reference);
+  if (!pictures.empty()) all["pictures"] = pictures;
   return json_text(all, 2) + "\n";
 }
 
@@ -122,19 +105,14 @@ void write_run(const std::filesystem::path& folder, const Prepared& prepared, co
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message());
-  const auto write_picture = [&](const std::string& name, const job::Picture& picture) {
-    image::Image exr = with_layers(picture);
-    exr.attributes = attributes(prepared.preset, folder, device);
-    image::write_exr(folder / (name + ".exr"), exr);
-    image::write_png(folder / (name + ".png"), picture.width, picture.height, picture.rgb);
-  };
-  write_picture("image", *snapshot.picture);
-  for (const job::NamedPicture& further : snapshot.pictures) write_picture(further.name, *further.picture);
+  write_picture(folder / "image", prepared.preset, device, *snapshot.picture);
+  for (const job::NamedPicture& further : snapshot.pictures) write_picture(folder / further.name, prepared.preset, device, *further.picture);
   for (const job::Curve& curve : snapshot.curves) write_file_whole(folder / (curve.name + ".csv"), to_csv(curve));
   for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / file.name, *file.bytes);
   if (snapshot.history) write_history(folder, *snapshot.history);
   write_settings(folder, prepared);
-  write_file_whole(folder / "run.json", run_json(prepared, device, snapshot, reference, finished)); // last: its "finished" speaks for all
+  write_file_whole(folder / "run.json",
+                   run_json(prepared, device, snapshot, reference, pictures_at(folder), finished)); // last: its "finished" speaks for all
 }
 
 } // namespace nephroid::run

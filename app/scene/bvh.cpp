@@ -81,7 +81,7 @@ void check_triangle(const Mesh& mesh, std::size_t index)
 {
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t vertex = mesh.triangles[index][i];
-    const std::string where = fmt::format("triangle {}", index);
+    const Place where = fmt::format("triangle {}", index);
     if (vertex >= mesh.positions.size()) throw bad_input(where, fmt::format("has vertex {}, of {}", vertex, mesh.positions.size()));
     const glm::vec3& p = mesh.positions[vertex];
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) throw bad_input(where, "has a vertex that is not finite");

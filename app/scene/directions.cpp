@@ -10,7 +10,7 @@
 
 namespace nephroid::scene {
 
-glm::dvec3 unit_direction(const glm::dvec3& v, const std::string& where)
+glm::dvec3 unit_direction(const glm::dvec3& v, const Place& where)
 {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   const bool finite = std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -19,7 +19,7 @@ glm::dvec3 unit_direction(const glm::dvec3& v, const std::string& where)
   return glm::normalize(v / largest); // so that no square overflows or vanishes
 }
 
-glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, const std::string& where)
+glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, const Place& where)
 {
   const glm::dvec3 unit_up = unit_direction(to_dvec3(up), where);
   const glm::dvec3 rest = unit_up - glm::dot(unit_up, forward) * forward;
@@ -29,7 +29,7 @@ glm::dvec3 perpendicular_up(const preset::Vec3& up, const glm::dvec3& forward, c
   return glm::normalize(rest);
 }
 
-glm::dvec3 local_position(const preset::Vec3& position, const Scene& scene, const std::string& where)
+glm::dvec3 local_position(const preset::Vec3& position, const Scene& scene, const Place& where)
 {
   const glm::dvec3 local = to_dvec3(position) - scene.origin;
   for (int axis = 0; axis < 3; ++axis)

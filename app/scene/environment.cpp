@@ -20,7 +20,7 @@ constexpr std::size_t most_texels = std::size_t{1} << 27;
 
 const char* fault_of(float value) { return std::isnan(value) ? "is not a number" : std::isinf(value) ? "is infinite" : "is negative"; }
 
-void check_texels(const std::vector<float>& rgb, int width, const std::string& file)
+void check_texels(const std::vector<float>& rgb, int width, const Place& file)
 {
   const auto bad = std::find_if(rgb.begin(), rgb.end(), [](float value) { return !(value >= 0 && std::isfinite(value)); });
   if (bad == rgb.end()) return;
@@ -62,7 +62,7 @@ Environment read_environment(const std::filesystem::path& file, std::vector<std:
   result.width = picture.width;
   result.height = picture.height;
   result.rgb = image::rgb_of(picture, file.string()).values;
-  check_texels(result.rgb, result.width, file.string());
+  check_texels(result.rgb, result.width, file);
   if (picture.integers)
     for (float& value : result.rgb) value = static_cast<float>(image::decoded_srgb(value));
   check_range(result.rgb, file.filename().string(), warnings);
@@ -80,21 +80,21 @@ bool Environment::is_black() const
   return !(radiance > 0) || std::all_of(rgb.begin(), rgb.end(), [](float value) { return value == 0; });
 }
 
-Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const std::string& where,
+Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Place& where,
                              std::vector<std::string>& warnings)
 {
   Environment result;
   if (environment.type == preset::Environment::Type::file) {
-    result = read_environment(finder.find(environment.file, where + "/file"), warnings);
+    result = read_environment(finder.find(environment.file, where / "file"), warnings);
     result.rotate_deg = environment.rotate_deg;
   } else {
     result.width = result.height = 1;
     for (const double value : environment.colour) result.rgb.push_back(static_cast<float>(value));
-    check_texels(result.rgb, 1, where + "/colour");
+    check_texels(result.rgb, 1, where / "colour");
   }
   result.radiance = environment.radiance;
   if (!(result.radiance >= 0 && std::isfinite(result.radiance)))
-    throw bad_input(where + "/radiance", fmt::format("the radiance is {}", result.radiance), "0 or more");
+    throw bad_input(where / "radiance", fmt::format("the radiance is {}", result.radiance), "0 or more");
   return result;
 }
 

@@ -12,49 +12,49 @@
 namespace nephroid::scene {
 namespace {
 
-void require(bool good, const std::string& where, const std::string& what, double value, const char* expected)
+void require(bool good, const Place& where, const std::string& what, double value, const char* expected)
 {
   if (!good) throw bad_input(where, fmt::format("the {} is {}", what, value), expected);
 }
 
 /// Edges of the rectangle, edge_v along up, so that edge_u x edge_v points along direction.
-void set_edges(const preset::Light& light, const glm::dvec3& direction, const std::string& where, Light& result)
+void set_edges(const preset::Light& light, const glm::dvec3& direction, const Place& where, Light& result)
 {
   for (int i = 0; i < 2; ++i)
-    require(light.size[i] > 0 && light.size[i] <= max_coordinate, fmt::format("{}/size/{}", where, i), "edge length", light.size[i],
+    require(light.size[i] > 0 && light.size[i] <= max_coordinate, where / "size" / i, "edge length", light.size[i],
             "a length greater than 0");
-  const glm::dvec3 up = perpendicular_up(light.up, direction, where + "/up");
+  const glm::dvec3 up = perpendicular_up(light.up, direction, where / "up");
   result.edge_u = light.size[0] * glm::cross(up, direction);
   result.edge_v = light.size[1] * up;
 }
 
 } // namespace
 
-Light make_light(const preset::Light& light, const Scene& scene, const std::string& where)
+Light make_light(const preset::Light& light, const Scene& scene, const Place& where)
 {
   using Type = preset::Light::Type;
   Light result;
   result.type = light.type;
-  result.spectrum = make_light_spectrum(light.spectrum, where + "/spectrum");
+  result.spectrum = make_light_spectrum(light.spectrum, where / "spectrum");
   if (light.type != Type::point) {
-    const glm::dvec3 direction = unit_direction(to_dvec3(light.direction), where + "/direction");
+    const glm::dvec3 direction = unit_direction(to_dvec3(light.direction), where / "direction");
     result.direction = direction;
     if (light.type == Type::area) set_edges(light, direction, where, result);
   }
   if (light.type == Type::spot) {
-    require(light.half_angle_deg > 0 && light.half_angle_deg <= 180, where + "/half_angle_deg", "half angle", light.half_angle_deg,
+    require(light.half_angle_deg > 0 && light.half_angle_deg <= 180, where / "half_angle_deg", "half angle", light.half_angle_deg,
             "more than 0, at most 180 degrees");
     result.cos_half_angle = std::cos(light.half_angle_deg * std::numbers::pi / 180);
   }
   if (light.type == Type::directional) {
-    require(light.irradiance_w_m2 >= 0 && std::isfinite(light.irradiance_w_m2), where + "/irradiance_w_m2", "irradiance",
+    require(light.irradiance_w_m2 >= 0 && std::isfinite(light.irradiance_w_m2), where / "irradiance_w_m2", "irradiance",
             light.irradiance_w_m2, "0 or more");
     result.irradiance_w_m2 = light.irradiance_w_m2;
     return result; // comes from far away: inside nothing
   }
-  require(light.power_w >= 0 && std::isfinite(light.power_w), where + "/power_w", "power", light.power_w, "0 or more");
+  require(light.power_w >= 0 && std::isfinite(light.power_w), where / "power_w", "power", light.power_w, "0 or more");
   result.power_w = light.power_w;
-  const glm::dvec3 position = local_position(light.position, scene, where + "/position");
+  const glm::dvec3 position = local_position(light.position, scene, where / "position");
   result.position = position;
   result.inside = dielectrics_around(scene, position);
   return result;

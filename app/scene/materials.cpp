@@ -17,12 +17,12 @@ namespace {
 
 /// What optics throws names a curve or a file; the person needs the preset's field as well.
 template <class Make>
-auto at(const std::string& where, const Make& make)
+auto at(const Place& where, const Make& make)
 {
   try {
     return make();
   } catch (const Error& error) {
-    if (error.where() == where) throw;
+    if (error.place() == where) throw;
     throw Error(error.kind(), where, error.line());
   }
 }
@@ -44,7 +44,7 @@ std::optional<std::filesystem::path> shipped_material(const std::string& name)
 
 /// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name ("N-SF66"), which means
 /// the same from every folder.
-std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const std::string& where)
+std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where)
 {
   try {
     return finder.find(name, where);
@@ -71,7 +71,7 @@ optics::Outside outside_policy(preset::Outside outside)
   return optics::Outside::automatic;
 }
 
-optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const std::string& where)
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where)
 {
   using Type = preset::Dispersion::Type;
   return at(where, [&] {
@@ -93,7 +93,7 @@ optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const F
   });
 }
 
-optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const std::string& where)
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Place& where)
 {
   using Type = preset::LightSpectrum::Type;
   return at(where, [&] {
@@ -111,7 +111,7 @@ optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, cons
   });
 }
 
-optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const std::string& where)
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Place& where)
 {
   using Type = preset::Reflectance::Type;
   return at(where, [&] {
@@ -129,7 +129,7 @@ optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const 
   });
 }
 
-Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder, const std::string& where,
+Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder, const Place& where,
                        std::vector<std::string>& warnings)
 {
   Material result;
@@ -137,11 +137,11 @@ Material make_material(const std::string& name, const preset::Material& material
   if (material.type != preset::Material::Type::dielectric) {
     const bool mirror = material.type == preset::Material::Type::mirror;
     result.type = mirror ? Material::Type::mirror : Material::Type::diffuse;
-    result.reflectance = make_reflectance(material.reflectance, where + "/reflectance");
+    result.reflectance = make_reflectance(material.reflectance, where / "reflectance");
     return result;
   }
   result.type = Material::Type::dielectric;
-  const std::string field = where + "/dispersion";
+  const Place field = where / "dispersion";
   const optics::DispersionCurve curve = make_curve(material.dispersion, finder, field);
   const optics::Outside outside = outside_policy(material.dispersion.outside);
   at(field, [&] {

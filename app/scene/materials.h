@@ -16,13 +16,13 @@ namespace nephroid::scene {
 optics::Outside outside_policy(preset::Outside outside);
 
 /// where (all four): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
-optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const std::string& where);
+optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where);
 /// Sums to 1.
-optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const std::string& where);
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Place& where);
 /// Each value in 0..1.
-optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const std::string& where);
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Place& where);
 /// where: the material's. Adds a warning where n is wanted outside the data's range.
-Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder, const std::string& where,
+Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder, const Place& where,
                        std::vector<std::string>& warnings);
 
 } // namespace nephroid::scene

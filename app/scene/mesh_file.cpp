@@ -92,7 +92,7 @@ std::string reason_of_death(int status, unsigned cpu_seconds)
 
 Mesh load_mesh(const std::filesystem::path& file)
 {
-  const std::string where = file.string();
+  const Place where = file.string();
   std::size_t size = 0;
   {
     const std::string bytes = read_file(file);

@@ -48,7 +48,7 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   return result;
 }
 
-void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const std::string& where, Placed& placed)
+void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const Place& where, Placed& placed)
 {
   const Bounds bounds = placed_bounds(mesh, placement, where);
   const glm::dvec3 low = bounds.low - origin, high = bounds.high - origin;
@@ -71,7 +71,7 @@ void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3
 
 /// Rays start some 2^-21 of a triangle's coordinates off it (kernels/tracing/surface.h): glass thinner than that would be stepped over, and
 /// light go on inside it for ever. Twice the volume over the area is the thickness of a plate or a shell.
-void check_thickness(const Mesh& mesh, double volume, const std::string& where)
+void check_thickness(const Mesh& mesh, double volume, const Place& where)
 {
   double area = 0, largest = 0;
   for (const glm::uvec3& triangle : mesh.triangles) {
@@ -111,7 +111,7 @@ void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
 
 } // namespace
 
-Placement make_placement(const preset::Transform& transform, const std::string& where)
+Placement make_placement(const preset::Transform& transform, const Place& where)
 {
   Placement placement;
   glm::dmat3 scale(1);
@@ -119,9 +119,9 @@ Placement make_placement(const preset::Transform& transform, const std::string& 
     const auto i = static_cast<std::size_t>(axis);
     const double factor = transform.scale[i];
     if (factor == 0 || !std::isfinite(factor))
-      throw bad_input(fmt::format("{}/scale/{}", where, axis), fmt::format("the factor is {}", factor), "a number other than 0");
-    if (!std::isfinite(transform.rotate_deg[i])) throw bad_input(fmt::format("{}/rotate_deg/{}", where, axis), "is not a finite number");
-    if (!std::isfinite(transform.translate[i])) throw bad_input(fmt::format("{}/translate/{}", where, axis), "is not a finite number");
+      throw bad_input(where / "scale" / axis, fmt::format("the factor is {}", factor), "a number other than 0");
+    if (!std::isfinite(transform.rotate_deg[i])) throw bad_input(where / "rotate_deg" / axis, "is not a finite number");
+    if (!std::isfinite(transform.translate[i])) throw bad_input(where / "translate" / axis, "is not a finite number");
     scale[axis][axis] = factor;
     placement.offset[axis] = transform.translate[i];
   }
@@ -129,7 +129,7 @@ Placement make_placement(const preset::Transform& transform, const std::string& 
   return placement;
 }
 
-Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const std::string& where)
+Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& where)
 {
   Bounds bounds;
   for (const glm::uvec3& triangle : mesh.triangles) {
@@ -144,7 +144,7 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const std::st
   return bounds;
 }
 
-Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const std::string& where)
+Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const Place& where)
 {
   Placed placed;
   check_extent(mesh, placement, origin, where, placed);

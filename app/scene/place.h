@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One object's mesh into the scene: transformed in double, moved to the scene's origin, rounded once, then checked. Private to scene/.
 #pragma once
+#include "base/place.h"
 #include "preset/preset.h"
 #include "scene/corners.h"
 #include "scene/scene.h"
@@ -33,12 +34,12 @@ struct Placed {
 };
 
 /// Throws bad_input at where/scale for a factor of 0, and where a number is not finite.
-Placement make_placement(const preset::Transform& transform, const std::string& where);
+Placement make_placement(const preset::Transform& transform, const Place& where);
 /// In the preset's coordinates. Throws bad_input at where: they leave single precision.
-Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const std::string& where);
+Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& where);
 
 /// origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation matter then.
 /// Throws bad_input at where: too large, too small or too far away for single precision.
-Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const std::string& where);
+Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const Place& where);
 
 } // namespace nephroid::scene

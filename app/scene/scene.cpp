@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/json_pointer.h"
 #include "base/nearest.h"
 #include "scene/directions.h"
 #include "scene/materials.h"
@@ -25,7 +24,7 @@
 namespace nephroid::scene {
 namespace {
 
-int find_material(const Scene& scene, const std::string& name, const std::string& where)
+int find_material(const Scene& scene, const std::string& name, const Place& where)
 {
   std::vector<std::string> known;
   for (const Material& material : scene.materials) known.push_back(material.name);
@@ -37,15 +36,14 @@ int find_material(const Scene& scene, const std::string& name, const std::string
                   near.empty() ? "" : fmt::format("did you mean '{}'?", near));
 }
 
-void check_names(const std::vector<preset::Object>& objects, const std::string& where)
+void check_names(const std::vector<preset::Object>& objects, const Place& where)
 {
   std::map<std::string, std::size_t> first;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].name.empty()) continue;
     const auto [entry, added] = first.try_emplace(objects[i].name, i);
     if (!added)
-      throw bad_input(fmt::format("{}/{}/name", where, i), fmt::format("'{}' is also object {}", objects[i].name, entry->second),
-                      "a name of its own");
+      throw bad_input(where / i / "name", fmt::format("'{}' is also object {}", objects[i].name, entry->second), "a name of its own");
   }
 }
 
@@ -53,7 +51,7 @@ void check_names(const std::vector<preset::Object>& objects, const std::string& 
 class Meshes {
 public:
   explicit Meshes(const FileFinder& finder) : finder_(finder) {}
-  const Mesh& get(const std::string& name, const std::string& where)
+  const Mesh& get(const std::string& name, const Place& where)
   {
     const std::filesystem::path file = finder_.find(name, where);
     auto found = meshes_.find(file);
@@ -66,11 +64,11 @@ private:
   std::map<std::filesystem::path, Mesh> meshes_;
 };
 
-Mesh object_mesh(const preset::Object& object, Meshes& meshes, const std::string& where)
+Mesh object_mesh(const preset::Object& object, Meshes& meshes, const Place& where)
 {
   if (object.mesh.has_value() == object.shape.has_value())
     throw bad_input(where, object.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'", "exactly one of them");
-  return object.mesh ? meshes.get(*object.mesh, where + "/mesh") : make_shape(*object.shape, where + "/shape");
+  return object.mesh ? meshes.get(*object.mesh, where / "mesh") : make_shape(*object.shape, where / "shape");
 }
 
 /// An object on its way: still in its own coordinates.
@@ -78,7 +76,7 @@ struct Pending {
   Mesh mesh;
   Placement placement;
   int material = 0;
-  std::string where;
+  Place where;
 };
 
 /// The middle of what bends light, or of everything where nothing does.
@@ -107,7 +105,7 @@ void append(Scene& scene, const Mesh& mesh)
 
 /// damaged: what the preset wants done about it. Throws bad_input at the object where that is `refuse`.
 void tell_damages(Scene& scene, const std::vector<Damage>& damages, preset::Scene::DamagedMeshes damaged, const std::string& label,
-                  const std::string& where)
+                  const Place& where)
 {
   for (const Damage& damage : damages) {
     const std::string what = fmt::format("{}: {}", label, damage.what);
@@ -217,21 +215,21 @@ std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
 Scene load_scene(const preset::Preset& preset)
 {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
-  const std::string where = preset.source + "#/scene";
+  const Place where = Place(preset.source) / "scene";
   Scene scene;
   scene.source = preset.source;
   scene.metres_per_unit = preset::metres(preset.unit);
   for (const auto& [name, material] : preset.scene.materials)
-    scene.materials.push_back(make_material(name, material, finder, where + "/materials/" + pointer_key(name), scene.warnings));
+    scene.materials.push_back(make_material(name, material, finder, where / "materials" / name, scene.warnings));
 
-  check_names(preset.scene.objects, where + "/objects");
+  check_names(preset.scene.objects, where / "objects");
   Meshes meshes(finder);
   std::vector<Pending> pending;
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
     const preset::Object& object = preset.scene.objects[i];
-    const std::string object_where = fmt::format("{}/objects/{}", where, i);
-    const int material = find_material(scene, object.material, object_where + "/material");
-    const Placement placement = make_placement(object.transform, object_where + "/transform");
+    const Place object_where = where / "objects" / i;
+    const int material = find_material(scene, object.material, object_where / "material");
+    const Placement placement = make_placement(object.transform, object_where / "transform");
     pending.push_back({object_mesh(object, meshes, object_where), placement, material, object_where});
   }
   scene.origin = choose_origin(pending, scene, preset.scene.camera);
@@ -241,13 +239,13 @@ Scene load_scene(const preset::Preset& preset)
   }
   part_touching(scene);
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
-    scene.lights.push_back(make_light(preset.scene.lights[i], scene, fmt::format("{}/lights/{}", where, i)));
+    scene.lights.push_back(make_light(preset.scene.lights[i], scene, where / "lights" / i));
     warn_if_straddling(scene, scene.lights.back(), i);
     warn_if_wide(scene, scene.lights.back(), i);
   }
   warn_of_faint_lights(scene);
   if (preset.scene.environment)
-    scene.environment = make_environment(*preset.scene.environment, finder, where + "/environment", scene.warnings);
+    scene.environment = make_environment(*preset.scene.environment, finder, where / "environment", scene.warnings);
   scene.camera = make_camera(preset.scene.camera, scene);
   return scene;
 }

@@ -3,6 +3,7 @@
 // Positions are in the preset's unit, moved so that the caustic objects are at the origin (see Scene::origin), which keeps
 // single precision good far from the preset's own origin.
 #pragma once
+#include "base/place.h"
 #include "optics/wavelength.h"
 #include "preset/preset.h"
 #include "scene/environment.h"
@@ -88,7 +89,7 @@ Scene load_scene(const preset::Preset& preset);
 Camera make_camera(const preset::Camera& camera, const Scene& scene);
 
 /// where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of range, unknown spectrum.
-Light make_light(const preset::Light& light, const Scene& scene, const std::string& where);
+Light make_light(const preset::Light& light, const Scene& scene, const Place& where);
 
 /// The dielectric objects that contain p (scene coordinates), largest volume first: where they are nested, outermost first.
 std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p);

@@ -129,12 +129,12 @@ Mesh make_sphere(double radius, int segments)
   return mesh;
 }
 
-void require(bool good, const std::string& where, const char* field, const std::string& value, const char* expected)
+void require(bool good, const Place& where, const char* field, const std::string& value, const char* expected)
 {
-  if (!good) throw bad_input(where + "/" + field, fmt::format("{} is out of range", value), expected);
+  if (!good) throw bad_input(where / field, fmt::format("{} is out of range", value), expected);
 }
 
-void check(const preset::Shape& shape, const std::string& where)
+void check(const preset::Shape& shape, const Place& where)
 {
   using Type = preset::Shape::Type;
   const auto length = [&](bool used, const char* field, double value) {
@@ -179,7 +179,7 @@ Mesh make_outward(const preset::Shape& shape)
 
 } // namespace
 
-Mesh make_shape(const preset::Shape& shape, const std::string& where)
+Mesh make_shape(const preset::Shape& shape, const Place& where)
 {
   check(shape, where);
   Mesh mesh = make_outward(shape);

@@ -2,6 +2,7 @@
 // Meshes that the program makes itself. Flat facets have vertices of their own, so their normals are exact; curved sides share
 // theirs.
 #pragma once
+#include "base/place.h"
 #include "preset/preset.h"
 #include "scene/mesh.h"
 
@@ -16,6 +17,6 @@ namespace nephroid::scene {
 /// prism: stands along y; the apex edge at +z, the third side at -z, facing -z.
 /// brilliant: the round brilliant cut, table up: 57 facets and 16 of the girdle (brilliant.cpp).
 /// Throws bad_input at where for sizes that are not positive, an apex angle outside 0..180, segments below 3 or too many.
-Mesh make_shape(const preset::Shape& shape, const std::string& where = "shape");
+Mesh make_shape(const preset::Shape& shape, const Place& where = "shape");
 
 } // namespace nephroid::scene

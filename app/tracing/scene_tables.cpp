@@ -21,7 +21,7 @@ using std::numbers::pi;
 shared::float4 to_float4(const glm::vec3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
 /// where: of the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
-shared::Media to_media(const std::vector<int>& inside, const std::string& where)
+shared::Media to_media(const std::vector<int>& inside, const Place& where)
 {
   if (inside.size() > MEDIA_DEPTH)
     throw bad_input(where, fmt::format("is inside {} dielectric objects", inside.size()),
@@ -32,7 +32,7 @@ shared::Media to_media(const std::vector<int>& inside, const std::string& where)
   return media;
 }
 
-shared::DeviceLight device_light(const scene::Light& light, double power_unit, const std::string& where)
+shared::DeviceLight device_light(const scene::Light& light, double power_unit, const Place& where)
 {
   shared::DeviceLight out{};
   out.position = to_float4(light.position);
@@ -44,11 +44,11 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
   out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
   out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
   out.radiometric = static_cast<float>((light.type == Type::directional ? light.irradiance_w_m2 : light.power_w) / power_unit);
-  out.inside = to_media(light.inside, where + "/position");
+  out.inside = to_media(light.inside, where / "position");
   return out;
 }
 
-shared::DeviceCamera device_camera(const scene::Camera& camera, const std::string& where)
+shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where)
 {
   shared::DeviceCamera out{};
   out.position = to_float4(camera.position);
@@ -59,7 +59,7 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const std::strin
   out.tan_y = static_cast<float>(camera.tan_y);
   out.width = camera.width;
   out.height = camera.height;
-  out.inside = to_media(camera.inside, where + "/position");
+  out.inside = to_media(camera.inside, where / "position");
   return out;
 }
 
@@ -93,7 +93,7 @@ void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, co
                SceneTables& tables)
 {
   const auto number = static_cast<int>(&light - scene.lights.data());
-  shared::DeviceLight out = device_light(light, tables.power_unit, fmt::format("{}#/scene/lights/{}", scene.source, number));
+  shared::DeviceLight out = device_light(light, tables.power_unit, Place(scene.source) / "scene" / "lights" / number);
   out.number = number;
   if (leave_out.unreached_targets) std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });
   set_targets(out, targets, tables);
@@ -131,7 +131,7 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   tables.spheres = scene_targets(leave_out, scene);
   for (const scene::Light* light : lights) add_light(*light, tables.spheres, scene, leave_out, tables);
   tables.light_towards_targets_w = std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
-  tables.camera = device_camera(scene.camera, scene.source + "#/scene/camera");
+  tables.camera = device_camera(scene.camera, Place(scene.source) / "scene" / "camera");
 
   tables.scene.material_count = static_cast<int>(scene.materials.size());
   tables.scene.light_count = static_cast<int>(tables.lights.size());

@@ -8,11 +8,13 @@
 #include "tests/support/json_lines.h"
 #include "tests/support/plate_runs.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sys/mount.h>
 
 namespace {
@@ -232,6 +234,80 @@ TEST_F(Runs, JsonLinesEndWithTheResult)
   EXPECT_EQ(all.back()["folder"], (scratch.path() / "a").string());
   for (const std::string name : all.back()["files"]) EXPECT_TRUE(fs::exists(scratch.path() / "a" / name));
   EXPECT_GE(all.back()["work_seconds"], 1.2);
+}
+
+TEST_F(Runs, SayOnATerminalThatTheyCompileKernels)
+{
+  const std::string command =
+      fmt::format("cd '{0}' && TERM=xterm POCL_CACHE_DIR='{0}/cache' script -qec \"'{1}' run spectral/plate --passes 1 -o a\" shown "
+                  ">/dev/null 2>&1 </dev/null",
+                  scratch.path().string(), NEPHROID_PROGRAM);
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_THAT(read_file(scratch.path() / "shown"), HasSubstr("\rplate  compiling kernels\033[K\r\033[K"));
+  EXPECT_EQ(run("b", {"--passes", "1"}).err, "") << "elsewhere it would be one line more to read";
+}
+
+TEST_F(Runs, LeavePicturesAtTheTimesThatWereAskedFor)
+{
+  const Ended ended = run("a", {"--seconds", "1", "--pictures-at", ".6,+2e-1,9,.2", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("no picture at 9 s"));
+  const json pictures = run_json("a").at("pictures");
+  ASSERT_EQ(pictures.size(), 2u);
+  std::vector<json> told;
+  for (const json& line : json_lines(ended.out))
+    if (line["type"] == "picture") told.push_back(line);
+  ASSERT_EQ(told.size(), 2u);
+  const auto history = nephroid::measure::read_history(file("a", "history.csv"));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json& made = pictures[i];
+    EXPECT_EQ(made["seconds"], i == 0 ? 0.2 : 0.6);
+    EXPECT_EQ(made["picture"], i == 0 ? "at-0000.2s.png" : "at-0000.6s.png");
+    EXPECT_EQ(told[i]["picture"], made["picture"]);
+    EXPECT_EQ(told[i]["errors"], made["errors"]);
+    EXPECT_TRUE(fs::exists(scratch.path() / "a" / made["picture"]));
+    const double when = made["work_seconds"];
+    EXPECT_GE(when, made["seconds"]);
+    EXPECT_LT(when, made["seconds"].get<double>() + 0.3) << "a step is short";
+    const auto row =
+        std::find_if(history.rows.begin(), history.rows.end(), [&](const auto& r) { return std::abs(r.seconds - when) < 1e-5; });
+    ASSERT_NE(row, history.rows.end()) << "its error is its own";
+    const double error = nephroid::job::error_in(history, *row, "estimated_lab_mean");
+    EXPECT_NEAR(made["errors"]["estimated_lab_mean"], error, 1e-4 * error);
+  }
+  EXPECT_LT(pictures[1]["errors"]["estimated_rel_l2"], pictures[0]["errors"]["estimated_rel_l2"]);
+  const auto early = nephroid::image::read_image(file("a", "at-0000.2s.exr")), last = nephroid::image::read_image(file("a", "image.exr"));
+  EXPECT_EQ(early.channels, last.channels);
+  EXPECT_NE(early.data, last.data);
+
+  EXPECT_EQ(run("a", {"--passes", "1"}).err, "");
+  EXPECT_FALSE(fs::exists(file("a", "at-0000.2s.png"))) << "another run's";
+  EXPECT_FALSE(fs::exists(file("a", "pictures.json")));
+}
+
+TEST_F(Runs, KeepTheirPicturesWhenTheyGoOn)
+{
+  ASSERT_EQ(run("a", {"--seconds", ".5", "--pictures-at", ".2"}).exit_code, 0);
+  const std::string before = read_file(file("a", "at-0000.2s.png"));
+  const Ended ended = run("a", {"--seconds", ".9", "--pictures-at", ".1,.2,.7", "--resume"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("0.1 s of work are past"));
+  EXPECT_THAT(ended.err, testing::Not(HasSubstr("0.2 s of work are past")));
+  EXPECT_THAT(ended.err, HasSubstr("at-0000.7s.png after 0.7 s of work, estimated_lab_mean "));
+  EXPECT_TRUE(read_file(file("a", "at-0000.2s.png")) == before);
+  ASSERT_EQ(run_json("a").at("pictures").size(), 2u);
+  EXPECT_EQ(run_json("a")["pictures"][0]["seconds"], 0.2);
+
+  // Killed after a picture and before the next checkpoint: the work is done again, and so is the picture.
+  json list = json::parse(read_file(file("a", "pictures.json")));
+  list[1]["work_seconds"] = 1000;
+  write_file_whole(file("a", "pictures.json"), list.dump());
+  ASSERT_EQ(run("a", {"--seconds", "1", "--resume"}).exit_code, 0);
+  EXPECT_EQ(run_json("a")["pictures"].size(), 1u);
+  EXPECT_FALSE(fs::exists(file("a", "at-0000.7s.png")));
+
+  write_file_whole(file("a", "pictures.json"), "[{}, 3");
+  EXPECT_EQ(run("a", {"--seconds", "1.1", "--resume"}).exit_code, 0) << "a damaged list is none";
 }
 
 TEST_F(Runs, BadOutputFoldersAreRefusedBeforeRendering)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // compute/: devices, buffers, programs from embedded and from edited sources, and what each failure says.
 #include "base/error.h"
+#include "compute/compiling.h"
 #include "compute/compute.h"
 #include "compute/embedded.h"
 #include "tests/support/child.h"
@@ -127,6 +128,16 @@ TEST_F(EditedKernels, RunWithIncludesDefinesAndRoundedSizes)
     program.kernel("fill").run(a.size(), 64, {{"a", a}, {"first", 4}, {"count", 100u}});
     EXPECT_EQ(a.read(), std::vector<int>(100, 8 + offset + 64));
   }
+}
+
+TEST_F(EditedKernels, SayWhenTheyAreCompiled)
+{
+  write("test.cl", "kernel void k(global int* a) { a[0] = VALUE; }\n");
+  const Context context = open();
+  int told = 0;
+  compute::tell_of_compiling(context, [&] { ++told; });
+  for (const char* value : {"1", "1", "2"}) Program(context, "test.cl", {{"VALUE", value}});
+  EXPECT_EQ(told, 2) << "not of the one that is built already";
 }
 
 TEST_F(EditedKernels, ErrorsNameTheFileAndLineThatIsWrong)

@@ -127,12 +127,13 @@ public:
     made_plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
     return {std::make_unique<FakeJob>(preset, *this), std::move(made_plan), reference};
   }
+  bool compiling() const override { return compiles; }
   bool take_changed() override { return changed.exchange(false); }
 
   plan::Plan plan;                                     ///< but for its notes; set before a run starts, as is
   std::shared_ptr<const measure::Reference> reference; ///< this
   std::atomic<int> made{0};
-  std::atomic<bool> changed{false}, broken{false}; ///< the kernels
+  std::atomic<bool> changed{false}, broken{false}, compiles{false}; ///< the kernels
 };
 
 } // namespace nephroid::test

@@ -127,6 +127,16 @@ TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
   EXPECT_EQ(runs.made, 1);
 }
 
+TEST_F(PanelsTest, TheStatusLineSaysWhatTheRunDoes)
+{
+  runs.steps = 100000;
+  EXPECT_STREQ(state_word(workbench), "no run");
+  open();
+  EXPECT_STREQ(state_word(workbench), "running");
+  runs.compiles = true;
+  EXPECT_STREQ(state_word(workbench), "compiling");
+}
+
 TEST_F(PanelsTest, EscapeCancelsAndF5StartsAgain)
 {
   runs.steps = 100000;

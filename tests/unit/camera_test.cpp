@@ -79,7 +79,7 @@ void expect_refused(const preset::Camera& camera, const char* field)
     FAIL() << field << " was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::bad_input);
-    EXPECT_EQ(error.where(), std::string("p.json#/scene/camera/") + field) << error.line();
+    EXPECT_EQ(error.place().text(), std::string("p.json#/scene/camera/") + field) << error.line();
   }
 }
 

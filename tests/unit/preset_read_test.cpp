@@ -76,6 +76,23 @@ TEST(PresetOverrides, ReachEveryKindOfValue)
   EXPECT_FALSE(parse(R"("stop":{"seconds":5})", {"stop.seconds=null"}).stop.seconds);
 }
 
+TEST(PresetOverrides, TakeNumbersAsPeopleTypeThem)
+{
+  const std::string some = R"("unit":"cm")";
+  const auto white = [&](const std::string& number) { return parse(some, {"white=" + number}).white; };
+  EXPECT_EQ(white(".02"), 0.02);
+  EXPECT_EQ(white("+3"), 3);
+  EXPECT_EQ(white("5."), 5);
+  EXPECT_EQ(white("+.5e+1"), 5);
+  EXPECT_EQ(white("1E-5"), 1e-5);
+  EXPECT_EQ(parse(some, {"seed=+7"}).seed, 7u);
+  EXPECT_EQ(parse(some, {"spectral.photons_per_pass=1e5"}).spectral.photons_per_pass, 100000);
+  const Preset p = parse(some, {"scene.camera.position=[.5,+1, -.25]", R"(description="[.5, +1]")", "name=.5 or +3"});
+  EXPECT_THAT(p.scene.camera.position, ElementsAre(0.5, 1, -0.25));
+  EXPECT_EQ(p.description, "[.5, +1]") << "inside quotation marks text stays as it is";
+  EXPECT_EQ(p.name, ".5 or +3") << "and so does what is no number as a whole";
+}
+
 class PresetFiles : public testing::Test {
 protected:
   test::TemporaryFolder folder;

@@ -241,7 +241,7 @@ void expect_refused(const preset::Shape& bad, const char* pointer)
     FAIL() << pointer << " was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::bad_input);
-    EXPECT_EQ(error.where(), std::string("p.json#/scene/objects/0/shape/") + pointer) << error.line();
+    EXPECT_EQ(error.place().text(), std::string("p.json#/scene/objects/0/shape/") + pointer) << error.line();
   }
 }
 

@@ -215,7 +215,7 @@ TEST(Worker, AReplacedJobsErrorIsNotTheNewJobs)
   leave.set_value();
   worker.wait();
   EXPECT_EQ(worker.status().state, State::finished);
-  EXPECT_EQ(worker.status().message, "");
+  EXPECT_FALSE(worker.status().error);
 }
 
 TEST(Worker, PausesAndGoesOn)
@@ -251,10 +251,10 @@ TEST(Worker, ErrorsBecomeAStateAndTheWorkerGoesOn)
   worker.start([] { return std::make_unique<FailingJob>(); });
   worker.wait();
   EXPECT_EQ(worker.status().state, State::failed);
-  EXPECT_EQ(worker.status().message, "trace.cl: out of registers");
+  EXPECT_EQ(worker.status().error->line(), "trace.cl: out of registers");
   worker.start([]() -> std::unique_ptr<Job> { throw std::bad_alloc(); });
   worker.wait();
-  EXPECT_EQ(worker.status().message, "out of memory");
+  EXPECT_EQ(worker.status().error->line(), "out of memory");
   worker.start([]() -> std::unique_ptr<Job> { return nullptr; }); // a maker that found nothing to do
   worker.wait();
   EXPECT_EQ(worker.status().state, State::cancelled);

@@ -2,7 +2,6 @@
 #include "ui/dispersion/model.h"
 
 #include "base/files.h"
-#include "base/json_pointer.h"
 #include "optics/dispersion.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
@@ -63,7 +62,7 @@ std::vector<std::string> used_dielectrics(const preset::Preset& preset)
 
 } // namespace
 
-GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const std::string& where)
+GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where)
 {
   GlassCurve made;
   made.points = dispersion.type == preset::Dispersion::Type::points;
@@ -89,7 +88,7 @@ bool DispersionModel::update_curve(const preset::Preset& preset, const std::stri
   const preset::Dispersion& dispersion = preset.scene.materials.at(material).dispersion;
   const auto found = glasses_.find(material);
   if (found != glasses_.end() && found->second.dispersion == dispersion && found->second.source == preset.source) return false;
-  const std::string where = preset.source + "#/scene/materials/" + pointer_key(material) + "/dispersion";
+  const Place where = Place(preset.source) / "scene" / "materials" / material / "dispersion";
   glasses_[material] = {dispersion, preset.source, make_glass_curve(dispersion, preset.source, where)};
   ++curves_made_;
   return true;

@@ -2,6 +2,7 @@
 // What the panel "Dispersion" shows, kept as long as the fields it comes from stay as they are: one dielectric's curve, its clusters
 // by every method and what they mean. No Dear ImGui here.
 #pragma once
+#include "base/place.h"
 #include "preset/preset.h"
 #include "spectral/settings.h"
 #include "ui/dispersion/figures.h"
@@ -25,7 +26,7 @@ struct GlassCurve {
   std::vector<double> line_nm, line_n, line_k;
 };
 /// where: the field's FILE#/json/pointer, for messages. Whatever is wrong becomes the curve's error.
-GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const std::string& where);
+GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where);
 
 class DispersionModel {
 public:

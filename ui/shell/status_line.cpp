@@ -60,6 +60,8 @@ const char* name_of(job::State state)
   return "";
 }
 
+const char* state_word(const Workbench& workbench) { return workbench.compiling() ? "compiling" : name_of(workbench.status().state); }
+
 std::string rate_text(const job::Progress& progress)
 {
   const double rate = job::pace_between({}, progress).work_per_second;
@@ -84,7 +86,7 @@ void draw_status_line(const Workbench& workbench, Commands& commands)
   const bool paused = status.state == job::State::paused;
   const float em = ImGui::GetFontSize();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(name_of(status.state));
+  ImGui::TextUnformatted(state_word(workbench));
   ImGui::SameLine(em * 6);
   ImGui::ProgressBar(static_cast<float>(progress.fraction), {em * 14, 0}, fmt::format("{:.0f} %", 100 * progress.fraction).c_str());
   ImGui::SameLine();

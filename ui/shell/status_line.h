@@ -16,6 +16,8 @@ void draw_status_line(const Workbench& workbench, Commands& commands);
 double seconds_left(const job::Progress& progress);
 /// "running", "finished", ...
 const char* name_of(job::State state);
+/// The same of the run in hand, or that its kernels are compiled.
+const char* state_word(const Workbench& workbench);
 /// "1.8 M photons/s", empty before there is a rate.
 std::string rate_text(const job::Progress& progress);
 /// "12 s", "3 min 05 s", "2 h 10 min".

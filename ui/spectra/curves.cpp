@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/json_pointer.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/materials.h"
@@ -74,7 +73,7 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline)
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   std::vector<std::string> warnings; // the run's plan has them
   for (const auto& [name, material] : preset.scene.materials)
-    outline.materials.push_back(scene::make_material(name, material, finder, "scene/materials/" + pointer_key(name), warnings));
+    outline.materials.push_back(scene::make_material(name, material, finder, Place("scene/materials/" + name), warnings));
   for (const preset::Object& object : preset.scene.objects) {
     const auto found = preset.scene.materials.find(object.material);
     if (found == preset.scene.materials.end()) throw bad_input({}, fmt::format("there is no material '{}'", object.material));

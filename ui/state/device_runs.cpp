@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/device_runs.h"
 
+#include "compute/compiling.h"
 #include "measure/measured_job.h"
 #include "preset/origins.h"
 #include "run/reference.h"
@@ -33,6 +34,12 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
   }
 }
 
+/// A flag that is down again at the end of the scope, whatever happens in it.
+struct Lowered {
+  std::atomic<bool>& flag;
+  ~Lowered() { flag = false; }
+};
+
 } // namespace
 
 DeviceRuns::DeviceRuns(compute::DeviceOptions device) : options_(std::move(device))
@@ -46,7 +53,11 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
 {
   auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get())); });
   const std::lock_guard lock(building_);
-  if (!context_) context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
+  const Lowered compiling{compiling_};
+  if (!context_) {
+    context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
+    compute::tell_of_compiling(*context_, [this] { compiling_ = true; });
+  }
   // The sources are read below: what changed until here is in this run.
   compute::kernels_changed(*context_);
   changed_ = false;

@@ -26,6 +26,8 @@ public:
   virtual ~RunSource() = default;
   /// On the worker's thread only. What it throws is why the run failed.
   virtual NewRun make(const preset::Preset& preset) = 0;
+  /// From any thread, at once: whether kernels are being compiled.
+  virtual bool compiling() const { return false; }
   /// From any thread, at once: true once after what every run is made of (the kernels) changed.
   virtual bool take_changed() = 0;
 };

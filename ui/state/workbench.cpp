@@ -290,7 +290,7 @@ void Workbench::collect_messages(Clock::time_point now)
 {
   if (status_.state == job::State::failed && status_.failures != reported_failure_) {
     reported_failure_ = status_.failures;
-    say(true, status_.message, status_.error_kind);
+    say(*status_.error);
     failure_message_ = last_message_;
   }
   std::erase_if(messages_, [&](const Message& m) { return !m.error && now - m.since > note_lifetime; });

@@ -57,6 +57,8 @@ public:
   /// Whether snapshot() is of the preset as it is now.
   bool snapshot_is_current() const { return snapshot_is_current_; }
   const job::Status& status() const { return status_; }
+  /// Whether kernels are being compiled for the run in hand.
+  bool compiling() const { return source_.compiling(); }
   /// What the run's error was so far, of snapshot(); null where nothing is measured.
   std::shared_ptr<const job::History> error_history() const { return snapshot_ ? snapshot_->history : nullptr; }
   /// Of the newest run that was made ready; null before the first of a preset. Another plan is another object.

@@ -78,7 +78,8 @@ MapPlan plan_maps(const Settings& settings, const scene::Scene& scene, const Run
   if (!plan.pass.runs) return plan;
   const std::uint64_t clusters = tables.wavelengths.clusters.size(), groups = 2 * clusters * scene.objects.size();
   if (groups > MAX_PHOTON_GROUPS)
-    throw bad_input(scene.source + "#/scene/objects", fmt::format("{} objects in {} wavelength clusters", scene.objects.size(), clusters),
+    throw bad_input(Place(scene.source) / "scene" / "objects",
+                    fmt::format("{} objects in {} wavelength clusters", scene.objects.size(), clusters),
                     fmt::format("photon maps tell {} surfaces in clusters apart", int{MAX_PHOTON_GROUPS}),
                     "choose spectral.estimator splat, or a larger threshold_deg");
   const bool sppm = settings.estimator == Estimator::sppm;

@@ -44,7 +44,7 @@ LayerLight layer_light(const preset::Preset& preset)
   LayerLight light;
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     const preset::Light& l = preset.scene.lights[i];
-    light.spectra.push_back(scene::make_light_spectrum(l.spectrum, fmt::format("{}#/scene/lights/{}/spectrum", preset.source, i)));
+    light.spectra.push_back(scene::make_light_spectrum(l.spectrum, Place(preset.source) / "scene" / "lights" / i / "spectrum"));
     light.power.push_back(l.type == preset::Light::Type::directional ? l.irradiance_w_m2 : l.power_w);
   }
   light.white = preset.white;
