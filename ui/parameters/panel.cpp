@@ -94,6 +94,7 @@ void ParametersPanel::draw(const Workbench& workbench, Commands& commands)
   }
   draft_.follow(*workbench.preset());
   places_.clear();
+  const std::string revealing = reveal_;
   follow_messages(workbench);
   draw_top();
   const float room = ImGui::GetContentRegionAvail().y,
@@ -111,6 +112,7 @@ void ParametersPanel::draw(const Workbench& workbench, Commands& commands)
   ImGui::EndChild();
   if (help > 0)
     draw_wrapped(colour::quiet_text, help_.empty() ? "Drag a number, or click on it and type. A right click on a name resets it." : help_);
+  if (reveal_ == revealing) reveal_.clear(); // in sight, or nowhere
   carry_out(commands);
 }
 
@@ -225,10 +227,7 @@ bool ParametersPanel::draw_label(const std::string& label, const std::string& po
   const bool open = ImGui::TreeNodeEx(pointer.c_str(), flags, "%s", label.c_str());
   ImGui::PopStyleColor();
   note(pointer + ":label");
-  if (revealed && (leaf || reveal_ == pointer)) {
-    ImGui::SetScrollHereY();
-    reveal_.clear();
-  }
+  if (revealed && (leaf || reveal_ == pointer)) ImGui::SetScrollHereY();
   return open;
 }
 
