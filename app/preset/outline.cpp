@@ -1,125 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preset/outline.h"
 
+#include "preset/describe.h"
 #include "preset/expected.h"
-#include "preset/writer.h"
+#include "preset/settings_type.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace nephroid::preset {
-namespace {
 
 using Kind = Outline::Kind;
 
-template <Described S>
-std::vector<Outline> fields_of(const Json& object);
-
-template <Described S>
-Json fresh()
+void Outliner::engine(const Field& f, const Settings& settings)
 {
-  return Writer::json(S{});
+  Outline& o = fields.emplace_back();
+  o.field = f;
+  o.kind = Kind::word;
+  o.chooses = true;
+  for (const SettingsType* type : settings_types()) o.words.push_back({type->name, type->sentence});
+  o.standard = settings.type().name;
 }
 
-/// The visitor: a field, an Outline.
-class Outliner {
-public:
-  std::vector<Outline> fields;
-
-  template <class E>
-  void type(const Field& f, const E& value)
-  {
-    field(f, value);
-    fields.back().chooses = true;
-  }
-  template <class T>
-  void field(const Field& f, const T& value)
-  {
+void Outliner::sections(bool optional)
+{
+  for (const SettingsType* type : settings_types()) {
     Outline& o = fields.emplace_back();
-    o.field = f;
-    shape(o, value);
-    if (o.kind != Kind::object) o.standard = Writer::json(value);
+    o.field = {.name = type->name, .sentence = "Settings of the engine."};
+    o.of_engine = true;
+    o.optional = optional;
+    o.fresh = type->fresh;
+    o.fields = type->fields;
   }
-
-private:
-  static void shape(Outline& o, const bool&) { o.kind = Kind::boolean; }
-  static void shape(Outline& o, const double&) { o.kind = Kind::number; }
-  static void shape(Outline& o, const std::string&) { o.kind = Kind::text; }
-  template <std::integral T>
-  static void shape(Outline& o, const T&)
-  {
-    o.kind = Kind::integer;
-    o.whole = true;
-  }
-  template <Enumeration E>
-  static void shape(Outline& o, const E&)
-  {
-    o.kind = Kind::word;
-    for (const Choice<E>& choice : Choices<E>::all) o.words.push_back({choice.name, choice.sentence});
-  }
-  template <class T, std::size_t N>
-  static void shape(Outline& o, const std::array<T, N>&)
-  {
-    o.kind = Kind::numbers;
-    o.whole = std::integral<T>;
-    o.size = N;
-  }
-  static void shape(Outline& o, const std::vector<double>&) { o.kind = Kind::numbers; }
-  static void shape(Outline& o, const std::vector<std::array<double, 2>>&) { o.kind = Kind::table; }
-  template <Described S>
-  static void shape(Outline& o, const S&)
-  {
-    o.kind = Kind::object;
-    o.fresh = fresh<S>;
-    o.fields = fields_of<S>;
-  }
-  template <Described S>
-  static void shape(Outline& o, const std::vector<S>&)
-  {
-    shape(o, S{});
-    o.kind = Kind::list;
-  }
-  template <Described S>
-  static void shape(Outline& o, const std::map<std::string, S>&)
-  {
-    shape(o, S{});
-    o.kind = Kind::map;
-  }
-  template <class T>
-  static void shape(Outline& o, const std::optional<T>&)
-  {
-    shape(o, T{});
-    o.optional = true;
-  }
-};
-
-template <Described S>
-std::vector<Outline> fields_of(const Json& object)
-{
-  std::vector<Outline> first;
-  if constexpr (Variant<S>) {
-    bool found = false;
-    for_each_type<S>([&](const auto&, const S& s) {
-      if (found) return;
-      Outliner outliner;
-      describe(outliner, s);
-      const auto chooser = std::find_if(outliner.fields.begin(), outliner.fields.end(), [](const Outline& o) { return o.chooses; });
-      found = object.value(chooser->field.name, Json()) == chooser->standard;
-      if (found || first.empty()) first = std::move(outliner.fields);
-    });
-  } else {
-    Outliner outliner;
-    const S s{};
-    describe(outliner, s);
-    first = std::move(outliner.fields);
-  }
-  return first;
 }
 
-} // namespace
-
-std::vector<Outline> outline(const Json& preset) { return fields_of<Preset>(preset); }
+std::vector<Outline> outline(const Json& preset)
+{
+  std::vector<Outline> fields = fields_of<Preset>(preset);
+  std::erase_if(fields, [&](const Outline& o) { return o.of_engine && preset.at("engine") != o.field.name; });
+  return fields;
+}
 
 Json as_type(const Json& object, std::vector<Outline> (*fields)(const Json&), const Outline& chooser, std::string_view type)
 {
@@ -132,7 +53,10 @@ Json as_type(const Json& object, std::vector<Outline> (*fields)(const Json&), co
     const auto same = [&](const Outline& b) { return b.field.name == o.field.name && b.kind == o.kind; };
     if (name == key) continue;
     const bool stays = object.contains(name) && std::any_of(before.begin(), before.end(), same);
-    made[name] = stays ? object[name] : o.kind == Kind::object && !o.optional ? o.fresh() : o.standard;
+    if (stays)
+      made[name] = object[name];
+    else if (!o.of_engine || !o.optional) // the settings of another engine would be refused
+      made[name] = o.kind == Kind::object && !o.optional ? o.fresh() : o.standard;
   }
   return made;
 }

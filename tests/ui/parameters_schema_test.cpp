@@ -73,7 +73,8 @@ protected:
     for (int i = 0; i < 100 && text() != before; ++i) undo();
     ASSERT_EQ(text(), before);
   }
-  Json drafted(const std::string& pointer) const { return panel().draft().value().at(Json::json_pointer(pointer)); }
+  /// null where there is none: settings that are not given.
+  Json drafted(const std::string& pointer) const { return panel().draft().value().value(Json::json_pointer(pointer), Json()); }
   static std::set<std::string> differences(const std::string& before, const std::string& after)
   {
     const Json a = Json::parse(before).flatten(), b = Json::parse(after).flatten();
@@ -182,7 +183,7 @@ protected:
   {
     SCOPED_TRACE(pointer);
     const std::string before = text(), type = struct_of(property);
-    if (property.contains("const")) { // edited by whoever chose it
+    if (property.contains("const") || property.value("oneOf", Json()).size() == 1) { // edited by whoever chose it, or the only one
       search(dotted(pointer));
       EXPECT_TRUE(panel().place_of(pointer)) << "a choice of types";
     } else {

@@ -28,7 +28,7 @@ void check_files(const std::vector<Outline>& fields, const Json& before, const J
   for (const Outline& o : fields) {
     const std::string name(o.field.name), at = where + "/" + name;
     const Json was = inside(before, name);
-    const Json& now = after.at(name);
+    const Json now = inside(after, name);
     if (now == was || now.is_null()) continue;
     if (o.kind == Outline::Kind::text && o.field.text == preset::Text::file)
       finder.find(now.get<std::string>(), at);

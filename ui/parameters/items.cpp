@@ -43,7 +43,9 @@ Json next_row(const Outline& o, const Json& rows)
 void rename_uses(const std::vector<Outline>& fields, Json& object, const std::string& name, const std::string& to)
 {
   for (const Outline& o : fields) {
-    Json& value = object[std::string(o.field.name)];
+    const auto found = object.find(o.field.name);
+    if (found == object.end()) continue;
+    Json& value = *found;
     if (o.field.names == preset::Names::material && value == name)
       value = to;
     else if (!value.is_null() && o.kind == Kind::object)

@@ -42,7 +42,8 @@ Json reset(const Outline& o, const Json& value)
   if (o.optional) return nullptr;
   if (o.kind == Kind::object) {
     Json made = value;
-    for (const Outline& f : o.fields(value)) made[std::string(f.field.name)] = reset(f, part(value, f));
+    for (const Outline& f : o.fields(value))
+      if (value.contains(f.field.name)) made[std::string(f.field.name)] = reset(f, part(value, f));
     return made;
   }
   return o.field.required || o.kind == Kind::list || o.kind == Kind::map ? value : o.standard;
@@ -289,6 +290,7 @@ std::string ParametersPanel::shown_at(const Problem& problem)
 
 bool ParametersPanel::is_wanted(const Outline& o, const Json& value, const std::string& pointer) const
 {
+  if (o.of_engine && draft_.value()["engine"] != o.field.name) return false;
   if (!is_searching()) return true;
   if (only_changed_ && !is_changed(o, value)) return false;
   if (holds(lower(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit)), lower(search_))) return true;
