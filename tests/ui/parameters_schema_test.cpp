@@ -69,7 +69,7 @@ protected:
   /// Nothing waits, and the preset is what it was.
   void restore(const std::string& before)
   {
-    while (!problems().empty()) click(problems().begin()->first + ":drop");
+    while (!problems().empty() && !HasFatalFailure()) click(problems().begin()->first + ":drop");
     for (int i = 0; i < 100 && text() != before; ++i) undo();
     ASSERT_EQ(text(), before);
   }
@@ -191,6 +191,7 @@ protected:
         search(dotted(pointer));
         if (pointer.ends_with("/mesh")) click("/scene/objects/0/shape:given"); // one of both
         click(pointer + ":given");
+        EXPECT_FALSE(drafted(pointer).is_null());
         if (type.empty() && drafted(pointer) == "") set(given(property), pointer, candidates(given(property), pointer, owner).front());
       }
       if (type.empty())
@@ -212,17 +213,16 @@ protected:
       if (!visited.insert(owner).second) continue;
       SCOPED_TRACE(owner);
       const std::string before = text();
-      if (drafted(pointer).value("type", "") != word) {
-        search(dotted(pointer));
-        choose(pointer + "/type", word);
-      }
+      search(dotted(pointer));
+      if (drafted(pointer).is_null()) click(pointer + ":given");
+      if (HasFatalFailure()) return;
+      if (drafted(pointer).value("type", "") != word) choose(pointer + "/type", word);
       if (!problems().empty()) fill(type["properties"], pointer, owner);
       if (HasFatalFailure()) return;
       EXPECT_EQ(at(pointer + "/type"), word);
       visit_properties(type["properties"], pointer, owner);
       if (HasFatalFailure()) return;
-      while (!problems().empty()) click(problems().begin()->first + ":drop");
-      for (int i = 0; i < 100 && text() != before; ++i) undo();
+      restore(before);
     }
   }
 };
