@@ -74,7 +74,12 @@ void describe(V& v, S& s)
   const Column nm{"wavelength", "nm", wavelength_bounds}, power{"relative power", "", power_bounds};
   switch (s.type) {
   case Type::illuminant:
-    v.field({.name = "illuminant", .sentence = "A, D50, D65, E or F1 to F12.", .text = Text::line, .required = true}, s.illuminant);
+    v.field({.name = "illuminant",
+             .sentence = "A, D50, D65, E or F1 to F12.",
+             .text = Text::line,
+             .names = Names::illuminant,
+             .required = true},
+            s.illuminant);
     break;
   case Type::blackbody:
     v.field({.name = "temperature_k", .sentence = "Temperature.", .unit = "K", .bounds = within(300, 1e6), .required = true},
@@ -109,7 +114,11 @@ void describe(V& v, S& r)
     v.field({.name = "value", .sentence = "Reflectance.", .bounds = within(0, 1), .required = true}, r.value);
     break;
   case Type::patch:
-    v.field({.name = "patch", .sentence = "Name of a ColorChecker patch, such as \"blue sky\".", .text = Text::line, .required = true},
+    v.field({.name = "patch",
+             .sentence = "Name of a ColorChecker patch, such as \"blue sky\".",
+             .text = Text::line,
+             .names = Names::patch,
+             .required = true},
             r.patch);
     break;
   case Type::table:
@@ -188,7 +197,12 @@ void describe(V& v, S& o)
   v.field({.name = "name", .sentence = "What messages call it.", .text = Text::line}, o.name);
   v.field({.name = "mesh", .sentence = "A mesh file (OBJ, PLY, STL, glTF, ...); give either this or a shape.", .text = Text::file}, o.mesh);
   v.field({.name = "shape", .sentence = "A simple shape; give either this or a mesh."}, o.shape);
-  v.field({.name = "material", .sentence = "One of the names in scene.materials.", .text = Text::line, .required = true}, o.material);
+  v.field({.name = "material",
+           .sentence = "One of the names in scene.materials.",
+           .text = Text::line,
+           .names = Names::material,
+           .required = true},
+          o.material);
   v.field({.name = "transform", .sentence = "Its size, turn and place."}, o.transform);
   v.field({.name = "normals", .sentence = "Flat or smooth."}, o.normals);
   v.field({.name = "priority",

@@ -43,6 +43,9 @@ struct Columns {
 /// text: anything; line: without line breaks and other control characters; file: the name of a file, looked up as docs/presets.md says.
 enum class Text { text, line, file };
 
+/// Of what a text is a name. Whether there is such a one is known where the preset is used.
+enum class Names { nothing, material, illuminant, patch };
+
 /// One field. Its default is not here: it is what a default-constructed struct holds.
 struct Field {
   std::string_view name;      ///< the key in JSON
@@ -52,7 +55,8 @@ struct Field {
   Count count = {};           ///< of a list
   Columns columns = {};       ///< of a table of pairs
   Text text = Text::text;     ///< of a string
-  bool required = false;      ///< no default is sensible
+  Names names = Names::nothing;
+  bool required = false; ///< no default is sensible
 };
 
 /// One word of an enumeration. For a struct's type it introduces the fields that come with it.

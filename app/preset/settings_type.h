@@ -3,6 +3,7 @@
 // Included where an engine describes its settings and nowhere else.
 #pragma once
 #include "preset/file_names.h"
+#include "preset/outline_visitor.h"
 #include "preset/reader_visitor.h"
 #include "preset/schema_visitor.h"
 #include "preset/settings.h"
@@ -12,6 +13,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace nephroid::preset {
 
@@ -29,6 +31,8 @@ struct SettingsType {
   void (*read)(const Document& document, const Json& json, const std::string& pointer, std::any& settings);
   Json (*write)(const std::any& settings);
   Json (*schema)(Json& definitions, Presence presence);
+  Json (*fresh)();                                      ///< by default
+  std::vector<Outline> (*fields)(const Json& settings); ///< as data
   void (*name_files)(std::any& settings, const FileNames::Rename& rename);
 };
 
@@ -44,6 +48,8 @@ constexpr SettingsType settings_type(std::string_view name, std::string_view sen
                      std::any& settings) { Reader::read(document, json, pointer, std::any_cast<S&>(settings)); },
           .write = [](const std::any& settings) { return Writer::json(std::any_cast<const S&>(settings)); },
           .schema = [](Json& definitions, Presence presence) { return Properties::reference<S>(definitions, presence); },
+          .fresh = fresh<S>,
+          .fields = fields_of<S>,
           .name_files =
               [](std::any& settings, const FileNames::Rename& rename) {
                 FileNames names(rename);

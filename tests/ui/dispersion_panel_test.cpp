@@ -103,22 +103,6 @@ TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved)
   EXPECT_FALSE(workbench.messages().back().error);
 }
 
-TEST_F(DispersionPanelTest, TheSelectedPointIsPlacedByItsFigures)
-{
-  open_glass({{"glass", from_points(five)}});
-  click(panel().plot().to_screen(five[2]));
-  EXPECT_EQ(points(), five) << "a click moves nothing";
-  frame();
-  for (int i = 0; i < 2; ++i) press_at(panel().widget("nm")), let_go();
-  frame();
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8("450");
-  frame();
-  press(ImGuiKey_Enter);
-  frames(2);
-  EXPECT_EQ(points()[2], (ControlPoint{450 + point_rules.least_gap_nm, 1.55})) << "there is a point at 450 nm";
-}
-
 TEST_F(DispersionPanelTest, SnappedPointsLieOnTheGrid)
 {
   open_glass({{"glass", from_points(five)}});
@@ -130,24 +114,6 @@ TEST_F(DispersionPanelTest, SnappedPointsLieOnTheGrid)
   EXPECT_NEAR(points()[2][1] / step, std::round(points()[2][1] / step), 1e-6);
 }
 
-TEST_F(DispersionPanelTest, TheThresholdSliderIsOneEntryAndClustersFollow)
-{
-  open_glass({{"glass", from_points(five)}});
-  const auto middle = panel().widget("Threshold");
-  press_at({middle[0] - 60, middle[1]});
-  for (int i = 0; i <= 6; ++i) {
-    move({middle[0] + 20 * i, middle[1]});
-    frame();
-    expect_true_counts();
-  }
-  let_go();
-  EXPECT_NE(imgui.pushed<command::EndGesture>(), nullptr);
-  EXPECT_GT(spectral::settings(*workbench.preset()).threshold_deg, 0.1);
-  EXPECT_LE(spectral::settings(*workbench.preset()).threshold_deg, 10);
-  press(ImGuiKey_Z, ImGuiMod_Ctrl);
-  EXPECT_EQ(*workbench.preset(), workbench.history()->opened());
-}
-
 TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
 {
   open_glass({{"glass", from_file(shipped("N-SF66"))}});
@@ -156,12 +122,11 @@ TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
   EXPECT_EQ(shown_count(ClusterMethod::brute_force), 401u);
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 32.0);
   EXPECT_THAT(panel().model().curve().note, HasSubstr("extrapolated below 390 nm"));
-  click("thesis");
-  EXPECT_EQ(spectral::settings(*workbench.preset()).method, ClusterMethod::thesis);
+  preset::Preset edited = *workbench.preset();
+  spectral::settings(edited).method = ClusterMethod::thesis;
+  workbench.apply({command::Edit{"method", edited}});
+  frames(2);
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 41.0);
-  ASSERT_TRUE(spectral::settings(*workbench.preset()).jitter);
-  click("Jitter");
-  EXPECT_FALSE(spectral::settings(*workbench.preset()).jitter);
   click("Sorted");
   move(panel().plot().to_screen({200, 1.95}));
   frames(2);

@@ -125,7 +125,7 @@ public:
     if (broken) throw failed("photons.cl:12", "expected ';' after expression");
     plan::Plan made_plan = plan;
     made_plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
-    return {std::make_unique<FakeJob>(preset, *this), std::move(made_plan), reference};
+    return {std::make_unique<FakeJob>(preset, *this), std::make_shared<const plan::Plan>(std::move(made_plan)), reference};
   }
   bool compiling() const override { return compiles; }
   bool take_changed() override { return changed.exchange(false); }

@@ -87,6 +87,20 @@ protected:
   }
 };
 
+/// Clicks in a window like the real one; where that was.
+template <class Draw>
+test::Pixel click(const std::array<double, 2>& place, test::Headless& imgui, Draw draw)
+{
+  const test::Pixel at = pixel(place);
+  imgui.move(at[0], at[1]);
+  for (const bool down : {true, false}) {
+    draw();
+    imgui.button(0, down);
+  }
+  for (int i = 0; i < 4; ++i) draw();
+  return at;
+}
+
 /// Colours of the strip of clusters at the foot of the plot, from 380 to 780 nm.
 std::vector<std::array<int, 3>> strip(const image::Image& screen, const DispersionPlot& plot)
 {
@@ -172,21 +186,22 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
   preset.scene.lights.at(0).spectrum.illuminant = "F10";
   spectral::settings(preset).relight = true;
   const std::string file = folder.write("prism.json", preset::to_json(preset));
-  test::Pixel box, other;
+  const std::string found = "illuminant", field = "/scene/lights/0/spectrum/illuminant";
+  test::Pixel search, box, other;
   const Canvas canvas =
       in_window_like<test::SeeingRuns>(size, "spectra", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
-        box = pixel(workspace.spectra().place_of("illuminant").value());
-        imgui.move(box[0], box[1]);
-        for (const bool down : {true, false}) {
-          draw();
-          imgui.button(0, down);
-        }
+        const auto field_at = [&](const std::string& widget) { return workspace.parameters().place_of(widget).value(); };
+        search = click(field_at("search"), imgui, draw);
+        ImGui::GetIO().AddInputCharactersUTF8(found.c_str());
         for (int i = 0; i < 3; ++i) draw();
-        other = pixel(workspace.spectra().place_of("illuminant A").value());
+        box = click(field_at(field), imgui, draw);
+        other = pixel(field_at(field + ":A"));
         return workspace.view().canvas();
       });
   test::PlayedWindow window = open(file, "spectra");
   const image::Image before = taken(window, "window-spectra.png", "a picture of the run", picture_in(canvas));
+  window.click(search);
+  for (const char letter : found) window.key({letter});
   window.click(box);
   window.click(other);
   window.move({size[0] - 9, 9});
@@ -196,6 +211,33 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
   window.save();
   EXPECT_EQ(window.quit().exit_code, 0);
   EXPECT_EQ(preset::read_preset(file).scene.lights[0].spectrum.illuminant, "A");
+}
+
+TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
+{
+  const std::string file = folder.write("prism.json", preset::to_json(prism()));
+  std::vector<test::Pixel> way;
+  const Canvas canvas =
+      in_window_like<test::SeeingRuns>(size, "parameters", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
+        for (const char* widget : {"/scene:label", "/scene/camera:label", "/scene/camera/fov_deg"})
+          way.push_back(click(workspace.parameters().place_of(widget).value(), imgui, draw));
+        return workspace.view().canvas();
+      });
+  test::PlayedWindow window = open(file, "parameters");
+  window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });
+  for (const test::Pixel& at : way) window.click(at);
+  for (const char digit : std::string("200")) window.key({digit});
+  window.key("Return");
+  const std::array<int, 3> red{colour::error & 255, colour::error >> 8 & 255, colour::error >> 16 & 255};
+  taken(window, "window-parameters.png", "what is wrong, at the field", [&](const image::Image& picture) {
+    int found = 0;
+    for (int y = way.back()[1] + 10; y < way.back()[1] + 60; ++y)
+      for (int x = way.back()[0] - 80; x < size[0]; ++x) found += test::bytes_at(picture, x, y) == red;
+    return found > 50;
+  });
+  EXPECT_EQ(runs_begun(window), 1) << "the run goes on";
+  EXPECT_EQ(window.quit().exit_code, 0);
+  EXPECT_EQ(preset::read_preset(file).scene.camera.fov_deg, 34);
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 #include "ui/dispersion/panel.h"
 
 #include "base/counted.h"
-#include "base/files.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/wavelength_axis.h"
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <utility>
 
@@ -44,20 +42,6 @@ std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& 
   return fmt::format("{} control points, {}", dispersion.table.size(), range);
 }
 
-/// Empty where there is no folder of shipped materials.
-std::vector<std::string> shipped_materials()
-{
-  std::vector<std::string> names;
-  try {
-    for (const auto& entry : std::filesystem::directory_iterator(presets_folder() / "materials"))
-      if (is_dispersion_file(entry.path().string())) names.push_back(entry.path().stem().string());
-  } catch (const std::exception&) {
-    names.clear();
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 } // namespace
 
 void DispersionPanel::draw(const Workbench& workbench, Commands& commands)
@@ -74,7 +58,6 @@ void DispersionPanel::draw(const Workbench& workbench, Commands& commands)
   draw_plot(frame);
   const float top = ImGui::GetCursorPosY();
   if (model_.error().empty()) {
-    draw_threshold(frame);
     draw_methods(frame);
     draw_bias(frame);
   } else
@@ -107,8 +90,6 @@ void DispersionPanel::draw_toolbar(const Frame& frame, const std::vector<std::st
   }
   ImGui::SetItemTooltip("The dielectric that is shown; files that are dropped on the window are loaded into it");
   ImGui::SameLine();
-  draw_load(frame);
-  ImGui::SameLine();
   const bool editable = frame.material.dispersion.type == Type::points;
   ImGui::BeginDisabled(editable || !model_.curve().error.empty());
   if (ImGui::Button("Make editable")) make_editable(frame);
@@ -119,35 +100,6 @@ void DispersionPanel::draw_toolbar(const Frame& frame, const std::vector<std::st
                             : model_.curve().has_k
                                 ? "Control points that reproduce n at 380..780 nm. They have no k: the glass will not absorb"
                                 : "Control points that reproduce n at 380..780 nm");
-}
-
-void DispersionPanel::draw_load(const Frame& frame)
-{
-  if (ImGui::Button("Load...")) {
-    shipped_ = shipped_materials();
-    ImGui::OpenPopup("load");
-  }
-  places_.note("Load...");
-  ImGui::SetItemTooltip("Any file of refractiveindex.info; dropping it on the window does the same");
-  if (!ImGui::BeginPopup("load")) return;
-  const auto load = [&](const std::string& file) {
-    frame.commands.push_back(command::LoadDispersion{file});
-    ImGui::CloseCurrentPopup();
-  };
-  const float em = ImGui::GetFontSize();
-  ImGui::SetNextItemWidth(em * 24);
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered = input_text("##file", "path of a refractiveindex.info file (.yml)", file_, ImGuiInputTextFlags_EnterReturnsTrue);
-  ImGui::SameLine();
-  ImGui::BeginDisabled(file_.empty());
-  if (ImGui::Button("Load") || (entered && !file_.empty())) load(file_);
-  ImGui::EndDisabled();
-  ImGui::SeparatorText("Shipped materials");
-  if (ImGui::BeginChild("shipped", {em * 28, em * 12}))
-    for (const std::string& name : shipped_)
-      if (ImGui::Selectable(name.c_str())) load(name);
-  ImGui::EndChild();
-  ImGui::EndPopup();
 }
 
 void DispersionPanel::draw_source(const Frame& frame) const
@@ -194,32 +146,6 @@ void DispersionPanel::draw_points_row(const Frame& frame)
   places_.note("Remove");
   ImGui::EndDisabled();
   ImGui::SetItemTooltip("The selected point; Delete, or a right click on a point, does the same");
-  draw_place(frame);
-}
-
-/// The selected point in figures. Without one the row stays all the same, or the plot would move while a point is grabbed.
-void DispersionPanel::draw_place(const Frame& frame)
-{
-  const std::optional<std::size_t> marked = editor_.marked();
-  ControlPoint place = marked ? points_[*marked] : ControlPoint{0, 0};
-  ImGui::BeginDisabled(!marked);
-  const char* const names[] = {"nm", "n"};
-  const char* const formats[] = {"%.6g", "%.7g"};
-  const char* const help[] = {"Wavelength of the selected point; it stays between its neighbours", "Index of refraction there"};
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (i > 0) ImGui::SameLine();
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
-    ImGui::InputDouble(names[i], &place[i], 0, 0, marked ? formats[i] : "");
-    ImGui::SetItemTooltip("%s", help[i]);
-    places_.note(names[i]);
-    if (!ImGui::IsItemDeactivatedAfterEdit() || !marked) continue;
-    std::vector<ControlPoint> points = points_;
-    move_row(points, *marked, place, point_rules);
-    edit_points(frame, RowsEdit{"place a control point", std::move(points)});
-  }
-  ImGui::EndDisabled();
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s", marked ? "selected point" : "no point is selected");
 }
 
 void DispersionPanel::draw_plot(const Frame& frame)

@@ -42,23 +42,17 @@ private:
 
   void follow(const Workbench& workbench);
   void draw_toolbar(const Frame& frame, const std::vector<std::string>& names);
-  void draw_load(const Frame& frame);
   void draw_source(const Frame& frame) const;
   void draw_points_row(const Frame& frame);
-  void draw_place(const Frame& frame);
   void draw_plot(const Frame& frame);
   ControlPoint place(const ControlPoint& mouse) const;
-  void draw_threshold(const Frame& frame);
-  void draw_methods(const Frame& frame);
+  void draw_methods(const Frame& frame) const;
   void draw_bias(const Frame& frame);
   void draw_effort(const Frame& frame);
 
   void make_editable(const Frame& frame);
   /// The control points as they shall be; nothing where there is no edit.
   void edit_points(const Frame& frame, const std::optional<RowsEdit>& edit) const;
-  void edit_spectral(const Frame& frame, const std::string& label, const spectral::Settings& spectral, std::uint64_t gesture = 0,
-                     bool live = false);
-
   WavelengthAxis& axis_;
   Gestures gestures_{title};
   RowEditor editor_{gestures_};
@@ -69,11 +63,9 @@ private:
   std::string shown_;                ///< the material
   std::vector<ControlPoint> points_; ///< of this frame, by rising wavelength
   bool sorted_ = false, snap_ = false;
-  std::string file_;                 ///< in the popup "load"
-  std::vector<std::string> shipped_; ///< the names of materials in it
-  preset::Dispersion fitted_;        ///< what "Make editable" made,
-  std::string fitted_text_;          ///< and what it said about it
-  float below_plot_ = 0;             ///< height of what was drawn there last
+  preset::Dispersion fitted_; ///< what "Make editable" made,
+  std::string fitted_text_;   ///< and what it said about it
+  float below_plot_ = 0;      ///< height of what was drawn there last
   WidgetPlaces places_;
 };
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "ui/dispersion/panel.h"
 #include "ui/error/panel.h"
+#include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
 #include "ui/spectra/panel.h"
 #include "ui/view/panel.h"
@@ -20,10 +21,14 @@ namespace {
 struct Layout {
   std::string_view name;
   const char* in_front; ///< of the tabs at the right
+  bool fields_below;    ///< Parameters is under the picture: fields and the curves that follow them are in sight together
 };
 
-constexpr Layout layouts[] = {
-    {"default", ErrorPanel::title}, {"dispersion", DispersionPanel::title}, {"spectra", SpectraPanel::title}, {"plan", PlanPanel::title}};
+constexpr Layout layouts[] = {{"default", ErrorPanel::title, false},
+                              {"dispersion", DispersionPanel::title, true},
+                              {"spectra", SpectraPanel::title, true},
+                              {"plan", PlanPanel::title, false},
+                              {"parameters", ParametersPanel::title, false}};
 
 const Layout* find(const std::string& name)
 {
@@ -51,8 +56,11 @@ void build_layout(const std::string& name, unsigned dock_space, float width, flo
   const float tabs = std::clamp(ImGui::GetFontSize() * 28, 0.3f * width, 0.45f * width);
   ImGuiID left = 0;
   const ImGuiID right = ImGui::DockBuilderSplitNode(dock_space, ImGuiDir_Right, tabs / std::max(width, 1.0f), nullptr, &left);
+  ImGuiID fields = right;
+  if (find(name)->fields_below) fields = ImGui::DockBuilderSplitNode(left, ImGuiDir_Down, 0.42f, nullptr, &left);
   ImGui::DockBuilderDockWindow(ViewPanel::title, left);
   ImGui::DockBuilderDockWindow(ErrorPanel::title, right);
+  ImGui::DockBuilderDockWindow(ParametersPanel::title, fields);
   for (const char* title : {DispersionPanel::title, SpectraPanel::title, PlanPanel::title}) ImGui::DockBuilderDockWindow(title, right);
   // A tab's identifier is that of its window's name in its window (ImGuiWindow::TabId).
   ImGui::DockBuilderGetNode(right)->SelectedTabId = ImHashStr("#TAB", 0, ImHashStr(find(name)->in_front));

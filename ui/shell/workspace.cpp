@@ -62,6 +62,7 @@ Workspace::Workspace(std::string layout) : layout_(std::move(layout))
   check_layout(layout_);
   view_ = add_own<ViewPanel>();
   error_ = add_own<ErrorPanel>();
+  parameters_ = add_own<ParametersPanel>();
   dispersion_ = add_own<DispersionPanel>(wavelengths_);
   spectra_ = add_own<SpectraPanel>(wavelengths_);
   plan_ = add_own<PlanPanel>();

@@ -3,6 +3,7 @@
 #pragma once
 #include "ui/dispersion/panel.h"
 #include "ui/error/panel.h"
+#include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
 #include "ui/shell/dialogs.h"
 #include "ui/spectra/panel.h"
@@ -31,6 +32,7 @@ public:
   const DispersionPanel& dispersion() const { return *dispersion_; }
   const SpectraPanel& spectra() const { return *spectra_; }
   const PlanPanel& plan() const { return *plan_; }
+  const ParametersPanel& parameters() const { return *parameters_; }
 
 private:
   template <class P, class... Arguments>
@@ -48,6 +50,7 @@ private:
   DispersionPanel* dispersion_ = nullptr;
   SpectraPanel* spectra_ = nullptr;
   PlanPanel* plan_ = nullptr;
+  ParametersPanel* parameters_ = nullptr;
   Dialogs dialogs_;
 };
 

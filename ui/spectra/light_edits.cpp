@@ -47,14 +47,6 @@ optics::Spectrum values_of(const LightSpectrum& spectrum)
   }
 }
 
-std::vector<PowerRow> rows_at(const LightSpectrum& spectrum, int first_nm, int last_nm, int step_nm)
-{
-  const optics::Spectrum values = values_of(spectrum);
-  std::vector<PowerRow> rows;
-  for (int nm = first_nm; nm <= last_nm; nm += step_nm) rows.push_back({static_cast<double>(nm), relative_power(values, nm)});
-  return rows;
-}
-
 } // namespace
 
 bool has_rows(const LightSpectrum& spectrum) { return spectrum.type == Type::lines || spectrum.type == Type::table; }
@@ -67,19 +59,14 @@ double largest_power(const LightSpectrum& spectrum)
   return largest > 0 ? largest : 1;
 }
 
-LightSpectrum as_type(const LightSpectrum& spectrum, Type type)
+LightSpectrum as_table(const LightSpectrum& spectrum)
 {
-  if (type == spectrum.type) return spectrum;
   LightSpectrum made;
-  made.type = type;
-  if (type == Type::illuminant || type == Type::blackbody) return made;
-  if (has_rows(spectrum) && (type == Type::lines || spectrum.table.size() >= 2))
-    made.table = spectrum.table;
-  else if (type == Type::table)
-    made.table = rows_at(spectrum, optics::first_nm, optics::last_nm, table_step_nm);
-  else
-    made.table = rows_at(spectrum, 450, 650, 100);
-  return sorted(made);
+  made.type = Type::table;
+  const optics::Spectrum values = values_of(spectrum);
+  for (int nm = optics::first_nm; nm <= optics::last_nm; nm += table_step_nm)
+    made.table.push_back({static_cast<double>(nm), relative_power(values, nm)});
+  return made;
 }
 
 LightSpectrum sorted(LightSpectrum spectrum)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of a light's spectrum as pure functions from one to the next: its type, and the rows of a table or of lines. No Dear ImGui.
+// Edits of a light's spectrum as pure functions from one to the next: the rows of a table or of lines. No Dear ImGui.
 #pragma once
 #include "preset/preset.h"
 #include "ui/widgets/sorted_rows.h"
@@ -14,10 +14,9 @@ bool has_rows(const preset::LightSpectrum& spectrum);
 /// Its largest power; 1 where that is 0 or there are no rows.
 double largest_power(const preset::LightSpectrum& spectrum);
 
-/// The spectrum as another type, as near to what it was as that type can be: a table has a row every 20 nm of 380..780, lines are the
-/// rows of a table, or three of 450, 550 and 650 nm; lines become a table with these rows. Powers are relative to the largest. A black
-/// body or an illuminant cannot be near to anything: 6500 K and D65. What has no power, or is wrong, becomes rows of power 1.
-preset::LightSpectrum as_type(const preset::LightSpectrum& spectrum, preset::LightSpectrum::Type type);
+/// The spectrum as a table with a row every 20 nm of 380..780, relative to the largest. What has no power, or is wrong, becomes rows of
+/// power 1.
+preset::LightSpectrum as_table(const preset::LightSpectrum& spectrum);
 
 /// The rows by rising wavelength, as ui/widgets/sorted_rows.h expects them.
 preset::LightSpectrum sorted(preset::LightSpectrum spectrum);

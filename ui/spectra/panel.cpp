@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/spectra/panel.h"
 
-#include "spectral/describe_settings.h"
-
 #include "base/counted.h"
-#include "optics/spectrum.h"
-#include "preset/describe_limits.h"
+#include "preset/choices.h"
 #include "ui/state/workbench.h"
-#include "ui/widgets/choice_combo.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/wavelength_axis.h"
 
@@ -20,9 +16,6 @@
 
 namespace nephroid::ui {
 namespace {
-
-using Effort = spectral::Settings::Effort;
-using Type = preset::LightSpectrum::Type;
 
 constexpr std::size_t most_seen = 6; ///< materials around the glass that the table shows without scrolling
 
@@ -76,10 +69,9 @@ void SpectraPanel::draw(const Workbench& workbench, Commands& commands)
   const float line = ImGui::GetTextLineHeight(), cell = line + 2 * ImGui::GetStyle().CellPadding.y;
   const auto seen = spectra.importance.surroundings.size();
   const float table = seen == 0 ? 0 : static_cast<float>(std::min(seen, most_seen) + 1) * cell + ImGui::GetStyle().ItemSpacing.y;
-  const float below = 2 * line + ImGui::GetFrameHeight() + 3 * ImGui::GetStyle().ItemSpacing.y + table;
+  const float below = 2 * line + 2 * ImGui::GetStyle().ItemSpacing.y + table;
   draw_plot(workbench, commands, std::max(ImGui::GetContentRegionAvail().y - below, 16 * em()));
   draw_numbers();
-  draw_effort(workbench, commands);
   draw_surroundings();
 }
 
@@ -128,73 +120,26 @@ void SpectraPanel::draw_light_choice(const preset::Preset& preset)
 void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& commands)
 {
   same_line_if_room(8 * em());
-  Type type = spectrum_.type;
-  if (choice_combo("##type", type)) {
-    gestures_.begin();
-    editor_.unmark();
-    edit_spectrum(workbench, as_type(spectrum_, type), "kind of spectrum", false, commands);
-  }
-  places_.note("type");
-  same_line_if_room(7 * em());
-  preset::LightSpectrum edited = spectrum_;
-  if (spectrum_.type == Type::illuminant) {
-    ImGui::SetNextItemWidth(6 * em());
-    if (ImGui::BeginCombo("##illuminant", edited.illuminant.c_str(), ImGuiComboFlags_HeightLarge)) {
-      for (const std::string& name : optics::illuminant_names()) {
-        if (ImGui::Selectable(name.c_str(), name == spectrum_.illuminant)) {
-          edited.illuminant = name;
-          gestures_.begin();
-          edit_spectrum(workbench, edited, "illuminant " + name, false, commands);
-        }
-        places_.note("illuminant " + name);
-      }
-      ImGui::EndCombo();
-    } else
-      ImGui::SetItemTooltip(
-          "CIE illuminant: A is a light bulb, D50 and D65 daylight, F1 to F12 fluorescent lamps, E the same at every wavelength");
-    places_.note("illuminant");
-  } else if (spectrum_.type == Type::blackbody) {
-    ImGui::SetNextItemWidth(9 * em());
-    auto kelvin = static_cast<float>(edited.temperature_k);
-    constexpr ImGuiSliderFlags flags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat;
-    const bool changed = ImGui::SliderFloat("##kelvin", &kelvin, 1000, 20000, "%.0f K", flags);
-    ImGui::SetItemTooltip("Temperature of the black body: 2856 K is a light bulb, 6500 K about daylight. Ctrl+click and type");
-    follow_widget(commands);
-    if (changed) {
-      edited.temperature_k = std::clamp(std::round(static_cast<double>(kelvin)), 300.0, 1e6);
-      edit_spectrum(workbench, edited, "temperature", true, commands);
-    }
-    places_.note("temperature");
-  } else {
+  if (has_rows(spectrum_)) {
     ImGui::TextDisabled("%s", counted(spectrum_.table.size(), "row").c_str());
     ImGui::SetItemTooltip("Drag a point. A double click adds one, a click with the right button removes one.");
+    return;
   }
+  if (ImGui::Button("Make editable")) {
+    preset::Preset edited = *workbench.preset();
+    edited.scene.lights[light_].spectrum = as_table(spectrum_);
+    commands.push_back(command::Edit{fmt::format("make rows of light {}", light_ + 1), std::move(edited)});
+  }
+  places_.note("make editable");
+  ImGui::SetItemTooltip("Rows every 20 nm, to drag");
 }
 
-/// The marked row in numbers, and buttons for what the mouse does too.
+/// Buttons for what the mouse does too.
 void SpectraPanel::draw_row_controls(const Workbench& workbench, Commands& commands)
 {
   const std::vector<PowerRow>& rows = spectrum_.table;
   const RowRules rules = row_rules(spectrum_);
   const std::optional<std::size_t> marked = editor_.marked();
-  if (marked) {
-    PowerRow to = rows[*marked];
-    ImGui::SetNextItemWidth(6.5f * em());
-    bool changed = ImGui::DragScalar("##nm", ImGuiDataType_Double, &to[0], 0.5f, nullptr, nullptr, "%.1f nm");
-    ImGui::SetItemTooltip("Wavelength of the marked row. Drag it, or Ctrl+click and type");
-    follow_widget(commands);
-    places_.note("wavelength");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(6.5f * em());
-    const auto speed = static_cast<float>(0.005 * largest_power(spectrum_));
-    changed |= ImGui::DragScalar("##power", ImGuiDataType_Double, &to[1], speed, nullptr, nullptr, "%.4g");
-    ImGui::SetItemTooltip(
-        "Power of the marked row, relative to the others: the light's watts are spread like that. Drag it, or Ctrl+click and type");
-    follow_widget(commands);
-    places_.note("power");
-    ImGui::SameLine();
-    if (changed) edit_rows(workbench, editor_.follow({RowGesture::Kind::move, *marked, readable(to)}, rows, rules, commands), commands);
-  }
   if (ImGui::Button("Add")) edit_rows(workbench, editor_.add(rows, in_widest_gap(spectrum_), rules, commands), commands);
   places_.note("add");
   ImGui::SetItemTooltip("One more row, in the widest gap; a double click in the plot adds one there.");
@@ -289,27 +234,6 @@ void SpectraPanel::draw_numbers() const
   ImGui::PopTextWrapPos();
 }
 
-void SpectraPanel::draw_effort(const Workbench& workbench, Commands& commands)
-{
-  preset::Preset edited = *workbench.preset();
-  spectral::Settings& settings = spectral::settings(edited);
-  const auto push = [&](const char* label) { commands.push_back(command::Edit{label, edited, gestures_.begin()}); };
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Effort by");
-  ImGui::SameLine();
-  if (choice_combo("##effort", settings.effort)) push("effort");
-  places_.note("effort");
-  if (settings.effort != Effort::importance && settings.effort != Effort::radziszewski) return;
-  same_line_if_room(7 * em());
-  if (choice_combo("##cluster", settings.importance.cluster)) push("importance of a cluster");
-  places_.note("importance of a cluster");
-  if (settings.effort != Effort::importance) return;
-  same_line_if_room(7 * em());
-  if (ImGui::Checkbox("geometry", &settings.importance.geometry)) push("importance by geometry");
-  ImGui::SetItemTooltip("Weigh materials by how much of them the caustic objects see");
-  places_.note("geometry");
-}
-
 /// The sum of (4.15), material by material.
 void SpectraPanel::draw_surroundings() const
 {
@@ -340,21 +264,6 @@ void SpectraPanel::draw_surroundings() const
     }
   }
   ImGui::EndTable();
-}
-
-void SpectraPanel::edit_spectrum(const Workbench& workbench, const preset::LightSpectrum& spectrum, const std::string& label, bool live,
-                                 Commands& commands) const
-{
-  if (spectrum == spectrum_) return;
-  preset::Preset edited = *workbench.preset();
-  edited.scene.lights[light_].spectrum = spectrum;
-  commands.push_back(command::Edit{label, std::move(edited), gestures_.number(), live});
-}
-
-void SpectraPanel::follow_widget(Commands& commands)
-{
-  if (ImGui::IsItemActivated()) gestures_.begin();
-  if (ImGui::IsItemDeactivated()) commands.push_back(command::EndGesture{});
 }
 
 } // namespace nephroid::ui

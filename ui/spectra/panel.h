@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Spectra and importance": the spectra of the lights, the eye's luminosity, reflectances, u(lambda) of (4.15) and the iterations
-// of each cluster, on the wavelength axis that the panel "Dispersion" has too. A light's spectrum and what deals out the work are edited
-// here.
+// of each cluster, on the wavelength axis that the panel "Dispersion" has too. The rows of a light's spectrum
+// are edited here.
 #pragma once
 #include "ui/spectra/curves.h"
 #include "ui/spectra/plot.h"
@@ -40,16 +40,10 @@ private:
   void draw_copy();
   void draw_plot(const Workbench& workbench, Commands& commands, float height);
   void draw_numbers() const;
-  void draw_effort(const Workbench& workbench, Commands& commands);
   void draw_surroundings() const;
 
   /// The rows as they shall be; nothing where there is no edit.
   void edit_rows(const Workbench& workbench, const std::optional<RowsEdit>& edit, Commands& commands);
-  /// An edit of the light's spectrum by the mouse or the widget drawn last; nothing where it is as it was.
-  void edit_spectrum(const Workbench& workbench, const preset::LightSpectrum& spectrum, const std::string& label, bool live,
-                     Commands& commands) const;
-  /// The gesture of the widget drawn last: it begins, and it ends.
-  void follow_widget(Commands& commands);
 
   WavelengthAxis& axis_;
   SpectraMaker maker_;

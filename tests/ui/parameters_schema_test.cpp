@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every field of the schema is edited through the panel "Parameters" by an injected mouse and keys: each type of each object, each word of
+// each choice. An edit changes its own field and nothing else; undo gives the same bytes.
+#include "parameters_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+namespace nephroid::ui {
+namespace {
+
+using test::Json;
+
+const std::map<std::string, std::vector<std::string>> names{
+    {"material", {"glass", "wall"}}, {"illuminant", {"A", "F7"}}, {"patch", {"red", "blue"}}};
+
+/// What a property may be besides null.
+const Json& given(const Json& node) { return node.contains("anyOf") ? node["anyOf"][0] : node; }
+
+bool is_optional(const Json& node) { return node.contains("anyOf") && node["anyOf"].back().value("type", "") == "null"; }
+
+bool is_fixed(const Json& array) { return array.contains("minItems") && array["minItems"] == array.value("maxItems", 0); }
+
+class ParametersSchemaTest : public test::ParametersFixture {
+protected:
+  ParametersSchemaTest() : schema(Json::parse(preset::schema())) {}
+
+  const Json schema;
+  std::set<std::string> edited;  ///< "LightItem.spot.half_angle_deg"
+  std::set<std::string> visited; ///< structs with their types
+
+  /// The name of the struct that a property is, or has items of; empty for a leaf.
+  static std::string struct_of(const Json& property)
+  {
+    const Json& node = given(property);
+    if (node.contains("$ref")) return node["$ref"].get<std::string>().substr(8);
+    for (const char* inner : {"items", "additionalProperties"})
+      if (node.contains(inner) && node[inner].is_object() && (node[inner].contains("$ref") || node[inner].contains("anyOf")))
+        return struct_of(node[inner]);
+    return {};
+  }
+  std::set<std::string> leaves() const
+  {
+    std::set<std::string> all;
+    const auto add = [&](const std::string& owner, const Json& properties) {
+      for (const auto& [name, property] : properties.items())
+        if (struct_of(property).empty()) all.insert(owner + "." + name);
+    };
+    Json own = schema["properties"];
+    for (const char* of_file : {"$schema", "parent", "sweep"}) own.erase(of_file);
+    add("Preset", own);
+    for (const auto& [name, definition] : schema["$defs"].items()) {
+      if (definition.contains("properties")) add(name, definition["properties"]);
+      for (const Json& type : types(definition)) add(name + "." + type["title"].get<std::string>(), type["properties"]);
+    }
+    return all;
+  }
+  static std::vector<Json> types(const Json& definition)
+  {
+    std::vector<Json> all;
+    for (const Json& one : definition.value("oneOf", definition.value("anyOf", Json::array())))
+      if (one.contains("properties") && one["properties"].contains("type") && one["properties"]["type"].contains("const"))
+        all.push_back(one);
+    return all;
+  }
+
+  /// Nothing waits, and the preset is what it was.
+  void restore(const std::string& before)
+  {
+    while (!problems().empty() && !HasFatalFailure()) click(problems().begin()->first + ":drop");
+    for (int i = 0; i < 100 && text() != before; ++i) undo();
+    ASSERT_EQ(text(), before);
+  }
+  /// null where there is none: settings that are not given.
+  Json drafted(const std::string& pointer) const { return panel().draft().value().value(Json::json_pointer(pointer), Json()); }
+  static std::set<std::string> differences(const std::string& before, const std::string& after)
+  {
+    const Json a = Json::parse(before).flatten(), b = Json::parse(after).flatten();
+    std::set<std::string> found;
+    for (const auto& [key, value] : a.items())
+      if (!b.contains(key) || b[key] != value) found.insert(key);
+    for (const auto& [key, value] : b.items())
+      if (!a.contains(key)) found.insert(key);
+    return found;
+  }
+
+  /// Other values that a plain field may be given, as they are typed or chosen; of a box that is clicked, nothing.
+  std::vector<std::string> candidates(const Json& node, const std::string& pointer, const std::string& owner) const
+  {
+    const Json now = drafted(pointer);
+    std::vector<std::string> all;
+    if (node.contains("oneOf"))
+      for (const Json& word : node["oneOf"]) all.push_back(word["const"]);
+    else if (const auto named = names.find(pointer.substr(pointer.rfind('/') + 1)); named != names.end())
+      all = named->second;
+    else if (node.value("minLength", 0) > 0)
+      all = owner.starts_with("Dispersion") ? std::vector<std::string>{"N-BK7", "N-SF66"} : std::vector<std::string>{"a.exr", "b.exr"};
+    else if (node["type"] == "string")
+      all = {"Grüße, \"quoted\" \\ ~/"};
+    else {
+      const double x = now.is_number() ? now.get<double>() : 1;
+      for (const double to : {x + 1, x - 1, x / 2, x + 0.5}) all.push_back(Json(to).dump());
+      if (node["type"] == "integer")
+        for (std::string& number : all) number = number.substr(0, number.find('.'));
+    }
+    std::erase_if(all, [&](const std::string& candidate) { return now == candidate; });
+    return all;
+  }
+  void set(const Json& node, const std::string& pointer, const std::string& to)
+  {
+    const bool named = names.contains(pointer.substr(pointer.rfind('/') + 1));
+    search(dotted(pointer));
+    if (node.value("type", "") == "boolean")
+      click(pointer);
+    else if (node.contains("oneOf") || named)
+      choose(pointer, to);
+    else
+      enter(pointer, to);
+  }
+  /// One plain value is edited, and the edit taken back.
+  void edit_plain(const Json& node, const std::string& pointer, const std::string& owner)
+  {
+    SCOPED_TRACE(pointer);
+    const std::string before = text();
+    ASSERT_TRUE(problems().empty()) << problems().begin()->second.text;
+    std::vector<std::string> to = node.value("type", "") == "boolean" ? std::vector<std::string>{""} : candidates(node, pointer, owner);
+    bool once = false;
+    for (const std::string& candidate : to) {
+      if (once && !node.contains("oneOf")) break; // of a choice every word
+      set(node, pointer, candidate);
+      if (HasFatalFailure()) return;
+      if (problems().empty()) {
+        EXPECT_EQ(differences(before, text()), (std::set<std::string>{pointer})) << candidate;
+        once = true;
+      } else
+        EXPECT_EQ(text(), before) << "the run's preset is as it was";
+      restore(before);
+    }
+    EXPECT_TRUE(once) << "none of its other values was taken";
+  }
+  /// A plain value, or each of the numbers in a list or table, which is given items first.
+  void edit_leaf(const Json& node, const std::string& pointer, const std::string& owner)
+  {
+    if (node.value("type", "") != "array") return edit_plain(node, pointer, owner);
+    const Json now = drafted(pointer);
+    for (std::size_t i = 0; i < now.size(); ++i)
+      if (now[i].is_array())
+        for (std::size_t c = 0; c < 2; ++c)
+          edit_plain(node["items"]["prefixItems"][c], child_of(child_of(pointer, std::to_string(i)), std::to_string(c)), owner);
+      else
+        edit_plain(node["items"], child_of(pointer, std::to_string(i)), owner);
+    EXPECT_FALSE(now.empty()) << pointer;
+  }
+  /// Of an object that was given a type or given at all: what it cannot do without.
+  void fill(const Json& properties, const std::string& pointer, const std::string& owner)
+  {
+    for (const auto& [name, node] : properties.items()) {
+      const std::string at = child_of(pointer, name);
+      if (problems().empty() || node.contains("const") || !struct_of(node).empty() || is_optional(node)) continue;
+      const Json now = drafted(at);
+      if (now == "")
+        set(node, at, candidates(node, at, owner).front());
+      else if (now.is_array() && now.empty()) {
+        search(dotted(at));
+        for (std::size_t i = 0; i < node.value("minItems", 1u); ++i) click(at + ":add");
+        if (name == "coefficients") set(node["items"], at + "/0", "1.5"); // n is 0 without
+      }
+    }
+    ASSERT_TRUE(problems().empty()) << pointer << ": " << problems().begin()->second.text;
+  }
+
+  void visit_properties(const Json& properties, const std::string& pointer, const std::string& owner)
+  {
+    for (const auto& [name, property] : properties.items()) {
+      if (HasFatalFailure()) return;
+      if (pointer.empty() && !panel().draft().value().contains(name)) continue; // of the file, not of the preset
+      visit(property, child_of(pointer, name), owner, owner + "." + name);
+    }
+  }
+  void visit(const Json& property, const std::string& pointer, const std::string& owner, const std::string& leaf)
+  {
+    SCOPED_TRACE(pointer);
+    const std::string before = text(), type = struct_of(property);
+    if (property.contains("const") || property.value("oneOf", Json()).size() == 1) { // edited by whoever chose it, or the only one
+      search(dotted(pointer));
+      EXPECT_TRUE(panel().place_of(pointer)) << "a choice of types";
+    } else {
+      if (is_optional(property) && drafted(pointer).is_null()) {
+        search(dotted(pointer));
+        if (pointer.ends_with("/mesh")) click("/scene/objects/0/shape:given"); // one of both
+        click(pointer + ":given");
+        EXPECT_FALSE(drafted(pointer).is_null());
+        if (type.empty() && drafted(pointer) == "") set(given(property), pointer, candidates(given(property), pointer, owner).front());
+      }
+      if (type.empty())
+        edit_leaf(given(property), pointer, owner);
+      else
+        visit_struct(type, given(property).value("type", "") == "array" ? pointer + "/0"
+                           : given(property).contains("$ref")           ? pointer
+                                                                        : child_of(pointer, drafted(pointer).items().begin().key()));
+      restore(before);
+    }
+    if (type.empty()) edited.insert(leaf);
+  }
+  void visit_struct(const std::string& name, const std::string& pointer)
+  {
+    const Json& definition = schema["$defs"][name];
+    if (definition.contains("properties") && visited.insert(name).second) visit_properties(definition["properties"], pointer, name);
+    for (const Json& type : types(definition)) {
+      const std::string word = type["title"], owner = name + "." + word;
+      if (!visited.insert(owner).second) continue;
+      SCOPED_TRACE(owner);
+      const std::string before = text();
+      search(dotted(pointer));
+      if (drafted(pointer).is_null()) click(pointer + ":given");
+      if (HasFatalFailure()) return;
+      if (drafted(pointer).value("type", "") != word) choose(pointer + "/type", word);
+      if (!problems().empty()) fill(type["properties"], pointer, owner);
+      if (HasFatalFailure()) return;
+      EXPECT_EQ(at(pointer + "/type"), word);
+      visit_properties(type["properties"], pointer, owner);
+      if (HasFatalFailure()) return;
+      restore(before);
+    }
+  }
+};
+
+TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
+{
+  for (const char* file : {"a.exr", "b.exr"}) folder.write(file, "a file that is there");
+  Json preset = Json::parse(test::preset_text);
+  preset["scene"]["materials"]["glass"] = {{"type", "dielectric"}, {"dispersion", 1.5}};
+  open(preset.dump());
+  ASSERT_FALSE(HasFatalFailure());
+  const std::string before = text();
+  visit_properties(schema["properties"], "", "Preset");
+  EXPECT_EQ(text(), before);
+  EXPECT_EQ(edited, leaves());
+  EXPECT_TRUE(workbench.messages().empty());
+  RecordProperty("fields", static_cast<int>(edited.size()));
+}
+
+} // namespace
+} // namespace nephroid::ui

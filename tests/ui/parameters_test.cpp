@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Parameters": what is impossible is said at its field while the run goes on, a gesture is one entry, lists take and lose items,
+// the search finds. parameters_schema_test.cpp reaches every field.
+#include "parameters_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using test::Json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+const std::string fov = "/scene/camera/fov_deg", white = "/white";
+
+class ParametersTest : public test::ParametersFixture {
+protected:
+  /// Why the edit at this pointer waits; empty where it does not.
+  std::string problem(const std::string& pointer) const
+  {
+    const auto found = problems().find(pointer);
+    return found == problems().end() ? "" : found->second.text;
+  }
+  int made() const { return runs.made; }
+};
+
+TEST_F(ParametersTest, WithoutAPresetItSaysSo)
+{
+  frames(3);
+  EXPECT_FALSE(panel().place_of("search"));
+  EXPECT_THAT(workbench.messages(), IsEmpty());
+}
+
+TEST_F(ParametersTest, WhatIsImpossibleIsSaidAtItsFieldAndTheRunGoesOn)
+{
+  open();
+  const std::string before = text();
+  const int runs_before = made();
+  const std::map<std::string, std::string> impossible{{"200", "expected a number from 0.001 to 179.9 degrees"},
+                                                      {"-1", "expected a number from"},
+                                                      {"wide", "is \"wide\""},
+                                                      {"nan", "is \"nan\""},
+                                                      {"1e999", "is \"1e999\""},
+                                                      {"40,5", "is \"40,5\""},
+                                                      {"", "is \"\""}};
+  for (const auto& [typed, said] : impossible) {
+    enter(fov, typed);
+    EXPECT_THAT(problem(fov), HasSubstr(said));
+    EXPECT_TRUE(panel().place_of(fov + ":problem")) << "said at the field";
+    EXPECT_EQ(text(), before);
+  }
+  frames(20);
+  EXPECT_EQ(made(), runs_before) << "no run was begun";
+  EXPECT_EQ(workbench.status().state, job::State::running);
+  EXPECT_THAT(workbench.messages(), IsEmpty());
+  enter(white, "2");
+  EXPECT_EQ(at(white), 2) << "another field is edited all the same";
+  EXPECT_EQ(at(fov), 40);
+  EXPECT_NE(problem(fov), "") << "nothing is lost";
+  enter(fov, " +5e1 ");
+  EXPECT_EQ(at(fov), 50) << "mended";
+  EXPECT_THAT(problems(), IsEmpty());
+  undo();
+  undo();
+  EXPECT_EQ(text(), before) << "two entries";
+}
+
+TEST_F(ParametersTest, NumbersAreReadAsPeopleTypeThem)
+{
+  open();
+  for (const auto& [typed, number] : std::map<std::string, double>{{".02", .02}, {"+3", 3}, {"1e5", 1e5}, {"7.", 7}, {" 5 ", 5}}) {
+    enter(white, typed);
+    EXPECT_EQ(at(white), number) << typed;
+  }
+  enter("/seed", "18446744073709551615");
+  EXPECT_EQ(workbench.preset()->seed, 18446744073709551615u) << "every bit of it";
+  enter("/seed", "1.5");
+  EXPECT_THAT(problem("/seed"), HasSubstr("expected a whole number"));
+}
+
+TEST_F(ParametersTest, WhileItIsTypedItIsSaidAlready)
+{
+  open();
+  const std::string before = text();
+  begin_typing(fov, "0");
+  EXPECT_TRUE(panel().place_of(fov + ":problem"));
+  EXPECT_THAT(problems(), IsEmpty()) << "not entered";
+  type("60");
+  EXPECT_FALSE(panel().place_of(fov + ":problem"));
+  EXPECT_EQ(text(), before) << "no run for every letter";
+  press(ImGuiKey_Escape);
+  frames(2);
+  EXPECT_EQ(text(), before);
+  begin_typing(fov, "61");
+  click(*panel().place_of("search"));
+  EXPECT_EQ(at(fov), 61) << "taken where the keyboard goes elsewhere";
+}
+
+TEST_F(ParametersTest, ADragIsOneEntryAndTheRunFollows)
+{
+  open();
+  const std::string before = text();
+  search("scene.camera.fov_deg");
+  const auto from = *panel().place_of(fov);
+  press_at(from);
+  for (int step = 1; step <= 5; ++step) {
+    move({from[0] + 20 * step, from[1]});
+    const auto* edit = imgui.pushed<command::Edit>();
+    ASSERT_TRUE(edit);
+    EXPECT_TRUE(edit->live);
+  }
+  let_go();
+  EXPECT_TRUE(imgui.pushed<command::EndGesture>());
+  EXPECT_EQ(at(fov), 50) << "a tenth a pixel at 40";
+  press_at(from);
+  move({from[0] - 3000, from[1]});
+  let_go();
+  EXPECT_GT(at(fov).get<double>(), 0) << "a drag stops at what is possible";
+  EXPECT_THAT(problems(), IsEmpty());
+  undo();
+  undo();
+  EXPECT_EQ(text(), before);
+  EXPECT_FALSE(workbench.history()->modified());
+}
+
+TEST_F(ParametersTest, EditsThatNeedEachOtherAreOneEntry)
+{
+  folder.write("ball.obj", "");
+  open();
+  const std::string before = text(), object = "/scene/objects/0", other = object + "/mesh";
+  search("scene.objects.0");
+  click(object + "/shape:given");
+  EXPECT_THAT(problem(object + "/shape"), HasSubstr("neither 'mesh' nor 'shape'"));
+  click(other + ":given");
+  enter(other, "nowhere.obj");
+  EXPECT_THAT(problem(other), HasSubstr("nowhere.obj")) << "a file that is not there";
+  EXPECT_EQ(text(), before);
+  enter(other, "ball.obj");
+  EXPECT_EQ(at(other), "ball.obj");
+  EXPECT_TRUE(at(object + "/shape").is_null());
+  EXPECT_THAT(problems(), IsEmpty());
+  undo();
+  EXPECT_EQ(text(), before);
+}
+
+TEST_F(ParametersTest, WhatWaitsIsTakenBack)
+{
+  open();
+  enter(fov, "200");
+  enter(white, "-1");
+  ASSERT_THAT(problems(), SizeIs(2));
+  EXPECT_EQ(panel().draft().value().at("white"), -1);
+  click(white + ":drop");
+  EXPECT_THAT(problems(), SizeIs(1));
+  EXPECT_EQ(panel().draft().value().at("white"), 1);
+  drag(0, 40, 0); // the camera, in the View
+  EXPECT_NE(problem(fov), "") << "stays over another edit";
+  EXPECT_EQ(panel().draft().value()["scene"]["camera"]["position"], at("/scene/camera/position"));
+  open();
+  ASSERT_TRUE(workbench.open(folder.write("another.json", test::preset_text)));
+  frames(2);
+  EXPECT_THAT(problems(), IsEmpty()) << "another preset";
+}
+
+TEST_F(ParametersTest, AFieldIsResetAndWhatIsNotByDefaultIsMarked)
+{
+  open();
+  search("passes");
+  EXPECT_TRUE(panel().place_of("/stop/passes"));
+  search("fov");
+  EXPECT_FALSE(panel().place_of(fov + ":reset")) << "as it is by default";
+  enter(fov, "50");
+  click(fov + ":reset");
+  EXPECT_EQ(at(fov), 40);
+  enter(fov, "50");
+  click(*panel().place_of(fov + ":label"), 1);
+  frames(2);
+  click(fov + ":menu reset");
+  EXPECT_EQ(at(fov), 40);
+  search("");
+  click("changed");
+  frames(2);
+  EXPECT_TRUE(panel().place_of("/scene/lights/0/power_w")) << "10 W";
+  EXPECT_FALSE(panel().place_of(white));
+  EXPECT_FALSE(panel().place_of(fov));
+}
+
+TEST_F(ParametersTest, TheSearchFindsNamesUnitsAndHelp)
+{
+  open();
+  search("refraction angle");
+  EXPECT_TRUE(panel().place_of("/spectral/threshold_deg"));
+  EXPECT_FALSE(panel().place_of(white));
+  search("CAMERA degrees");
+  EXPECT_TRUE(panel().place_of(fov));
+  EXPECT_FALSE(panel().place_of("/scene/camera/position/0"));
+  search("no such thing");
+  EXPECT_FALSE(panel().place_of(fov));
+  search("");
+  EXPECT_TRUE(panel().place_of(white));
+  EXPECT_FALSE(panel().place_of(fov)) << "closed, as it was before the search";
+}
+
+TEST_F(ParametersTest, ItemsOfAListAreAddedCopiedMovedAndRemoved)
+{
+  open();
+  const std::string before = text(), lights = "/scene/lights", objects = "/scene/objects";
+  search("scene.lights");
+  click(lights + ":add");
+  ASSERT_THAT(at(lights), SizeIs(2));
+  enter(lights + "/1/power_w", "3");
+  search("scene.lights");
+  click(lights + "/1:duplicate");
+  ASSERT_THAT(at(lights), SizeIs(3));
+  EXPECT_EQ(at(lights + "/2/power_w"), 3);
+  click(lights + "/1:move up");
+  EXPECT_EQ(at(lights + "/0/power_w"), 3);
+  EXPECT_EQ(at(lights + "/1/power_w"), 10);
+  click(lights + "/1:remove");
+  ASSERT_THAT(at(lights), SizeIs(2));
+  search("scene.objects");
+  click(objects + "/0:duplicate");
+  EXPECT_EQ(at(objects + "/1/name"), "wall 2") << "names are each object's own";
+  for (int i = 0; i < 6; ++i) undo();
+  EXPECT_EQ(text(), before);
+}
+
+TEST_F(ParametersTest, AnObjectThatIsAddedWaitsUntilItIsWhole)
+{
+  open();
+  const std::string before = text(), added = "/scene/objects/1";
+  search("scene.objects");
+  click("/scene/objects:add");
+  ASSERT_THAT(problems(), SizeIs(1));
+  EXPECT_EQ(text(), before);
+  search("scene.objects.1");
+  click(added + "/shape:given");
+  choose(added + "/material", "wall");
+  EXPECT_THAT(problems(), IsEmpty());
+  EXPECT_EQ(at(added + "/shape/type"), "sphere");
+  undo();
+  EXPECT_EQ(text(), before) << "one entry";
+}
+
+TEST_F(ParametersTest, AMaterialIsRenamedWithItsUses)
+{
+  open();
+  const std::string before = text(), materials = "/scene/materials";
+  search("scene.materials");
+  click(materials + ":add");
+  ASSERT_TRUE(at(materials).contains("new"));
+  const auto rename = [&](const std::string& name, const std::string& to) {
+    search("scene.materials." + name);
+    click(materials + "/" + name + ":name");
+    type(to);
+    press(ImGuiKey_Enter);
+    frames(2);
+  };
+  rename("wall", "new");
+  EXPECT_TRUE(at(materials).contains("wall")) << "there is another";
+  rename("wall", "a/b ~ c");
+  EXPECT_EQ(at("/scene/objects/0/material"), "a/b ~ c");
+  search("scene.materials");
+  click(materials + "/a~1b ~0 c:duplicate");
+  EXPECT_TRUE(at(materials).contains("a/b ~ c 2"));
+  click(materials + "/a~1b ~0 c:remove");
+  ASSERT_THAT(problems(), SizeIs(1)) << "an object is made of it";
+  EXPECT_THAT(problems().begin()->second.text, HasSubstr("there is no material"));
+  click(materials + ":drop");
+  for (int i = 0; i < 3; ++i) undo();
+  EXPECT_EQ(text(), before);
+}
+
+TEST_F(ParametersTest, RowsOfATableAreAddedSortedAndRemoved)
+{
+  open();
+  const std::string spectrum = "/scene/lights/0/spectrum", table = spectrum + "/table";
+  search("scene.lights.0.spectrum");
+  choose(spectrum + "/type", "lines");
+  EXPECT_THAT(problem(spectrum), HasSubstr("expected a list of 1 to 100000 items"));
+  click(table + ":add");
+  click(table + ":add");
+  ASSERT_THAT(at(table), SizeIs(2));
+  enter(table + "/1/0", "450");
+  EXPECT_EQ(at(table).dump(), "[[550.0,1.0],[450.0,1.0]]");
+  search("scene.lights.0.spectrum");
+  click(table + ":sort");
+  EXPECT_EQ(at(table).dump(), "[[450.0,1.0],[550.0,1.0]]");
+  choose(spectrum + "/type", "table");
+  EXPECT_EQ(at(table).dump(), "[[450.0,1.0],[550.0,1.0]]") << "both types have it";
+  click(table + "/0:remove");
+  EXPECT_THAT(problem(table), HasSubstr("expected a list of 2"));
+  EXPECT_THAT(at(table), SizeIs(2));
+}
+
+TEST_F(ParametersTest, AFileIsChosenFromAList)
+{
+  folder.write("mask.exr", "");
+  open();
+  search("measure.mask");
+  click("/measure/mask:given");
+  EXPECT_NE(problem("/measure/mask"), "");
+  click("/measure/mask:files");
+  click("/measure/mask:mask.exr");
+  EXPECT_EQ(at("/measure/mask"), "mask.exr");
+}
+
+TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo)
+{
+  open();
+  workbench.apply({command::Report{workbench.preset()->source + "#/scene/camera/fov_deg: is not to this run's taste; expected another"}});
+  search("scene.camera.fov_deg");
+  EXPECT_TRUE(panel().place_of(fov + ":problem"));
+}
+
+TEST_F(ParametersTest, ATableOfManyRowsIsDrawnInAFrame)
+{
+  Json preset = Json::parse(test::preset_text);
+  Json& table = preset["scene"]["lights"][0]["spectrum"] = {{"type", "table"}};
+  for (int i = 0; i < 100000; ++i) table["table"].push_back({300 + 0.005 * i, 1});
+  open(preset.dump());
+  search("scene.lights.0.spectrum.table");
+  std::vector<double> milliseconds;
+  for (int i = 0; i < 20; ++i) {
+    const double begin = test::thread_ms();
+    frame();
+    milliseconds.push_back(test::thread_ms() - begin);
+  }
+  std::sort(milliseconds.begin(), milliseconds.end());
+  RecordProperty("median_us", static_cast<int>(1000 * milliseconds[10]));
+#ifdef NDEBUG
+  EXPECT_LT(milliseconds[10], 33);
+#endif
+}
+
+} // namespace
+} // namespace nephroid::ui

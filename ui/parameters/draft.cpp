@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/parameters/draft.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json_output.h"
+#include "base/json_pointer.h"
+#include "preset/outline.h"
+#include "preset/read.h"
+#include "scene/materials.h"
+
+#include <filesystem>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+using Pointer = Json::json_pointer;
+using preset::Outline;
+
+std::string parent_of(const std::string& pointer) { return pointer.substr(0, std::min(pointer.rfind('/'), pointer.size())); }
+
+/// Files that `after` names and `before` does not are there. Those of dispersions are read below.
+void check_files(const std::vector<Outline>& fields, const Json& before, const Json& after, const std::string& where,
+                 const FileFinder& finder)
+{
+  const auto inside = [](const Json& json, const std::string& key) { return json.is_object() ? json.value(key, Json()) : Json(); };
+  for (const Outline& o : fields) {
+    const std::string name(o.field.name), at = where + "/" + name;
+    const Json was = inside(before, name);
+    const Json now = inside(after, name);
+    if (now == was || now.is_null()) continue;
+    if (o.kind == Outline::Kind::text && o.field.text == preset::Text::file)
+      finder.find(now.get<std::string>(), at);
+    else if (o.kind == Outline::Kind::object)
+      check_files(o.fields(now), was, now, at, finder);
+    else if (o.kind == Outline::Kind::list)
+      for (std::size_t i = 0; i < now.size(); ++i)
+        check_files(o.fields(now[i]), i < was.size() ? was[i] : Json(), now[i], at + "/" + std::to_string(i), finder);
+  }
+}
+
+/// What a run would refuse of what changed, as far as that is known without it: files that are missing, spectra and curves.
+void check_loads(const preset::Preset& before, const preset::Preset& after, const Json& json_before, const Json& json_after)
+{
+  const std::string where = after.source + "#";
+  const FileFinder finder(std::filesystem::path(after.source).parent_path());
+  std::vector<std::string> warnings;
+  for (const auto& [name, material] : after.scene.materials) {
+    const auto was = before.scene.materials.find(name);
+    if (was == before.scene.materials.end() || was->second != material)
+      scene::make_material(name, material, finder, child_of(where + "/scene/materials", name), warnings);
+  }
+  for (std::size_t i = 0; i < after.scene.lights.size(); ++i) {
+    const preset::LightSpectrum& spectrum = after.scene.lights[i].spectrum;
+    if (i >= before.scene.lights.size() || before.scene.lights[i].spectrum != spectrum)
+      scene::make_light_spectrum(spectrum, where + "/scene/lights/" + std::to_string(i) + "/spectrum");
+  }
+  check_files(preset::outline(json_after), json_before, json_after, where, finder);
+}
+
+} // namespace
+
+std::string child_of(const std::string& pointer, std::string_view key) { return pointer + "/" + pointer_key(key); }
+
+std::string dotted(const std::string& pointer)
+{
+  std::string text;
+  for (Pointer at(pointer); !at.empty(); at.pop_back()) text = at.back() + (text.empty() ? "" : "." + text);
+  return text;
+}
+
+bool is_inside(const std::string& pointer, const std::string& root)
+{
+  return pointer.starts_with(root) && (pointer.size() == root.size() || pointer[root.size()] == '/');
+}
+
+void Draft::follow(const preset::Preset& preset)
+{
+  if (!base_.is_null() && preset == preset_) return;
+  preset::Preset here = preset; // as it was opened or saved, under whatever name
+  here.source = preset_.source;
+  if (preset.source != preset_.source && !(here == preset_)) waiting_.clear();
+  take(preset);
+  std::erase_if(waiting_, [&](const auto& edit) { return !base_.contains(Pointer(parent_of(edit.first))); });
+  value_ = with(waiting_);
+  problems_.clear();
+  preset::Preset unused;
+  for (const auto& [pointer, value] : waiting_)
+    if (auto problem = problem_of({{pointer, value}}, pointer, unused)) problems_[pointer] = *std::move(problem);
+}
+
+void Draft::take(preset::Preset preset)
+{
+  preset_ = std::move(preset);
+  preset_.provenance = {};
+  base_ = Json::parse(preset::to_json(preset_));
+}
+
+Json Draft::with(const Edits& edits) const
+{
+  Json made = base_;
+  for (const auto& [pointer, value] : edits) made[Pointer(pointer)] = value;
+  return made;
+}
+
+preset::Preset Draft::read(const Json& value) const
+{
+  preset::Preset made = preset::parse_preset(json_text(value), preset_.source);
+  check_loads(preset_, made, base_, value);
+  return made;
+}
+
+std::optional<Problem> Draft::problem_of(const Edits& edits, const std::string& pointer, preset::Preset& made) const
+{
+  try {
+    made = read(with(edits));
+  } catch (const Error& error) {
+    const std::string prefix = preset_.source + "#";
+    const bool known = error.where().starts_with(prefix);
+    return Problem{pointer, known ? error.where().substr(prefix.size()) : pointer, known ? error.text() : error.line()};
+  }
+  return std::nullopt;
+}
+
+/// reach 0: that edit alone; 1: with those beside it, which may say one thing together (a mesh in place of a shape); 2: all of them.
+Draft::Edits Draft::together(const std::string& pointer, int reach) const
+{
+  Edits edits;
+  for (const auto& [p, value] : waiting_)
+    if (p == pointer || reach == 2 || (reach == 1 && parent_of(p) == parent_of(pointer))) edits[p] = value;
+  return edits;
+}
+
+std::optional<preset::Preset> Draft::settle(const std::string& pointer)
+{
+  problems_.erase(pointer);
+  preset::Preset made;
+  for (const int reach : {0, 1, 2}) {
+    const Edits edits = together(pointer, reach);
+    if (auto problem = problem_of(edits, pointer, made)) {
+      problems_.try_emplace(pointer, *std::move(problem));
+      continue;
+    }
+    take(std::move(made));
+    for (const auto& [settled, value] : edits) {
+      waiting_.erase(settled);
+      problems_.erase(settled);
+    }
+    return preset_;
+  }
+  return std::nullopt;
+}
+
+std::optional<preset::Preset> Draft::edit(const std::string& pointer, Json value)
+{
+  std::string root = pointer; // an edit inside of one that waits is part of that
+  for (const auto& [waiting, _] : waiting_)
+    if (is_inside(pointer, waiting)) root = waiting;
+  Json whole = root == pointer ? std::move(value) : value_.at(Pointer(root));
+  if (root != pointer) whole[Pointer(pointer.substr(root.size()))] = std::move(value);
+  std::erase_if(waiting_, [&](const auto& edit) { return is_inside(edit.first, root); });
+  std::erase_if(problems_, [&](const auto& problem) { return is_inside(problem.first, root); });
+  waiting_[root] = std::move(whole);
+  std::optional<preset::Preset> made = settle(root);
+  // What became possible lets others be possible.
+  for (bool again = made.has_value(); again;) {
+    again = false;
+    for (const auto& [waiting, _] : Edits(waiting_))
+      if (auto more = settle(waiting)) {
+        made = std::move(more);
+        again = true;
+        break;
+      }
+  }
+  value_ = with(waiting_);
+  return made;
+}
+
+std::optional<Problem> Draft::trial(const std::string& pointer, const Json& value) const
+{
+  Draft tried = *this;
+  tried.edit(pointer, value);
+  for (const auto& [edit, problem] : tried.problems_)
+    if (is_inside(pointer, edit)) return Problem{pointer, problem.place, problem.text};
+  return std::nullopt;
+}
+
+void Draft::drop(const std::string& pointer)
+{
+  waiting_.erase(pointer);
+  problems_.erase(pointer);
+  value_ = with(waiting_);
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// The widgets of single values: a number is dragged or typed, a word is chosen, a text is typed, a file is chosen.
+#include "base/files.h"
+#include "optics/spectrum.h"
+#include "preset/describe_limits.h"
+#include "ui/parameters/panel.h"
+#include "ui/widgets/theme.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+namespace nephroid::ui {
+namespace {
+
+namespace fs = std::filesystem;
+using preset::Outline;
+using Kind = Outline::Kind;
+
+float gap() { return ImGui::GetStyle().ItemInnerSpacing.x; }
+
+/// Numbers as people type them (".5", "+3", "1e5"); anything else stays a text, of which the reader of presets says what is wrong.
+Json number_from(const std::string& text)
+{
+  const std::size_t first = text.find_first_not_of(" +"), last = text.find_last_not_of(' ');
+  if (first == std::string::npos) return text;
+  const char* const begin = text.data() + first;
+  const char* const end = text.data() + last + 1;
+  const auto all = [&](auto& value) {
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    return error == std::errc() && stop == end;
+  };
+  std::uint64_t natural = 0;
+  std::int64_t integer = 0;
+  double real = 0;
+  if (all(natural)) return natural;
+  if (all(integer)) return integer;
+  return all(real) && std::isfinite(real) ? Json(real) : Json(text);
+}
+
+/// A pixel of a drag: a hundredth of the number's power of ten.
+double step_of(double value, bool whole)
+{
+  const double step = value == 0 ? 0.01 : std::pow(10, std::floor(std::log10(std::fabs(value)))) / 100;
+  return whole ? std::max(step, 1.0) : ImGui::GetIO().KeyAlt ? step / 100 : step;
+}
+
+/// In decimals that a person reads.
+double rounded(double value, double step)
+{
+  return step < 1 ? std::round(value * std::round(1 / step)) / std::round(1 / step) : std::round(value / step) * step;
+}
+
+std::string text_of(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+std::vector<Outline::Word> as_words(const std::vector<std::string>& names)
+{
+  std::vector<Outline::Word> words;
+  for (const std::string& name : names) words.push_back({name, {}});
+  return words;
+}
+
+} // namespace
+
+std::string ParametersPanel::unit_of(const preset::Field& field) const
+{
+  return field.unit == preset::length_unit ? draft_.value().value("unit", "") : std::string(field.unit);
+}
+
+/// The field's widget, then its unit.
+void ParametersPanel::draw_value(const Outline& o, const Json& value, const std::string& pointer)
+{
+  const std::string unit = unit_of(o.field);
+  const float after =
+      (unit.empty() ? 0 : ImGui::CalcTextSize(unit.c_str()).x + gap()) + ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
+  const float width = std::max(ImGui::GetContentRegionAvail().x - after, 4 * ImGui::GetFontSize());
+  const auto set = [&](std::string_view word) { ask(dotted(pointer) + ": " + std::string(word), pointer, word); };
+  switch (o.kind) {
+  case Kind::boolean: {
+    bool on = value == true;
+    if (ImGui::Checkbox(("##" + pointer).c_str(), &on)) ask(dotted(pointer), pointer, on);
+    note(pointer);
+    break;
+  }
+  case Kind::word:
+    draw_choice(pointer, text_of(value), o.words,
+                o.chooses ? std::function<void(std::string_view)>([&](std::string_view word) {
+                  ask(dotted(pointer), "", preset::as_type(draft_.value(), preset::outline, o, word));
+                })
+                          : set,
+                width);
+    break;
+  case Kind::integer:
+  case Kind::number:
+    draw_number({o.field.bounds, o.whole, width}, value, pointer);
+    break;
+  case Kind::numbers: {
+    const auto count = static_cast<float>(o.size);
+    for (std::size_t i = 0; i < o.size; ++i) {
+      if (i > 0) ImGui::SameLine(0, gap());
+      draw_number({o.field.bounds, o.whole, (width - (count - 1) * gap()) / count}, value.at(i), child_of(pointer, std::to_string(i)));
+    }
+    break;
+  }
+  default: {
+    const preset::Names names = o.field.names;
+    if (names != preset::Names::nothing) {
+      std::vector<std::string> known;
+      if (names == preset::Names::material)
+        for (const auto& [name, material] : draft_.value()["scene"]["materials"].items()) known.push_back(name);
+      else
+        known = names == preset::Names::illuminant ? optics::illuminant_names() : optics::colorchecker_names();
+      draw_choice(pointer, text_of(value), as_words(known), set, width);
+      break;
+    }
+    const bool file = o.field.text == preset::Text::file;
+    draw_text(pointer, value, file ? width - ImGui::GetFrameHeight() - gap() : width, [](const std::string& text) { return Json(text); });
+    if (file) draw_file_choice(pointer);
+    break;
+  }
+  }
+  if (unit.empty()) return;
+  ImGui::SameLine(0, gap());
+  ImGui::TextDisabled("%s", unit.c_str());
+}
+
+/// Dragged, or typed after a click. What is no number is a text.
+void ParametersPanel::draw_number(const Number& number, const Json& value, const std::string& pointer)
+{
+  const double now = value.is_number() ? value.get<double>() : 0;
+  const bool possible = value.is_number() && number.bounds.contain(now) && (!number.whole || std::trunc(now) == now);
+  if (!possible || number_typed_ == pointer) {
+    if (number_typed_ == pointer && !number_focused_) ImGui::SetKeyboardFocusHere();
+    draw_text(pointer, value, number.width, number_from);
+    if (number_typed_ != pointer) return;
+    if (ImGui::IsItemActive())
+      number_focused_ = true;
+    else if (number_focused_)
+      number_typed_.clear();
+    return;
+  }
+  ImGui::SetNextItemWidth(number.width);
+  constexpr ImGuiSliderFlags flags = ImGuiSliderFlags_NoInput | ImGuiSliderFlags_NoRoundToFormat;
+  const std::string label = "##" + pointer;
+  const double step = step_of(now, number.whole);
+  const double low = number.bounds.low, high = number.bounds.high;
+  Json dragged;
+  if (number.whole && low >= 0) { // a seed has 64 bits, which no double has
+    const auto least = static_cast<std::uint64_t>(low),
+               most = high < 18446744073709551615.0 ? static_cast<std::uint64_t>(high) : UINT64_MAX;
+    const auto pixel = static_cast<std::uint64_t>(step);
+    auto to = value.get<std::uint64_t>();
+    if (ImGui::DragScalar(label.c_str(), ImGuiDataType_U64, &to, static_cast<float>(step), &least, &most, nullptr, flags))
+      dragged = std::max(to / pixel * pixel, least);
+  } else {
+    double to = now;
+    if (ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &to, static_cast<float>(step), &low, &high, "%.9g", flags))
+      dragged = number.whole ? Json(std::llround(rounded(to, step))) : Json(rounded(to, step));
+  }
+  note(pointer);
+  if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemActivated()) gestures_.begin();
+  if (!dragged.is_null() && number.bounds.contain(dragged.get<double>())) ask(dotted(pointer), pointer, dragged, true);
+  if (!ImGui::IsItemDeactivated()) return;
+  let_go_ = ImGui::IsItemDeactivatedAfterEdit();
+  if (let_go_) return;
+  number_typed_ = pointer;
+  number_focused_ = false;
+}
+
+/// While a text is typed `problem` of it is said. What was typed is there at Enter, or where the keyboard goes elsewhere.
+std::optional<std::string> ParametersPanel::type_text(const std::string& id, const std::string& before, float width,
+                                                      const std::function<std::optional<Problem>(const std::string&)>& problem)
+{
+  std::string text = before;
+  ImGui::SetNextItemWidth(width);
+  input_text(("##text" + id).c_str(), "", text, ImGuiInputTextFlags_AutoSelectAll);
+  note(id);
+  if (ImGui::IsItemActive()) {
+    if (typed_at_ == id && typed_ == text) return std::nullopt;
+    typed_at_ = id;
+    typed_ = text;
+    wrong_ = text == before ? std::nullopt : problem(text);
+  } else if (typed_at_ == id) {
+    typed_at_.clear();
+    if (text != before) return text;
+  }
+  return std::nullopt;
+}
+
+/// A text that is a field's value.
+void ParametersPanel::draw_text(const std::string& pointer, const Json& value, float width, Json (*read)(const std::string&))
+{
+  const auto problem = [&](const std::string& text) { return draft_.trial(pointer, read(text)); };
+  if (const auto typed = type_text(pointer, text_of(value), width, problem)) ask(dotted(pointer), pointer, read(*typed));
+}
+
+void ParametersPanel::draw_choice(const std::string& pointer, const std::string& now, const std::vector<Outline::Word>& words,
+                                  const std::function<void(std::string_view)>& choose, float width)
+{
+  ImGui::SetNextItemWidth(width);
+  const bool open = ImGui::BeginCombo(("##" + pointer).c_str(), now.c_str(), ImGuiComboFlags_HeightLarge);
+  note(pointer);
+  for (const Outline::Word& word : words) {
+    if (open && ImGui::Selectable(std::string(word.name).c_str(), word.name == now) && word.name != now) choose(word.name);
+    if (open) note(pointer + ":" + std::string(word.name));
+    if ((open || word.name == now) && !word.sentence.empty()) ImGui::SetItemTooltip("%s", std::string(word.sentence).c_str());
+  }
+  if (open) ImGui::EndCombo();
+}
+
+/// In the row of an object: which type it is, where there are several.
+void ParametersPanel::draw_type(const FieldsOf& fields, const Json& object, const std::string& pointer)
+{
+  const Fields all = fields(object);
+  const auto chooser = std::find_if(all.begin(), all.end(), [](const Outline& o) { return o.chooses; });
+  if (chooser == all.end()) return ImGui::Dummy({0, ImGui::GetFrameHeight()});
+  const std::string key(chooser->field.name), at = child_of(pointer, key);
+  const auto choose = [&](std::string_view word) {
+    ask(dotted(at) + ": " + std::string(word), pointer, preset::as_type(object, fields, *chooser, word));
+  };
+  draw_choice(at, object.value(key, ""), chooser->words, choose, 8 * ImGui::GetFontSize());
+}
+
+/// A button that opens a list of the files beside the preset, from where other folders are reached.
+void ParametersPanel::draw_file_choice(const std::string& pointer)
+{
+  const std::string popup = "files" + pointer;
+  const fs::path beside = fs::absolute(fs::path(draft_.source()).parent_path());
+  const auto enter = [&](const fs::path& folder) {
+    std::error_code ignored;
+    folder_ = folder.lexically_normal().string();
+    files_.clear();
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      files_.push_back(entry.path().filename().string() + (entry.is_directory(ignored) ? "/" : ""));
+    std::sort(files_.begin(), files_.end());
+  };
+  ImGui::SameLine(0, gap());
+  if (ImGui::Button(("...##" + pointer).c_str(), {ImGui::GetFrameHeight(), 0})) {
+    enter(beside);
+    ImGui::OpenPopup(popup.c_str());
+  }
+  note(pointer + ":files");
+  ImGui::SetItemTooltip("Choose a file");
+  if (!ImGui::BeginPopup(popup.c_str())) return;
+  if (ImGui::Button("Beside the preset")) enter(beside);
+  ImGui::SameLine();
+  if (ImGui::Button("Shipped")) enter(presets_folder());
+  ImGui::TextDisabled("%s", folder_.c_str());
+  if (ImGui::BeginChild("files", {26 * ImGui::GetFontSize(), 16 * ImGui::GetFontSize()})) {
+    if (ImGui::Selectable("../", false, ImGuiSelectableFlags_NoAutoClosePopups)) enter(fs::path(folder_) / "..");
+    for (const std::string& name : std::vector<std::string>(files_)) {
+      const bool folder = name.ends_with('/');
+      const bool chosen = ImGui::Selectable(name.c_str(), false, folder ? ImGuiSelectableFlags_NoAutoClosePopups : 0);
+      note(pointer + ":" + name);
+      if (!chosen) continue;
+      const fs::path path = fs::path(folder_) / name, near = path.lexically_relative(beside);
+      if (folder)
+        enter(path);
+      else {
+        ask(dotted(pointer), pointer, (near.empty() || *near.begin() == ".." ? path : near).string());
+        ImGui::CloseCurrentPopup();
+      }
+    }
+  }
+  ImGui::EndChild();
+  ImGui::EndPopup();
+}
+
+} // namespace nephroid::ui
