@@ -8,15 +8,11 @@
 
 namespace nephroid::check {
 
-const std::vector<Check>& checks()
+std::vector<Check> checks()
 {
-  static const std::vector<Check> all = [] {
-    Checks list;
-    for (const auto subject : {arithmetic_checks, exactness_checks, geometry_checks, interface_checks, spectral_checks, emission_checks,
-                               radiometry_checks, refraction_checks})
-      for (Check& check : subject()) list.push_back(std::move(check));
-    return list;
-  }();
+  std::vector<Check> all;
+  for (const auto subject : {arithmetic_checks, exactness_checks, geometry_checks, interface_checks})
+    for (Check& check : subject()) all.push_back(std::move(check));
   return all;
 }
 

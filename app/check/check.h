@@ -28,8 +28,8 @@ struct Check {
   std::function<Result(const compute::Context&, std::uint64_t seed)> run;
 };
 
-/// All of them, under 30 s together on two processor cores.
-const std::vector<Check>& checks();
+/// Those of what all engines share. engine/engine.h has every engine's own too.
+std::vector<Check> checks();
 
 /// The check's result under its name. Where the device or the kernels' compiler fails, the figure is NaN and the detail says why,
 /// so that one broken kernel does not hide what the others do.

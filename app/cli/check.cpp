@@ -6,6 +6,7 @@
 #include "cli/device_line.h"
 #include "cli/numbers.h"
 #include "cli/verbs.h"
+#include "engine/engine.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -68,10 +69,10 @@ std::vector<std::string> check_device(const CheckOptions& options, const compute
   }
   std::vector<check::Result> results;
   std::vector<std::string> failures;
-  for (const check::Check& check : check::checks()) {
+  for (const check::Check& check : engine::checks()) {
     if (interrupted.stop_requested())
       throw Error(ErrorKind::interrupted, device.name,
-                  fmt::format("interrupted after {} of {} checks", results.size(), check::checks().size()));
+                  fmt::format("interrupted after {} of {} checks", results.size(), engine::checks().size()));
     results.push_back(check::run_check(check, context, options.seed));
     if (!results.back().passed()) failures.push_back(results.back().name);
     if (!options.json) print_row(results.back(), options.details);

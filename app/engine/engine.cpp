@@ -7,6 +7,17 @@
 
 namespace nephroid::engine {
 
+const std::vector<check::Check>& checks()
+{
+  static const std::vector<check::Check> all = [] {
+    std::vector<check::Check> list = check::checks();
+    for (const Engine* engine : engines())
+      for (check::Check& check : engine->checks()) list.push_back(std::move(check));
+    return list;
+  }();
+  return all;
+}
+
 const Engine& engine_of(const preset::Preset& preset)
 {
   for (const Engine* engine : engines())

@@ -2,6 +2,7 @@
 // What an engine is to the rest of the program: everything that run/, cli/ and ui/ know of it. An engine is a folder beside this one,
 // with one constant `engine`, and a line in app/engines.cpp.
 #pragma once
+#include "check/check.h"
 #include "compute/compute.h"
 #include "job/job.h"
 #include "plan/plan.h"
@@ -30,10 +31,16 @@ struct Engine {
   /// The settings of a reference of `preset` that has so many passes: the recipe's own, or else the preset's, made exact. Nothing in them
   /// is biased.
   preset::Settings (*reference)(const preset::Preset& preset, int passes);
+
+  /// The engine's closed forms through its real kernels, for `nephroid check`.
+  std::vector<check::Check> (*checks)();
 };
 
 /// Every engine there is: app/engines.cpp, a line each. The first is what a preset without "engine" has.
 const std::vector<const Engine*>& engines();
+
+/// All checks there are: of what engines share, then each engine's own. Under 30 s together on two processor cores.
+const std::vector<check::Check>& checks();
 
 /// Of a preset.
 const Engine& engine_of(const preset::Preset& preset);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/engine.h"
 
+#include "spectral/checks/subjects.h"
+
 #include <algorithm>
 
 namespace nephroid::spectral {
@@ -35,6 +37,14 @@ preset::Settings reference(const preset::Preset& preset, int passes)
   return made;
 }
 
+std::vector<check::Check> closed_forms()
+{
+  std::vector<check::Check> all;
+  for (const auto subject : {check::spectral_checks, check::emission_checks, check::radiometry_checks, check::refraction_checks})
+    for (check::Check& check : subject()) all.push_back(std::move(check));
+  return all;
+}
+
 } // namespace
 
 constinit const engine::Engine engine{
@@ -44,6 +54,7 @@ constinit const engine::Engine engine{
     },
     .job = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
               const compute::Context& context) { return make_job(preset, scene, bvh, dynamic_cast<const RunPlan&>(plan), context); },
-    .reference = reference};
+    .reference = reference,
+    .checks = closed_forms};
 
 } // namespace nephroid::spectral

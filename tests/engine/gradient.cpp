@@ -154,12 +154,17 @@ preset::Settings reference(const preset::Preset& preset, int)
 
 } // namespace
 
-constinit const engine::Engine engine{.settings = settings_type,
-                                      .plan = make_plan,
-                                      .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&,
-                                                const plan::Plan& plan, const compute::Context&) -> std::unique_ptr<job::Job> {
-                                        return std::make_unique<GradientJob>(preset, dynamic_cast<const GradientPlan&>(plan));
-                                      },
-                                      .reference = reference};
+constinit const engine::Engine engine{
+    .settings = settings_type,
+    .plan = make_plan,
+    .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan, const compute::Context&)
+        -> std::unique_ptr<job::Job> { return std::make_unique<GradientJob>(preset, dynamic_cast<const GradientPlan&>(plan)); },
+    .reference = reference,
+    .checks =
+        [] {
+          return std::vector<check::Check>{{"gradient: it rises", [](const compute::Context&, std::uint64_t) {
+                                              return check::Result{"", 0, 1, "", "the right is brighter"};
+                                            }}};
+        }};
 
 } // namespace nephroid::gradient

@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "check/check.h"
 #include "compute/compute.h"
+#include "engine/engine.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"
 
@@ -33,7 +34,7 @@ std::string line_of(const check::Result& r)
 
 const check::Check& check_named(const std::string& name)
 {
-  for (const check::Check& check : check::checks())
+  for (const check::Check& check : engine::checks())
     if (check.name == name) return check;
   throw failed(name, "no such check");
 }
@@ -46,7 +47,7 @@ TEST(Check, PassesOnEveryDevice)
     compute::DeviceOptions options = test::device_options();
     options.selector = std::to_string(device.index);
     const compute::Context context = compute::Context::open(options);
-    for (const check::Check& check : check::checks()) {
+    for (const check::Check& check : engine::checks()) {
       const check::Result result = check::run_check(check, context);
       EXPECT_TRUE(result.passed()) << device.name << ", " << line_of(result);
       EXPECT_FALSE(result.detail.empty()) << result.name;
@@ -61,7 +62,7 @@ TEST(Check, PassesOnEveryDevice)
 TEST(Check, EachHasItsName)
 {
   std::set<std::string> names;
-  for (const check::Check& check : check::checks()) EXPECT_TRUE(names.insert(check.name).second) << check.name;
+  for (const check::Check& check : engine::checks()) EXPECT_TRUE(names.insert(check.name).second) << check.name;
   EXPECT_GT(names.size(), 30u);
 }
 

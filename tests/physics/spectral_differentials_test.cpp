@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Newton's prism over a receiver that its light grazes: splats stretched along the wavelength make one rainbow of 401 lines, each colour
 // where Snell puts it, and no light is made or lost at the receiver's edge.
-#include "check/closed_forms.h"
 #include "optics/fresnel.h"
+#include "spectral/checks/closed_forms.h"
 #include "spectral/tables/run_tables.h"
 #include "tests/support/closed_form.h"
 

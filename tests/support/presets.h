@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Presets and their parts, built without files: those of the checks, by their names alone.
 #pragma once
-#include "check/scene_parts.h"
+#include "spectral/checks/scene_parts.h"
 
 namespace nephroid::test {
 

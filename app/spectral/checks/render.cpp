@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check/render.h"
+#include "spectral/checks/render.h"
 
 #include "scene/bvh.h"
 #include "scene/scene.h"

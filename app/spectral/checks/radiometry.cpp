@@ -2,11 +2,11 @@
 // Small pictures by the real engine against closed forms of irradiance and power. Noise is judged in standard deviations that follow
 // from the number of photons or samples, so that a check fails with no seed by chance.
 #include "check/device_arrays.h"
-#include "check/render.h"
-#include "check/scene_parts.h"
-#include "check/subjects.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "spectral/checks/render.h"
+#include "spectral/checks/scene_parts.h"
+#include "spectral/checks/subjects.h"
 
 #include <fmt/format.h>
 

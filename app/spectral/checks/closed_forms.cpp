@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "check/closed_forms.h"
+#include "spectral/checks/closed_forms.h"
 
 #include "optics/fresnel.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pencils of light through plates, a prism and a ball lens by the real engine, against Fresnel and Snell.
-#include "check/closed_forms.h"
 #include "check/device_arrays.h"
-#include "check/render.h"
-#include "check/scene_parts.h"
-#include "check/subjects.h"
+#include "spectral/checks/closed_forms.h"
+#include "spectral/checks/render.h"
+#include "spectral/checks/scene_parts.h"
+#include "spectral/checks/subjects.h"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,9 @@
 // kernels/tracing/emission.h: what the photons of a light carry towards spheres adds up to the power that the light sends there, where the
 // spheres overlap, too. In standard deviations of the photons' own spread.
 #include "check/device_arrays.h"
-#include "check/render.h"
-#include "check/scene_parts.h"
-#include "check/subjects.h"
+#include "spectral/checks/render.h"
+#include "spectral/checks/scene_parts.h"
+#include "spectral/checks/subjects.h"
 #include "spectral/tables/run_tables.h"
 
 #include <fmt/format.h>

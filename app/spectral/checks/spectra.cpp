@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums over wavelengths (kernels/tracing/attenuation.h) over the engine's own tables, against double precision.
 #include "check/device_arrays.h"
-#include "check/render.h"
-#include "check/scene_parts.h"
-#include "check/subjects.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "spectral/checks/render.h"
+#include "spectral/checks/scene_parts.h"
+#include "spectral/checks/subjects.h"
 #include "spectral/tables/run_tables.h"
 
 #include <fmt/format.h>
