@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
-#include "base/json_pointer.h"
+#include "base/place.h"
 #include "preset/outline.h"
 #include "preset/read.h"
 #include "scene/materials.h"
@@ -116,9 +116,9 @@ std::optional<Problem> Draft::problem_of(const Edits& edits, const std::string& 
   try {
     made = read(with(edits));
   } catch (const Error& error) {
-    const std::string prefix = preset_.source + "#";
-    const bool known = error.where().starts_with(prefix);
-    return Problem{pointer, known ? error.where().substr(prefix.size()) : pointer, known ? error.text() : error.line()};
+    const Place& place = error.place();
+    const bool known = place.name == preset_.source && place.pointer;
+    return Problem{pointer, known ? *place.pointer : pointer, known ? error.text() : error.line()};
   }
   return std::nullopt;
 }

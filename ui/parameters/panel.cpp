@@ -82,7 +82,7 @@ std::string help_of(const Outline& o, const std::string& pointer)
   text += fmt::format("\nWanted: {}", preset::expected(o));
   if (o.optional) return text + "; may be left out";
   if (o.field.required || o.chooses || o.standard.size() > 8) return text;
-  return text + fmt::format("; by default {}", o.standard.is_string() ? "\"" + o.standard.get<std::string>() + "\"" : o.standard.dump());
+  return text + fmt::format("; by default {}", o.standard.is_string() ? fmt::format("\"{}\"", o.standard.get<std::string>()) : o.standard.dump());
 }
 
 } // namespace
