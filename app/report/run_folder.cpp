@@ -18,18 +18,24 @@ namespace {
 using measure::RunDocument;
 using Type = RunDocument::Type;
 
+/// An engine has a name of its own for what it counts.
+std::string where_stopped(const RunDocument& run)
+{
+  return run.has("/passes") ? fmt::format(": it stopped in pass {}", run.at("/passes", Type::whole).get<std::int64_t>() + 1) : "";
+}
+
 Json read_run_json(const fs::path& folder)
 {
   const RunDocument run(folder / "run.json");
-  const std::int64_t passes = run.at("/passes", Type::whole);
   if (!run.at("/finished", Type::flag))
-    throw bad_input(folder.string(), fmt::format("this run is not finished: it stopped in pass {}", passes + 1), "expected a finished run",
+    throw bad_input(folder.string(), "this run is not finished" + where_stopped(run), "expected a finished run",
                     "go on with `nephroid run --resume`");
   for (const char* text : {"/name", "/engine", "/version", "/commit", "/compiler"}) run.at(text, Type::text);
   run.at("/seed", Type::whole);
   run.at("/device", Type::object);
   run.at("/work_seconds", Type::number);
-  for (const auto& [pointer, type] : {std::pair{"/photons", Type::whole},
+  for (const auto& [pointer, type] : {std::pair{"/passes", Type::whole},
+                                      {"/photons", Type::whole},
                                       {"/phase_seconds", Type::numbers},
                                       {"/energy", Type::numbers},
                                       {"/errors", Type::numbers},

@@ -104,7 +104,7 @@ TEST_F(Reports, of_damaged_runs_are_refused_at_the_place)
   EXPECT_THAT(refusal_with("run.json", "[1]"), HasSubstr("run/run.json: is no object"));
   EXPECT_THAT(refusal_with("run.json", std::string(200000, '[')), HasSubstr("is nested deeper than 64 levels"));
   EXPECT_THAT(refusal_with("run.json", std::string("\0\xff\xfe", 3)), HasSubstr("is cut or no JSON"));
-  EXPECT_THAT(refusal_with("run.json", "{}"), HasSubstr("run/run.json#/passes: is missing"));
+  EXPECT_THAT(refusal_with("run.json", "{}"), HasSubstr("run/run.json#/finished: is missing"));
   EXPECT_THAT(refusal_with_run_json("/passes", -1), HasSubstr("run.json#/passes: is no whole number from 0"));
   EXPECT_THAT(refusal_with_run_json("/device", "GPU"), HasSubstr("run.json#/device: is no object"));
   EXPECT_THAT(refusal_with_run_json("/work_seconds", nullptr), HasSubstr("run.json#/work_seconds: is no number"));
