@@ -23,6 +23,7 @@ struct RunFolder {
   Json plan; ///< plan.json, likewise
   std::map<std::string, std::string>
       settings;                        ///< preset.json: every value by its key as --set takes it ("scene.lights.0.power_w"), as JSON
+  Json curves;                         ///< every other CSV file: [{"name", "columns", "rows"}]
   std::optional<job::History> history; ///< none where there is no history.csv
 
   std::string name() const { return run["name"]; }
@@ -64,7 +65,7 @@ Pictures read_pictures(std::span<const RunFolder> runs);
 Json metrics_json(std::span<const RunFolder> runs, const std::vector<std::optional<std::size_t>>& reference_of_run);
 
 /// All of it:
-///     {"title", "runs": [{"label", "folder", "measurements": rows of history.csv, null without one, "settings", "run", "plan"}],
+///     {"title", "runs": [{"label", "folder", "measurements": rows of history.csv, null without one, "settings", "curves", "run", "plan"}],
 ///      "metrics", "pictures", "notes", "colours": [[r, g, b], ...] from no difference to the scale's end}
 /// Throws as read_runs and read_pictures do.
 Json report_data(std::span<const std::filesystem::path> run_folders);

@@ -89,6 +89,7 @@ Json report_data(std::span<const std::filesystem::path> run_folders)
                             {"folder", runs[i].folder.string()},
                             {"measurements", runs[i].history ? Json(runs[i].history->rows.size()) : Json()},
                             {"settings", std::move(runs[i].settings)},
+                            {"curves", std::move(runs[i].curves)},
                             {"run", std::move(runs[i].run)},
                             {"plan", std::move(runs[i].plan)}});
   return data;

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 namespace nephroid::report {
@@ -18,18 +21,24 @@ namespace {
 using measure::RunDocument;
 using Type = RunDocument::Type;
 
+/// An engine has a name of its own for what it counts.
+std::string where_stopped(const RunDocument& run)
+{
+  return run.has("/passes") ? fmt::format(": it stopped in pass {}", run.at("/passes", Type::whole).get<std::int64_t>() + 1) : "";
+}
+
 Json read_run_json(const fs::path& folder)
 {
   const RunDocument run(folder / "run.json");
-  const std::int64_t passes = run.at("/passes", Type::whole);
   if (!run.at("/finished", Type::flag))
-    throw bad_input(folder.string(), fmt::format("this run is not finished: it stopped in pass {}", passes + 1), "expected a finished run",
+    throw bad_input(folder.string(), "this run is not finished" + where_stopped(run), "expected a finished run",
                     "go on with `nephroid run --resume`");
   for (const char* text : {"/name", "/engine", "/version", "/commit", "/compiler"}) run.at(text, Type::text);
   run.at("/seed", Type::whole);
   run.at("/device", Type::object);
   run.at("/work_seconds", Type::number);
-  for (const auto& [pointer, type] : {std::pair{"/photons", Type::whole},
+  for (const auto& [pointer, type] : {std::pair{"/passes", Type::whole},
+                                      {"/photons", Type::whole},
                                       {"/phase_seconds", Type::numbers},
                                       {"/energy", Type::numbers},
                                       {"/errors", Type::numbers},
@@ -66,6 +75,44 @@ Json read_plan(const fs::path& folder)
   return plan.json();
 }
 
+/// A curve that the engine added (job::Curve): names of columns, then rows of numbers; what is not finite is null.
+Json read_curve(const fs::path& file)
+{
+  Json curve{{"name", file.stem().string()}, {"columns", Json::array()}, {"rows", Json::array()}};
+  std::istringstream lines(read_file(file));
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string place = fmt::format("{}:{}", file.string(), ++number);
+    Json row = Json::array();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+      const bool is_number = error == std::errc() && end == cell.data() + cell.size();
+      if (number > 1 && !is_number) throw bad_input(place, "a cell is no number", "expected a table of numbers");
+      row.push_back(number == 1 ? Json(cell) : std::isfinite(value) ? Json(value) : Json());
+    }
+    if (number > 1 && row.size() != curve["columns"].size())
+      throw bad_input(place, fmt::format("the row has {} cells", row.size()), fmt::format("expected {}", curve["columns"].size()));
+    if (number == 1)
+      curve["columns"] = row;
+    else
+      curve["rows"].push_back(row);
+  }
+  return curve;
+}
+
+Json read_curves(const fs::path& folder)
+{
+  std::set<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->path().extension() == ".csv" && entry->path().filename() != "history.csv") files.insert(entry->path());
+  Json curves = Json::array();
+  for (const fs::path& file : files) curves.push_back(read_curve(file));
+  return curves;
+}
+
 /// A run's folder before or while it runs: begin_run has written these two, nothing has written run.json.
 bool is_begun_run(const fs::path& folder) { return is_there(folder / "plan.json") && is_there(folder / "preset.json"); }
 
@@ -93,7 +140,7 @@ RunFolder read_run(const fs::path& folder)
   if (!is_there(folder / "run.json") && is_begun_run(folder))
     throw bad_input(folder.string(), "this run is not finished: it has no run.json", "expected a finished run",
                     "wait for it, or go on with `nephroid run --resume`");
-  RunFolder run{folder, read_run_json(folder), read_plan(folder), read_settings(folder), {}};
+  RunFolder run{folder, read_run_json(folder), read_plan(folder), read_settings(folder), read_curves(folder), {}};
   if (is_there(folder / "history.csv")) run.history = measure::read_run_history(folder);
   return run;
 }

@@ -104,7 +104,7 @@ TEST_F(Reports, of_damaged_runs_are_refused_at_the_place)
   EXPECT_THAT(refusal_with("run.json", "[1]"), HasSubstr("run/run.json: is no object"));
   EXPECT_THAT(refusal_with("run.json", std::string(200000, '[')), HasSubstr("is nested deeper than 64 levels"));
   EXPECT_THAT(refusal_with("run.json", std::string("\0\xff\xfe", 3)), HasSubstr("is cut or no JSON"));
-  EXPECT_THAT(refusal_with("run.json", "{}"), HasSubstr("run/run.json#/passes: is missing"));
+  EXPECT_THAT(refusal_with("run.json", "{}"), HasSubstr("run/run.json#/finished: is missing"));
   EXPECT_THAT(refusal_with_run_json("/passes", -1), HasSubstr("run.json#/passes: is no whole number from 0"));
   EXPECT_THAT(refusal_with_run_json("/device", "GPU"), HasSubstr("run.json#/device: is no object"));
   EXPECT_THAT(refusal_with_run_json("/work_seconds", nullptr), HasSubstr("run.json#/work_seconds: is no number"));
@@ -116,6 +116,8 @@ TEST_F(Reports, of_damaged_runs_are_refused_at_the_place)
   EXPECT_THAT(refusal_with("preset.json", "7"), HasSubstr("preset.json: is no object"));
   EXPECT_THAT(refusal_with("history.csv", "seconds,wall_seconds,step,work,lab_mean\n1,1,1,1,0.5\n2,2,"),
               HasSubstr("history.csv:3: the row has 3 cells"));
+  EXPECT_THAT(refusal_with("cooling.csv", "step,cost\n1,2\n2,x\n"), HasSubstr("cooling.csv:3: a cell is no number"));
+  fs::remove(folder / "run" / "cooling.csv");
   EXPECT_THAT(refusal_with("image.exr", "not a picture"), HasSubstr("image.exr: is no picture that can be read"));
   fs::remove(folder / "run" / "image.exr");
   fs::remove(folder / "run" / "plan.json");
@@ -204,14 +206,18 @@ TEST_F(ReportInBrowser, shows_what_files_say_as_text)
 {
   Json run_json = made_run_json("</script><img src=x onerror=alert(1)>");
   run_json["device"] = {{"name", "<b>bold</b>"}};
+  run_json["sweeps"] = 17;
   run_json["inverse"] = {{"receivers", {{{"cost", 0.125}, {"<i>", nullptr}}}}};
   write_made_run(folder / "a", run_json);
   write_file_whole(folder / "a" / "plan.json",
                    R"({"engine": "</main>", "passes": [{"name": "<b>", "runs": true, "reason": "<!--"}], "buffers": [], "defines": {}})");
+  write_file_whole(folder / "a" / "cooling.csv", "step,<b>cost\n0,3\n1,2\n");
   const std::string html = shown({"a"});
+  EXPECT_THAT(html, HasSubstr("<button aria-pressed=\"true\">cooling: &lt;b&gt;cost</button>"));
+  EXPECT_THAT(html, HasSubstr("<td class=\"number\">17</td>"));
   EXPECT_THAT(html, HasSubstr("&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;"));
   EXPECT_THAT(html, AllOf(HasSubstr("&lt;b&gt;bold&lt;/b&gt;"), HasSubstr("<th>cost</th><td class=\"number\">0.125</td>")));
-  for (const char* element : {"<img src=x", "<b>", "<i>", "<!--"}) EXPECT_THAT(html, testing::Not(HasSubstr(element)));
+  for (const char* element : {"><img src=x", "><b>", "><i>", "><!--", ": <b>cost</b"}) EXPECT_THAT(html, testing::Not(HasSubstr(element)));
 }
 
 } // namespace

@@ -242,6 +242,15 @@ TEST_F(Report, shows_curves_of_any_name)
   EXPECT_NEAR(cost.at("lines").at(0).at("slope"), -0.25, 1e-9);
 }
 
+/// job::Curve
+TEST_F(Report, holds_the_curves_that_an_engine_adds)
+{
+  write_made_run(folder / "a", made_run_json("a"));
+  write_file_whole(folder / "a" / "cooling.csv", "step,temperature,cost\n0,10.5,nan\n1,2e-3,4\n");
+  const Json curve = data({"a"}).at("runs").at(0).at("curves").at(0);
+  EXPECT_EQ(curve.dump(), R"({"name":"cooling","columns":["step","temperature","cost"],"rows":[[0.0,10.5,null],[1.0,0.002,4.0]]})");
+}
+
 /// The kinds of a group's pictures with their runs: "run 0, run 1, reference 0 1, difference 0".
 std::string kinds(const Json& group)
 {

@@ -63,12 +63,12 @@ function chart(canvas, metric) {
   };
   const dashed = drawn => Chart.defaults.plugins.legend.labels.generateLabels(drawn).map(item =>
     ({ ...item, lineWidth: datasets[item.datasetIndex].borderWidth, lineDash: datasets[item.datasetIndex].borderDash }));
-  const hover = ({ dataset, parsed }) =>
-    `${data.runs[dataset.run].label}${dataset.borderDash.length ? " (estimate)" : ""}: ${threeFigures(parsed.y)} after ${duration(parsed.x)}`;
+  const hover = ({ dataset, parsed }) => `${data.runs[dataset.run].label}${dataset.borderDash.length ? " (estimate)" : ""}: ` +
+    `${threeFigures(parsed.y)} ${metric.over ? `at ${metric.over} ${threeFigures(parsed.x)}` : `after ${duration(parsed.x)}`}`;
   return new Chart(canvas, { type: "scatter", data: { datasets }, options: {
     animation: false, maintainAspectRatio: false, showLine: true, interaction: { mode: "nearest", intersect: false },
     scales: {
-      x: axis("work (s)", true, { min: left, max: right }),
+      x: metric.over ? axis(metric.over, false, {}) : axis("work (s)", true, { min: left, max: right }),
       y: axis(metric.label + (metric.unit && ` (${metric.unit})`), metric.falls, metric.falls ? { min: bottom, max: top } : { grace: "5%" }),
     },
     plugins: {
@@ -122,27 +122,38 @@ function metricPanel(metric) {
     ...(metric.falls ? [...timesTable(metric), ...speedUps(metric)] : [])];
 }
 
+/// The curves that engines add, as metrics that are no errors: one for each column but the first, which they are drawn over.
+function engineCurves() {
+  const lineOf = (run, rows, i) => ({ run, estimate: false, slope: null, floor: 0,
+    points: rows.map(row => [row[0], row[i]]).filter(point => !point.includes(null)) });
+  const all = data.runs.flatMap(({ curves }, run) => curves.flatMap(({ name, columns, rows }) => columns.slice(1).map((column, i) =>
+    ({ label: `${name}: ${column}`, over: columns[0], line: lineOf(run, rows, i + 1) })))).filter(({ line }) => line.points.length);
+  return [...new Set(all.map(({ label }) => label))].map(label => ({ label, unit: "", law: null, falls: false, biased: [],
+    over: all.find(other => other.label === label).over, lines: all.filter(other => other.label === label).map(({ line }) => line) }));
+}
+
 function errorsSection() {
+  const metrics = [...data.metrics, ...engineCurves()];
   const panel = element("div"), tabs = element("div.buttons");
   let drawn = null, shown = 0;
   const show = index => {
     shown = index;
     drawn?.destroy();
-    panel.replaceChildren(...metricPanel(data.metrics[index]).filter(part => part));
+    panel.replaceChildren(...metricPanel(metrics[index]).filter(part => part));
     const canvas = panel.querySelector("canvas");
     canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", data.metrics[index].label + " against seconds of work");
-    drawn = chart(canvas, data.metrics[index]);
+    canvas.setAttribute("aria-label", `${metrics[index].label} against ${metrics[index].over ?? "seconds of work"}`);
+    drawn = chart(canvas, metrics[index]);
     [...tabs.children].forEach((tab, i) => tab.setAttribute("aria-pressed", i === index));
   };
-  data.metrics.forEach((metric, i) => {
+  metrics.forEach((metric, i) => {
     tabs.append(element("button", metric.label));
     tabs.lastChild.addEventListener("click", () => show(i));
   });
   const missing = data.runs.map(({ measurements }, run) => measurements ? null : note(runName(run), measurements === null
     ? ": has no history.csv: it did not measure its error." : ": its history.csv has no row: it ended before its first measurement."));
-  const content = data.metrics.length ? [tabs, panel] : [element("p", "Nothing to draw: no run has an error above 0 in its history.")];
-  if (data.metrics.length) addEventListener("load", () => show(0)); // a canvas takes the size that it has on the page
+  const content = metrics.length ? [tabs, panel] : [element("p", "Nothing to draw: no run has an error above 0 in its history.")];
+  if (metrics.length) addEventListener("load", () => show(0)); // a canvas takes the size that it has on the page
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { if (drawn) show(shown); });
   return section("errors", "Error against time", ...content, ...missing);
 }
