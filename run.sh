@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# ./run.sh installs what is missing (Debian 12), builds, and renders the first-light preset into out/first-light.
+# ./run.sh installs what is missing (Debian 12 or 13), builds, and renders the first-light preset into out/first-light.
 # ./run.sh ARGS builds in the same way, then runs `nephroid ARGS` in the folder it was called from.
 set -euo pipefail
 root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")

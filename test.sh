@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# ./test.sh [PRESET] [CTEST ARGS...] installs what is missing (Debian 12), builds and runs every test.
+# ./test.sh [PRESET] [CTEST ARGS...] installs what is missing (Debian 12 or 13), builds and runs every test.
 # PRESET is one of CMakePresets.json: release (the default), debug, ci, asan, tsan, clang, headless. ./test.sh asan -R optics
 # runs the optics tests under AddressSanitizer and UndefinedBehaviorSanitizer.
 set -euo pipefail

@@ -7,7 +7,7 @@ find_package(glm REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(yaml-cpp REQUIRED)
-find_package(embree 3 REQUIRED)
+find_package(embree REQUIRED) # 3 or 4
 find_package(assimp REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
@@ -17,7 +17,7 @@ pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 find_file(NEPHROID_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js REQUIRED)
 if(NEPHROID_TESTS)
   find_package(GTest REQUIRED)
-  find_package(Boost REQUIRED) # headers only: Boost.Math
+  find_package(Boost CONFIG REQUIRED) # headers only: Boost.Math
   include(GoogleTest)
 endif()
 if(NEPHROID_TESTS AND NEPHROID_BENCH)

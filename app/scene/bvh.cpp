@@ -4,7 +4,11 @@
 
 #include "base/error.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -211,7 +215,8 @@ Bvh build_bvh(const Mesh& mesh)
   arguments.createLeaf = create_leaf;
   const auto* root = build ? static_cast<const BuildNode*>(rtcBuildBVH(&arguments)) : nullptr;
   if (!root)
-    throw failed("mesh", fmt::format("Embree built no tree over {} triangles (error {})", boxes.size(), rtcGetDeviceError(device.get())));
+    throw failed("mesh",
+                 fmt::format("Embree built no tree over {} triangles (error {})", boxes.size(), int{rtcGetDeviceError(device.get())}));
   bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
   if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
   return bvh;

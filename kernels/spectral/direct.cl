@@ -51,19 +51,21 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
+  // One call of follow() for both cases: half the code, and Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
+  const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
   float3 xyz = (float3)(0.0f);
-  const Band all = whole_cluster(-1);
-  if (unbent)
-    xyz = follow(&world, path, hit, &all, reflected_xyz_all, seed, frame, pixel);
-  else
-    for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
-      const uint sample = frame * PATHS_THROUGH_GLASS + i;
-      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA_CLUSTER);
-      const float probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
-      const Band band = choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
-      xyz += follow(&world, path, hit, &band, reflected_xyz_all, seed, sample, pixel) / probability;
+  for (uint i = 0; i < paths; ++i) {
+    const uint sample = frame * paths + i;
+    Band band = whole_cluster(-1);
+    float probability = 1.0f;
+    if (!unbent) {
+      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, paths, pixel, STREAM_CAMERA_CLUSTER);
+      probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)paths;
+      band = choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
     }
+    xyz += follow(&world, path, hit, &band, reflected_xyz_all, seed, sample, pixel) / probability;
+  }
   if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, film_limit, jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

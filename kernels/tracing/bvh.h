@@ -55,7 +55,9 @@ static inline int bvh_mask4(int4 m)
 #endif
 static inline int bvh_lowest_bit(int mask) { return 31 - clz(mask & -mask); }
 
-#define BVH_MIN(a, b) ((a) < (b) ? (a) : (b)) // fmin and fmax care for NaN, which costs 20 to 40 % here
+// Of numbers or vectors that may be infinite, as an empty box and the t_max of a ray without an end are: there min and max are undefined
+// (OpenCL 1.2, 6.12.4). fmin and fmax are not, but also care for NaN, which costs 20 to 40 % here.
+#define BVH_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define BVH_MAX(a, b) ((a) > (b) ? (a) : (b))
 
 // A ray as both tests want it.
@@ -121,8 +123,8 @@ static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_m
   const float8 x1 = fma(vload8(0, node + 8 - r->near_x), ix, (float8)(-r->far.x));
   const float8 y1 = fma(vload8(0, node + 24 - r->near_y), iy, (float8)(-r->far.y));
   const float8 z1 = fma(vload8(0, node + 40 - r->near_z), iz, (float8)(-r->far.z));
-  const float8 first = max(max(x0, y0), max(z0, (float8)(t_min)));
-  const float8 last = min(min(x1, y1), min(z1, (float8)(t)));
+  const float8 first = BVH_MAX(BVH_MAX(x0, y0), BVH_MAX(z0, (float8)(t_min)));
+  const float8 last = BVH_MIN(BVH_MIN(x1, y1), BVH_MIN(z1, (float8)(t)));
   *entry = first;
   return bvh_mask8(first <= last);
 }

@@ -3,7 +3,11 @@
 #pragma once
 #include "check/tracer.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <algorithm>
 
@@ -44,12 +48,16 @@ public:
   /// Safe from several threads.
   Hit closest(const Ray& ray) const
   {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit query = {};
     query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, 0, ray.direction.x, ray.direction.y, ray.direction.z, 0, ray.t_max, ~0u, 0, 0};
     query.hit.geomID = query.hit.primID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene_, &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
     rtcIntersect1(scene_, &context, &query);
+#endif
     return {query.ray.tfar, query.hit.u, query.hit.v, query.hit.primID};
   }
 

@@ -10,6 +10,7 @@
 #include "spectral/tables/run_tables.h"
 
 #include <string>
+#include <string_view>
 
 namespace nephroid::check {
 
@@ -21,11 +22,11 @@ job::Snapshot render(preset::Preset preset, const compute::Context& context);
 spectral::RunTables device_tables(const preset::Preset& preset);
 
 /// The layer of that name, which must be there: throws failed else.
-inline const job::Layer& layer(const job::Snapshot& snapshot, const std::string& name)
+inline const job::Layer& layer(const job::Snapshot& snapshot, std::string_view name)
 {
   for (const job::Layer& candidate : snapshot.picture->layers)
     if (candidate.name == name) return candidate;
-  throw failed("check", "no layer " + name);
+  throw failed("check", "no layer " + std::string(name));
 }
 
 /// The luminance Y of a pixel of a layer; width: of the picture.
