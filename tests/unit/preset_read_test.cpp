@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "preset/read.h"
+#include "spectral/settings.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -48,7 +49,7 @@ TEST(PresetReading, BareValuesStandForObjects)
 
 TEST(PresetReading, WholeNumbersMayHaveAPoint)
 {
-  EXPECT_EQ(parse(R"("spectral":{"photons_per_pass":1e3})").spectral.photons_per_pass, 1000);
+  EXPECT_EQ(parse(R"("seed":1e3)").seed, 1000u);
 }
 
 TEST(PresetReading, UnitsInMetres)
@@ -86,7 +87,7 @@ TEST(PresetOverrides, TakeNumbersAsPeopleTypeThem)
   EXPECT_EQ(white("+.5e+1"), 5);
   EXPECT_EQ(white("1E-5"), 1e-5);
   EXPECT_EQ(parse(some, {"seed=+7"}).seed, 7u);
-  EXPECT_EQ(parse(some, {"spectral.photons_per_pass=1e5"}).spectral.photons_per_pass, 100000);
+  EXPECT_EQ(parse(some, {"seed=1e5"}).seed, 100000u);
   const Preset p = parse(some, {"scene.camera.position=[.5,+1, -.25]", R"(description="[.5, +1]")", "name=.5 or +3"});
   EXPECT_THAT(p.scene.camera.position, ElementsAre(0.5, 1, -0.25));
   EXPECT_EQ(p.description, "[.5, +1]") << "inside quotation marks text stays as it is";
