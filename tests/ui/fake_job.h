@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -122,6 +123,7 @@ public:
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(make_ms));
     ++made;
+    if (refusal) throw *refusal;
     if (broken) throw failed("photons.cl:12", "expected ';' after expression");
     plan::Plan made_plan = plan;
     made_plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
@@ -132,6 +134,7 @@ public:
 
   plan::Plan plan;                                     ///< but for its notes; set before a run starts, as is
   std::shared_ptr<const measure::Reference> reference; ///< this
+  std::optional<Error> refusal;                        ///< and this: of the preset
   std::atomic<int> made{0};
   std::atomic<bool> changed{false}, broken{false}, compiles{false}; ///< the kernels
 };

@@ -310,7 +310,9 @@ TEST_F(ParametersTest, AFileIsChosenFromAList)
 TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo)
 {
   open();
-  workbench.apply({command::Report{workbench.preset()->source + "#/scene/camera/fov_deg: is not to this run's taste; expected another"}});
+  runs.refusal = bad_input(Place(workbench.preset()->source, fov), "is not to this run's taste");
+  workbench.apply({command::Restart{}});
+  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::failed; }));
   search("scene.camera.fov_deg");
   EXPECT_TRUE(panel().place_of(fov + ":problem"));
 }

@@ -21,12 +21,12 @@ using preset::Outline;
 std::string parent_of(const std::string& pointer) { return pointer.substr(0, std::min(pointer.rfind('/'), pointer.size())); }
 
 /// Files that `after` names and `before` does not are there. Those of dispersions are read below.
-void check_files(const std::vector<Outline>& fields, const Json& before, const Json& after, const std::string& where,
-                 const FileFinder& finder)
+void check_files(const std::vector<Outline>& fields, const Json& before, const Json& after, const Place& where, const FileFinder& finder)
 {
   const auto inside = [](const Json& json, const std::string& key) { return json.is_object() ? json.value(key, Json()) : Json(); };
   for (const Outline& o : fields) {
-    const std::string name(o.field.name), at = where + "/" + name;
+    const std::string name(o.field.name);
+    const Place at = where / name;
     const Json was = inside(before, name);
     const Json now = inside(after, name);
     if (now == was || now.is_null()) continue;
@@ -35,26 +35,25 @@ void check_files(const std::vector<Outline>& fields, const Json& before, const J
     else if (o.kind == Outline::Kind::object)
       check_files(o.fields(now), was, now, at, finder);
     else if (o.kind == Outline::Kind::list)
-      for (std::size_t i = 0; i < now.size(); ++i)
-        check_files(o.fields(now[i]), i < was.size() ? was[i] : Json(), now[i], at + "/" + std::to_string(i), finder);
+      for (std::size_t i = 0; i < now.size(); ++i) check_files(o.fields(now[i]), i < was.size() ? was[i] : Json(), now[i], at / i, finder);
   }
 }
 
 /// What a run would refuse of what changed, as far as that is known without it: files that are missing, spectra and curves.
 void check_loads(const preset::Preset& before, const preset::Preset& after, const Json& json_before, const Json& json_after)
 {
-  const std::string where = after.source + "#";
+  const Place where{after.source, std::string()};
   const FileFinder finder(std::filesystem::path(after.source).parent_path());
   std::vector<std::string> warnings;
   for (const auto& [name, material] : after.scene.materials) {
     const auto was = before.scene.materials.find(name);
     if (was == before.scene.materials.end() || was->second != material)
-      scene::make_material(name, material, finder, child_of(where + "/scene/materials", name), warnings);
+      scene::make_material(name, material, finder, where / "scene" / "materials" / name, warnings);
   }
   for (std::size_t i = 0; i < after.scene.lights.size(); ++i) {
     const preset::LightSpectrum& spectrum = after.scene.lights[i].spectrum;
     if (i >= before.scene.lights.size() || before.scene.lights[i].spectrum != spectrum)
-      scene::make_light_spectrum(spectrum, where + "/scene/lights/" + std::to_string(i) + "/spectrum");
+      scene::make_light_spectrum(spectrum, where / "scene" / "lights" / i / "spectrum");
   }
   check_files(preset::outline(json_after), json_before, json_after, where, finder);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/parameters/panel.h"
 
+#include "preset/origins.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/theme.h"
 
@@ -96,7 +97,7 @@ void ParametersPanel::draw(const Workbench& workbench, Commands& commands)
   draft_.follow(*workbench.preset());
   places_.clear();
   const std::string revealing = reveal_;
-  follow_messages(workbench);
+  follow_run(workbench);
   draw_top();
   const float room = ImGui::GetContentRegionAvail().y,
               help = room > 24 * ImGui::GetFontSize() ? 3.5f * ImGui::GetTextLineHeightWithSpacing() : 0;
@@ -134,17 +135,14 @@ void ParametersPanel::ask(std::string label, const std::string& pointer, Json va
   asked_.push_back({std::move(label), pointer, std::move(value), live});
 }
 
-/// What a run found wrong with the preset is said at its field, too.
-void ParametersPanel::follow_messages(const Workbench& workbench)
+/// What the run found wrong with the preset is said at its field, too.
+void ParametersPanel::follow_run(const Workbench& workbench)
 {
-  told_.clear();
-  const std::string prefix = workbench.preset()->source + "#";
-  for (const Message& message : workbench.messages()) {
-    const std::size_t colon = message.line.find(": ", prefix.size());
-    if (!message.error || !message.line.starts_with(prefix) || colon == std::string::npos) continue;
-    const std::string pointer = message.line.substr(prefix.size(), colon - prefix.size());
-    told_.push_back({pointer, pointer, message.line.substr(colon + 2)});
-  }
+  told_.reset();
+  const std::optional<Error>& error = workbench.status().error;
+  if (!error) return;
+  const std::string field = preset::field_of(*workbench.preset(), error->place());
+  if (!field.empty()) told_ = {field, field, error->text()};
 }
 
 void ParametersPanel::draw_top()
@@ -279,7 +277,7 @@ void ParametersPanel::draw_problem(const std::string& pointer, bool all)
   if (typing && wrong_) draw(*wrong_);
   for (const auto& [edit, problem] : draft_.problems())
     if (!typing || !is_inside(edit, pointer)) draw(problem);
-  for (const Problem& problem : told_) draw(problem);
+  if (told_) draw(*told_);
 }
 
 /// What is wrong elsewhere because of an edit is said where the edit was made.

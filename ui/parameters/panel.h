@@ -47,7 +47,7 @@ private:
   };
 
   // panel.cpp: the panel and its rows
-  void follow_messages(const Workbench& workbench);
+  void follow_run(const Workbench& workbench);
   void draw_top();
   void draw_fields(const Fields& fields, const Json& object, const std::string& pointer);
   void draw_field(const Outline& o, const Json& value, const std::string& pointer);
@@ -94,7 +94,7 @@ private:
   std::string typed_at_;        ///< the field whose text is being typed,
   std::string typed_;           ///< that text, and what is wrong with it
   std::optional<Problem> wrong_;
-  std::vector<Problem> told_;      ///< errors of the run
+  std::optional<Problem> told_;    ///< the error of the run
   std::string reveal_;             ///< the pointer of a field that is to be brought into sight
   std::string help_;               ///< of the field under the mouse
   std::string folder_;             ///< that the choice of a file shows,
