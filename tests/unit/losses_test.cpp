@@ -2,6 +2,7 @@
 // Which wavelengths glass and mirrors take alike: the bound against a search, and that parts keep it and are as few as can be.
 #include "scene/scene.h"
 #include "spectral/clusters/losses.h"
+#include "tracing/wavelength_tables.h"
 #include "tests/support/presets.h"
 #include "tests/support/temporary_folder.h"
 
@@ -69,7 +70,7 @@ TEST(Losses, PartsKeepTheBoundAndAreTheFewest)
     const scene::Scene scene = dyed_scene(folder.path(), mirror);
     // The box about a ball of 0.1 m has a diagonal of 0.1 sqrt(3) m.
     const double longest = mirror ? 8 : 0.2 * std::sqrt(3.0), most = 0.1;
-    const std::vector<double> a = loss_coefficients(scene.materials[0]);
+    const std::vector<double> a = tracing::loss_coefficients(scene.materials[0]);
     ASSERT_EQ(a.size(), static_cast<std::size_t>(optics::wavelength_count));
     std::vector<int> all(a.size());
     std::iota(all.begin(), all.end(), 0);
