@@ -138,17 +138,18 @@ plan::Pass differentials_pass(const Settings& settings, const scene::Scene& scen
 /// halves: whether films are kept in two, which tells how noisy they are. passes: at most so many, if known.
 plan::Pass smoothing_pass(const Settings& settings, bool caustics, bool halves, std::optional<int> passes)
 {
-  const std::string field = "/spectral/smoothing";
-  if (!settings.smoothing) return not_asked_for("smoothing", "smoothing");
+  using Smoothing = Settings::Smoothing;
+  if (settings.smoothing == Smoothing::off) return {"smoothing", false, "spectral.smoothing is off", "", false};
   if (!caustics) return {"smoothing", false, "there are no caustics", "", false};
   if (settings.estimator == Settings::Estimator::sppm)
     return {"smoothing", false, "spectral.estimator is sppm, which has radii of its own", "", false};
   if (!halves) return {"smoothing", false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (passes == 1) return {"smoothing", false, "the run has one pass, and it takes two to tell how noisy a pixel is", "", false};
   return {"smoothing", true,
-          fmt::format("a pixel's caustics are spread until their noise is {} of them; the estimated error takes in how far it goes",
-                      Smoothing::noise),
-          field, true};
+          fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in how far it goes",
+                      spectral::Smoothing::noise,
+                      settings.smoothing == Smoothing::on ? "everywhere" : "where the two halves of the film say that it helps"),
+          "", false};
 }
 
 std::uint64_t film_bytes(const scene::Scene& scene, int halves)
@@ -212,8 +213,9 @@ std::vector<std::string> setting_notes(const preset::Preset& preset, const scene
   if (settings.step_nm > 1 && settings.method != Settings::Method::brute_force)
     notes.push_back(fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",
                                 settings.step_nm, preset::word(settings.method)));
-  if (settings.smoothing && !smoothing.runs) notes.push_back("spectral.smoothing: true does nothing here: " + smoothing.reason);
-  if (smoothing.runs && preset.stop.error && !preset.reference)
+  const bool insists = settings.smoothing == Settings::Smoothing::on;
+  if (insists && !smoothing.runs) notes.push_back("spectral.smoothing: on does nothing here: " + smoothing.reason);
+  if (insists && smoothing.runs && preset.stop.error && !preset.reference)
     notes.push_back("stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does");
   if (const std::string note = map_radius_note(settings, scene); maps && !note.empty()) notes.push_back(note);
   if (splats && tables.photons_per_pass > static_cast<unsigned>(settings.photons_per_pass))
@@ -275,7 +277,7 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
     plan.buffers.push_back({"environment", bytes_of(scene.environment->rgb)});
     plan.buffers.push_back({"film background", film_bytes(scene, halves)});
   }
-  if (photons.runs && settings.effort == Settings::Effort::variance)
+  if (photons.runs && !settings.relight && (settings.effort == Settings::Effort::variance || settings.effort == Settings::Effort::automatic))
     plan.buffers.push_back({"guide of directions",
                             tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
   if (smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), true});

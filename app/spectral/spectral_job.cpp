@@ -45,7 +45,7 @@ public:
   {
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.emitters = tracing::upload_vector(context, "emitters", plan.tables.emitters);
-    if (plan.smoothing) smoothing_.emplace(scene, bvh);
+    if (plan.smoothing) smoothing_.emplace(scene, bvh, spectral::settings(preset).smoothing == Settings::Smoothing::on);
     if (spectral::settings(preset).relight && (plan.direct || plan.photons)) {
       preset_ = preset;
       relighting_ = make_relighting(world_, layer_light(scene, preset.white));
