@@ -46,6 +46,8 @@ std::string no_light_reason(const Settings& settings, const scene::Scene& scene)
   return shining_lights(settings, scene) > 0 ? "" : "no light has power";
 }
 
+constexpr const char* more_through_glass = ", more where glass or a mirror is seen";
+
 plan::Pass direct_pass(const Settings& settings, const scene::Scene& scene, const tracing::ObjectCounts& objects,
                        const tracing::LeaveOut& leave_out)
 {
@@ -53,8 +55,9 @@ plan::Pass direct_pass(const Settings& settings, const scene::Scene& scene, cons
   const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(settings, scene);
   if (!none.empty()) return tracing::omission("direct", leave_out.direct, false, none);
   return tracing::omission("direct", leave_out.direct, true,
-                           fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object"),
-                                       counted(shining_lights(settings, scene), "light"), counted(settings.pixel_samples, "sample")));
+                           fmt::format("{} lit by {}, {} a pixel{}", counted(objects.diffuse, "diffuse object"),
+                                       counted(shining_lights(settings, scene), "light"), counted(settings.pixel_samples, "sample"),
+                                       !settings.relight && tracing::may_see_glass_or_mirror(scene) ? more_through_glass : ""));
 }
 
 plan::Pass photon_pass(const Settings& settings, const scene::Scene& scene, const tracing::ObjectCounts& objects, const RunTables& tables,
@@ -93,7 +96,8 @@ plan::Pass background_pass(const Settings& settings, const scene::Scene& scene)
   const int width = scene.environment->width, height = scene.environment->height;
   return {"background", true,
           (width * height == 1 ? "one colour all around" : fmt::format("a picture of {} x {} texels", width, height)) +
-              fmt::format(", seen directly, through glass and in mirrors; {} a pixel", counted(settings.pixel_samples, "sample")),
+              fmt::format(", seen directly, through glass and in mirrors; {} a pixel{}", counted(settings.pixel_samples, "sample"),
+                          tracing::may_see_glass_or_mirror(scene) ? more_through_glass : ""),
           "/spectral/background", true};
 }
 
@@ -199,6 +203,8 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
       {"wavelength tables", bytes_of(w.index_of_cluster) + bytes_of(w.index_of_wavelength) + bytes_of(w.wavelength_cdf) +
                                 bytes_of(w.coefficient) + bytes_of(w.reflectance) + bytes_of(w.light_xyz) + bytes_of(w.reflected_xyz) +
                                 bytes_of(w.reflected_xyz_all) + bytes_of(w.cluster_wavelengths)}};
+  const std::uint64_t pixels = static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
+  list.push_back({"pixels", 2 * sizeof(std::uint32_t) * pixels}); // all, and those of glass
   if (direct) list.push_back({"film direct", film_bytes(scene, halves)});
   if (photons) list.push_back({"film caustic", film_bytes(scene, halves)});
   return list;
@@ -277,7 +283,8 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
     plan.buffers.push_back({"environment", bytes_of(scene.environment->rgb)});
     plan.buffers.push_back({"film background", film_bytes(scene, halves)});
   }
-  if (photons.runs && !settings.relight && (settings.effort == Settings::Effort::variance || settings.effort == Settings::Effort::automatic))
+  if (photons.runs && !settings.relight &&
+      (settings.effort == Settings::Effort::variance || settings.effort == Settings::Effort::automatic))
     plan.buffers.push_back({"guide of directions",
                             tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
   if (smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), true});
