@@ -275,7 +275,7 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
   plan.indirect = indirect.runs;
   plan.background = background.runs;
   plan.estimates_error = estimate.runs;
-  plan.picture_bytes_a_pixel = smoothing.runs ? 100 : 48; // what is smoothed; a film of two halves read back
+  plan.picture_bytes_a_pixel = smoothing.runs ? 120 : 48; // what is smoothed; a film of two halves read back
   plan.layers = direct.runs + caustics + indirect.runs + background.runs;
   plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs, halves);
   if (indirect.runs) plan.buffers.push_back({"film indirect", film_bytes(scene, halves)});

@@ -4,9 +4,9 @@
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "spectral/effort/emitters.h"
-#include "spectral/tables/device_buffers.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
+#include "tracing/scene_buffers.h"
 
 #include <gtest/gtest.h>
 
@@ -133,9 +133,9 @@ TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
     for (shared::DeviceEmitter& e : emitters) e.photon_count = small;
     emitters.back().photon_count = photons - small * clusters;
     spectral::number_photons(emitters);
-    const auto table = spectral::upload_vector(kernels().context(), "emitters", emitters);
+    const auto table = tracing::upload_vector(kernels().context(), "emitters", emitters);
     const compute::Buffer<shared::DeviceLight> lights =
-        spectral::upload_vector(kernels().context(), "lights", std::vector<shared::DeviceLight>(1));
+        tracing::upload_vector(kernels().context(), "lights", std::vector<shared::DeviceLight>(1));
     compute::Buffer<std::uint32_t> hits(kernels().context(), "hits", 401);
     hits.fill_zero();
     const std::array<std::uint32_t, 2> seed{7, 0};

@@ -25,8 +25,8 @@ preset::Preset ball(int passes, std::uint64_t seed = 1)
   p.seed = seed;
   p.scene.environment = preset::Environment{preset::Environment::Type::constant, "", {0.2, 0.5, 1}};
   p.scene.camera.resolution = {48, 48};
-  p.spectral.pixel_samples = 4;
-  p.spectral.caustic = false;
+  spectral::settings(p).pixel_samples = 4;
+  spectral::settings(p).caustic = false;
   p.stop.passes = passes;
   return p;
 }
@@ -49,7 +49,7 @@ TEST(ThroughGlass, RunsGoOnConverging)
   for (const std::uint32_t pixel : spectral::glass_pixels(scene::load_scene(ball(1)))) glass[pixel] = true;
   const job::Snapshot few = test::render(ball(4)), many = test::render(ball(64));
   preset::Preset long_run = ball(1024, 1000);
-  long_run.spectral.pixel_samples = 1024;
+  spectral::settings(long_run).pixel_samples = 1024;
   const job::Snapshot truth = test::render(long_run);
   for (const char* name : {"direct", "background"}) {
     const Errors before = errors_of(layer(few, name).rgb, layer(truth, name).rgb, glass),
@@ -70,8 +70,11 @@ TEST(ThroughGlass, RunsGoOnConverging)
 preset::Preset whole(int passes)
 {
   preset::Preset p = ball(passes);
-  p.spectral.caustic = true;
-  p.spectral.photons_per_pass = 1 << 12;
+  spectral::settings(p).caustic = true;
+  spectral::settings(p).estimator = spectral::Settings::Estimator::automatic;
+  spectral::settings(p).effort = spectral::Settings::Effort::automatic;
+  spectral::settings(p).smoothing = spectral::Settings::Smoothing::automatic;
+  spectral::settings(p).photons_per_pass = 1 << 12;
   return p;
 }
 
@@ -94,9 +97,8 @@ TEST(ThroughGlass, ARunThatIsResumedHasTheSameBits)
 /// The sum of the caustic that the ball shows, over passes: the number of paths a pass changes, what they show does not.
 TEST(ThroughGlass, SharesChangeNoLight)
 {
-  preset::Preset shared = whole(64), plain = whole(64);
-  shared.spectral.smoothing = preset::Spectral::Smoothing::off;
-  plain = test::plain(plain);
+  preset::Preset shared = whole(64), plain = test::plain(shared);
+  spectral::settings(shared).smoothing = spectral::Settings::Smoothing::off;
   plain.seed = 7;
   std::vector<bool> glass(48 * 48, false);
   for (const std::uint32_t pixel : spectral::glass_pixels(scene::load_scene(plain))) glass[pixel] = true;

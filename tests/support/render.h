@@ -43,6 +43,11 @@ inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset, cons
   return spectral::make_job(preset, scene, bvh, spectral::make_plan(preset, scene, bvh, leave_out), context);
 }
 
+inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset)
+{
+  return job_as_it_is(preset, tracing::leave_out_all(preset.leave_out));
+}
+
 inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const tracing::LeaveOut& leave_out,
                                         const compute::Context& context = shared_context())
 {
