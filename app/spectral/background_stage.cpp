@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": kernels/spectral/background.cl.
+#include "spectral/sampled_pixels.h"
 #include "spectral/stages.h"
 #include "spectral/tables/background_tables.h"
 #include "tracing/film.h"
-#include "tracing/pixel_rows.h"
 
+#include <algorithm>
 #include <numeric>
 #include <span>
 
@@ -27,7 +28,7 @@ public:
         primary_xyz_(tracing::upload_vector(world.context, "colours of the primaries", tables_.primary_xyz)),
         wavelengths_(tracing::upload_vector(world.context, "wavelengths", all_wavelengths())),
         spectrum_cdf_(tracing::upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf)),
-        film_(world.zeroed("film background", world.film_size())), rows_(world.tables.camera.height)
+        film_(world.zeroed("film background", world.film_size())), pixels_(world, settings.pixel_samples)
   {
     compute::Defines defines = world.defines;
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
@@ -36,46 +37,52 @@ public:
   }
 
   const char* name() const override { return "background"; }
-  std::int64_t passes() const override { return pixel_samples_; }
-  double part() const override { return rows_.part(); }
+  std::int64_t passes() const override { return pixels_.passes(); }
+  double part() const override { return pixels_.part(); }
+  double glass_work() const override
+  {
+    return paths_through_glass * work_of_a_path * static_cast<double>(pixels_.glass()) / static_cast<double>(pixels_.every());
+  }
+  void share_work(double factor) override { pixels_.sample_one_pass_in(static_cast<double>(pixels_.every()) / factor); }
 
   bool step(std::int64_t pass) override
   {
-    return rows_.step([&](int first_row, int rows) {
-      const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
-      world_.run(kernel_, pixels, 64,
-                 {{"texels", texels_},
-                  {"primary_xyz", primary_xyz_},
-                  {"size", tables_.size},
-                  {"wavelengths", wavelengths_},
-                  {"spectrum_cdf", spectrum_cdf_},
-                  {"film", film_},
-                  {"energy", world_.energy},
-                  {"camera", world_.tables.camera},
-                  {"seed", world_.seed},
-                  {"frame", static_cast<std::uint32_t>(pass)},
-                  {"first_row", first_row},
-                  {"row_count", rows},
-                  {"film_scale", static_cast<float>(tables_.film_scale)},
-                  {"film_limit", static_cast<float>(tables_.limit)}});
+    return pixels_.step(pass, [&](std::uint32_t first, std::uint32_t count) {
+      world_.run(
+          kernel_, count, 64,
+          {{"texels", texels_},
+           {"primary_xyz", primary_xyz_},
+           {"size", tables_.size},
+           {"wavelengths", wavelengths_},
+           {"spectrum_cdf", spectrum_cdf_},
+           {"film", film_},
+           {"energy", world_.energy},
+           {"camera", world_.tables.camera},
+           {"seed", world_.seed},
+           {"frame", static_cast<std::uint32_t>(pass)},
+           {"pixels", world_.pixels.on_device},
+           {"first", first},
+           {"count", count},
+           {"film_scale", static_cast<float>(tables_.film_scale)},
+           {"film_limit", static_cast<float>(pass < pixel_samples_ ? tables_.limit : std::min(tables_.limit, tracing::film_limit))}});
     });
   }
 
-  void develop(std::int64_t passes, bool done, job::Picture& picture) override
+  void develop(std::int64_t, bool, job::Picture& picture) override
   {
-    const auto samples = [&](int row) { return rows_.samples(row, passes, done, pixel_samples_); };
+    const auto samples = [&](std::size_t pixel) { return pixels_.samples(pixel); };
     const std::vector<std::int64_t> sums = film_.read();
     tracing::add_layer("background", {sums, tables_.film_scale * world_.white / radiance_, samples}, picture);
   }
 
   void save(tracing::StateWriter& to) const override
   {
-    rows_.save(to);
+    pixels_.save(to);
     to.buffer(film_);
   }
   void load(tracing::StateReader& from) override
   {
-    rows_.load(from);
+    pixels_.load(from);
     from.buffer(film_);
   }
 
@@ -90,7 +97,7 @@ private:
   compute::Buffer<float> spectrum_cdf_;
   compute::Buffer<std::int64_t> film_;
   compute::Kernel kernel_;
-  tracing::PixelRows rows_;
+  SampledPixels pixels_;
 };
 
 } // namespace

@@ -28,6 +28,7 @@ template <>
 struct Choices<spectral::Settings::Effort> {
   using Effort = spectral::Settings::Effort;
   static constexpr Choice<Effort> all[] = {
+      {Effort::automatic, "automatic", "As variance, and as power where that has not gained enough; as power with sppm and relight."},
       {Effort::power, "power", "By what the eye makes of a cluster's light."},
       {Effort::equal, "equal", "The same for each cluster."},
       {Effort::importance, "importance", "By the importance of (4.15): light, luminosity, surroundings."},
@@ -35,6 +36,15 @@ struct Choices<spectral::Settings::Effort> {
       {Effort::variance, "variance",
        "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm."},
       {Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
+};
+
+template <>
+struct Choices<spectral::Settings::Smoothing> {
+  using Smoothing = spectral::Settings::Smoothing;
+  static constexpr Choice<Smoothing> all[] = {
+      {Smoothing::automatic, "automatic", "Where the two halves of the film say that it helps, region by region."},
+      {Smoothing::on, "on", "Everywhere."},
+      {Smoothing::off, "off", "Nowhere."}};
 };
 
 template <>

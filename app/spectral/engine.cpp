@@ -32,7 +32,8 @@ preset::Settings reference(const preset::Preset& preset, int passes)
   preset::Settings made = recipe ? *recipe : preset.settings;
   Settings& s = made.as<Settings>();
   if (!recipe) s = brute_force(s);
-  s.smoothing = false;                                 // it would be a bias
+  s.smoothing = Settings::Smoothing::off; // it would be a bias
+  if (s.effort == Settings::Effort::automatic) s.effort = Settings::Effort::power;
   s.pixel_samples = std::max(s.pixel_samples, passes); // the direct layer as well converged as the caustic
   return made;
 }

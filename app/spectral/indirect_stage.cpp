@@ -53,7 +53,7 @@ public:
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](int) { return tracing::halves_of(passes, done ? 1 : part()); };
+    const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
     const std::vector<std::int64_t> sums = film_.read();
     tracing::add_layer("indirect", {sums, tables_.film_scale * world_.white, samples}, picture);
   }

@@ -9,25 +9,28 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace nephroid::spectral {
 namespace {
 
+/// By how much photons that are dealt by variance have to lower it: so much longer they may take, for they meet more glass and are
+/// measured.
+constexpr double least_gain = 1.5;
+
 class PhotonStage final : public Stage {
 public:
   PhotonStage(DeviceWorld& world, const Settings& settings, PhotonMap* map)
-      : world_(world), by_variance_(settings.effort == Settings::Effort::variance), deal_(world.tables.emitters),
+      : world_(world), insists_(settings.effort == Settings::Effort::variance),
+        by_variance_(insists_ || settings.effort == Settings::Effort::automatic), deal_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
         guide_table_(world.context, "guide of directions", std::span<const float>(guide_.table())),
         film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0)
   {
-    compute::Defines defines = world.photon_defines();
-    defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
-    defines["NEPHROID_STORE"] = std::to_string(int(map != nullptr));
     if (map) stored_ = map->stored();
-    kernel_ = compute::Program(world.context, "spectral/photons.cl", defines).kernel("photons");
+    make_kernel();
   }
 
   const char* name() const override { return "photons"; }
@@ -67,7 +70,7 @@ public:
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](int) { return tracing::halves_of(passes, done ? 1 : part()); };
+    const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
     const std::vector<std::int64_t> sums = film_.read();
     tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
   }
@@ -75,6 +78,7 @@ public:
   void save(tracing::StateWriter& to) const override
   {
     slices_.save(to);
+    to.value(by_variance_);
     to.buffer(film_);
     deal_.save(to);
     guide_.save(to);
@@ -84,15 +88,26 @@ public:
   void load(tracing::StateReader& from) override
   {
     slices_.load(from);
+    bool by_variance = false;
+    from.value(by_variance);
     from.buffer(film_);
     deal_.load(from);
     guide_.load(from);
     from.buffer(moments_);
     from.buffer(guide_moments_);
     write_deal();
+    if (std::exchange(by_variance_, by_variance) != by_variance) make_kernel();
   }
 
 private:
+  void make_kernel()
+  {
+    compute::Defines defines = world_.photon_defines();
+    defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
+    defines["NEPHROID_STORE"] = std::to_string(int(stored_.size() > 0));
+    kernel_ = compute::Program(world_.context, "spectral/photons.cl", defines).kernel("photons");
+  }
+
   /// Deals the photons of the passes from this one on by what the earlier ones have shown.
   void deal(std::int64_t pass)
   {
@@ -100,6 +115,11 @@ private:
     for (const shared::DeviceEmitter& e : deal_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
     guide_.learn(guide_moments_.read(), photons, static_cast<double>(pass - deal_.first_pass()));
     deal_.deal(pass, moments_.read(), world_.halves);
+    if (!insists_ && pass > 2 && deal_.gain() < least_gain) { // pass 2 is the first that is dealt by what was measured
+      by_variance_ = false;
+      make_kernel();
+      deal_.deal_as_first(pass, world_.halves);
+    }
     moments_.fill_zero();
     guide_moments_.fill_zero();
     write_deal();
@@ -120,7 +140,8 @@ private:
   }
 
   DeviceWorld& world_;
-  bool by_variance_;
+  bool insists_;     ///< on dealing by variance
+  bool by_variance_; ///< whether photons are dealt and guided so, and it is measured how
   VarianceDeal deal_;
   EmissionGuide guide_;
   compute::Buffer<std::int64_t> moments_;       ///< [emitter], see VarianceDeal::deal

@@ -46,6 +46,8 @@ std::string no_light_reason(const Settings& settings, const scene::Scene& scene)
   return shining_lights(settings, scene) > 0 ? "" : "no light has power";
 }
 
+constexpr const char* more_through_glass = ", more where glass or a mirror is seen";
+
 plan::Pass direct_pass(const Settings& settings, const scene::Scene& scene, const tracing::ObjectCounts& objects,
                        const tracing::LeaveOut& leave_out)
 {
@@ -53,8 +55,9 @@ plan::Pass direct_pass(const Settings& settings, const scene::Scene& scene, cons
   const std::string none = objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light_reason(settings, scene);
   if (!none.empty()) return tracing::omission("direct", leave_out.direct, false, none);
   return tracing::omission("direct", leave_out.direct, true,
-                           fmt::format("{} lit by {}, {} a pixel", counted(objects.diffuse, "diffuse object"),
-                                       counted(shining_lights(settings, scene), "light"), counted(settings.pixel_samples, "sample")));
+                           fmt::format("{} lit by {}, {} a pixel{}", counted(objects.diffuse, "diffuse object"),
+                                       counted(shining_lights(settings, scene), "light"), counted(settings.pixel_samples, "sample"),
+                                       !settings.relight && tracing::may_see_glass_or_mirror(scene) ? more_through_glass : ""));
 }
 
 plan::Pass photon_pass(const Settings& settings, const scene::Scene& scene, const tracing::ObjectCounts& objects, const RunTables& tables,
@@ -93,7 +96,8 @@ plan::Pass background_pass(const Settings& settings, const scene::Scene& scene)
   const int width = scene.environment->width, height = scene.environment->height;
   return {"background", true,
           (width * height == 1 ? "one colour all around" : fmt::format("a picture of {} x {} texels", width, height)) +
-              fmt::format(", seen directly, through glass and in mirrors; {} a pixel", counted(settings.pixel_samples, "sample")),
+              fmt::format(", seen directly, through glass and in mirrors; {} a pixel{}", counted(settings.pixel_samples, "sample"),
+                          tracing::may_see_glass_or_mirror(scene) ? more_through_glass : ""),
           "/spectral/background", true};
 }
 
@@ -138,17 +142,18 @@ plan::Pass differentials_pass(const Settings& settings, const scene::Scene& scen
 /// halves: whether films are kept in two, which tells how noisy they are. passes: at most so many, if known.
 plan::Pass smoothing_pass(const Settings& settings, bool caustics, bool halves, std::optional<int> passes)
 {
-  const std::string field = "/spectral/smoothing";
-  if (!settings.smoothing) return not_asked_for("smoothing", "smoothing");
+  using Smoothing = Settings::Smoothing;
+  if (settings.smoothing == Smoothing::off) return {"smoothing", false, "spectral.smoothing is off", "", false};
   if (!caustics) return {"smoothing", false, "there are no caustics", "", false};
   if (settings.estimator == Settings::Estimator::sppm)
     return {"smoothing", false, "spectral.estimator is sppm, which has radii of its own", "", false};
   if (!halves) return {"smoothing", false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (passes == 1) return {"smoothing", false, "the run has one pass, and it takes two to tell how noisy a pixel is", "", false};
   return {"smoothing", true,
-          fmt::format("a pixel's caustics are spread until their noise is {} of them; the estimated error takes in how far it goes",
-                      Smoothing::noise),
-          field, true};
+          fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in how far it goes",
+                      spectral::Smoothing::noise,
+                      settings.smoothing == Smoothing::on ? "everywhere" : "where the two halves of the film say that it helps"),
+          "", false};
 }
 
 std::uint64_t film_bytes(const scene::Scene& scene, int halves)
@@ -198,6 +203,8 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
       {"wavelength tables", bytes_of(w.index_of_cluster) + bytes_of(w.index_of_wavelength) + bytes_of(w.wavelength_cdf) +
                                 bytes_of(w.coefficient) + bytes_of(w.reflectance) + bytes_of(w.light_xyz) + bytes_of(w.reflected_xyz) +
                                 bytes_of(w.reflected_xyz_all) + bytes_of(w.cluster_wavelengths)}};
+  const std::uint64_t pixels = static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
+  list.push_back({"pixels", 2 * sizeof(std::uint32_t) * pixels}); // all, and those of glass
   if (direct) list.push_back({"film direct", film_bytes(scene, halves)});
   if (photons) list.push_back({"film caustic", film_bytes(scene, halves)});
   return list;
@@ -212,8 +219,9 @@ std::vector<std::string> setting_notes(const preset::Preset& preset, const scene
   if (settings.step_nm > 1 && settings.method != Settings::Method::brute_force)
     notes.push_back(fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",
                                 settings.step_nm, preset::word(settings.method)));
-  if (settings.smoothing && !smoothing.runs) notes.push_back("spectral.smoothing: true does nothing here: " + smoothing.reason);
-  if (smoothing.runs && preset.stop.error && !preset.reference)
+  const bool insists = settings.smoothing == Settings::Smoothing::on;
+  if (insists && !smoothing.runs) notes.push_back("spectral.smoothing: on does nothing here: " + smoothing.reason);
+  if (insists && smoothing.runs && preset.stop.error && !preset.reference)
     notes.push_back("stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does");
   if (const std::string note = map_radius_note(settings, scene); maps && !note.empty()) notes.push_back(note);
   if (splats && tables.photons_per_pass > static_cast<unsigned>(settings.photons_per_pass))
@@ -267,7 +275,7 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
   plan.indirect = indirect.runs;
   plan.background = background.runs;
   plan.estimates_error = estimate.runs;
-  plan.picture_bytes_a_pixel = smoothing.runs ? 100 : 48; // what is smoothed; a film of two halves read back
+  plan.picture_bytes_a_pixel = smoothing.runs ? 120 : 48; // what is smoothed; a film of two halves read back
   plan.layers = direct.runs + caustics + indirect.runs + background.runs;
   plan.buffers = buffers(scene, bvh, tables, direct.runs, photons.runs, halves);
   if (indirect.runs) plan.buffers.push_back({"film indirect", film_bytes(scene, halves)});
@@ -275,7 +283,8 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
     plan.buffers.push_back({"environment", bytes_of(scene.environment->rgb)});
     plan.buffers.push_back({"film background", film_bytes(scene, halves)});
   }
-  if (photons.runs && settings.effort == Settings::Effort::variance)
+  if (photons.runs && !settings.relight &&
+      (settings.effort == Settings::Effort::variance || settings.effort == Settings::Effort::automatic))
     plan.buffers.push_back({"guide of directions",
                             tables.lights.size() * (EmissionGuide::floats * sizeof(float) + EmissionGuide::cells * sizeof(std::int64_t))});
   if (smoothing.runs) plan.buffers.push_back({"surfaces in pixels (host)", Smoothing::bytes(scene.camera), true});

@@ -34,7 +34,7 @@ void check_relight(const Settings& spectral, const Where& where)
                       "expected 'spectral.relight' false, or this as it is by default");
   };
   refuse(spectral.estimator == Settings::Estimator::sppm, "estimator", "photon maps add up colours, not layers");
-  refuse(spectral.effort != Settings::Effort::power, "effort",
+  refuse(spectral.effort != Settings::Effort::automatic && spectral.effort != Settings::Effort::power, "effort",
          "half of the photons go by the present light's power, and half to every cluster alike for lights to come");
   refuse(spectral.differentials, "differentials", "a layer is a whole cluster's");
   refuse(spectral.indirect, "indirect", "its light met several reflectors");

@@ -27,20 +27,23 @@ struct Settings {
   enum class Method { optimal, thesis, brute_force };
   /// Where caustics are estimated. automatic: splats where the camera sees the receiver directly, photon maps elsewhere.
   enum class Estimator { automatic, splat, sppm };
-  /// How the work is dealt to the clusters. power: by what the eye makes of their light; equal: the same for each; importance: u of
-  /// (4.15); radziszewski: that of Radziszewski et al. 2009; variance: by the variance that is measured, which also guides the directions
-  /// in which photons leave a light (not with sppm); random: one cluster a pass, drawn at random (sppm only).
-  enum class Effort { power, equal, importance, radziszewski, variance, random };
+  /// How the work is dealt to the clusters. automatic: variance while that gains enough, else power; power: by what the eye makes of their
+  /// light; equal: the same for each; importance: u of (4.15); radziszewski: that of Radziszewski et al. 2009; variance: by the variance
+  /// that is measured, which also guides the directions in which photons leave a light (not with sppm); random: one cluster a pass, drawn
+  /// at random (sppm only).
+  enum class Effort { automatic, power, equal, importance, radziszewski, variance, random };
+  /// Spreading caustics over pixels around until their noise is small; not with sppm. automatic: where the film's halves say that it helps.
+  enum class Smoothing { automatic, on, off };
   Method method = Method::optimal;
   double threshold_deg = 0.05; ///< alpha: the largest change of the refraction angle inside a cluster
   int step_nm = 1;             ///< brute_force: neighbouring wavelengths that share a path all the same
   Estimator estimator = Estimator::automatic;
-  Effort effort = Effort::power;
+  Effort effort = Effort::automatic;
   Importance importance;
   bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so clusters leave no bias
-  bool low_discrepancy = true;             ///< photons leave the lights by a scrambled Sobol sequence
-  bool differentials = false;              ///< a splat is stretched along the way that it moves with wavelength
-  bool smoothing = false;                  ///< spread caustics over pixels around until their noise is small; not with sppm
+  bool low_discrepancy = true; ///< photons leave the lights by a scrambled Sobol sequence
+  bool differentials = false;  ///< a splat is stretched along the way that it moves with wavelength
+  Smoothing smoothing = Smoothing::automatic;
   bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass

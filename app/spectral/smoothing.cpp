@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace nephroid::spectral {
@@ -130,10 +131,56 @@ void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std
   }
 }
 
+/// Of R, G and B.
+std::vector<double> light_of(std::span<const float> rgb)
+{
+  std::vector<double> light(rgb.size() / 3);
+  for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
+  return light;
+}
+
+/// How much of each pixel's light is for the better spread, 0..1. Of the picture m = truth + noise, spreading makes m + r, and of a share s
+/// of its light m + s r. The square of its error is larger than that of m by
+///
+///   s^2 E[r^2] + 2 s E[r noise],    smallest at    s = -E[r noise] / E[r^2].
+///
+/// The halves m + d and m - d of the film, each spread by kernels of its own, change by r_a and r_b. The one's noise is not in the other,
+/// so E[r_a d] and -E[r_b d] are what each has of E[r noise], with twice the noise that m has: q = (r_a - r_b) / 2 gives E[r noise] = E[q
+/// d]. That kernels follow the noise is in it, too. Means are taken around the pixel, over R, G and B; the square of an error counts over
+/// the light there, so that every photon counts alike.
+std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
+                                     std::span<const float> a_spread, std::span<const float> b_spread, std::span<const double> light,
+                                     int width, int height)
+{
+  constexpr double least_light = 0.01; // of white
+  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
+  const auto over_light = [&](std::size_t i, const auto& term) {
+    double sum = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c);
+    return sum / (least_light + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_reach));
+  };
+  const SummedArea change(width, height, [&](std::size_t i) {
+    return over_light(i, [&](std::size_t c) { return std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2); });
+  });
+  const SummedArea gain(width, height, [&](std::size_t i) {
+    return over_light(i, [&](std::size_t c) {
+      const double d = error_draw[c], q = (static_cast<double>(a_spread[c]) - b_spread[c]) / 2 - d;
+      return -q * d;
+    });
+  });
+  std::vector<float> share(light.size());
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double changed = change.sum(x, y, bias_reach);
+    share[i] = changed > 0 ? static_cast<float>(std::clamp(gain.sum(x, y, bias_reach) / changed, 0.0, 1.0)) : 0;
+  }
+  return share;
+}
+
 } // namespace
 
-Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh)
-    : width_(scene.camera.width), height_(scene.camera.height),
+Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, bool everywhere)
+    : width_(scene.camera.width), height_(scene.camera.height), everywhere_(everywhere),
       seen_(static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height))
 {
   std::vector<Sight> sights(seen_.size());
@@ -194,8 +241,7 @@ void Smoothing::find_kernel(std::size_t i, double wanted, std::span<const double
 }
 
 template <class Needed, class Give>
-void Smoothing::give_parts(std::span<const double> light, std::span<const double> wanted, std::span<const double> favour,
-                           const Needed& needed, const Give& give) const
+void Smoothing::give_parts(const Weights& by, const Needed& needed, const Give& give) const
 {
   // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of cores.
   for_ranges(static_cast<std::size_t>(height_), block_rows, [&](std::size_t, Range rows) {
@@ -205,8 +251,8 @@ void Smoothing::give_parts(std::span<const double> light, std::span<const double
     Kernel kernel;
     for (std::size_t i = from; i < to; ++i) {
       if (!needed(i)) continue;
-      find_kernel(i, wanted[i], light, kernel);
-      const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * favour[kernel.pixels[k]]; };
+      find_kernel(i, by.wanted[i], by.light, kernel);
+      const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * by.favour[kernel.pixels[k]]; };
       double all = 0;
       for (std::size_t k = 0; k < kernel.pixels.size(); ++k) all += weight(k);
       for (std::size_t k = 0; k < kernel.pixels.size(); ++k)
@@ -215,31 +261,62 @@ void Smoothing::give_parts(std::span<const double> light, std::span<const double
   });
 }
 
+void Smoothing::spread_shares(const Weights& by, std::span<const float> share, std::vector<float>& rgb,
+                              std::vector<float>& error_draw) const
+{
+  const std::vector<float> rgb_kept = rgb, draw_kept = error_draw;
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = (1 - share[i / 3]) * rgb_kept[i];
+  for (std::size_t i = 0; i < error_draw.size(); ++i) error_draw[i] = (1 - share[i / 3]) * draw_kept[i];
+  const auto is_zero = [](const std::vector<float>& v, std::size_t i) {
+    return v.empty() || (v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0);
+  };
+  give_parts(
+      by, [&](std::size_t i) { return share[i] > 0 && (!is_zero(rgb_kept, i) || !is_zero(draw_kept, i)); },
+      [&](std::size_t i, std::size_t j, double part) {
+        const float given = share[i] * static_cast<float>(part);
+        for (std::size_t c = 0; c < 3; ++c) rgb[3 * j + c] += given * rgb_kept[3 * i + c];
+        if (!draw_kept.empty())
+          for (std::size_t c = 0; c < 3; ++c) error_draw[3 * j + c] += given * draw_kept[3 * i + c];
+      });
+}
+
+std::vector<float> Smoothing::shares(const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
+                                     const std::vector<float>& rgb_spread) const
+{
+  const std::vector<float> all(seen_.size(), 1);
+  std::vector<float> a(rgb.size()), b(rgb.size()), none;
+  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), a.begin(), std::plus());
+  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), b.begin(), std::minus());
+  for (std::vector<float>* half : {&a, &b}) {
+    const std::vector<double> light = light_of(*half);
+    spread_shares({light, by.wanted, by.favour}, all, *half, none);
+  }
+  return worthwhile_shares(rgb, error_draw, rgb_spread, a, b, by.light, width_, height_);
+}
+
 void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) const
 {
   if (error_draw.empty()) return;
-  std::vector<double> light(seen_.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
+  const std::vector<double> light = light_of(rgb);
   std::vector<double> wanted = portions(light, error_draw, width_, height_);
   for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
 
   // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
   // Knopp (1967) evens that out, and still every pixel gives away what it has.
   std::vector<double> favour(seen_.size(), 1), taken(seen_.size());
+  const Weights by{light, wanted, favour};
   give_parts(
-      light, wanted, favour, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
+      by, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
   std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
 
-  std::vector<float> rgb_spread(rgb.size()), draw_spread(rgb.size());
-  const auto is_zero = [](const std::vector<float>& v, std::size_t i) { return v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0; };
-  give_parts(
-      light, wanted, favour, [&](std::size_t i) { return !is_zero(rgb, i) || !is_zero(error_draw, i); },
-      [&](std::size_t i, std::size_t j, double part) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          rgb_spread[3 * j + c] += static_cast<float>(part) * rgb[3 * i + c];
-          draw_spread[3 * j + c] += static_cast<float>(part) * error_draw[3 * i + c];
-        }
-      });
+  const std::vector<float> all(seen_.size(), 1);
+  std::vector<float> rgb_spread = rgb, draw_spread = error_draw;
+  spread_shares(by, all, rgb_spread, draw_spread);
+  if (!everywhere_) {
+    const std::vector<float> share = shares(by, rgb, error_draw, rgb_spread);
+    rgb_spread = rgb, draw_spread = error_draw;
+    spread_shares(by, share, rgb_spread, draw_spread);
+  }
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);

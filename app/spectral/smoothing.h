@@ -27,7 +27,8 @@ public:
   /// Looks once through the middle of every pixel, on every core. Light is spread within one nearly flat part of the diffuse object that
   /// the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where glass or a mirror shows none, or
   /// is curved so that neighbours show places far apart, it is spread within one nearly flat part of the glass or mirror.
-  Smoothing(const scene::Scene& scene, const scene::Bvh& bvh);
+  /// everywhere: light is spread as far as its noise asks for; otherwise only as much of it as the halves say is for the better.
+  Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, bool everywhere);
 
   /// What it takes at most while it is made, in bytes; it keeps less.
   static std::uint64_t bytes(const scene::Camera& camera);
@@ -55,13 +56,23 @@ private:
   };
   /// The one of pixel i that holds `wanted` of `light`, or reaches as far as any may.
   void find_kernel(std::size_t i, double wanted, std::span<const double> light, Kernel& kernel) const;
+  /// What says where light goes, [pixel].
+  struct Weights {
+    std::span<const double> light, wanted; ///< of find_kernel
+    std::span<const double> favour;        ///< that a pixel finds in every kernel
+  };
   /// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j: as its kernel has it times
-  /// favour[j]; a pixel's parts are 1 together. wanted: of find_kernel, for each pixel. On every core, each with its own j.
+  /// favour[j]; a pixel's parts are 1 together. On every core, each with its own j.
   template <class Needed, class Give>
-  void give_parts(std::span<const double> light, std::span<const double> wanted, std::span<const double> favour, const Needed& needed,
-                  const Give& give) const;
+  void give_parts(const Weights& by, const Needed& needed, const Give& give) const;
+  /// Of what a pixel has, `share` is spread; the rest stays. error_draw: may be empty.
+  void spread_shares(const Weights& by, std::span<const float> share, std::vector<float>& rgb, std::vector<float>& error_draw) const;
+  /// Of each pixel's light, what is for the better spread. rgb_spread: with all of it spread.
+  std::vector<float> shares(const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
+                            const std::vector<float>& rgb_spread) const;
 
   int width_, height_;
+  bool everywhere_;
   std::vector<Seen> seen_; ///< [pixel]
 };
 

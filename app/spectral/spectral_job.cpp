@@ -2,6 +2,7 @@
 // The job of engine 1: passes, in each of which every stage has its turn, step by step.
 #include "base/error.h"
 #include "spectral/engine.h"
+#include "spectral/glass_pixels.h"
 #include "spectral/relight/layer_tables.h"
 #include "spectral/relight/only_relit.h"
 #include "spectral/relight/relighting.h"
@@ -13,7 +14,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
+#include <cmath>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -22,7 +27,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 5;
+constexpr std::uint32_t checkpoint_version = 6;
+
+PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene)
+{
+  PixelLists lists;
+  lists.all = static_cast<std::uint32_t>(scene.camera.width) * static_cast<std::uint32_t>(scene.camera.height);
+  lists.glass = glass_pixels(scene);
+  lists.may_show_glass.assign(lists.all, false);
+  for (const std::uint32_t pixel : lists.glass) lists.may_show_glass[pixel] = true;
+  std::vector<std::uint32_t> both(lists.all);
+  std::iota(both.begin(), both.end(), 0);
+  both.insert(both.end(), lists.glass.begin(), lists.glass.end());
+  lists.on_device = tracing::upload_vector(context, "pixels", both);
+  return lists;
+}
 
 /// A stage with the seconds it has worked.
 struct TimedStage {
@@ -40,12 +59,16 @@ public:
                preset.white,
                plan.estimates_error ? 2u : 1u,
                {},
+               {},
                {}},
         estimates_error_(plan.estimates_error), stop_seconds_(preset.stop.seconds)
   {
+    shares_work_ =
+        spectral::settings(preset).effort == Settings::Effort::automatic && !spectral::settings(preset).relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
+    world_.pixels = make_pixel_lists(context, scene);
     world_.emitters = tracing::upload_vector(context, "emitters", plan.tables.emitters);
-    if (plan.smoothing) smoothing_.emplace(scene, bvh);
+    if (plan.smoothing) smoothing_.emplace(scene, bvh, spectral::settings(preset).smoothing == Settings::Smoothing::on);
     if (spectral::settings(preset).relight && (plan.direct || plan.photons)) {
       preset_ = preset;
       relighting_ = make_relighting(world_, layer_light(scene, preset.white));
@@ -83,11 +106,14 @@ public:
   void step() override
   {
     const auto begin = Clock::now();
+    if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
+      share_work();
     TimedStage& now = stages_[at_.stage];
     const bool complete = at_.pass >= now.stage->passes() || now.stage->step(at_.pass);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     now.seconds += seconds;
     at_.work_seconds += seconds;
+    at_.part_of_pass = !complete;
     if (!complete || ++at_.stage < stages_.size()) return;
     at_.stage = 0;
     ++at_.pass;
@@ -177,11 +203,44 @@ public:
 private:
   /// Where a run is.
   struct Position {
-    std::int64_t pass = 0; ///< passes completed
-    std::size_t stage = 0; ///< whose turn it is
+    std::int64_t pass = 0;     ///< passes completed
+    std::size_t stage = 0;     ///< whose turn it is
+    bool part_of_pass = false; ///< whether it has begun
     double work_seconds = 0;
     double energy_from = 0; ///< passes of photons when the energy counters began
   };
+
+  /// Deals the work of the next passes out between photons and paths through glass, by how much each has left of the picture's noise: the
+  /// sum of the variances V_s of films that take the work w_s a pass, V_s w_s being as it is, is smallest where all V_s / w_s are alike.
+  /// Work is counted, not timed, so that a seed has its bits. The square of a pixel's noise is over that of its light, as in the metric
+  /// rel_mse.
+  void share_work()
+  {
+    job::Picture picture = black();
+    std::vector<std::vector<float>> draws{picture.error_draw}; // of the stages up to each
+    for (const TimedStage& s : stages_) {
+      s.stage->develop(at_.pass, false, picture);
+      draws.push_back(picture.error_draw);
+    }
+    if (picture.error_draw.empty()) return;
+    std::vector<float>& rgb = picture.rgb;
+    for (const job::Layer& layer : picture.layers)
+      std::transform(layer.rgb.begin(), layer.rgb.end(), rgb.begin(), rgb.begin(), std::plus());
+    const auto noise_over_work = [&](std::size_t stage, double work, bool of_glass) {
+      double sum = 0;
+      for (std::size_t i = 0; i < rgb.size(); ++i)
+        if (!of_glass || world_.pixels.may_show_glass[i / 3])
+          sum += std::pow(static_cast<double>(draws[stage + 1][i]) - draws[stage][i], 2) / (0.01 + static_cast<double>(rgb[i]) * rgb[i]);
+      return sum / work;
+    };
+    double of_photons = 0;
+    for (std::size_t s = 0; s < stages_.size(); ++s)
+      if (const auto work = static_cast<double>(stages_[s].stage->photons_per_pass()); stages_[s].caustics && work > 0)
+        of_photons = noise_over_work(s, work, false);
+    for (std::size_t s = 0; s < stages_.size(); ++s)
+      if (const double work = stages_[s].stage->glass_work(); work > 0 && of_photons > 0)
+        stages_[s].stage->share_work(std::sqrt(noise_over_work(s, work, true) / of_photons));
+  }
 
   /// A black picture without layers, with room for a draw of its error where films have halves.
   job::Picture black() const
@@ -251,6 +310,7 @@ private:
   preset::Preset preset_; ///< where layers are kept: what the light is of
   std::unique_ptr<Relighting> relighting_;
   std::unique_ptr<PhotonMap> map_;
+  bool shares_work_ = false; ///< whether time is dealt out by what it gains
   std::optional<Smoothing> smoothing_;
   double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
   bool estimates_error_;

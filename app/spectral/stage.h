@@ -11,6 +11,10 @@
 
 namespace nephroid::spectral {
 
+/// A path from the eye takes about twice as long as a photon; of the layers "direct" and "background" glass has so many a sample
+/// (PATHS_THROUGH_GLASS in kernels/tracing/eye_path.h).
+inline constexpr double work_of_a_path = 2, paths_through_glass = 4;
+
 class Stage {
 public:
   virtual ~Stage() = default;
@@ -39,6 +43,10 @@ public:
   virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
   /// Adds where the power of its photons went in the same passes, if it keeps counters of its own.
   virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
+  /// Work of a pass on pixels of glass, in photons, as the mean of passes; 0: it is not to be shared out.
+  virtual double glass_work() const { return 0; }
+  /// How much of it the next passes are to have, as a multiple of what glass_work() says.
+  virtual void share_work(double /*factor*/) {}
   /// Photons sent in one pass; 0 where it sends none.
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether theirs is the power in DeviceWorld::energy.

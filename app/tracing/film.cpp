@@ -29,26 +29,29 @@ job::Layer& layer_of(job::Picture& picture, const std::string& name)
 
 void add_layer(const std::string& name, const Film& film, job::Picture& picture)
 {
-  const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width), size = row_length * static_cast<std::size_t>(picture.height);
+  const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   job::Layer& layer = layer_of(picture, name);
   std::vector<float>& error_draw = picture.error_draw;
-  const bool halves = film.sums.size() == 2 * size;
+  const bool halves = film.sums.size() == 6 * pixels;
   const std::int64_t* first = film.sums.data();
-  const std::int64_t* second = halves ? first + size : first; // where there is one image, its weight below is 0
+  const std::int64_t* second = halves ? first + 3 * pixels : first; // where there is one image, its weight below is 0
   if (!halves) error_draw.clear();
-  for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
-    const auto [a, b] = film.samples(static_cast<int>(row));
-    const double mean = a + b > 0 ? 1 / ((a + b) * film.quanta_per_unit) : 0;
-    if (a <= 0 || b <= 0) error_draw.clear();
-    // (A / a - B / b) sqrt(a b) / (a + b), with the sums A and B
-    const double of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
-    for (std::size_t i = row * row_length; i < (row + 1) * row_length; i += 3) {
-      const optics::Colour value = blend(first + i, mean, second + i, halves ? mean : 0);
-      for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] += static_cast<float>(value[c]);
-      if (error_draw.empty()) continue;
-      const optics::Colour error = blend(first + i, of_a, second + i, -of_b);
-      for (std::size_t c = 0; c < 3; ++c) error_draw[i + c] += static_cast<float>(error[c]);
+  std::array<double, 2> samples{-1, -1}; // of the pixel before: most have as many
+  double mean = 0, of_a = 0, of_b = 0;
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    if (const std::array<double, 2> own = film.samples(pixel); own != samples) {
+      const auto [a, b] = samples = own;
+      mean = a + b > 0 ? 1 / ((a + b) * film.quanta_per_unit) : 0;
+      // (A / a - B / b) sqrt(a b) / (a + b), with the sums A and B
+      of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
+      if (a <= 0 || b <= 0) error_draw.clear();
     }
+    const std::size_t i = 3 * pixel;
+    const optics::Colour value = blend(first + i, mean, second + i, halves ? mean : 0);
+    for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] += static_cast<float>(value[c]);
+    if (error_draw.empty()) continue;
+    const optics::Colour error = blend(first + i, of_a, second + i, -of_b);
+    for (std::size_t c = 0; c < 3; ++c) error_draw[i + c] += static_cast<float>(error[c]);
   }
 }
 

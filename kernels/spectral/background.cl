@@ -38,19 +38,19 @@ static inline float3 seen_through(const World* world, const Background* backgrou
   return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses, band);
 }
 
-// One sample of every pixel of rows first_row .. first_row + row_count - 1.
+// One sample of each of pixels[first .. first + count - 1].
 __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_xyz, DeviceBackground size,
                          __global const int* wavelengths,    // 0, 1, ..., 400
                          __global const float* spectrum_cdf, // [401]: which wavelength a path through glass has
                          volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                         DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale, float film_limit)
+                         DeviceCamera camera, uint2 seed, uint frame, __global const uint* pixels, uint first, uint count, float film_scale, float film_limit)
 {
   const World world = WORLD;
   const Background background = {texels, primary_xyz, size};
-  const int index = (int)get_global_id(0);
-  if (index >= row_count * camera.width) return;
-  const int column = index % camera.width, row = first_row + index / camera.width;
-  const uint pixel = (uint)(row * camera.width + column);
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint pixel = pixels[first + index];
+  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_BACKGROUND);
   const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);

@@ -34,18 +34,18 @@ static inline float3 follow(const World* world, Path path, Hit first, const Band
   return radiance_scale * shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
 }
 
-// One sample of every pixel of rows first_row .. first_row + row_count - 1.
+// One sample of each of pixels[first .. first + count - 1].
 __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
                      __global const float* cluster_cdf,                         // [cluster + 1]: which cluster a path through glass takes
                      volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                     DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale,
+                     DeviceCamera camera, uint2 seed, uint frame, __global const uint* pixels, uint first, uint count, float film_scale,
                      float film_limit)
 {
   const World world = WORLD;
-  const int index = (int)get_global_id(0);
-  if (index >= row_count * camera.width) return;
-  const int column = index % camera.width, row = first_row + index / camera.width;
-  const uint pixel = (uint)(row * camera.width + column);
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint pixel = pixels[first + index];
+  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_CAMERA);
   const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);

@@ -9,11 +9,12 @@
 #include "kernels/tracing/film.h"
 #include "kernels/spectral/photon_map.h"
 
-// points: see view.cl, of pixels from first_pixel on. radius: the same for all. film_per_quantum: film quanta of radiance per quantum of a
+// points: see view.cl, of pixels[first] and those after it. picture: how many pixels it has. radius: the same for all. film_per_quantum: film quanta of radiance per quantum of a
 // photon, with the 1 / (pi^2 r^2) of above, r in metres.
 kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, volatile global long* film,
                            volatile global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                           uint pixels, uint pass, uint first_pixel, uint count, float radius, float film_per_quantum)
+                           __global const uint* pixels, uint picture, uint pass, uint first, uint count, float radius,
+                           float film_per_quantum)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
@@ -23,7 +24,7 @@ kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* poin
   const Gathered gathered = gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, radius);
   if (gathered.count == 0) return;
   const float3 xyz = convert_float3(gathered.xyz) * point.throughput.xyz;
-  if (!film_add_dithered(film_of_pass(film, pass, (int)pixels), (int)(first_pixel + i), xyz, film_per_quantum, FILM_LIMIT, point.position.w))
+  if (!film_add_dithered(film_of_pass(film, pass, (int)picture), (int)pixels[first + i], xyz, film_per_quantum, FILM_LIMIT, point.position.w))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }
 

@@ -35,8 +35,9 @@ typedef struct {
 // Photon `photon` of a pass. first_pass: from which on photons are dealt to the emitters as they are (DeviceEmitter::sequence_start is for
 // it).
 // Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that those of all
-// clusters together are spread evenly; its fourth number says which cluster and which wavelength in it. The halves have sequences of
-// their own, as they must be independent.
+// clusters together are spread evenly; its fourth number says which cluster and which wavelength in it. That number has 32 bits, of which
+// the choice of the cluster takes up to 24: plain random bits below them make the wavelength as fine as any. The halves have sequences
+// of their own, as they must be independent.
 static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights,
                                        uint2 seed, uint pass, uint first_pass, uint photon)
 {
@@ -54,14 +55,16 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
                        (photon - emitter.light_first_photon);
   const uint index = (uint)number; // a sequence has 2^32 points; then another begins
   const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | pass % NEPHROID_FILM_HALVES);
-  const float4 point = sobol4(seed, sequence, 0u, index);
-  start.emission.xyz = point.zxy; // the first two dimensions are the best pair
+  const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
+  const uint below = (uint)(start.emission.x * 0x1p24f); // of the fourth number: 24 bits more
+  start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair
   if (area) start.place = sobol4(seed, sequence, 1u, index).xy;
-  const float place = point.w * (float)emitter.light_photon_count;
-  const uint whole = min((uint)place, emitter.light_photon_count - 1u);
-  start.emitter = emitter_of(emitters, emitter_count, emitter.light_first_photon + whole);
+  // The fourth number times the light's photons: a whole photon above, a fraction of 32 bits below. Fits 2^32 photons.
+  const ulong count = emitter.light_photon_count, place = bits.w * count + (below * count >> 24);
+  const uint chosen_photon = emitter.light_first_photon + (uint)(place >> 32);
+  start.emitter = emitter_of(emitters, emitter_count, chosen_photon);
   __global const DeviceEmitter* const chosen = emitters + start.emitter;
-  const float within = (float)(emitter.light_first_photon + whole - chosen->first_photon) + (place - (float)whole);
+  const float within = (float)(chosen_photon - chosen->first_photon) + (float)(uint)place * 0x1p-32f;
   start.wavelength = clamp(within / (float)chosen->photon_count, 0.0f, 0x1.fffffep-1f);
 #else
   if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || area) {

@@ -56,18 +56,17 @@ static inline VisiblePoint see(const World* world, Path path, Hit hit, const Ban
   return point;
 }
 
-// points: [row_count * width], of rows from first_row on; position.w: the film's dither. cluster: of all paths; or -1: each path that
+// points: [count], of pixels[first] and those after it; position.w: the film's dither. cluster: of all paths; or -1: each path that
 // meets glass or a mirror first takes one by its chance in cluster_cdf and is worth so much more, and the others see nothing here.
-// path_number: which of the path_count paths that a pixel has in the pass; each is worth 1 / path_count.
+// sample: how many paths a pixel has had before, place: how many in passes of this half of the film. Each is worth 1 / path_count of a pass.
 __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points, DeviceCamera camera, uint2 seed,
-                   uint pass, uint path_number, uint path_count, int cluster, int object_count, int first_row, int row_count)
+                   uint pass, uint sample, uint place, uint path_count, int cluster, int object_count, __global const uint* pixels, uint first, uint count)
 {
   const World world = WORLD;
-  const int index = (int)get_global_id(0);
-  if (index >= row_count * camera.width) return;
-  const int column = index % camera.width, row = first_row + index / camera.width;
-  const uint pixel = (uint)(row * camera.width + column);
-  const uint sample = pass * path_count + path_number;
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint pixel = pixels[first + index];
+  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   const float4 jitter = random4(seed, sample, pixel, 0u, STREAM_VIEW);
   const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);
@@ -76,7 +75,7 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
     const bool bent = material_of(&world, (int)object_of_triangle[hit.primitive]).type != MATERIAL_DIFFUSE;
     float weight = 1.0f / (float)path_count;
     if (cluster < 0 && bent) {
-      cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, pass, path_number, path_count, pixel, STREAM_VIEW_CLUSTER);
+      cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel, STREAM_VIEW_CLUSTER);
       weight /= (cluster_cdf[cluster + 1] - cluster_cdf[cluster]);
     }
     if (cluster >= 0) {

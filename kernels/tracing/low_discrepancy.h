@@ -70,8 +70,9 @@ static inline uint4 permute_by_lower_bits(uint4 x, uint4 key)
 
 static inline uint4 reverse_bits4(uint4 x) { return (uint4)(reverse_bits(x.x), reverse_bits(x.y), reverse_bits(x.z), reverse_bits(x.w)); }
 
-// Point `index` of four dimensions. sequence: what it is for, part of the key; set: sets of one sequence are independent of each other.
-static inline float4 sobol4(uint2 seed, uint3 sequence, uint set, uint index)
+// Point `index` of four dimensions, in units of 2^-32. sequence: what it is for, part of the key; set: sets of one sequence are independent
+// of each other.
+static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index)
 {
   const uint4 key = philox4x32((uint4)(sequence, set << 16 | STREAM_SOBOL), seed);
   // The order of the points is shuffled by a key of its own, so that sets are not paired alike.
@@ -80,8 +81,12 @@ static inline float4 sobol4(uint2 seed, uint3 sequence, uint set, uint index)
   for (int i = 0; i < 32; ++i) bits ^= sobol_directions[i] & (uint3)(0u - (shuffled >> i & 1u));
   // Dimension 1 is the reversed index, so its own reversal, where scrambling happens, is the index.
   const uint4 reversed = (uint4)(shuffled, reverse_bits(bits.x), reverse_bits(bits.y), reverse_bits(bits.z));
-  const uint4 scrambled = reverse_bits4(permute_by_lower_bits(reversed, key));
-  return convert_float4(scrambled >> 8) * 0x1p-24f;
+  return reverse_bits4(permute_by_lower_bits(reversed, key));
+}
+
+static inline float4 sobol4(uint2 seed, uint3 sequence, uint set, uint index)
+{
+  return convert_float4(sobol4_bits(seed, sequence, set, index) >> 8) * 0x1p-24f;
 }
 
 #endif

@@ -66,7 +66,8 @@ void picture(benchmark::State& state)
 {
   preset::Preset p = preset::read_preset("spectral/thesis/bunny");
   p.stop.passes = 8;
-  spectral::settings(p).smoothing = state.range(0) != 0;
+  using Smoothing = spectral::Settings::Smoothing;
+  spectral::settings(p).smoothing = state.range(0) != 0 ? Smoothing::on : Smoothing::off;
   const scene::Scene scene = scene::load_scene(p);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const compute::Context context = compute::Context::open();

@@ -167,7 +167,7 @@ TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
               HasSubstr("belongs to another preset or seed, or a file that the preset names has changed; run without --resume"));
   EXPECT_THAT(answer({"--set", "scene.camera.fov_deg=41"}), HasSubstr("belongs to another preset"));
   // Its sums are the same, but the errors in its history are those of another picture.
-  EXPECT_THAT(answer({"--set", "spectral.smoothing=true"}), HasSubstr("belongs to another preset"));
+  EXPECT_THAT(answer({"--set", "spectral.smoothing=on"}), HasSubstr("belongs to another preset"));
   std::string changed = good;
   changed[changed.size() / 2] ^= 1;
   for (const std::string& bytes : {good.substr(0, good.size() - 1), good.substr(0, good.size() / 2), good + "x", changed}) {

@@ -35,6 +35,8 @@ void make_small(preset::Preset& p)
   spectral::settings(p).direct = true;
   spectral::settings(p).estimator = spectral::Settings::Estimator::splat;
   spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = false;
+  spectral::settings(p).effort = spectral::Settings::Effort::power;
+  spectral::settings(p).smoothing = spectral::Settings::Smoothing::off;
   p.stop = {};
   p.stop.passes = 16;
   p.white = 1;

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/low_discrepancy.h: what Owen's scrambling keeps of a Sobol sequence is exact and is tested so; that other keys give
-// independent sequences is tested by chi-square.
+// kernels/tracing/low_discrepancy.h and what kernels/spectral/photon_path.h makes of it: what Owen's scrambling keeps of a Sobol sequence
+// is exact and is tested so; that other keys give independent sequences is tested by chi-square.
 #include "compute/compute.h"
+#include "kernels/tracing/shared_types.h"
+#include "spectral/effort/emitters.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
+#include "tracing/scene_buffers.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace {
@@ -18,7 +22,17 @@ using namespace nephroid;
 using Point = std::array<float, 4>;
 
 const char* const source = R"(
-#include "kernels/tracing/low_discrepancy.h"
+#include "kernels/tracing/film.h"
+#include "kernels/spectral/photon_path.h"
+// How many photons of a pass fall into each of 401 equal parts of their clusters, of emitters of at most `largest` photons.
+__kernel void wavelengths(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights, uint2 seed,
+                          uint pass, uint photons, uint largest, volatile __global uint* hits)
+{
+  for (uint i = (uint)get_global_id(0); i < photons; i += (uint)get_global_size(0)) {
+    const PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, 0u, i);
+    if (emitters[start.emitter].photon_count <= largest) atomic_inc(hits + (uint)(start.wavelength * 401.0f));
+  }
+}
 __kernel void points(__global float4* out, uint2 seed, uint4 sequence_set, uint first, uint count)
 {
   const uint i = (uint)get_global_id(0);
@@ -105,6 +119,41 @@ TEST(LowDiscrepancy, OtherKeysAreIndependent)
     const std::vector<Point> others = over_sequences(other);
     for (std::size_t d = 0; d < 4; ++d)
       EXPECT_GT(p_of_independence(all, others, d), test::false_alarm) << testing::PrintToString(other.sequence_set) << ", dimension " << d;
+  }
+}
+
+// The wavelength in a cluster is as fine as its light's spectrum, however few of a pass' photons the cluster has: 2000 of 16 photons each,
+// beside one of all the rest. Each has its own part of the sequence, so what falls into 401 equal parts of them is like plain random
+// numbers or more even.
+TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
+{
+  constexpr unsigned small = 16, clusters = 2000;
+  for (const std::uint32_t photons : {1u << 22, 1u << 24}) {
+    std::vector<shared::DeviceEmitter> emitters(clusters + 1);
+    for (shared::DeviceEmitter& e : emitters) e.photon_count = small;
+    emitters.back().photon_count = photons - small * clusters;
+    spectral::number_photons(emitters);
+    const auto table = tracing::upload_vector(kernels().context(), "emitters", emitters);
+    const compute::Buffer<shared::DeviceLight> lights =
+        tracing::upload_vector(kernels().context(), "lights", std::vector<shared::DeviceLight>(1));
+    compute::Buffer<std::uint32_t> hits(kernels().context(), "hits", 401);
+    hits.fill_zero();
+    const std::array<std::uint32_t, 2> seed{7, 0};
+    kernels()
+        .kernel("wavelengths")
+        .run(1 << 12, 64,
+             {{"emitters", table},
+              {"emitter_count", static_cast<int>(clusters + 1)},
+              {"lights", lights},
+              {"seed", seed},
+              {"pass", 0u},
+              {"photons", photons},
+              {"largest", small},
+              {"hits", hits}});
+    const std::vector<std::uint32_t> counted = hits.read();
+    const std::vector<double> counts(counted.begin(), counted.end());
+    EXPECT_NEAR(std::accumulate(counts.begin(), counts.end(), 0.0), small * clusters, 0.1 * small * clusters);
+    EXPECT_GT(test::chi_square_test(counts, std::vector<double>(401, 1.0)).p, test::false_alarm) << photons;
   }
 }
 

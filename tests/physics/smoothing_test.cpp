@@ -19,7 +19,9 @@
 namespace nephroid {
 namespace {
 
-preset::Preset ball(int passes, bool smoothing)
+using Smooth = spectral::Settings::Smoothing;
+
+preset::Preset ball(int passes, Smooth smoothing)
 {
   preset::Preset p = test::ball_over_floor();
   p.scene.camera.position = {0, 2, 4};
@@ -54,7 +56,8 @@ plan::Pass smoothing_pass(const preset::Preset& preset)
 
 TEST(SmoothedRun, has_the_power_of_the_plain_one_and_less_error)
 {
-  const job::Snapshot plain = test::render(ball(4, false)), smooth = test::render(ball(4, true)), truth = test::render(ball(256, false));
+  const job::Snapshot plain = test::render(ball(4, Smooth::off)), smooth = test::render(ball(4, Smooth::on)),
+                      truth = test::render(ball(256, Smooth::off));
   const std::vector<float>& caustic = test::layer(smooth, "caustic").rgb;
   const double power = sum(test::layer(plain, "caustic").rgb);
   ASSERT_GT(power, 0);
@@ -66,7 +69,7 @@ TEST(SmoothedRun, has_the_power_of_the_plain_one_and_less_error)
 }
 
 /// A ball's light on a table and, past the table's edge, on a floor below, seen through a pane of glass that leans.
-preset::Preset behind_a_window(bool smoothing)
+preset::Preset behind_a_window(Smooth smoothing)
 {
   preset::Preset p = ball(4, smoothing);
   p.scene.camera.position = {0, 2, 4};
@@ -88,8 +91,8 @@ preset::Preset behind_a_window(bool smoothing)
 
 TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
 {
-  const preset::Preset p = behind_a_window(true);
-  const job::Snapshot plain = test::render(behind_a_window(false)), smooth = test::render(p);
+  const preset::Preset p = behind_a_window(Smooth::on);
+  const job::Snapshot plain = test::render(behind_a_window(Smooth::off)), smooth = test::render(p);
   const scene::Scene scene = scene::load_scene(p);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   constexpr std::size_t table = 1, lower = 2, window = 3;
@@ -111,7 +114,7 @@ TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
 
 TEST(SmoothedRun, leaves_other_layers_alone)
 {
-  preset::Preset plain = ball(2, false), smooth = ball(2, true);
+  preset::Preset plain = ball(2, Smooth::off), smooth = ball(2, Smooth::on);
   spectral::settings(plain).direct = spectral::settings(smooth).direct = true;
   const job::Snapshot a = test::render(plain), b = test::render(smooth);
   EXPECT_EQ(test::layer(a, "direct").rgb, test::layer(b, "direct").rgb);
@@ -120,10 +123,10 @@ TEST(SmoothedRun, leaves_other_layers_alone)
 
 TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
 {
-  EXPECT_TRUE(smoothing_pass(ball(2, true)).runs);
-  EXPECT_FALSE(smoothing_pass(ball(2, false)).runs);
-  EXPECT_FALSE(smoothing_pass(ball(1, true)).runs);
-  preset::Preset whole = ball(2, true), sppm = ball(2, true);
+  EXPECT_TRUE(smoothing_pass(ball(2, Smooth::on)).runs);
+  EXPECT_FALSE(smoothing_pass(ball(2, Smooth::off)).runs);
+  EXPECT_FALSE(smoothing_pass(ball(1, Smooth::on)).runs);
+  preset::Preset whole = ball(2, Smooth::on), sppm = ball(2, Smooth::on);
   whole.measure.estimate = false;
   EXPECT_FALSE(smoothing_pass(whole).runs);
   EXPECT_EQ(smoothing_pass(whole).field, "/measure/estimate");

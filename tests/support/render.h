@@ -25,12 +25,33 @@ inline const compute::Context& shared_context()
   return context;
 }
 
-inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const tracing::LeaveOut& leave_out,
-                                        const compute::Context& context = shared_context())
+/// The same preset, but what a run would decide by what it measures is decided: plain pictures, whose statistics are known.
+inline preset::Preset plain(preset::Preset preset)
+{
+  using spectral::Settings;
+  Settings& settings = spectral::settings(preset);
+  if (settings.smoothing == Settings::Smoothing::automatic) settings.smoothing = Settings::Smoothing::off;
+  if (settings.effort == Settings::Effort::automatic) settings.effort = Settings::Effort::power;
+  return preset;
+}
+
+inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset, const tracing::LeaveOut& leave_out,
+                                              const compute::Context& context = shared_context())
 {
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   return spectral::make_job(preset, scene, bvh, spectral::make_plan(preset, scene, bvh, leave_out), context);
+}
+
+inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset)
+{
+  return job_as_it_is(preset, tracing::leave_out_all(preset.leave_out));
+}
+
+inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const tracing::LeaveOut& leave_out,
+                                        const compute::Context& context = shared_context())
+{
+  return job_as_it_is(plain(preset), leave_out, context);
 }
 
 inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const compute::Context& context = shared_context())
@@ -47,6 +68,11 @@ inline job::Snapshot render(job::Job& job)
 inline job::Snapshot render(const preset::Preset& preset, const compute::Context& context = shared_context())
 {
   return render(*job_of(preset, context));
+}
+
+inline job::Snapshot render_as_it_is(const preset::Preset& preset, const compute::Context& context = shared_context())
+{
+  return render(*job_as_it_is(preset, tracing::leave_out_all(preset.leave_out), context));
 }
 
 } // namespace nephroid::test

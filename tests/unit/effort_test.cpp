@@ -108,7 +108,7 @@ TEST(DealtEffort, FollowsTheImportanceOfClusters)
 
 TEST(DealtEffort, OfPowerIsWhatTheEyeMakesOfIt)
 {
-  for (const Effort effort : {Effort::power, Effort::variance}) {
+  for (const Effort effort : {Effort::automatic, Effort::power, Effort::variance}) {
     const RunTables tables = tables_of(lit_ball(effort));
     const auto& w = tables.wavelengths;
     std::vector<double> weights;
@@ -166,7 +166,8 @@ TEST(DealtEffort, IsInThePlan)
   EXPECT_THAT(reason_of(Effort::importance, true), testing::MatchesRegex(".*surroundings \\(4.15\\): [0-9]+ % of the iterations.*"));
   EXPECT_THAT(reason_of(Effort::radziszewski, true), testing::HasSubstr("cosh"));
   EXPECT_THAT(reason_of(Effort::equal, false), testing::HasSubstr("spectral.effort is equal"));
-  EXPECT_THAT(reason_of(Effort::power, false), testing::HasSubstr("spectral.effort is power"));
+  EXPECT_THAT(reason_of(Effort::power, false), testing::HasSubstr("what the eye makes of each cluster's light"));
+  EXPECT_THAT(reason_of(Effort::automatic, false), testing::HasSubstr("while that gains enough"));
   EXPECT_THAT(reason_of(Effort::variance, false), testing::HasSubstr("variance that is measured"));
 }
 

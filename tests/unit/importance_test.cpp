@@ -269,7 +269,7 @@ TEST(Importance, OfOtherEffortsNeedsNoSurroundings)
   const optics::ColourMatching& eye = optics::cie_1931();
   Spectrum all;
   for (std::size_t w = 0; w < all.size(); ++w) all[w] = eye.x[w] + eye.y[w] + eye.z[w];
-  for (const Effort effort : {Effort::power, Effort::variance}) {
+  for (const Effort effort : {Effort::automatic, Effort::power, Effort::variance}) {
     spectral::settings(p).effort = effort;
     expect_near(importance_of(p).u, normalised_product(light, all), 1e-12);
   }

@@ -57,7 +57,7 @@ preset::Preset named(const std::string& name)
   for (preset::Object& object : p.scene.objects)
     if (object.shape) object.shape->segments = std::min(object.shape->segments, 16); // a small tree is soon made
   if (name == "ball") p.scene.environment = preset::Environment{preset::Environment::Type::constant, "", {1, 1, 1}};
-  spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = spectral::settings(p).smoothing = true;
+  spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = true;
   p.stop.passes = 8;
   return p;
 }
@@ -121,14 +121,14 @@ TEST_P(PlanFields, AreTrueWhateverIsSwitched)
   p.stop.error = 1;
   expect_true_fields(p, "an error to stop at");
   for (const char* field : {"/spectral/direct", "/spectral/background", "/spectral/jitter", "/spectral/low_discrepancy",
-                            "/spectral/smoothing", "/spectral/relight", "/measure/estimate", "/leave_out"})
+                            "/spectral/relight", "/measure/estimate", "/leave_out"})
     EXPECT_TRUE(found_.contains(field)) << field;
 }
 
 // These passes run where their switch says so and nowhere else: the scenes have caustics, and no scene every type of light.
 TEST_P(PlanFields, TurnTheirPassesOnAndOff)
 {
-  for (const char* name : {"smoothing", "low discrepancy", "error estimate", "light types"}) {
+  for (const char* name : {"low discrepancy", "error estimate", "light types"}) {
     const plan::Pass pass = pass_of(preset_, name);
     SCOPED_TRACE(std::string(name) + ": " + pass.reason);
     ASSERT_NE(pass.field, "");

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -82,7 +83,7 @@ Moments moments(const std::vector<float>& rgb, int from, int to, int margin)
 TEST(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
 {
   const FloorAndWall room;
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int, int) { return 2.0; }, 1);
   const double power = sum(photons.rgb);
   const Moments before = moments(photons.rgb, size / 2 + 8, size - 8, 8);
@@ -101,7 +102,7 @@ TEST(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
 TEST(Smoothing, leaves_pixels_that_hold_enough_photons_alone)
 {
   const FloorAndWall room;
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int, int) { return 400.0; }, 2);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -112,7 +113,7 @@ TEST(Smoothing, does_not_carry_light_from_one_surface_to_another)
 {
   const FloorAndWall room;
   // Where the wall meets the floor: y = 0, z = -2 is the middle row.
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int, int y) { return y >= size / 2 ? 1.0 : 0.0; }, 3);
   smoothing.spread(photons.rgb, photons.error_draw);
   const auto row_sum = [&](int y) {
@@ -127,7 +128,7 @@ TEST(Smoothing, leaves_even_light_even_where_kernels_are_cut)
   // Where the two surfaces meet and at the picture's sides kernels are cut. Were a pixel's light just shared out evenly, the outermost
   // row would keep some 70 % of its light and the row that is a kernel away have 120 %.
   const FloorAndWall room;
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   constexpr double density = 0.25;
   constexpr unsigned pictures = 200;
   std::vector<double> rows(size), columns(size);
@@ -150,7 +151,7 @@ TEST(Smoothing, leaves_even_light_even_where_kernels_are_cut)
 TEST(Smoothing, keeps_the_light_of_an_outline_in_it)
 {
   const FloorAndWall room;
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   // The floor's last row before the wall may hold light of both: it stays in that row.
   Photons photons = scatter([](int, int y) { return y == size / 2 ? 1.0 : 0.0; }, 8);
   const std::vector<float> before = photons.rgb;
@@ -186,7 +187,7 @@ scene::Scene two_walls(const preset::Object& between, double wall_height)
 /// Where photons are on the right alone they stay there, and are spread.
 void expect_no_light_on_the_left(const scene::Scene& scene)
 {
-  const spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry));
+  const spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), true);
   Photons photons = scatter([](int x, int) { return x >= size / 2 ? 1.0 : 0.0; }, 9);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -219,7 +220,7 @@ TEST(Smoothing, spreads_within_curved_glass)
   ball.transform.scale = {8, 8, 8};
   ball.transform.translate = {0, -4, 0};
   const scene::Scene scene = two_walls(ball, -20);
-  const spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry));
+  const spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), true);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
   const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -233,7 +234,7 @@ TEST(Smoothing, spreads_within_curved_glass)
 TEST(Smoothing, draws_how_far_light_was_moved)
 {
   const FloorAndWall room;
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   const auto stripes = [](int x, int) { return x % 6 < 3 ? 3.0 : 0.0; };
   double drawn = 0, error = 0;
   for (unsigned seed = 100; seed < 132; ++seed) {
@@ -250,10 +251,54 @@ TEST(Smoothing, draws_how_far_light_was_moved)
   EXPECT_LT(std::sqrt(drawn / error), 1.1);
 }
 
+/// Mean square error of the floor, away from its borders, over a few pictures: plain, spread everywhere, and where it helps.
+struct Errors {
+  double plain = 0, everywhere = 0, by_gain = 0;
+};
+template <class Density>
+Errors errors_of(const Density& density)
+{
+  const FloorAndWall room;
+  const spectral::Smoothing everywhere(room.scene, room.bvh, true), by_gain(room.scene, room.bvh, false);
+  const auto add_error = [&](const std::vector<float>& rgb, double& sum) {
+    for (int y = size / 2 + 8; y < size - 8; ++y)
+      for (int x = 8; x < size - 8; ++x) sum += std::pow(rgb[3 * static_cast<std::size_t>(y * size + x)] - density(x, y), 2);
+  };
+  Errors errors;
+  for (unsigned seed = 200; seed < 232; ++seed) {
+    const Photons plain = scatter(density, seed);
+    Photons all = plain, some = plain;
+    everywhere.spread(all.rgb, all.error_draw);
+    by_gain.spread(some.rgb, some.error_draw);
+    EXPECT_NEAR(sum(some.rgb), sum(plain.rgb), 1e-5 * sum(plain.rgb));
+    add_error(plain.rgb, errors.plain);
+    add_error(all.rgb, errors.everywhere);
+    add_error(some.rgb, errors.by_gain);
+  }
+  return errors;
+}
+
+TEST(Smoothing, goes_by_what_it_gains)
+{
+  // Even light is all noise: what is spread everywhere is the best there is.
+  const Errors even = errors_of([](int, int) { return 1.0; });
+  EXPECT_LT(even.everywhere, 0.2 * even.plain);
+  EXPECT_LT(even.by_gain, 1.3 * even.everywhere);
+  // Fine streaks of some photons a pixel are washed out where all is spread.
+  const Errors streaks = errors_of(
+      [](int x, int y) { return 3 * std::max(0.0, 2 + 2 * std::sin(1.1 * x + std::sin(0.3 * y)) + 1.5 * std::sin(0.7 * (x + y))); });
+  EXPECT_GT(streaks.everywhere, 1.1 * streaks.plain);
+  EXPECT_LT(streaks.by_gain, 1.02 * streaks.plain);
+  // Beside each other, each part is better than where all is treated alike.
+  const Errors both = errors_of([](int x, int) { return x >= size / 2 ? 0.4 : x % 4 < 2 ? 8.0 : 0.5; });
+  EXPECT_LT(both.by_gain, 0.95 * both.everywhere);
+  EXPECT_LT(both.by_gain, 0.95 * both.plain);
+}
+
 TEST(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
 {
   const FloorAndWall room;
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int x, int) { return x == size / 2 ? 1000.0 : 1.0; }, 4);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -272,7 +317,7 @@ TEST(Smoothing, leaves_a_picture_of_one_pixel_alone)
   p.scene.camera.resolution = {1, 1};
   const scene::Scene scene = scene::load_scene(p);
   std::vector<float> rgb{3, -1, 2}, draw{1, 1, 1};
-  spectral::Smoothing(scene, scene::build_bvh(scene.geometry)).spread(rgb, draw);
+  spectral::Smoothing(scene, scene::build_bvh(scene.geometry), true).spread(rgb, draw);
   EXPECT_EQ(rgb, (std::vector<float>{3, -1, 2}));
   EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
 }
@@ -280,7 +325,7 @@ TEST(Smoothing, leaves_a_picture_of_one_pixel_alone)
 TEST(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
 {
   const FloorAndWall room;
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   const auto spread_of = [&](bool green) {
     Photons photons = scatter([](int, int) { return 2.0; }, 7);
     if (green)
@@ -303,7 +348,7 @@ TEST(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
 TEST(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
 {
   const FloorAndWall room;
-  const spectral::Smoothing smoothing(room.scene, room.bvh);
+  const spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int, int) { return 1.0; }, 5);
   photons.error_draw.clear();
   const std::vector<float> before = photons.rgb;

@@ -81,6 +81,31 @@ TEST(VarianceDeal, SequencesGoOnWhereTheyWere)
   EXPECT_EQ(whole.emitters()[0].sequence_start, 200u);
 }
 
+// Sums of v^2 of two passes each: 2 * 900 as dealt first, then 2 * 300, then 2 * 450.
+TEST(VarianceDeal, KnowsWhatItHasGained)
+{
+  VarianceDeal deal(emitters({40, 60}));
+  EXPECT_EQ(deal.gain(), 1);
+  deal.deal(2, std::vector<std::int64_t>{1000, 800}, 2);
+  EXPECT_EQ(deal.gain(), 1);
+  deal.deal(4, std::vector<std::int64_t>{500, 100}, 2);
+  EXPECT_DOUBLE_EQ(deal.gain(), 3);
+  deal.deal(8, std::vector<std::int64_t>{900, 900}, 2);
+  EXPECT_DOUBLE_EQ(deal.gain(), 2);
+}
+
+TEST(VarianceDeal, CanGoBackToTheFirst)
+{
+  VarianceDeal deal(emitters({40, 60}));
+  deal.deal(2, std::vector<std::int64_t>{1, 900}, 2);
+  EXPECT_NE(deal.emitters()[0].photon_count, 40u);
+  deal.deal_as_first(4, 2);
+  EXPECT_EQ(deal.emitters()[0].photon_count, 40u);
+  EXPECT_EQ(deal.emitters()[1].photon_count, 60u);
+  EXPECT_EQ(deal.first_pass(), 4);
+  for (const shared::DeviceEmitter& e : deal.emitters()) EXPECT_EQ(e.sequence_start, 200u);
+}
+
 TEST(VarianceDeal, IsSavedWhole)
 {
   VarianceDeal deal(emitters({40, 60}));
@@ -91,6 +116,7 @@ TEST(VarianceDeal, IsSavedWhole)
   deal.deal(4, std::vector<std::int64_t>{100, 3}, 2);
   other.deal(4, std::vector<std::int64_t>{100, 3}, 2);
   for (std::size_t e = 0; e < 2; ++e) EXPECT_EQ(other.emitters()[e].photon_count, deal.emitters()[e].photon_count);
+  EXPECT_EQ(other.gain(), deal.gain());
 }
 
 } // namespace

@@ -21,6 +21,8 @@ inline preset::Preset empty_preset(int resolution = 64)
   spectral::settings(p).estimator = spectral::Settings::Estimator::splat;
   spectral::settings(p).low_discrepancy = false;
   spectral::settings(p).photons_per_pass = 1 << 16;
+  spectral::settings(p).effort = spectral::Settings::Effort::power;
+  spectral::settings(p).smoothing = spectral::Settings::Smoothing::off;
   p.stop.passes = 1;
   return p;
 }

@@ -9,11 +9,39 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 
 namespace nephroid::spectral {
 namespace {
 
 using Choice = Settings::Effort;
+
+/// What each way to deal out work goes by, and the plan's sentence for it.
+struct Strategy {
+  /// light: what the eye makes of it; wavelength: how much each matters; alike: every cluster that has light.
+  enum class By { light, wavelength, alike };
+  Choice choice;
+  By by;
+  std::string_view reason;
+};
+constexpr Strategy strategies[] = {
+    {Choice::automatic, Strategy::By::light,
+     "photons are dealt out by the variance that is measured while that gains enough, else by what the eye makes of each cluster's light"},
+    {Choice::power, Strategy::By::light, "photons are dealt out by what the eye makes of each cluster's light"},
+    {Choice::variance, Strategy::By::light, "photons are dealt out by the variance that is measured: spectral.effort is variance"},
+    {Choice::importance, Strategy::By::wavelength, "clusters matter by light, luminosity and surroundings (4.15)"},
+    {Choice::radziszewski, Strategy::By::wavelength, "clusters matter by 1 / cosh^2(0.0072 (lambda - 538))"},
+    {Choice::equal, Strategy::By::alike, "every cluster has the same work: spectral.effort is equal"},
+    {Choice::random, Strategy::By::alike, "each pass has one cluster, drawn at random: spectral.effort is random"},
+};
+
+/// Layers and progressive photon mapping measure no variance.
+const Strategy& strategy_of(const Settings& settings)
+{
+  const bool measures = !settings.relight && settings.estimator != Settings::Estimator::sppm;
+  const Choice choice = settings.effort == Choice::automatic && !measures ? Choice::power : settings.effort;
+  return *std::ranges::find(strategies, choice, &Strategy::choice);
+}
 
 /// [light][cluster] flat.
 std::vector<double> by_power(const std::vector<double>& watts, const tracing::WavelengthTables& tables)
@@ -75,13 +103,14 @@ Effort make_effort(const Settings& settings, const scene::Scene& scene, const sc
                    const tracing::WavelengthTables& tables)
 {
   const std::size_t clusters = tables.clusters.size();
-  if (settings.effort == Choice::power || settings.effort == Choice::variance) {
+  const Strategy& strategy = strategy_of(settings);
+  if (strategy.by == Strategy::By::light) {
     std::vector<double> weights = by_power(watts, tables);
     std::vector<double> importance = cluster_sums(weights, clusters);
     return {std::move(weights), std::move(importance)};
   }
   std::vector<double> importance(clusters, 1);
-  if ((settings.effort == Choice::importance || settings.effort == Choice::radziszewski) && caustics_are_possible(scene, watts)) {
+  if (strategy.by == Strategy::By::wavelength && caustics_are_possible(scene, watts)) {
     const optics::Spectrum u = wavelength_importance(settings, scene, bvh).u;
     importance = cluster_importance(u, tables.clusters, settings.importance.cluster);
     // What the nine points see is not all that caustics fall on. So that the picture is right on average, a cluster with light has at
@@ -96,23 +125,11 @@ Effort make_effort(const Settings& settings, const scene::Scene& scene, const sc
 
 plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance)
 {
-  switch (settings.effort) {
-  case Choice::importance:
-    return {"importance", true,
-            fmt::format("clusters matter by light, luminosity{} (4.15): {}",
-                        settings.importance.geometry ? " and surroundings" : " and materials", work_left(importance))};
-  case Choice::radziszewski:
-    return {"importance", true, "clusters matter by 1 / cosh^2(0.0072 (lambda - 538)): " + work_left(importance)};
-  case Choice::power:
-    return {"importance", false, "photons are dealt out by what the eye makes of each cluster's light: spectral.effort is power"};
-  case Choice::variance:
-    return {"importance", false, "photons are dealt out by the variance that is measured: spectral.effort is variance"};
-  case Choice::equal:
-    return {"importance", false, "every cluster has the same work: spectral.effort is equal"};
-  case Choice::random:
-    break;
-  }
-  return {"importance", false, "each pass has one cluster, drawn at random: spectral.effort is random"};
+  const Strategy& strategy = strategy_of(settings);
+  const bool matters = strategy.by == Strategy::By::wavelength;
+  if (settings.effort == Choice::importance && !settings.importance.geometry)
+    return {"importance", true, "clusters matter by light, luminosity and materials (4.15): " + work_left(importance)};
+  return {"importance", matters, matters ? fmt::format("{}: {}", strategy.reason, work_left(importance)) : std::string(strategy.reason)};
 }
 
 } // namespace nephroid::spectral

@@ -17,11 +17,10 @@ struct Effort {
 };
 
 /// watts: of each light of `tables` towards its targets.
-/// power, and variance to begin with: by what the eye makes of the watts, (X + Y + Z) / 3 of the cluster's share, plus a twentieth of
-/// the share. equal: every cluster that has light the same. importance, radziszewski: by cluster_importance. random: as equal. Within a
-/// cluster lights have their part by their watts in it.
-/// Where no caustic can be (no light, nothing that throws or receives one) importance is not asked for: every cluster has 1.
-/// Throws bad_input as wavelength_importance does.
+/// power, and variance and automatic to begin with: by what the eye makes of the watts, (X + Y + Z) / 3 of the cluster's share, plus a
+/// twentieth of the share. equal: every cluster that has light the same. importance, radziszewski: by cluster_importance. random: as equal.
+/// Within a cluster lights have their part by their watts in it. Where no caustic can be (no light, nothing that throws or receives one)
+/// importance is not asked for: every cluster has 1. Throws bad_input as wavelength_importance does.
 Effort make_effort(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<double>& watts,
                    const tracing::WavelengthTables& tables);
 

@@ -237,6 +237,7 @@ WavelengthImportance wavelength_importance(const Settings& settings, const Where
   case Effort::radziszewski:
     result.u = importance_of_radziszewski();
     break;
+  case Effort::automatic:
   case Effort::power:
   case Effort::variance:
     result.u = importance_of_light(where, lights);

@@ -42,9 +42,9 @@ std::vector<double> watts(std::span<const scene::Light> lights, const std::vecto
 /// Traces rays for effort `importance` with geometry only; some milliseconds.
 Whereabouts whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
 
-/// u(lambda) of (4.15) for effort `importance`, of Radziszewski et al. for `radziszewski`, of the light alone for `power` and
-/// `variance` (what the eye makes of it, (X + Y + Z) / 3; 0 where no light has power), 1 everywhere for `equal` and `random`.
-/// Throws bad_input at FILE#/spectral/effort where (4.15) is 0 at every wavelength, and says why.
+/// u(lambda) of (4.15) for effort `importance`, of Radziszewski et al. for `radziszewski`, of the light alone for `power`,
+/// `variance` and `automatic` (what the eye makes of it, (X + Y + Z) / 3; 0 where no light has power), 1 everywhere for `equal` and
+/// `random`. Throws bad_input at FILE#/spectral/effort where (4.15) is 0 at every wavelength, and says why.
 WavelengthImportance wavelength_importance(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
 /// The same in a fraction of a millisecond, for lights and materials as they are now; of the lights only the spectra count. file: for
 /// messages.

@@ -19,9 +19,11 @@ constexpr double kept = 0.1;
 VarianceDeal::VarianceDeal(std::vector<shared::DeviceEmitter> emitters)
     : emitters_(std::move(emitters)), squares_(emitters_.size(), 0), photons_(emitters_.size(), 0)
 {
-  double all = 0;
-  for (const shared::DeviceEmitter& emitter : emitters_) all += emitter.photon_count;
-  for (const shared::DeviceEmitter& emitter : emitters_) first_deal_.push_back(emitter.photon_count / all);
+  const double all = count_photons(emitters_);
+  for (const shared::DeviceEmitter& emitter : emitters_) {
+    first_counts_.push_back(emitter.photon_count);
+    first_deal_.push_back(emitter.photon_count / all);
+  }
 }
 
 bool VarianceDeal::is_due(std::int64_t pass) const
@@ -43,11 +45,21 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
     deviation[e] = std::sqrt(squares_[e] / photons_[e]);
     all += emitters_[e].photon_count;
   }
+  last_variance_ = std::accumulate(moments.begin(), moments.end(), 0.0) / passes;
+  if (first_pass_ == 0) first_variance_ = last_variance_;
   const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
   std::vector<double> weights = first_deal_;
   if (total > 0)
     for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = kept * first_deal_[e] + (1 - kept) * deviation[e] / total;
-  const std::vector<unsigned> counts = deal_out(weights, all);
+  give_out(pass, deal_out(weights, all), halves);
+}
+
+void VarianceDeal::deal_as_first(std::int64_t pass, unsigned halves) { give_out(pass, first_counts_, halves); }
+
+double VarianceDeal::gain() const { return last_variance_ > 0 ? first_variance_ / last_variance_ : 1; }
+
+void VarianceDeal::give_out(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves)
+{
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     shared::DeviceEmitter& emitter = emitters_[e];
     advance_sequence(emitter, static_cast<std::uint64_t>(pass - first_pass_) / halves * emitter.light_photon_count);
@@ -60,6 +72,8 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
 void VarianceDeal::save(tracing::StateWriter& to) const
 {
   to.value(first_pass_);
+  to.value(first_variance_);
+  to.value(last_variance_);
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     to.value(emitters_[e]);
     to.value(squares_[e]);
@@ -70,6 +84,8 @@ void VarianceDeal::save(tracing::StateWriter& to) const
 void VarianceDeal::load(tracing::StateReader& from)
 {
   from.value(first_pass_);
+  from.value(first_variance_);
+  from.value(last_variance_);
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     from.value(emitters_[e]);
     from.value(squares_[e]);

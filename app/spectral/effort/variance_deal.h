@@ -26,15 +26,24 @@ public:
   /// taken for the variance, which is right where a pixel gets few photons a pass. halves: of the film, each with its own low-discrepancy
   /// sequence. A tenth of the photons stays as it was dealt first, and every emitter keeps at least one.
   void deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
+  /// The first deal again from this pass on.
+  void deal_as_first(std::int64_t pass, unsigned halves);
+  /// What dealing has gained: the variance of a pass as dealt first over that of a pass as dealt last, of those that deal() was told of; 1
+  /// before there were two deals, or nothing to see.
+  double gain() const;
 
   void save(tracing::StateWriter& to) const;
   void load(tracing::StateReader& from);
 
 private:
   std::vector<shared::DeviceEmitter> emitters_;
-  std::vector<double> first_deal_;        ///< [emitter] share of the photons at the start
-  std::vector<double> squares_, photons_; ///< [emitter] sum over deals of n^2 moments and of n passes: their ratio estimates V_e
+  std::vector<unsigned> first_counts_;            ///< [emitter] photons of a pass at the start
+  std::vector<double> first_deal_;                ///< [emitter] share of the photons at the start
+  std::vector<double> squares_, photons_;         ///< [emitter] sum over deals of n^2 moments and of n passes: their ratio estimates V_e
+  double first_variance_ = 0, last_variance_ = 0; ///< of a pass, in the unit of `moments`; 0: not known yet
   std::int64_t first_pass_ = 0;
+
+  void give_out(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves);
 };
 
 } // namespace nephroid::spectral

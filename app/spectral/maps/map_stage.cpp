@@ -9,6 +9,8 @@
 #include "spectral/stages.h"
 #include "tracing/film.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -19,13 +21,15 @@ class MapStage final : public Stage {
 public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings, PhotonMap& map)
       : world_(world), map_(map), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
-        eye_(world, world.tables.eye_paths), film_(world.zeroed("film photon maps", world.film_size())),
+        paths_(world.tables.eye_paths), eye_(world, 0), film_(world.zeroed("film photon maps", world.film_size())),
         gather_(compute::Program(world.context, "spectral/gather.cl", world.defines).kernel("gather_to_film"))
   {
   }
 
   const char* name() const override { return "photon maps"; }
-  double part() const override { return eye_.rows().part(); }
+  double part() const override { return eye_.pixels().part(); }
+  double glass_work() const override { return paths_ * work_of_a_path * static_cast<double>(eye_.pixels().glass()); }
+  void share_work(double factor) override { paths_ = static_cast<std::uint32_t>(std::clamp(std::round(paths_ * factor), 1.0, 64.0)); }
 
   bool step(std::int64_t pass) override
   {
@@ -35,25 +39,28 @@ public:
     const RunTables& t = world_.tables;
     const double quanta = photon_scale(t.photons_per_pass, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
     const auto film_per_quantum = static_cast<float>(t.caustic_scale / quanta / std::pow(std::numbers::pi * metres, 2));
-    const auto pixels = static_cast<std::uint32_t>(t.camera.width * t.camera.height);
     const auto number = static_cast<std::uint32_t>(pass);
-    return eye_.step(world_.seed, number, -1, [&](const auto& points, std::uint32_t first_pixel, std::uint32_t count) {
+    const EyePaths::Paths paths{paths_, before_[0] + before_[1], before_[number % 2]};
+    const bool complete = eye_.step(world_.seed, number, paths, -1, [&](const auto& points, std::uint32_t first, std::uint32_t count) {
       gather_.run(count, 64, map_.arguments(),
                   {{"points", points},
                    {"film", film_},
                    {"energy", world_.energy},
-                   {"pixels", pixels},
+                   {"pixels", world_.pixels.on_device},
+                   {"picture", world_.pixels.all},
                    {"pass", number},
-                   {"first_pixel", first_pixel},
+                   {"first", first},
                    {"count", count},
                    {"radius", static_cast<float>(radius)},
                    {"film_per_quantum", film_per_quantum}});
     });
+    if (complete) before_[number % 2] += paths_;
+    return complete;
   }
 
-  void develop(std::int64_t passes, bool done, job::Picture& picture) override
+  void develop(std::int64_t, bool, job::Picture& picture) override
   {
-    const auto samples = [&](int row) { return eye_.rows().samples(row, passes, done); };
+    const auto samples = [&](std::size_t pixel) { return eye_.pixels().samples(pixel); };
     const std::vector<std::int64_t> sums = film_.read();
     tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
   }
@@ -61,12 +68,16 @@ public:
   void save(tracing::StateWriter& to) const override
   {
     eye_.save(to);
+    to.value(paths_);
+    to.value(before_);
     to.buffer(film_);
     to.buffer(map_.stored());
   }
   void load(tracing::StateReader& from) override
   {
     eye_.load(from);
+    from.value(paths_);
+    from.value(before_);
     from.buffer(film_);
     from.buffer(map_.stored());
     sorted_pass_ = -1;
@@ -76,6 +87,8 @@ private:
   DeviceWorld& world_;
   PhotonMap& map_;
   double first_radius_, alpha_;
+  std::uint32_t paths_;                   ///< of a pixel in a pass
+  std::array<std::uint32_t, 2> before_{}; ///< of a pixel, in even and in odd passes
   EyePaths eye_;
   compute::Buffer<std::int64_t> film_;
   compute::Kernel gather_;

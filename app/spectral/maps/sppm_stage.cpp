@@ -39,7 +39,7 @@ public:
   SppmStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
         random_(settings.effort == Settings::Effort::random), alpha_(settings.sppm.alpha), first_radius_(first_map_radius(settings, scene)),
-        map_(world.context, photons_, world.defines), eye_(world, 1), unused_(world.context, "unused", 0),
+        map_(world.context, photons_, world.defines), eye_(world, preset::max_passes), unused_(world.context, "unused", 0),
         no_guide_(world.context, "unused", 0)
   {
     compute::Defines defines = world.photon_defines();
@@ -261,7 +261,7 @@ bool SppmStage::gather(std::int64_t pass)
   // Pixels without photons keep the first radius, and a search may be as wide as 3 cells.
   if (!sorted_) map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
   sorted_ = true;
-  return eye_.step(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), at_.cluster,
+  return eye_.step(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), {1, static_cast<std::uint32_t>(iteration), 0}, at_.cluster,
                    [&](const auto& points, std::uint32_t first_pixel, std::uint32_t count) {
                      gather_photons(points, first_pixel, count, at_.cluster, count);
                    });
@@ -280,8 +280,8 @@ void SppmStage::develop(std::int64_t passes, bool done, job::Picture& picture)
     const bool in_hand = !done && (random_ || run == at_.cluster);
     // Pixels up to the split have had the iteration in hand.
     const std::uint32_t split = done || (!random_ && run < at_.cluster) ? pixel_count()
-                                : in_hand ? static_cast<std::uint32_t>(eye_.rows().done() * world_.tables.camera.width)
-                                          : 0;
+                                : in_hand                               ? static_cast<std::uint32_t>(eye_.pixels().done())
+                                                                        : 0;
     add_radiance_.run(pixel_count(), 64,
                       {{"statistics", runs_[static_cast<std::size_t>(run)].statistics},
                        {"xyz", sums},

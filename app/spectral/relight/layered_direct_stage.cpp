@@ -4,7 +4,7 @@
 #include "spectral/relight/layer_tables.h"
 #include "spectral/relight/relighting.h"
 #include "tracing/film.h"
-#include "tracing/pixel_rows.h"
+#include "tracing/pixel_steps.h"
 
 #include <cmath>
 #include <utility>
@@ -24,7 +24,7 @@ public:
               world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),
         cluster_cdf_(world.context, "cluster choice", std::span<const float>(world.tables.wavelengths.cluster_cdf)),
         kernel_(compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("direct")),
-        rows_(world.tables.camera.height)
+        rows_(world.tables.camera.height, 16)
   {
   }
 
@@ -36,7 +36,7 @@ public:
   {
     if (std::exchange(chosen_for_, relighting_.changes) != relighting_.changes)
       cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
-    return rows_.step([&](int first_row, int rows) {
+    return rows_.step(world_.tables.camera.height, world_.tables.camera.height, [&](std::uint32_t first_row, std::uint32_t rows) {
       const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
       world_.run(kernel_, pixels, 64,
                  {{"cluster_cdf", cluster_cdf_},
@@ -54,8 +54,8 @@ public:
                   {"camera", world_.tables.camera},
                   {"seed", world_.seed},
                   {"frame", static_cast<std::uint32_t>(pass)},
-                  {"first_row", first_row},
-                  {"row_count", rows},
+                  {"first_row", static_cast<int>(first_row)},
+                  {"row_count", static_cast<int>(rows)},
                   {"film_scale", world_.on_device(world_.tables.direct_scale)},
                   {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
     });
@@ -71,7 +71,7 @@ public:
     std::vector<float>& rgb = tracing::layer_of(picture, "direct").rgb;
     const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width);
     for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
-      const bool sampled = done || rows_.is_done(static_cast<std::int64_t>(row));
+      const bool sampled = done || static_cast<std::int64_t>(row) < rows_.done();
       const auto [a, b] = passes >= pixel_samples_ ? tracing::halves_of(pixel_samples_, 0) : tracing::halves_of(passes, sampled ? 1 : 0);
       if (a <= 0 || b <= 0 || world_.halves == 1) picture.error_draw.clear();
       const double mean = a + b > 0 ? 1 / (a + b) : 0, of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
@@ -104,7 +104,7 @@ private:
   compute::Buffer<float> cluster_cdf_;
   std::uint64_t chosen_for_ = 0; ///< Relighting::changes of the light that cluster_cdf_ is for
   compute::Kernel kernel_;
-  tracing::PixelRows rows_;
+  tracing::PixelSteps rows_;
 };
 
 } // namespace

@@ -4,7 +4,18 @@
 #include "spectral/tables/run_tables.h"
 #include "tracing/world.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace nephroid::spectral {
+
+/// Pixels that paths from the eye are for.
+struct PixelLists {
+  std::vector<std::uint32_t> glass;         ///< glass_pixels.h
+  std::vector<bool> may_show_glass;         ///< [pixel]
+  std::uint32_t all = 0;                    ///< pixels of the picture
+  compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass
+};
 
 struct DeviceWorld : tracing::World {
   RunTables tables;
@@ -12,6 +23,7 @@ struct DeviceWorld : tracing::World {
   unsigned halves = 2;                  ///< of a film: 2 where the error is estimated (tracing/film.h)
   compute::Buffer<std::int64_t> energy; ///< [OUTCOME_COUNT] quanta
   compute::Buffer<shared::DeviceEmitter> emitters;
+  PixelLists pixels;
 
   /// The number of 64-bit sums of a film of XYZ.
   std::size_t film_size() const
