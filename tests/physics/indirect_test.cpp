@@ -182,7 +182,7 @@ TEST(Indirect, ALitTileIsALamp)
   constexpr double reflectance = 0.8, power = 4;
   preset::Preset p = indirect_only(pixels);
   p.scene.materials = {{"tile", white(reflectance)}, {"ball", white(0.6)}};
-  preset::Object thing = object("ball", rod(0.5, 10), "ball", at({0, 0, 0}, {20, 30, 0}));
+  preset::Object thing = object("ball", check::rod(0.5, 10), "ball", at({0, 0, 0}, {20, 30, 0}));
   thing.normals = preset::Object::Normals::smooth;
   p.scene.camera.position = {2.5, 0.3, 0.6};
   p.scene.camera.fov_deg = 26;

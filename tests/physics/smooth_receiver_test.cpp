@@ -87,7 +87,7 @@ void expect_lit_as_directly(const std::string& what, const preset::Preset& with_
 
 TEST(SmoothReceiver, ACoarseRodIsLitAsDirectly)
 {
-  const preset::Object ball = object("receiver", rod(0.5, 8), "white");
+  const preset::Object ball = object("receiver", check::rod(0.5, 8), "white");
   for (const bool relight : {false, true}) {
     preset::Preset with_plate = lit_receiver(ball, true), without = lit_receiver(ball, false);
     spectral::settings(with_plate).relight = spectral::settings(without).relight = relight;
