@@ -16,17 +16,19 @@ namespace {
 
 constexpr std::size_t ray_count = 1 << 13;
 /// The longest distance between an origin below and a vertex, and the spacing of floats there.
-constexpr double reach = 5, rounding = 0x1p-24 * reach;
+constexpr double reach = 5.5, rounding = 0x1p-24 * reach;
 
-/// A sphere of radius 1 with a brilliant in it: smooth and thin triangles, about 600.
-scene::Mesh sphere_and_brilliant()
+/// A rod of radius 1 with a brilliant in it: thin triangles, about 600.
+scene::Mesh rod_and_brilliant()
 {
-  preset::Shape sphere, brilliant;
-  sphere.radius = 1;
-  sphere.segments = 24;
+  preset::Shape rod, brilliant;
+  rod.type = preset::Shape::Type::cylinder;
+  rod.radius = 1;
+  rod.height = 2;
+  rod.segments = 120;
   brilliant.type = preset::Shape::Type::brilliant;
   brilliant.radius = 0.7;
-  scene::Mesh mesh = scene::make_shape(sphere);
+  scene::Mesh mesh = scene::make_shape(rod);
   const scene::Mesh inner = scene::make_shape(brilliant);
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), inner.positions.begin(), inner.positions.end());
@@ -68,7 +70,7 @@ std::vector<Ray> rays_towards_the_mesh(std::uint64_t seed)
 
 /// What the mesh, the rays and the double-precision answers are for one seed.
 struct Rays {
-  scene::Mesh mesh = sphere_and_brilliant();
+  scene::Mesh mesh = rod_and_brilliant();
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   explicit Rays(const compute::Context& context, std::uint64_t seed) : rays(rays_towards_the_mesh(seed))
@@ -136,7 +138,7 @@ Result any_hits(const compute::Context& context, std::uint64_t seed)
 /// From inside a closed mesh, aimed exactly at its vertices and at points of its edges, where a leak would be.
 Result no_leaks(const compute::Context& context, std::uint64_t seed)
 {
-  const scene::Mesh mesh = sphere_and_brilliant();
+  const scene::Mesh mesh = rod_and_brilliant();
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<float> uniform(0, 1);
   std::vector<Ray> rays;
@@ -156,6 +158,40 @@ Result no_leaks(const compute::Context& context, std::uint64_t seed)
           fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size())};
 }
 
+/// Spheres and ellipsoids, from outside and from inside: place by the plain quadratic in double, along the normal there.
+Result ellipsoid_hits(const compute::Context& context, std::uint64_t seed)
+{
+  scene::Mesh mesh;
+  mesh.ellipsoids = {{{0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, false},
+                     {{0.1f, 0, 0}, {{{0.3f, 0.4f, 0}, {-0.32f, 0.24f, 0}, {0, 0, 0.7f}}}, false}};
+  std::vector<Ray> rays = rays_towards_the_mesh(seed);
+  for (Ray& ray : rays) ray.skip = no_primitive;
+  const std::vector<Hit> hits = KernelTracer(context, mesh).closest(rays);
+  double worst = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const glm::dvec3 o(rays[i].origin), d(rays[i].direction);
+    double nearest = rays[i].t_max, steepness = 0;
+    for (const scene::Ellipsoid& ellipsoid : mesh.ellipsoids) {
+      double a = 0, b = 0, c = -1;
+      for (const glm::dvec3& row : to_unit_sphere(ellipsoid)) {
+        const double along = glm::dot(row, d), from = glm::dot(row, o - glm::dvec3(ellipsoid.centre));
+        a += along * along, b += along * from, c += from * from;
+      }
+      const double root = std::sqrt(b * b - a * c);
+      for (const double t : {(-b - root) / a, (-b + root) / a})
+        if (t > 0 && t < nearest) nearest = t, steepness = std::abs(glm::dot(d, normal_at(ellipsoid, o + t * d)));
+    }
+    if (steepness > 0 && steepness < 0.01) continue; // rounding decides whether it is hit
+    const bool hit = hits[i].primitive != no_primitive;
+    worst = std::max(worst, hit != (steepness > 0) ? INFINITY : hit ? std::abs(hits[i].t - nearest) * steepness : 0.0);
+  }
+  return {{},
+          worst / rounding,
+          16,
+          "roundings",
+          "distance of every hit of a sphere and an ellipsoid, times the cosine there, in float spacings of the farthest coordinate"};
+}
+
 } // namespace
 
 Checks geometry_checks()
@@ -163,6 +199,7 @@ Checks geometry_checks()
   return {{"rays: closest hits", closest_hits},
           {"rays: distance and place of hits", hit_places},
           {"rays: any hit", any_hits},
+          {"rays: spheres and ellipsoids", ellipsoid_hits},
           {"rays: no gap between triangles", no_leaks}};
 }
 

@@ -19,11 +19,12 @@ struct Ray {
   std::uint32_t skip = no_primitive;
 };
 
-/// As in kernels/tracing/bvh.h.
-struct Hit {
+/// As in kernels/tracing/trace.cl.
+struct DeviceHit {
   float t = 0, u = 0, v = 0;
   std::uint32_t primitive = no_primitive;
 };
+using Hit = DeviceHit;
 
 /// As in kernels/tracing/trace.cl.
 struct DeviceRay {

@@ -171,9 +171,9 @@ void describe(V& v, S& s)
   case Type::sphere:
   case Type::cylinder:
     length("radius", "Radius.", s.radius);
-    if (s.type == Type::cylinder) length("height", "Length along y.", s.height);
-    v.field({.name = "segments", .sentence = "Facets around; a sphere has half as many from pole to pole.", .bounds = within(3, 4096)},
-            s.segments);
+    if (s.type == Type::sphere) break;
+    length("height", "Length along y.", s.height);
+    v.field({.name = "segments", .sentence = "Facets around.", .bounds = within(3, 4096)}, s.segments);
     break;
   case Type::prism:
     length("height", "Length along y.", s.height);

@@ -78,7 +78,7 @@ struct Shape {
   double height = 1;    ///< cylinder and prism: length along y
   double apex_deg = 60; ///< prism: angle between the two equal sides, whose edge is at +z
   double side = 1;      ///< prism: length of the two equal sides
-  int segments = 256;   ///< sphere, cylinder: facets around (sphere: half as many from pole to pole)
+  int segments = 256;   ///< cylinder: facets around
   bool inwards = false; ///< turn every triangle round, e.g. for a room
   bool operator==(const Shape&) const = default;
 };

@@ -21,7 +21,8 @@
 namespace nephroid::scene {
 namespace {
 
-constexpr std::size_t children_per_node = 8, triangles_per_block = 4, triangles_per_leaf = 8, floats_per_node = 64, floats_per_block = 40;
+constexpr std::size_t children_per_node = 8, triangles_per_block = 4, ellipsoids_per_block = 3, primitives_per_leaf = 8,
+                      floats_per_node = 64, floats_per_block = 40, floats_per_ellipsoid = 13;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Box {
@@ -31,7 +32,7 @@ struct Box {
 /// What Embree's callbacks make: a Leaf, or an Inner node with its children.
 struct BuildNode {
   bool leaf = false;
-  std::uint32_t count = 0; ///< of triangles or children
+  std::uint32_t count = 0; ///< of primitives or children
 };
 
 struct Inner : BuildNode {
@@ -40,7 +41,7 @@ struct Inner : BuildNode {
 };
 
 struct Leaf : BuildNode {
-  std::array<std::uint32_t, triangles_per_leaf> triangles;
+  std::array<std::uint32_t, primitives_per_leaf> primitives;
 };
 
 void* create_node(RTCThreadLocalAllocator allocator, unsigned int count, void*)
@@ -70,7 +71,7 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
   auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(Leaf), alignof(Leaf))) Leaf;
   leaf->leaf = true;
   leaf->count = static_cast<std::uint32_t>(count);
-  for (std::size_t i = 0; i < count; ++i) leaf->triangles[i] = primitives[i].primID;
+  for (std::size_t i = 0; i < count; ++i) leaf->primitives[i] = primitives[i].primID;
   return static_cast<BuildNode*>(leaf);
 }
 
@@ -92,23 +93,31 @@ void check_triangle(const Mesh& mesh, std::size_t index)
   }
 }
 
-/// Boxes of the triangles with an area, each grown by more than the rounding errors of the traversal that come from its own
-/// coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/tracing/bvh.h). A small object beside large
-/// ones keeps tight boxes.
-std::vector<RTCBuildPrimitive> triangle_boxes(const Mesh& mesh)
+RTCBuildPrimitive grown_box(const glm::vec3& low, const glm::vec3& high, std::size_t primitive)
+{
+  const glm::vec3 largest = glm::max(glm::abs(low), glm::abs(high));
+  const float slack = 0x1p-20f * std::max({largest.x, largest.y, largest.z});
+  return {low.x - slack,  low.y - slack,  low.z - slack,  0,
+          high.x + slack, high.y + slack, high.z + slack, static_cast<unsigned int>(primitive)};
+}
+
+/// Boxes of the ellipsoids and of the triangles with an area, each grown by more than the rounding errors of the traversal that come from
+/// its own coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/tracing/bvh.h). A small object beside
+/// large ones keeps tight boxes.
+std::vector<RTCBuildPrimitive> primitive_boxes(const Mesh& mesh)
 {
   std::vector<RTCBuildPrimitive> boxes;
-  boxes.reserve(mesh.triangles.size());
+  boxes.reserve(mesh.triangles.size() + mesh.ellipsoids.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     check_triangle(mesh, i);
     const glm::uvec3& t = mesh.triangles[i];
     const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
     if (!has_area(a, b, c)) continue;
-    const glm::vec3 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c),
-                    largest = glm::max(glm::abs(low), glm::abs(high));
-    const float slack = 0x1p-20f * std::max({largest.x, largest.y, largest.z});
-    boxes.push_back(
-        {low.x - slack, low.y - slack, low.z - slack, 0, high.x + slack, high.y + slack, high.z + slack, static_cast<unsigned int>(i)});
+    boxes.push_back(grown_box(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), i));
+  }
+  for (std::size_t i = 0; i < mesh.ellipsoids.size(); ++i) {
+    const glm::vec3 half(half_extent(mesh.ellipsoids[i])), centre = mesh.ellipsoids[i].centre;
+    boxes.push_back(grown_box(centre - half, centre + half, mesh.triangles.size() + i));
   }
   return boxes;
 }
@@ -116,7 +125,7 @@ std::vector<RTCBuildPrimitive> triangle_boxes(const Mesh& mesh)
 /// Lays Embree's nodes out in the kernel's format, depth first.
 class Layout {
 public:
-  Layout(const Mesh& mesh, Bvh& bvh) : mesh_(mesh), bvh_(bvh) {}
+  Layout(const Mesh& mesh, Bvh& bvh) : mesh_(mesh), bvh_(bvh) { bvh.ellipsoid_places.resize(mesh.ellipsoids.size()); }
 
   /// What a parent's child entry holds; adds the subtree's depth and stack entries to those of its ancestors.
   int add(const BuildNode& node, int depth, int stack)
@@ -129,21 +138,51 @@ public:
 private:
   int add_leaf(const Leaf& leaf)
   {
+    std::vector<std::uint32_t> triangles, ellipsoids;
+    for (std::uint32_t i = 0; i < leaf.count; ++i)
+      (leaf.primitives[i] < mesh_.triangles.size() ? triangles : ellipsoids).push_back(leaf.primitives[i]);
     const std::size_t first = bvh_.blocks.size() / floats_per_block;
-    const std::size_t count = (leaf.count + triangles_per_block - 1) / triangles_per_block;
+    const std::size_t count = (triangles.size() + triangles_per_block - 1) / triangles_per_block;
+    add_triangles(triangles, count);
+    const std::size_t round_count = (ellipsoids.size() + ellipsoids_per_block - 1) / ellipsoids_per_block;
+    add_ellipsoids(ellipsoids, round_count);
+    return ~static_cast<int>(first << 4 | round_count << 2 | count);
+  }
+
+  void add_triangles(const std::vector<std::uint32_t>& triangles, std::size_t count)
+  {
+    const std::size_t first = bvh_.blocks.size() / floats_per_block;
     bvh_.blocks.resize(bvh_.blocks.size() + count * floats_per_block);
     for (std::size_t i = 0; i < count * triangles_per_block; ++i) {
       float* block = bvh_.blocks.data() + (first + i / triangles_per_block) * floats_per_block + i % triangles_per_block;
       // A missing triangle is one point: three times the last triangle's first vertex.
-      const bool missing = i >= leaf.count;
-      const std::uint32_t triangle = leaf.triangles[missing ? leaf.count - 1 : i];
+      const bool missing = i >= triangles.size();
+      const std::uint32_t triangle = missing ? triangles.back() : triangles[i];
       for (int corner = 0; corner < 3; ++corner) {
         const glm::vec3& p = mesh_.positions[mesh_.triangles[triangle][missing ? 0 : corner]];
         for (int axis = 0; axis < 3; ++axis) block[static_cast<std::size_t>(3 * corner + axis) * triangles_per_block] = p[axis];
       }
       std::memcpy(block + 9 * triangles_per_block, &triangle, sizeof triangle);
     }
-    return ~static_cast<int>(first << 4 | count);
+  }
+
+  void add_ellipsoids(const std::vector<std::uint32_t>& ellipsoids, std::size_t count)
+  {
+    const std::size_t first = bvh_.blocks.size();
+    bvh_.blocks.resize(first + count * floats_per_block);
+    for (std::size_t i = 0; i < count * ellipsoids_per_block; ++i) {
+      const std::size_t place = first + i / ellipsoids_per_block * floats_per_block + i % ellipsoids_per_block * floats_per_ellipsoid;
+      const bool missing = i >= ellipsoids.size();
+      const std::uint32_t primitive = missing ? ~0u : ellipsoids[i];
+      std::memcpy(bvh_.blocks.data() + place + 12, &primitive, sizeof primitive);
+      if (missing) continue;
+      const std::size_t number = primitive - mesh_.triangles.size();
+      bvh_.ellipsoid_places[number] = static_cast<std::uint32_t>(place);
+      const Ellipsoid& ellipsoid = mesh_.ellipsoids[number];
+      const auto rows = to_unit_sphere(ellipsoid);
+      const glm::vec3 data[] = {ellipsoid.centre, glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
+      std::memcpy(bvh_.blocks.data() + place, data, sizeof data);
+    }
   }
 
   int add_node(const Inner& node, int depth, int stack)
@@ -182,9 +221,9 @@ Bvh build_bvh(const Mesh& mesh)
 {
   Bvh bvh;
   bvh.stack = 1;
-  std::vector<RTCBuildPrimitive> boxes = triangle_boxes(mesh);
+  std::vector<RTCBuildPrimitive> boxes = primitive_boxes(mesh);
   if (boxes.size() > (std::size_t{1} << 27)) // blocks are numbered in 27 bits
-    throw bad_input("mesh", fmt::format("{} triangles", boxes.size()), "at most 134 million");
+    throw bad_input("mesh", fmt::format("{} triangles and ellipsoids", boxes.size()), "at most 134 million");
   if (boxes.empty()) {
     bvh.nodes.resize(floats_per_node);
     bvh.blocks.resize(floats_per_block);
@@ -203,7 +242,7 @@ Bvh build_bvh(const Mesh& mesh)
   arguments.maxBranchingFactor = children_per_node;
   arguments.maxDepth = 32;
   arguments.sahBlockSize = triangles_per_block;
-  arguments.maxLeafSize = triangles_per_leaf;
+  arguments.maxLeafSize = primitives_per_leaf;
   arguments.intersectionCost = 0.5f; // a block of triangles against a node: 5 to 10 % faster than 1 (tests/bench)
   arguments.bvh = build.get();
   arguments.primitives = boxes.data();
@@ -215,8 +254,7 @@ Bvh build_bvh(const Mesh& mesh)
   arguments.createLeaf = create_leaf;
   const auto* root = build ? static_cast<const BuildNode*>(rtcBuildBVH(&arguments)) : nullptr;
   if (!root)
-    throw failed("mesh",
-                 fmt::format("Embree built no tree over {} triangles (error {})", boxes.size(), int{rtcGetDeviceError(device.get())}));
+    throw failed("mesh", fmt::format("Embree built no tree over {} primitives (error {})", boxes.size(), int{rtcGetDeviceError(device.get())}));
   bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
   if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
   return bvh;

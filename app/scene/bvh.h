@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bounding volume hierarchy that kernels/tracing/bvh.h traces: 8 children a node, boxes as float8, triangles in structure-of-arrays
-// blocks of 4. Built by Embree's builder; traced by our kernel.
+// blocks of 4, ellipsoids in blocks of 3. Built by Embree's builder; traced by our kernel.
 #pragma once
 #include "scene/mesh.h"
 
@@ -11,11 +11,12 @@ namespace nephroid::scene {
 
 /// Layout is fixed by kernels/tracing/bvh.h, which has the description.
 struct Bvh {
-  std::vector<float> nodes;  ///< 64 floats a node; at least one node
-  std::vector<float> blocks; ///< 40 floats a block of 4 triangles
-  int root = 0;              ///< node index, or ~leaf
-  int depth = 0;             ///< nodes on the longest way from the root to a leaf
-  int stack = 0;             ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
+  std::vector<float> nodes;                    ///< 64 floats a node; at least one node
+  std::vector<float> blocks;                   ///< 40 floats a block
+  std::vector<std::uint32_t> ellipsoid_places; ///< of each ellipsoid's first float in blocks
+  int root = 0;                                ///< node index, or ~leaf
+  int depth = 0;                               ///< nodes on the longest way from the root to a leaf
+  int stack = 0;                               ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
 };
 
 /// Triangles without area are left out: nothing hits them. An empty mesh gives a tree that nothing hits.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace nephroid::scene {
 namespace {
@@ -53,12 +54,25 @@ void change_vertices(Scene& scene, const Object& object, int axis, const Change&
   }
 }
 
+/// An ellipsoid meets what it touches in one point, where nothing is lost; only two of them can lie in one place.
+bool can_coincide(const Object& a, const Bounds& at_a, const Object& b, const Bounds& at_b, double tolerance)
+{
+  if (a.ellipsoid_count + b.ellipsoid_count == 0) return true;
+  bool same = a.ellipsoid_count == b.ellipsoid_count;
+  for (int k = 0; k < 3; ++k)
+    same = same && std::abs(at_a.low[k] - at_b.low[k]) <= tolerance && std::abs(at_a.high[k] - at_b.high[k]) <= tolerance;
+  return same;
+}
+
 /// Leaves a gap between the glass and what it touches across the axis: moves every face of it that lies across inwards, or, where it is too
 /// thin for that, all of it away from the other's face.
 void part(Scene& scene, const Object& glass, const Bounds& bounds, const Bounds& other, int axis, double gap)
 {
   const double middle = 0.5 * (bounds.low[axis] + bounds.high[axis]), half = 0.5 * (bounds.high[axis] - bounds.low[axis]);
   const auto distance_of = [&](double face) { return std::min(std::abs(face - other.low[axis]), std::abs(face - other.high[axis])); };
+  for (Ellipsoid& ellipsoid : std::span(scene.geometry.ellipsoids).subspan(glass.first_ellipsoid, glass.ellipsoid_count))
+    for (glm::vec3& half_axis : ellipsoid.half_axes) half_axis *= static_cast<float>(1 - std::min(gap / half, 0.125));
+  if (glass.triangle_count == 0) return;
   if (half >= 8 * gap)
     change_vertices(scene, glass, axis, [&](double at) { return middle + (at - middle) * (1 - gap / half); });
   else {
@@ -76,7 +90,8 @@ std::string label(const Scene& scene, std::size_t object)
 void warn_if_between(Scene& scene, const std::vector<Bounds>& bounds, std::size_t i)
 {
   for (std::size_t j = 0; j < scene.objects.size(); ++j)
-    if (i != j && touching_axis(bounds[i], bounds[j], touching_share * largest_coordinate(bounds[i], bounds[j])) >= 0)
+    if (i != j && scene.objects[i].ellipsoid_count + scene.objects[j].ellipsoid_count == 0 &&
+        touching_axis(bounds[i], bounds[j], touching_share * largest_coordinate(bounds[i], bounds[j])) >= 0)
       scene.warnings.push_back(fmt::format("{} lies exactly on {} and is too thin to be parted from it: light may be lost between them; "
                                            "move it, make it thicker, or let them overlap",
                                            label(scene, i), label(scene, j)));
@@ -94,7 +109,7 @@ void part_touching(Scene& scene)
       if (i == j) continue;
       const double largest = largest_coordinate(bounds[i], bounds[j]), tolerance = touching_share * largest;
       const int axis = touching_axis(bounds[i], bounds[j], tolerance);
-      if (axis < 0) continue;
+      if (axis < 0 || !can_coincide(scene.objects[i], bounds[i], scene.objects[j], bounds[j], tolerance)) continue;
       part(scene, scene.objects[i], bounds[i], bounds[j], axis, gap_share * largest);
       bounds[i] = bounds_of(scene, scene.objects[i]);
       scene.warnings.push_back(

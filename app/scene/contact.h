@@ -7,7 +7,8 @@
 namespace nephroid::scene {
 
 /// Draws in every dielectric whose bounds end where another object's bounds begin, end or lie, so that a gap of air is left which single
-/// precision can tell (some 1e-6 of the larger object's coordinates), and says so in scene.warnings. What overlaps is left alone.
+/// precision can tell (some 1e-6 of the larger object's coordinates), and says so in scene.warnings. What overlaps is left alone, and so is
+/// an ellipsoid that touches in a point.
 void part_touching(Scene& scene);
 
 } // namespace nephroid::scene

@@ -17,12 +17,30 @@ std::span<const glm::uvec3> triangles_of(const Scene& scene, const Object& objec
   return all.subspan(object.first_triangle, object.triangle_count);
 }
 
+std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& object)
+{
+  const std::span<const Ellipsoid> all = scene.geometry.ellipsoids;
+  if (object.first_ellipsoid + object.ellipsoid_count > all.size())
+    throw failed(scene.source, fmt::format("object '{}' has ellipsoids that the scene does not hold", object.name));
+  return all.subspan(object.first_ellipsoid, object.ellipsoid_count);
+}
+
 Bounds enclosing(const Bounds& a, const Bounds& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
+
+Bounds bounds_of(const Ellipsoid& ellipsoid)
+{
+  const glm::dvec3 centre = ellipsoid.centre, half = half_extent(ellipsoid);
+  return {centre - half, centre + half};
+}
 
 Bounds bounds_of(const Scene& scene, const Object& object)
 {
   Bounds bounds;
-  for_each_corner(scene, object, [&](const glm::dvec3& corner) { bounds = enclosing(bounds, {corner, corner}); });
+  for_each_corner_index(scene, object, [&](std::uint32_t vertex) {
+    const glm::dvec3 corner = scene.geometry.positions[vertex];
+    bounds = enclosing(bounds, {corner, corner});
+  });
+  for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) bounds = enclosing(bounds, bounds_of(ellipsoid));
   return bounds;
 }
 

@@ -175,6 +175,7 @@ void turn_round(Mesh& mesh)
 {
   for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
   for (glm::vec3& normal : mesh.normals) normal = -normal;
+  for (Ellipsoid& ellipsoid : mesh.ellipsoids) ellipsoid.inwards = !ellipsoid.inwards;
 }
 
 void compute_smooth_normals(Mesh& mesh)
@@ -217,7 +218,15 @@ double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32
   return sum / 6;
 }
 
-Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles)
+std::vector<glm::vec3> extreme_points(const Mesh& mesh)
+{
+  std::vector<glm::vec3> points = mesh.positions;
+  for (const Ellipsoid& ellipsoid : mesh.ellipsoids)
+    for (const float side : {-1.0f, 1.0f}) points.push_back(ellipsoid.centre + side * glm::vec3(half_extent(ellipsoid)));
+  return points;
+}
+
+Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles, std::span<const Ellipsoid> ellipsoids)
 {
   glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
   for (const glm::uvec3& triangle : triangles)
@@ -225,11 +234,18 @@ Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles)
       low = glm::min(low, mesh.positions[triangle[i]]);
       high = glm::max(high, mesh.positions[triangle[i]]);
     }
+  for (const Ellipsoid& ellipsoid : ellipsoids) {
+    const glm::vec3 half(half_extent(ellipsoid));
+    low = glm::min(low, ellipsoid.centre - half);
+    high = glm::max(high, ellipsoid.centre + half);
+  }
   Sphere sphere{0.5f * low + 0.5f * high, 0};
   double radius = 0;
   for (const glm::uvec3& triangle : triangles)
     for (int i = 0; i < 3; ++i)
       radius = std::max(radius, glm::distance(glm::dvec3(mesh.positions[triangle[i]]), glm::dvec3(sphere.centre)));
+  for (const Ellipsoid& ellipsoid : ellipsoids)
+    radius = std::max(radius, glm::distance(glm::dvec3(ellipsoid.centre), glm::dvec3(sphere.centre)) + longest_half_axis(ellipsoid));
   sphere.radius = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::max());
   return sphere;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangle meshes: the plain data, reading them from files, checks. Shapes made by the program are in shapes.h.
+// Surfaces, which are triangle meshes and ellipsoids: the plain data, reading meshes from files, checks. Shapes made by the program are in
+// shapes.h.
 #pragma once
+#include "scene/ellipsoid.h"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -15,6 +18,7 @@ struct Mesh {
   std::vector<glm::vec3> normals;    ///< one a position, unit; or empty
   std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from outside
   std::uint32_t mended_normals = 0;  ///< of `normals`, those that a file had on the wrong side of its triangles, or not at all
+  std::vector<Ellipsoid> ellipsoids; ///< primitives of the tree, numbered after the triangles
 };
 
 /// More triangles than this are refused, for one mesh and for a scene: the tree's indices and single buffers end near it.
@@ -42,7 +46,7 @@ MeshReport inspect(const Mesh& mesh);
 /// the longest edge, which is the spacing of floats, so that its normal would be made of rounding errors.
 void drop_useless(Mesh& mesh);
 
-/// Reverses every triangle and normal.
+/// Reverses every triangle, normal and ellipsoid.
 void turn_round(Mesh& mesh);
 
 /// Gives every vertex the mean of the normals of the triangles that meet at its position, weighted by their angles there
@@ -56,12 +60,15 @@ double winding_number(const Mesh& mesh, std::uint32_t first_triangle, std::uint3
 /// Volume that `count` triangles enclose, negative where they face inwards; meaningful for closed surfaces only.
 double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32_t count);
 
+/// The vertices, and the lowest and highest corner of a box about each ellipsoid: what a box about everything has to hold.
+std::vector<glm::vec3> extreme_points(const Mesh& mesh);
+
 struct Sphere {
   glm::vec3 centre{0};
   float radius = 0;
 };
 
-/// About the middle of the bounds: encloses every vertex that these triangles of the mesh use, rounding included.
-Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles);
+/// About the middle of the bounds: encloses every vertex that these triangles of the mesh use, and these ellipsoids, rounding included.
+Sphere enclosing_sphere(const Mesh& mesh, std::span<const glm::uvec3> triangles, std::span<const Ellipsoid> ellipsoids = {});
 
 } // namespace nephroid::scene

@@ -32,6 +32,20 @@ glm::dmat3 rotation(const preset::Vec3& degrees)
   return result;
 }
 
+/// The scale is along the shape's axes, before the turn, so the half axes stay perpendicular. All of one length: a sphere, whose axes may
+/// be any, so that a turn moves nothing.
+Ellipsoid transformed(const Ellipsoid& ellipsoid, const Placement& placement, const glm::dvec3& offset)
+{
+  Ellipsoid result = ellipsoid;
+  result.centre = placement.linear * glm::dvec3(ellipsoid.centre) + offset;
+  for (glm::vec3& axis : result.half_axes) axis = placement.linear * glm::dvec3(axis);
+  const double longest = longest_half_axis(result);
+  if (longest - shortest_half_axis(result) > 0x1p-20 * longest) return result;
+  const auto radius = static_cast<float>(longest_half_axis(ellipsoid) * std::cbrt(std::abs(glm::determinant(placement.linear))));
+  result.half_axes = {{{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}};
+  return result;
+}
+
 Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin)
 {
   const glm::dvec3 offset = placement.offset - origin;
@@ -43,6 +57,7 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   for (const glm::vec3& n : mesh.normals) result.normals.emplace_back(glm::normalize(normal_transform * glm::dvec3(n)));
   result.triangles = mesh.triangles;
   result.mended_normals = mesh.mended_normals;
+  for (const Ellipsoid& ellipsoid : mesh.ellipsoids) result.ellipsoids.push_back(transformed(ellipsoid, placement, offset));
   if (glm::determinant(placement.linear) < 0)
     for (glm::uvec3& triangle : result.triangles) std::swap(triangle.y, triangle.z);
   return result;
@@ -69,6 +84,14 @@ void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3
                                           extent, farthest, spacing / 2));
 }
 
+void refuse_thinner(double thickness, double largest, const Place& where)
+{
+  const double thinnest = 0x1p-20 * largest;
+  if (thickness < thinnest)
+    throw bad_input(where, fmt::format("is {:.3g} units thick, too little for single precision", thickness),
+                    fmt::format("at least {:.3g} for what is {:.3g} units long", thinnest, largest), "make it thicker or smaller");
+}
+
 /// Rays start some 2^-21 of a triangle's coordinates off it (kernels/tracing/surface.h): glass thinner than that would be stepped over, and
 /// light go on inside it for ever. Twice the volume over the area is the thickness of a plate or a shell.
 void check_thickness(const Mesh& mesh, double volume, const Place& where)
@@ -80,10 +103,26 @@ void check_thickness(const Mesh& mesh, double volume, const Place& where)
     area += 0.5 * glm::length(glm::cross(ab, ac));
     for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(a[axis]), std::abs(ab[axis]), std::abs(ac[axis])});
   }
-  const double thickness = 2 * std::abs(volume) / area, thinnest = 0x1p-20 * largest;
-  if (thickness < thinnest)
-    throw bad_input(where, fmt::format("is {:.3g} units thick, too little for single precision", thickness),
-                    fmt::format("at least {:.3g} for what is {:.3g} units long", thinnest, largest), "make it thicker or smaller");
+  refuse_thinner(2 * std::abs(volume) / area, largest, where);
+}
+
+/// What is left of a place on an ellipsoid in single precision is the spacing of its coordinates.
+void check_thickness(const Ellipsoid& ellipsoid, const Place& where)
+{
+  const Bounds bounds = bounds_of(ellipsoid);
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(bounds.low[axis]), std::abs(bounds.high[axis])});
+  refuse_thinner(2 * shortest_half_axis(ellipsoid), largest, where);
+}
+
+/// The shape of a dielectric that its preset turns inside out has no inside to enter.
+void check_turned(Placed& placed)
+{
+  for (Ellipsoid& ellipsoid : placed.mesh.ellipsoids) {
+    if (!ellipsoid.inwards) continue;
+    ellipsoid.inwards = false;
+    placed.damages.push_back({"is inside out", "its surface is turned round"});
+  }
 }
 
 void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
@@ -92,6 +131,7 @@ void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
   if (report.duplicated > 0) placed.warnings.push_back(counted(report.duplicated, "duplicated triangle") + " dropped");
   placed.closed = report.closed();
   if (!dielectric) return;
+  if (placed.mesh.triangles.empty()) return check_turned(placed);
   if (report.open_edges > 0)
     placed.damages.push_back({fmt::format("dielectric, but not closed: {} with one triangle", counted(report.open_edges, "edge")),
                               "light that enters may never leave"});
@@ -132,14 +172,18 @@ Placement make_placement(const preset::Transform& transform, const Place& where)
 Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& where)
 {
   Bounds bounds;
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const glm::dvec3 p = placement.linear * glm::dvec3(mesh.positions[triangle[i]]) + placement.offset;
-      bounds = enclosing(bounds, {p, p});
-      for (int axis = 0; axis < 3; ++axis)
-        if (!(std::abs(p[axis]) < 1e30))
-          throw bad_input(where, fmt::format("has a vertex at {:g}", p[axis]), "less than 1e30", "use a smaller scale");
-    }
+  const auto add = [&](const glm::dvec3& p) {
+    bounds = enclosing(bounds, {p, p});
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(p[axis]) < 1e30))
+        throw bad_input(where, fmt::format("has a vertex at {:g}", p[axis]), "less than 1e30", "use a smaller scale");
+  };
+  for (const glm::uvec3& triangle : mesh.triangles)
+    for (int i = 0; i < 3; ++i) add(placement.linear * glm::dvec3(mesh.positions[triangle[i]]) + placement.offset);
+  for (const Ellipsoid& ellipsoid : mesh.ellipsoids) {
+    const Bounds box = bounds_of(transformed(ellipsoid, placement, placement.offset));
+    add(box.low);
+    add(box.high);
   }
   return bounds;
 }
@@ -153,10 +197,12 @@ Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& ori
   check_surface(report, dielectric, placed);
   if (report.degenerate + report.duplicated > 0) drop_useless(placed.mesh);
   if (dielectric && placed.closed && !placed.mesh.triangles.empty()) check_thickness(placed.mesh, report.signed_volume, where);
-  if (placed.mesh.triangles.empty())
+  if (dielectric)
+    for (const Ellipsoid& ellipsoid : placed.mesh.ellipsoids) check_thickness(ellipsoid, where);
+  if (placed.mesh.triangles.empty() && placed.mesh.ellipsoids.empty())
     throw bad_input(where, "no triangle has an area after scaling", "a mesh with a surface", "use a scale closer to 1");
   if (placed.mesh.normals.empty()) compute_smooth_normals(placed.mesh);
-  placed.bounds = enclosing_sphere(placed.mesh, placed.mesh.triangles);
+  placed.bounds = enclosing_sphere(placed.mesh, placed.mesh.triangles, placed.mesh.ellipsoids);
   return placed;
 }
 

@@ -12,7 +12,8 @@ namespace nephroid::scene {
 namespace {
 
 // The layout of kernels/tracing/bvh.h.
-constexpr std::size_t children_per_node = 8, triangles_per_block = 4, floats_per_node = 64, floats_per_block = 40;
+constexpr std::size_t children_per_node = 8, triangles_per_block = 4, ellipsoids_per_block = 3, floats_per_node = 64, floats_per_block = 40,
+                      floats_per_ellipsoid = 13;
 
 /// What waits on the stack: a node or leaf, and how far it is.
 struct Waiting {
@@ -22,7 +23,7 @@ struct Waiting {
 
 class Ray {
 public:
-  Ray(const glm::dvec3& origin, const glm::dvec3& direction) : origin_(origin)
+  Ray(const glm::dvec3& origin, const glm::dvec3& direction) : origin_(origin), direction_(direction)
   {
     const glm::dvec3 a = glm::abs(direction);
     kz_ = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
@@ -62,7 +63,28 @@ public:
     return (ea * a.z + eb * b.z + ec * c.z) * scale_ / det;
   }
 
+  /// Distance of an ellipsoid, not above 0 where the ray does not hit it; see bvh_ellipsoid in kernels/tracing/bvh.h.
+  double distance_of_ellipsoid(const float* data, bool leaves) const
+  {
+    const glm::dvec3 to = origin_ - vector(data);
+    const double way = -glm::dot(to, direction_) / glm::dot(direction_, direction_);
+    const glm::dvec3 nearest = on_unit_sphere(data, to + way * direction_), along = on_unit_sphere(data, direction_);
+    const double squared = glm::dot(along, along), rest = -glm::dot(nearest, along) / squared;
+    const glm::dvec3 off_centre = nearest + rest * along;
+    const double left = 1 - glm::dot(off_centre, off_centre);
+    if (!(left > 0)) return 0;
+    const double half = std::sqrt(left / squared), middle = way + rest;
+    if (leaves) return middle > 0 ? middle + half : 0;
+    return middle - half > 0 ? middle - half : middle + half;
+  }
+
 private:
+  static glm::dvec3 vector(const float* data) { return {data[0], data[1], data[2]}; }
+  static glm::dvec3 on_unit_sphere(const float* data, const glm::dvec3& p)
+  {
+    return {glm::dot(vector(data + 3), p), glm::dot(vector(data + 6), p), glm::dot(vector(data + 9), p)};
+  }
+
   glm::dvec3 sheared(const float* block, std::size_t corner, std::size_t i) const
   {
     const auto along = [&](int axis) {
@@ -72,23 +94,45 @@ private:
     return {along(kx_) - shear_x_ * z, along(ky_) - shear_y_ * z, z};
   }
 
-  glm::dvec3 origin_, inverse_{0};
+  glm::dvec3 origin_, direction_, inverse_{0};
   int kx_ = 0, ky_ = 1, kz_ = 2; ///< kz: where the direction is largest
   double shear_x_ = 0, shear_y_ = 0, scale_ = 1;
 };
 
-void test_leaf(const Bvh& bvh, int leaf, const Ray& ray, const CountsTriangle& counts, double t_max, std::optional<RayHit>& hit)
+/// What a ray looks for, and what it has found.
+struct Search {
+  const CountsPrimitive& counts;
+  double t_max;
+  std::uint32_t leaves;
+  std::optional<RayHit> hit;
+
+  double farthest() const { return hit ? hit->t : t_max; }
+  void offer(double t, std::uint32_t primitive)
+  {
+    if (!(t > 0 && t <= farthest())) return;
+    if (hit && t == hit->t && primitive >= hit->primitive) return;
+    if (!counts || counts(primitive)) hit = {t, primitive};
+  }
+};
+
+void test_leaf(const Bvh& bvh, int leaf, const Ray& ray, Search& search)
 {
-  const int blocks = ~leaf & 15;
   const float* block = bvh.blocks.data() + static_cast<std::size_t>(~leaf >> 4) * floats_per_block;
-  for (const float* const end = block + static_cast<std::size_t>(blocks) * floats_per_block; block != end; block += floats_per_block)
+  const auto number_of = [](const float* at) {
+    std::uint32_t primitive = 0;
+    std::memcpy(&primitive, at, sizeof primitive);
+    return primitive;
+  };
+  for (int blocks = ~leaf & 3; blocks > 0; --blocks, block += floats_per_block)
     for (std::size_t i = 0; i < triangles_per_block; ++i) {
-      const double t = ray.distance(block, i);
-      if (!(t > 0 && t <= (hit ? hit->t : t_max))) continue;
-      std::uint32_t triangle = 0;
-      std::memcpy(&triangle, block + 9 * triangles_per_block + i, sizeof triangle);
-      if (hit && t == hit->t && triangle >= hit->triangle) continue;
-      if (!counts || counts(triangle)) hit = {t, triangle};
+      const float* const number = block + 9 * triangles_per_block + i;
+      if (number_of(number) != search.leaves) search.offer(ray.distance(block, i), number_of(number));
+    }
+  for (int blocks = ~leaf >> 2 & 3; blocks > 0; --blocks, block += floats_per_block)
+    for (std::size_t i = 0; i < ellipsoids_per_block; ++i) {
+      const float* const data = block + i * floats_per_ellipsoid;
+      const std::uint32_t number = number_of(data + 12);
+      if (number != no_primitive) search.offer(ray.distance_of_ellipsoid(data, number == search.leaves), number);
     }
 }
 
@@ -108,23 +152,22 @@ void push_children(const float* node, const Ray& ray, double t_max, std::vector<
 
 } // namespace
 
-std::optional<RayHit> closest_hit(const Bvh& bvh, const glm::dvec3& origin, const glm::dvec3& direction, const CountsTriangle& counts,
-                                  double t_max)
+std::optional<RayHit> closest_hit(const Bvh& bvh, const glm::dvec3& origin, const glm::dvec3& direction, const CountsPrimitive& counts,
+                                  double t_max, std::uint32_t leaves)
 {
   const Ray ray(origin, direction);
-  std::optional<RayHit> hit;
+  Search search{counts, t_max, leaves, std::nullopt};
   std::vector<Waiting> waiting{{0, bvh.root}};
   while (!waiting.empty()) {
     const Waiting next = waiting.back();
     waiting.pop_back();
-    const double farthest = hit ? hit->t : t_max;
-    if (next.entry > farthest) continue;
+    if (next.entry > search.farthest()) continue;
     if (next.child < 0)
-      test_leaf(bvh, next.child, ray, counts, t_max, hit);
+      test_leaf(bvh, next.child, ray, search);
     else
-      push_children(bvh.nodes.data() + static_cast<std::size_t>(next.child) * floats_per_node, ray, farthest, waiting);
+      push_children(bvh.nodes.data() + static_cast<std::size_t>(next.child) * floats_per_node, ray, search.farthest(), waiting);
   }
-  return hit;
+  return search.hit;
 }
 
 glm::dvec3 even_direction(int i, int count, double turns)

@@ -100,7 +100,14 @@ void append(Scene& scene, const Mesh& mesh)
   all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
   all.normals.insert(all.normals.end(), mesh.normals.begin(), mesh.normals.end());
   for (const glm::uvec3& triangle : mesh.triangles) all.triangles.push_back(triangle + first);
-  scene.object_of_triangle.resize(all.triangles.size(), static_cast<std::uint32_t>(scene.objects.size()));
+  all.ellipsoids.insert(all.ellipsoids.end(), mesh.ellipsoids.begin(), mesh.ellipsoids.end());
+}
+
+void number_primitives(Scene& scene)
+{
+  for (const auto count : {&Object::triangle_count, &Object::ellipsoid_count})
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
+      scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
 }
 
 /// damaged: what the preset wants done about it. Throws bad_input at the object where that is `refuse`.
@@ -129,9 +136,11 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   result.name = object.name;
   result.material = pending.material;
   result.priority = object.priority;
-  result.smooth = object.normals == preset::Object::Normals::smooth;
+  result.smooth = object.normals == preset::Object::Normals::smooth && !placed.mesh.triangles.empty();
   result.first_triangle = static_cast<std::uint32_t>(scene.geometry.triangles.size());
   result.triangle_count = static_cast<std::uint32_t>(placed.mesh.triangles.size());
+  result.first_ellipsoid = static_cast<std::uint32_t>(scene.geometry.ellipsoids.size());
+  result.ellipsoid_count = static_cast<std::uint32_t>(placed.mesh.ellipsoids.size());
   result.bounds = placed.bounds;
   result.closed = placed.closed;
   append(scene, placed.mesh);
@@ -203,8 +212,13 @@ std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
     const Object& object = scene.objects[i];
     if (material_of(scene, object).type != Material::Type::dielectric) continue;
     if (glm::distance(p, glm::dvec3(object.bounds.centre)) > object.bounds.radius) continue;
-    if (winding_number(scene.geometry, object.first_triangle, object.triangle_count, p) > 0.5)
-      found.emplace_back(-signed_volume(scene.geometry, object.first_triangle, object.triangle_count), static_cast<int>(i));
+    double volume = signed_volume(scene.geometry, object.first_triangle, object.triangle_count);
+    bool inside = winding_number(scene.geometry, object.first_triangle, object.triangle_count, p) > 0.5;
+    for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) {
+      volume += volume_of(ellipsoid);
+      inside = inside || contains(ellipsoid, p);
+    }
+    if (inside) found.emplace_back(-volume, static_cast<int>(i));
   }
   std::sort(found.begin(), found.end());
   std::vector<int> result;
@@ -237,6 +251,7 @@ Scene load_scene(const preset::Preset& preset)
     add_object(scene, preset.scene.objects[i], pending[i], preset.scene.damaged_meshes);
     pending[i].mesh = {}; // a large scene is not held twice
   }
+  number_primitives(scene);
   part_touching(scene);
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     scene.lights.push_back(make_light(preset.scene.lights[i], scene, where / "lights" / i));

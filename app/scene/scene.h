@@ -34,8 +34,9 @@ struct Object {
   int priority = 0;
   bool smooth = false; ///< interpolate vertex normals
   std::uint32_t first_triangle = 0, triangle_count = 0;
-  Sphere bounds;      ///< encloses every vertex
-  bool closed = true; ///< every edge is shared by exactly two triangles of opposite direction
+  std::uint32_t first_ellipsoid = 0, ellipsoid_count = 0; ///< of Scene::geometry
+  Sphere bounds;                                          ///< encloses all of it
+  bool closed = true;                                     ///< every edge is shared by exactly two triangles of opposite direction
 };
 
 struct Light {
@@ -68,10 +69,12 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Light> lights;
   std::optional<Environment> environment;
-  Mesh geometry; ///< every object's triangles, one after the other; normals for every vertex
-  std::vector<std::uint32_t> object_of_triangle;
-  std::vector<std::string> warnings; ///< one line each: open meshes, dropped triangles, extrapolated dispersion
+  Mesh geometry;                                  ///< every object's triangles, one after the other; normals for every vertex
+  std::vector<std::uint32_t> object_of_primitive; ///< of the triangles, then of the ellipsoids
+  std::vector<std::string> warnings;              ///< one line each: open meshes, dropped triangles, extrapolated dispersion
 };
+
+inline bool is_empty(const Object& object) { return object.triangle_count + object.ellipsoid_count == 0; }
 
 inline const Material& material_of(const Scene& scene, const Object& object)
 {

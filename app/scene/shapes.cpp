@@ -31,7 +31,7 @@ namespace {
 
 using Quad = std::array<glm::dvec3, 4>;
 
-constexpr int max_segments = 1 << 14; ///< a sphere of as many has max_triangles
+constexpr int max_segments = 1 << 14;
 
 Mesh make_quad(double x, double z)
 {
@@ -102,30 +102,10 @@ Mesh make_cylinder(double radius, double height, int segments)
   return mesh;
 }
 
-Mesh make_sphere(double radius, int segments)
+Mesh make_sphere(float radius)
 {
-  const int rings = std::max(2, segments / 2); // rings of facets, pole to pole
   Mesh mesh;
-  const auto add = [&](const glm::dvec3& direction) {
-    mesh.positions.emplace_back(radius * direction);
-    mesh.normals.emplace_back(direction);
-  };
-  add({0, 1, 0});
-  for (int ring = 1; ring < rings; ++ring) {
-    const double polar = std::numbers::pi * ring / rings;
-    for (int i = 0; i < segments; ++i) add(std::sin(polar) * around(i, segments) + glm::dvec3(0, std::cos(polar), 0));
-  }
-  add({0, -1, 0});
-  const auto vertex = [&](int ring, int i) { return static_cast<std::uint32_t>(1 + (ring - 1) * segments + i % segments); };
-  const auto south = static_cast<std::uint32_t>(mesh.positions.size() - 1);
-  for (int i = 0; i < segments; ++i) {
-    mesh.triangles.emplace_back(0, vertex(1, i), vertex(1, i + 1));
-    for (int ring = 1; ring + 1 < rings; ++ring) {
-      mesh.triangles.emplace_back(vertex(ring, i), vertex(ring + 1, i), vertex(ring + 1, i + 1));
-      mesh.triangles.emplace_back(vertex(ring, i), vertex(ring + 1, i + 1), vertex(ring, i + 1));
-    }
-    mesh.triangles.emplace_back(south, vertex(rings - 1, i + 1), vertex(rings - 1, i));
-  }
+  mesh.ellipsoids.push_back({glm::vec3(0), {{{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, false});
   return mesh;
 }
 
@@ -141,17 +121,16 @@ void check(const preset::Shape& shape, const Place& where)
     require(!used || (value > 0 && value < 1e30), where, field, fmt::format("{}", value), "a length greater than 0");
   };
   const bool flat = shape.type == Type::quad, boxy = shape.type == Type::box || shape.type == Type::plate;
-  const bool round = shape.type == Type::sphere || shape.type == Type::cylinder;
   length(flat || boxy, "size/0", shape.size[0]);
   length(boxy, "size/1", shape.size[1]);
   length(flat || boxy, "size/2", shape.size[2]);
-  length(round || shape.type == Type::brilliant, "radius", shape.radius);
+  length(shape.type == Type::sphere || shape.type == Type::cylinder || shape.type == Type::brilliant, "radius", shape.radius);
   length(shape.type == Type::cylinder || shape.type == Type::prism, "height", shape.height);
   length(shape.type == Type::prism, "side", shape.side);
   require(shape.type != Type::prism || (shape.apex_deg > 0 && shape.apex_deg < 180), where, "apex_deg", fmt::format("{}", shape.apex_deg),
           "an angle between 0 and 180 degrees");
-  require(!round || (shape.segments >= 3 && shape.segments <= max_segments), where, "segments", fmt::format("{}", shape.segments),
-          "3 to 16384 segments");
+  require(shape.type != Type::cylinder || (shape.segments >= 3 && shape.segments <= max_segments), where, "segments",
+          fmt::format("{}", shape.segments), "3 to 16384 segments");
 }
 
 Mesh make_outward(const preset::Shape& shape)
@@ -163,7 +142,7 @@ Mesh make_outward(const preset::Shape& shape)
   case preset::Shape::Type::plate:
     return make_box(shape.size);
   case preset::Shape::Type::sphere:
-    return make_sphere(shape.radius, shape.segments);
+    return make_sphere(static_cast<float>(shape.radius));
   case preset::Shape::Type::cylinder:
     return make_cylinder(shape.radius, shape.height, shape.segments);
   case preset::Shape::Type::prism:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that the program makes itself. Flat facets have vertices of their own, so their normals are exact; curved sides share
+// Surfaces that the program makes itself. Flat facets have vertices of their own, so their normals are exact; curved sides share
 // theirs.
 #pragma once
 #include "base/place.h"
@@ -12,7 +12,7 @@ namespace nephroid::scene {
 
 /// A shape of preset.h, centred by its bounds on the origin, y up, with normals:
 /// quad: open, size x by z in the plane y = 0, facing +y. box, plate: size x, y, z.
-/// sphere: `segments` around the y axis, half as many from pole to pole; vertices on the sphere, exact normals.
+/// sphere: an exact one, not of triangles.
 /// cylinder: about the y axis, flat ends, a sharp rim.
 /// prism: stands along y; the apex edge at +z, the third side at -z, facing -z.
 /// brilliant: the round brilliant cut, table up: 57 facets and 16 of the girdle (brilliant.cpp).

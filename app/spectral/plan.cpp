@@ -194,7 +194,7 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
   const tracing::WavelengthTables& w = tables.wavelengths;
   const std::uint64_t tree = bytes_of(bvh.nodes) + bytes_of(bvh.blocks),
                       triangles = bytes_of(scene.geometry.triangles) + bytes_of(scene.geometry.positions) +
-                                  bytes_of(scene.geometry.normals) + bytes_of(scene.object_of_triangle),
+                                  bytes_of(scene.geometry.normals) + bytes_of(scene.object_of_primitive),
                       environment = scene.environment ? bytes_of(scene.environment->rgb) : 0;
   std::vector<plan::PlannedBuffer> list{
       {"scene (host)", tree + triangles + environment, true},
@@ -297,6 +297,7 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
   plan.defines["NEPHROID_LOW_DISCREPANCY"] = std::to_string(int(settings.low_discrepancy));
   plan.defines["NEPHROID_FILM_HALVES"] = std::to_string(halves);
   plan.defines["NEPHROID_MAX_SURFACES"] = std::to_string(settings.max_surfaces);
+  plan.defines["NEPHROID_ELLIPSOIDS"] = bvh.ellipsoid_places.empty() ? "0" : "1";
   plan.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(bvh.stack, 1));
   plan.notes = scene.warnings;
   if (!direct.runs && !caustics && !indirect.runs && !background.runs)

@@ -5,6 +5,7 @@
 #include "scene/ray.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,7 @@ constexpr std::size_t middle = optics::wavelength_count / 2;
 
 using Type = scene::Material::Type;
 
-/// A place on a triangle.
+/// A place on a surface.
 struct Place {
   int object;
   glm::dvec3 position, geometric, shading; ///< normals: unit, outwards; alike unless the object is smooth
@@ -32,13 +33,12 @@ public:
   /// Goes on to the next surface; empty where there is none.
   std::optional<Place> next()
   {
-    const auto hit =
-        left_ ? scene::closest_hit(bvh_, from_, way_, [&](std::uint32_t t) { return t != *left_; }) : scene::closest_hit(bvh_, from_, way_);
+    const auto hit = scene::closest_hit(bvh_, from_, way_, {}, std::numeric_limits<double>::infinity(), left_);
     if (!hit) return std::nullopt;
     length_ += hit->t;
     from_ += hit->t * way_;
-    left_ = hit->triangle;
-    return place_on(hit->triangle);
+    left_ = hit->primitive;
+    return place_on(hit->primitive);
   }
 
   /// Is sent back by a mirror.
@@ -66,12 +66,18 @@ public:
   double length() const { return length_; }
 
 private:
-  Place place_on(std::uint32_t triangle) const
+  Place place_on(std::uint32_t primitive) const
   {
-    const glm::uvec3 corner = scene_.geometry.triangles[triangle];
+    const std::size_t triangles = scene_.geometry.triangles.size();
+    const auto object = static_cast<int>(scene_.object_of_primitive[primitive]);
+    if (primitive >= triangles) {
+      const glm::dvec3 normal = normal_at(scene_.geometry.ellipsoids[primitive - triangles], from_);
+      return {object, from_, normal, normal};
+    }
+    const glm::uvec3 corner = scene_.geometry.triangles[primitive];
     const std::vector<glm::vec3>&at = scene_.geometry.positions, &normals = scene_.geometry.normals;
     const glm::dvec3 a(at[corner.x]), b(at[corner.y]), c(at[corner.z]), across = glm::cross(b - a, c - a);
-    Place place{static_cast<int>(scene_.object_of_triangle[triangle]), from_, glm::normalize(across), {}};
+    Place place{object, from_, glm::normalize(across), {}};
     place.shading = place.geometric;
     if (!scene_.objects[static_cast<std::size_t>(place.object)].smooth) return place;
     const double u = glm::dot(glm::cross(a - c, from_ - c), across) / glm::dot(across, across),
@@ -118,8 +124,8 @@ private:
   const scene::Scene& scene_;
   const scene::Bvh& bvh_;
   glm::dvec3 from_, way_;
-  std::vector<int> inside_;           ///< the dielectric objects around `from_`, the one entered last at the end
-  std::optional<std::uint32_t> left_; ///< the triangle that the look leaves
+  std::vector<int> inside_;                  ///< the dielectric objects around `from_`, the one entered last at the end
+  std::uint32_t left_ = scene::no_primitive; ///< that the look leaves
   double length_ = 0;
 };
 

@@ -209,7 +209,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
                                                   ? std::max(attenuators, 1)
                                                   : 0)},
       {"NEPHROID_SMOOTH", flag(has("smooth normals", leave_out.smooth_normals, counts.smooth > 0, counted(counts.smooth, "smooth object"),
-                                   "every object is faceted"))}};
+                                   "no mesh has smooth normals"))}};
   return omissions;
 }
 

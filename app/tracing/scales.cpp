@@ -12,8 +12,9 @@ double power_of_two_below(double value) { return std::isfinite(value) && value >
 scene::Sphere scene_bounds(const scene::Scene& scene)
 {
   glm::vec3 low{0}, high{0};
-  for (std::size_t i = 0; i < scene.geometry.positions.size(); ++i) {
-    const glm::vec3& p = scene.geometry.positions[i];
+  const std::vector<glm::vec3> points = extreme_points(scene.geometry);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::vec3& p = points[i];
     low = i == 0 ? p : glm::min(low, p);
     high = i == 0 ? p : glm::max(high, p);
   }

@@ -12,6 +12,15 @@ compute::Buffer<T> upload_triples(const compute::Context& context, const char* n
   return compute::Buffer<T>(context, name, std::span<const T>(reinterpret_cast<const T*>(items.data()), 3 * items.size()));
 }
 
+/// As kernels/tracing/surface.h reads them: of an ellipsoid, where in the tree's blocks it is.
+std::vector<glm::uvec3> corners_of_primitives(const scene::Mesh& mesh, const scene::Bvh& bvh)
+{
+  std::vector<glm::uvec3> corners = mesh.triangles;
+  for (std::size_t i = 0; i < mesh.ellipsoids.size(); ++i)
+    corners.emplace_back(bvh.ellipsoid_places[i], ~0u, mesh.ellipsoids[i].inwards ? 1u : 0u);
+  return corners;
+}
+
 } // namespace
 
 SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
@@ -22,8 +31,8 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   b.blocks = upload_vector(context, "tree triangles", bvh.blocks);
   b.positions = upload_triples<float>(context, "vertex positions", scene.geometry.positions);
   b.normals = upload_triples<float>(context, "vertex normals", scene.geometry.normals);
-  b.corners = upload_triples<std::uint32_t>(context, "triangle corners", scene.geometry.triangles);
-  b.object_of_triangle = upload_vector(context, "object of each triangle", scene.object_of_triangle);
+  b.corners = upload_triples<std::uint32_t>(context, "triangle corners", corners_of_primitives(scene.geometry, bvh));
+  b.object_of_primitive = upload_vector(context, "object of each primitive", scene.object_of_primitive);
   b.objects = upload_vector(context, "objects", tables.objects);
   b.materials = upload_vector(context, "materials", tables.materials);
   b.lights = upload_vector(context, "lights", tables.lights);

@@ -12,7 +12,7 @@ namespace nephroid::tracing {
 
 struct SceneBuffers {
   compute::Buffer<float> nodes, blocks, positions, normals;
-  compute::Buffer<std::uint32_t> corners, object_of_triangle;
+  compute::Buffer<std::uint32_t> corners, object_of_primitive;
   compute::Buffer<shared::DeviceObject> objects;
   compute::Buffer<shared::DeviceMaterial> materials;
   compute::Buffer<shared::DeviceLight> lights;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/targets.h"
 
+#include "scene/corners.h"
 #include "scene/ray.h"
 
 #include <algorithm>
@@ -44,14 +45,34 @@ std::pair<Piece, Piece> halves(const scene::Mesh& mesh, Triangles triangles)
   return {std::move(first), std::move(second)};
 }
 
-std::vector<Piece> one_piece_an_object(const scene::Scene& scene)
+/// Spheres about slices of an ellipsoid across its longest half axis a, as many as it is longer than thick. In lengths of a, a slice from x
+/// to x + w lies within w a / 2 of its middle along the axis, and within sqrt(1 - x'^2) of the next longest half axis off it, where x' is
+/// the slice's least distance from the centre.
+std::vector<scene::Sphere> slices(const scene::Ellipsoid& ellipsoid)
+{
+  std::array<glm::dvec3, 3> axes{ellipsoid.half_axes[0], ellipsoid.half_axes[1], ellipsoid.half_axes[2]};
+  std::ranges::sort(axes, [](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a) > glm::length(b); });
+  const double longest = glm::length(axes[0]), thick = glm::length(axes[1]);
+  const int count = std::clamp(static_cast<int>(longest / thick), 1, static_cast<int>(max_targets));
+  std::vector<scene::Sphere> spheres;
+  for (int i = 0; i < count; ++i) {
+    const double width = 2.0 / count, middle = -1 + (i + 0.5) * width, nearest = std::max(0.0, std::abs(middle) - width / 2);
+    const double radius = count == 1 ? longest : std::hypot(longest * width / 2, thick * std::sqrt(1 - nearest * nearest));
+    spheres.push_back({ellipsoid.centre + glm::vec3(middle * axes[0]), static_cast<float>(radius * (1 + 1e-6))});
+  }
+  return spheres;
+}
+
+std::vector<Piece> piece_by_object(const scene::Scene& scene)
 {
   std::vector<Piece> pieces;
   for (const scene::Object& object : scene.objects) {
     const scene::Material::Type type = material_of(scene, object).type;
-    if (object.triangle_count == 0 || type == scene::Material::Type::diffuse) continue;
-    const auto first = scene.geometry.triangles.begin() + object.first_triangle;
-    pieces.push_back({{first, first + object.triangle_count}, object.bounds});
+    if (is_empty(object) || type == scene::Material::Type::diffuse) continue;
+    const auto triangles = triangles_of(scene, object);
+    if (!triangles.empty()) pieces.push_back({{triangles.begin(), triangles.end()}, object.bounds});
+    for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(scene, object))
+      for (const scene::Sphere& sphere : slices(ellipsoid)) pieces.push_back({{}, sphere});
   }
   return pieces;
 }
@@ -67,7 +88,7 @@ std::vector<scene::Sphere> spheres_of(const std::vector<Piece>& pieces)
 
 scene::Sphere everything(const scene::Scene& scene)
 {
-  std::vector<glm::vec3> points = scene.geometry.positions;
+  std::vector<glm::vec3> points = extreme_points(scene.geometry);
   for (const scene::Light& light : scene.lights)
     if (light.type != preset::Light::Type::directional)
       for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
@@ -156,12 +177,16 @@ double mean_shadow(const std::vector<scene::Sphere>& spheres)
 
 std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
 {
-  std::vector<Piece> pieces = one_piece_an_object(scene);
+  std::vector<Piece> pieces = piece_by_object(scene);
   if (pieces.empty()) return {};
   if (pieces.size() > max_targets) {
     Triangles all;
     for (const Piece& piece : pieces) all.insert(all.end(), piece.triangles.begin(), piece.triangles.end());
-    return {enclosing_sphere(scene.geometry, all)};
+    std::vector<scene::Ellipsoid> ellipsoids;
+    for (const scene::Object& object : scene.objects)
+      if (material_of(scene, object).type != scene::Material::Type::diffuse)
+        for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) ellipsoids.push_back(ellipsoid);
+    return {enclosing_sphere(scene.geometry, all, ellipsoids)};
   }
   std::vector<scene::Sphere> best = spheres_of(pieces);
   double best_shadow = mean_shadow(best);

@@ -10,7 +10,7 @@ namespace nephroid::tracing {
 
 inline constexpr std::size_t max_targets = MAX_TARGETS;
 
-/// At most max_targets spheres that hold every triangle of every dielectric and mirror object. A bunny in one sphere lets two photons
+/// At most max_targets spheres that hold all of every dielectric and mirror object. A bunny in one sphere lets two photons
 /// of three pass beside it; an object is cut into pieces, each with its own sphere, as long as that makes the shadow of all spheres
 /// smaller. Empty where there is no such object.
 std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);

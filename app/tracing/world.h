@@ -35,7 +35,7 @@ struct World {
                                        {"corners", b.corners},
                                        {"positions", b.positions},
                                        {"normals", b.normals},
-                                       {"object_of_triangle", b.object_of_triangle},
+                                       {"object_of_primitive", b.object_of_primitive},
                                        {"objects", b.objects},
                                        {"materials", b.materials},
                                        {"lights", b.lights},

@@ -47,10 +47,11 @@ static inline bool stretched_place(const Path* path, const Surface* surface, flo
   return along * before > 0.0f && distance > 0.0f && all(isfinite(*place));
 }
 
-// Whether a point of a triangle's plane lies in the triangle.
+// Whether a point of a triangle's plane lies in the triangle; false of an ellipsoid's tangent plane.
 static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float3 position)
 {
   const uint3 corner = vload3(triangle, geometry->corners);
+  if (is_ellipsoid(corner)) return false;
   const float3 a = vload3(corner.x, geometry->positions);
   const float3 e1 = vload3(corner.y, geometry->positions) - a, e2 = vload3(corner.z, geometry->positions) - a;
   const float3 across = cross(e1, e2), from_a = position - a;

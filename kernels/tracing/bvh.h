@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest and any hit of a ray with triangles in a bounding volume hierarchy of 8 children a node (app/scene/bvh.cpp builds it).
-// One ray a work item; the 8 boxes of a node and the 4 triangles of a block are tested at once, as float8 and float4.
+// Closest and any hit of a ray with triangles and ellipsoids in a bounding volume hierarchy of 8 children a node (app/scene/bvh.cpp builds
+// it). One ray a work item; the 8 boxes of a node and the 4 triangles of a block are tested at once, as float8 and float4.
 //
 // Node, 64 floats: for each axis 8 lower, then 8 upper bounds (48 floats), then 8 children as ints, then 8 unused.
-//   A child >= 0 is a node; < 0 is a leaf: ~child = first block << 4 | number of blocks. A missing child has an empty box.
-// Block, 40 floats: x, y, z of the first vertex of 4 triangles, of the second, of the third (36 floats), then 4 triangle ids
+//   A child >= 0 is a node; < 0 is a leaf: ~child = first block << 4 | blocks of ellipsoids << 2 | blocks of triangles, which come
+//   first. A missing child has an empty box.
+// Block of triangles, 40 floats: x, y, z of the first vertex of 4 triangles, of the second, of the third (36 floats), then 4 triangle ids
 //   as ints. A missing triangle has its three vertices in one point.
+// Block of ellipsoids, 40 floats: 3 of 13 floats, its centre, the rows of the matrix that takes a way from there to the unit sphere, and
+//   the primitive's id as an int; NEPHROID_NO_PRIMITIVE: a missing one.
 //
 // What is exact. A vertex is moved into the ray's space by the same operations for every triangle it belongs to, and the sign of
 // an edge function is never wrong, only sometimes zero, and zero counts as inside: a ray cannot pass between two triangles that
 // share an edge (Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection"). Boxes are grown by more than every
-// rounding error of the two tests, so the tree loses no triangle. Of hits at the same distance the lowest triangle id wins:
+// rounding error of the tests, so the tree loses no primitive. Of hits at the same distance the lowest primitive id wins:
 // the answer depends on the mesh and the ray alone, not on how the tree was built.
 #ifndef NEPHROID_BVH_H
 #define NEPHROID_BVH_H
@@ -20,12 +23,23 @@
 #define NEPHROID_BVH_STACK 96
 #endif
 
+// 0: there are triangles only.
+#ifndef NEPHROID_ELLIPSOIDS
+#define NEPHROID_ELLIPSOIDS 1
+#endif
+
 #define NEPHROID_NO_PRIMITIVE 0xFFFFFFFFu
+
+// A tree that needs one entry is a single leaf: a ball over a floor.
+#define BVH_LEAF_ONLY (NEPHROID_ELLIPSOIDS && NEPHROID_BVH_STACK == 1)
 
 typedef struct {
   float t;        // distance in lengths of the direction; the t_max given where nothing was hit
-  float u, v;     // barycentric: the point is (1 - u - v) v0 + u v1 + v v2
-  uint primitive; // triangle id, or NEPHROID_NO_PRIMITIVE
+  float u, v;     // barycentric: the point is (1 - u - v) v0 + u v1 + v v2; of an ellipsoid: of its point (u, v, w) on the unit sphere
+  uint primitive; // of a triangle, or counted on from their number of an ellipsoid, or NEPHROID_NO_PRIMITIVE
+#if NEPHROID_ELLIPSOIDS
+  float w;
+#endif
 } Hit;
 
 // Bit i: lane i of a vector comparison is true. One instruction on x86 processors, 15 % of a traversal's time;
@@ -68,6 +82,9 @@ typedef struct {
   int kx, ky, kz;             // axes: kz is where the direction is largest
   float ox, oy, oz;           // the origin along kx, ky, kz
   float sx, sy, sz;           // shear that makes the direction (0, 0, 1)
+#if NEPHROID_ELLIPSOIDS
+  float3 origin, direction;
+#endif
 } BvhRay;
 
 static inline float bvh_axis(float3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
@@ -110,6 +127,10 @@ static inline BvhRay bvh_ray(float3 o, float3 d)
   r.ox = bvh_axis(o, r.kx);
   r.oy = bvh_axis(o, r.ky);
   r.oz = bvh_axis(o, r.kz);
+#if NEPHROID_ELLIPSOIDS
+  r.origin = o;
+  r.direction = d;
+#endif
   return r;
 }
 
@@ -153,14 +174,49 @@ static inline int bvh_triangles(global const float* block, const BvhRay* r, floa
   return inside & bvh_mask4((*t > t_min) & (*t <= t_max));
 }
 
-// The closest hit with t_min < t <= t_max, other than with triangle `skip`. No hit: t is t_max.
-static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
+#if NEPHROID_ELLIPSOIDS
+// What takes a way from the centre to the unit sphere.
+static inline float3 bvh_to_unit_sphere(global const float* ellipsoid, float3 way)
+{
+  return (float3)(dot(vload3(1, ellipsoid), way), dot(vload3(2, ellipsoid), way), dot(vload3(3, ellipsoid), way));
+}
+
+// An ellipsoid: true where it is hit within (t_min, t_max]; *unit becomes the place on the unit sphere. The ray is cut at its point nearest
+// to the centre first, so that neither the origin's distance nor a small half chord costs precision (Haines, Günther and
+// Akenine-Möller 2019, "Precision improvements for ray/sphere intersection"): with l the nearest point of the line to the unit sphere's
+// centre and e the direction there, |l + s e| = 1 at s = +-sqrt((1 - l^2) / e^2).
+// leaves: the ray starts on it, so one of its two hits is that; the other lies ahead where the middle between them does.
+static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r, float t_min, float t_max, bool leaves, float* t,
+                                 float3* unit)
+{
+  const float3 from_centre = r->origin - vload3(0, ellipsoid);
+  const float way = -dot(from_centre, r->direction) / dot(r->direction, r->direction);
+  const float3 nearest = bvh_to_unit_sphere(ellipsoid, fma((float3)(way), r->direction, from_centre));
+  const float3 e = bvh_to_unit_sphere(ellipsoid, r->direction);
+  const float inverse = 1.0f / dot(e, e);
+  const float rest = -dot(nearest, e) * inverse; // 0 in a sphere
+  const float3 l = fma((float3)(rest), e, nearest);
+  const float left = 1.0f - dot(l, l);
+  if (!(left > 0.0f)) return false;
+  const float half_chord = sqrt(left * inverse), middle = way + rest;
+  const bool first = !leaves && middle - half_chord > t_min;
+  const float s = first ? -half_chord : half_chord;
+  *t = middle + s;
+  *unit = fma((float3)(s), e, l);
+  return (!leaves || middle > 0.0f) && *t > t_min && *t <= t_max;
+}
+#endif
+
+// The closest hit with t_min < t <= t_max, other than with triangle `skip` or where the ray leaves ellipsoid `skip`. No hit: t is t_max.
+static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max,
+                              uint skip)
 {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
+  int at = root;
+#if !BVH_LEAF_ONLY
   int waiting[NEPHROID_BVH_STACK];
   float waiting_entry[NEPHROID_BVH_STACK];
   int top = 0;
-  int at = root;
   while (true) {
     while (at >= 0) {
       global const float* node = nodes + 64 * (size_t)at;
@@ -199,8 +255,9 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
         waiting_entry[place] = other_entry;
       } while (mask);
     }
+#endif
     {
-      const int first = ~at >> 4, count = ~at & 15;
+      const int first = ~at >> 4, count = ~at & 3;
       for (int i = 0; i < count; ++i) {
         global const float* block = blocks + 40 * (size_t)(first + i);
         float4 t4, u4, v4;
@@ -221,7 +278,26 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
           hit.primitive = id;
         } while (mask);
       }
+#if NEPHROID_ELLIPSOIDS
+      for (int i = 0; i < 3 * (~at >> 2 & 3); ++i) {
+        global const float* ellipsoid = blocks + 40 * (size_t)(first + count + i / 3) + 13 * (i % 3);
+        const uint id = ((global const uint*)ellipsoid)[12];
+        if (id == NEPHROID_NO_PRIMITIVE) break;
+        float t;
+        float3 unit;
+        if (!bvh_ellipsoid(ellipsoid, &ray, t_min, hit.t, id == skip, &t, &unit)) continue;
+        if (t == hit.t && id >= hit.primitive) continue;
+        hit.t = t;
+        hit.u = unit.x;
+        hit.v = unit.y;
+        hit.w = unit.z;
+        hit.primitive = id;
+      }
+#endif
     }
+#if BVH_LEAF_ONLY
+  return hit;
+#else
   next:
     do {
       if (top == 0) return hit;
@@ -229,11 +305,16 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
     } while (waiting_entry[top] > hit.t);
     at = waiting[top];
   }
+#endif
 }
 
-// Whether anything other than triangle `skip` is hit with t_min < t <= t_max.
+// Whether anything other than what bvh_closest skips is hit with t_min < t <= t_max.
 static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
 {
+#if BVH_LEAF_ONLY
+  {
+    const int at = root;
+#else
   int waiting[NEPHROID_BVH_STACK];
   int top = 0;
   waiting[top++] = root;
@@ -246,13 +327,24 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
       for (int mask = bvh_boxes(node, &ray, t_min, t_max, &entry); mask; mask &= mask - 1) waiting[top++] = children[bvh_lowest_bit(mask)];
       continue;
     }
-    const int first = ~at >> 4, count = ~at & 15;
+#endif
+    const int first = ~at >> 4, count = ~at & 3;
     for (int i = 0; i < count; ++i) {
       global const float* block = blocks + 40 * (size_t)(first + i);
       float4 t, u, v;
       for (int mask = bvh_triangles(block, &ray, t_min, t_max, &t, &u, &v); mask; mask &= mask - 1)
         if (((global const uint*)block)[36 + bvh_lowest_bit(mask)] != skip) return true;
     }
+#if NEPHROID_ELLIPSOIDS
+    for (int i = 0; i < 3 * (~at >> 2 & 3); ++i) {
+      global const float* ellipsoid = blocks + 40 * (size_t)(first + count + i / 3) + 13 * (i % 3);
+      const uint id = ((global const uint*)ellipsoid)[12];
+      float t;
+      float3 unit;
+      if (id == NEPHROID_NO_PRIMITIVE) break;
+      if (bvh_ellipsoid(ellipsoid, &ray, t_min, t_max, id == skip, &t, &unit)) return true;
+    }
+#endif
   }
   return false;
 }
@@ -262,7 +354,8 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
 #define BVH_FIRST_PART 0.75f
 #define BVH_SECOND_PART 0.5f
 
-// The closest hit with t_min < t <= t_max, other than with triangle `skip` (the one that the ray leaves; NEPHROID_NO_PRIMITIVE: none).
+// The closest hit with t_min < t <= t_max, other than with `skip`, the triangle or ellipsoid that the ray leaves (NEPHROID_NO_PRIMITIVE:
+// none); an ellipsoid is met again on its far side.
 // The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from afar is known
 // more exactly by a point of it near what it is sent to.
 static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_min,
@@ -279,12 +372,14 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
     origin = nearest;
     moved = way;
     t_min = BVH_SECOND_PART * way;
+    if (NEPHROID_ELLIPSOIDS) skip = NEPHROID_NO_PRIMITIVE; // it lies behind this part's beginning
     to = t_max;
   }
 }
 
-// Whether anything other than triangle `skip` is hit with 0 < t <= t_max.
-static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max, uint skip)
+// Whether anything other than `skip`, as above, is hit with 0 < t <= t_max.
+static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max,
+                           uint skip)
 {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);
@@ -295,6 +390,7 @@ static inline bool any_hit(global const float* nodes, global const float* blocks
     origin = nearest;
     moved = way;
     t_min = BVH_SECOND_PART * way;
+    if (NEPHROID_ELLIPSOIDS) skip = NEPHROID_NO_PRIMITIVE; // it lies behind this part's beginning
     to = t_max;
   }
 }

@@ -53,10 +53,21 @@ static inline float3 refracted_differential(float3 direction, float3 d_direction
 
 // N' of the interpolated normal N = m / |m|, m = n_0 + u (n_1 - n_0) + v (n_2 - n_0), as its place moves by P' in the triangle:
 //   P' = u' e_1 + v' e_2 gives u' and v', m' = u' (n_1 - n_0) + v' (n_2 - n_0), and N' = (m' - (m'.N) N) / |m|.
-// position: in the triangle. The normal is the one that points outwards.
-static inline float3 normal_differential(const Geometry* geometry, uint triangle, float3 position, float3 d_position)
+// Of an ellipsoid N = g / |g| with g = M^T M (P - centre), so g' = M^T M P' and N' = (g' - (g'.N) N) / |g|: P' / R in a sphere.
+// position: on the primitive. The normal is the one that points outwards.
+static inline float3 normal_differential(const Geometry* geometry, uint primitive, float3 position, float3 d_position)
 {
-  const uint3 corner = vload3(triangle, geometry->corners);
+  const uint3 corner = vload3(primitive, geometry->corners);
+#if NEPHROID_ELLIPSOIDS
+  if (is_ellipsoid(corner)) {
+    __global const float* ellipsoid = geometry->blocks + corner.x;
+    const float3 g = ellipsoid_gradient(ellipsoid, bvh_to_unit_sphere(ellipsoid, position - vload3(0, ellipsoid)));
+    const float3 d_g = ellipsoid_gradient(ellipsoid, bvh_to_unit_sphere(ellipsoid, d_position));
+    const float side = corner.z != 0u ? -1.0f : 1.0f, gradient = length(g);
+    const float3 along = g / gradient;
+    return side * (d_g - dot(d_g, along) * along) / gradient;
+  }
+#endif
   const float3 a = vload3(corner.x, geometry->positions);
   const float3 e1 = vload3(corner.y, geometry->positions) - a, e2 = vload3(corner.z, geometry->positions) - a;
   const float3 n0 = vload3(corner.x, geometry->normals);
@@ -79,16 +90,15 @@ static inline void differential_to_surface(Differential* d, float3 direction, fl
 }
 
 // Across a bend at that surface. direction: before it; n_i, n_t and their n': before and after an interface, all the same at a mirror.
-static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint triangle, const Surface* surface, bool smooth,
+static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive, const Surface* surface, bool smooth,
                                              float3 direction, const Bend* bend, float n_i, float n_t, float d_n_i, float d_n_t)
 {
 #if NEPHROID_DIFFERENTIALS
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float3 d_normal = (float3)(0.0f);
-#if NEPHROID_SMOOTH
-  if (smooth && any(bend->normal != side * surface->geometric))
-    d_normal = side * normal_differential(geometry, triangle, surface->position, d->position);
-#endif
+  const bool interpolated = NEPHROID_SMOOTH && smooth && any(bend->normal != side * surface->geometric);
+  if (interpolated || is_ellipsoid(vload3(primitive, geometry->corners)))
+    d_normal = side * normal_differential(geometry, primitive, surface->position, d->position);
   const float eta = n_i / n_t;
   d->direction = bend->transmitted
                      ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta, (d_n_i - eta * d_n_t) / n_t)

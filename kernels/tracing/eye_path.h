@@ -58,7 +58,7 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
 // Whether a path from the eye has met a diffuse surface at once: then all wavelengths went the same way.
 static inline bool is_unbent(const World* world, const DeviceCamera* camera, const Hit* first)
 {
-  const int object = (int)world->geometry.object_of_triangle[first->primitive];
+  const int object = (int)world->geometry.object_of_primitive[first->primitive];
   return material_of(world, object).type == MATERIAL_DIFFUSE && camera->inside.count == 0;
 }
 

@@ -11,30 +11,67 @@
 #define NEPHROID_SMOOTH 1
 #endif
 
-// The scene's triangles as kernels see them; every vertex has three floats a table.
+// The scene's triangles and ellipsoids as kernels see them; every vertex has three floats a table.
 typedef struct {
   __global const float* nodes;    // bvh.h
   __global const float* blocks;   // bvh.h
-  __global const uint* corners;   // three vertex numbers a triangle
+  __global const uint* corners;   // three vertex numbers a triangle; an ellipsoid: see is_ellipsoid
   __global const float* positions;
   __global const float* normals;  // vertex normals, unit
-  __global const uint* object_of_triangle;
+  __global const uint* object_of_primitive;
   int root;
 } Geometry;
 
 typedef struct {
   float3 position;
-  float3 geometric; // unit normal of the triangle, outwards
+  float3 geometric; // unit normal of the triangle or ellipsoid, outwards
   float3 shading;   // unit; equals geometric unless the object is smooth
-  float offset;     // how far a new ray starts from the triangle, along the geometric normal
+  float offset;     // how far a new ray starts from the surface, along the geometric normal
   int object;
 } Surface;
+
+// Of an ellipsoid the three numbers are: its first float in the blocks of the tree, this mark, whether its normals look inwards.
+static inline bool is_ellipsoid(uint3 corner) { return NEPHROID_ELLIPSOIDS && corner.y == NEPHROID_NO_PRIMITIVE; }
+
+#if NEPHROID_ELLIPSOIDS
+// M^T u with the rows m_i of the matrix M to the unit sphere: along the normal at the point that M takes to u.
+static inline float3 ellipsoid_gradient(__global const float* ellipsoid, float3 unit)
+{
+  return unit.x * vload3(1, ellipsoid) + unit.y * vload3(2, ellipsoid) + unit.z * vload3(3, ellipsoid);
+}
+
+// The rows are perpendicular to each other, so what M takes to u is the sum of u_i m_i / |m_i|^2.
+static inline float3 ellipsoid_point(__global const float* ellipsoid, float3 unit)
+{
+  const float3 x = vload3(1, ellipsoid), y = vload3(2, ellipsoid), z = vload3(3, ellipsoid);
+  const float3 along = unit / (float3)(dot(x, x), dot(y, y), dot(z, z));
+  return vload3(0, ellipsoid) + along.x * x + along.y * y + along.z * z;
+}
+
+// A ray that leaves an ellipsoid knows that it does (bvh_ellipsoid), so the offset need only be of the size of the position's rounding.
+static inline Surface ellipsoid_at(__global const float* ellipsoid, bool inwards, int object, float3 unit)
+{
+  Surface surface;
+  const float3 gradient = ellipsoid_gradient(ellipsoid, unit);
+  surface.position = ellipsoid_point(ellipsoid, unit);
+  surface.geometric = surface.shading = gradient * ((inwards ? -1.0f : 1.0f) / sqrt(dot(gradient, gradient)));
+  const float3 size = fabs(vload3(0, ellipsoid)) + fabs(surface.position);
+  surface.offset = 0x1p-23f * max(max(size.x, size.y), size.z);
+  surface.object = object;
+  return surface;
+}
+#endif
 
 // Barycentric interpolation rounds relative to the triangle's size; origin + t * direction would round relative to the distance.
 static inline Surface surface_at(const Geometry* geometry, __global const DeviceObject* objects, Hit hit)
 {
   Surface surface;
   const uint3 corner = vload3(hit.primitive, geometry->corners);
+#if NEPHROID_ELLIPSOIDS
+  if (is_ellipsoid(corner))
+    return ellipsoid_at(geometry->blocks + corner.x, corner.z != 0u, (int)geometry->object_of_primitive[hit.primitive],
+                        (float3)(hit.u, hit.v, hit.w));
+#endif
   const float3 a = vload3(corner.x, geometry->positions);
   const float3 ab = vload3(corner.y, geometry->positions) - a, ac = vload3(corner.z, geometry->positions) - a;
   surface.position = a + hit.u * ab + hit.v * ac;
@@ -43,7 +80,7 @@ static inline Surface surface_at(const Geometry* geometry, __global const Device
   // triangle's largest coordinate. Starting farther away than that keeps a new ray from meeting the surface that it leaves.
   const float3 size = max(fabs(a), max(fabs(ab), fabs(ac)));
   surface.offset = 0x1p-21f * max(max(size.x, size.y), size.z);
-  surface.object = (int)geometry->object_of_triangle[hit.primitive];
+  surface.object = (int)geometry->object_of_primitive[hit.primitive];
   surface.shading = surface.geometric;
 #if NEPHROID_SMOOTH
   if (objects[surface.object].smooth) {

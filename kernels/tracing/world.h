@@ -39,7 +39,7 @@ typedef struct {
 // The buffers that a World is made of, as kernel arguments.
 #define WORLD_ARGUMENTS                                                                                                                  \
   __global const float *nodes, __global const float *blocks, __global const uint *corners, __global const float *positions,             \
-      __global const float *normals, __global const uint *object_of_triangle, __global const DeviceObject *objects,                      \
+      __global const float *normals, __global const uint *object_of_primitive, __global const DeviceObject *objects,                      \
       __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_cluster,             \
       __global const float *index_of_wavelength, __global const float *wavelength_cdf, __global const float *index_slope,               \
       __global const float4 *stretch_place, __global const float4 *stretch_span, __global const float4 *reflected_xyz,                   \
@@ -47,7 +47,7 @@ typedef struct {
       __global const float4 *light_xyz, __global const float *reflectance, int reflector_count, DeviceScene scene
 #define WORLD                                                                                                                            \
   {                                                                                                                                      \
-    {nodes, blocks, corners, positions, normals, object_of_triangle, scene.root}, objects, materials, lights, index_of_cluster,          \
+    {nodes, blocks, corners, positions, normals, object_of_primitive, scene.root}, objects, materials, lights, index_of_cluster,          \
         index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                    \
         {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, reflector_count, scene                                \
   }

@@ -24,7 +24,7 @@ protected:
       "engine": "spectral", "unit": "m",
       "scene": {
         "materials": {"glass": {"type": "dielectric", "dispersion": "materials/N-SF66.yml"}, "the \"floor\"": {"type": "diffuse"}},
-        "objects": [{"name": "ball", "shape": {"type": "sphere", "segments": 32}, "material": "glass"},
+        "objects": [{"name": "ball", "shape": {"type": "sphere"}, "material": "glass"},
                     {"name": "floor", "shape": {"type": "quad", "size": [9, 1, 9]}, "material": "the \"floor\"",
                      "transform": {"translate": [0, -1, 0]}}],
         "lights": [{"type": "point", "spectrum": "D65", "position": [0, 3, 0]}]},

@@ -28,7 +28,7 @@ protected:
       "scene": {
         "camera": {"resolution": [8, 8]},
         "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "floor": {"type": "diffuse"}},
-        "objects": [{"shape": {"type": "sphere", "segments": 8}, "material": "glass"},
+        "objects": [{"shape": {"type": "sphere"}, "material": "glass"},
                     {"shape": {"type": "quad", "size": [9, 1, 9]}, "material": "floor", "transform": {"translate": [0, -1, 0]}}],
         "lights": [{"type": "point", "spectrum": "D65", "position": [0, 3, 0]}]},
       "stop": {"passes": 1}})");

@@ -76,7 +76,6 @@ preset::Preset nested()
   ball.radius = 1;
   bubble.radius = 0.4;
   drop.radius = 0.7;
-  ball.segments = bubble.segments = drop.segments = 96;
   p.scene.objects = {object("ball", ball, "glass", at({0, 1.2, 0})),
                      object("bubble", bubble, "air", at({0.2, 1.4, 0.1})),
                      object("drop", drop, "water", at({1.1, 1, 0.2})),

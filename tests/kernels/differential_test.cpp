@@ -174,21 +174,35 @@ preset::Preset prism()
   return p;
 }
 
-preset::Preset smooth_ball()
+preset::Preset ball_of_flint()
 {
   preset::Preset p = room();
-  p.scene.objects.push_back(object("ball", ball(1, 64), "flint"));
-  p.scene.objects.back().normals = preset::Object::Normals::smooth;
+  p.scene.objects.push_back(object("ball", ball(1), "flint"));
   return p;
 }
 
-preset::Preset faceted_ball()
+preset::Preset ellipsoid()
 {
-  preset::Preset p = room();
-  p.scene.objects.push_back(object("ball", ball(1, 24), "flint", at({0, 0, 0}, {10, 0, 0})));
-  p.scene.objects.back().normals = preset::Object::Normals::faceted;
+  preset::Preset p = ball_of_flint();
+  p.scene.objects.back().transform = at({0.1, 0, 0}, {10, 20, 30});
+  p.scene.objects.back().transform.scale = {1, 0.6, 1.3};
   return p;
 }
+
+preset::Preset rod(preset::Object::Normals normals)
+{
+  preset::Preset p = room();
+  preset::Shape cylinder;
+  cylinder.type = preset::Shape::Type::cylinder;
+  cylinder.radius = 1;
+  cylinder.height = 2;
+  cylinder.segments = 24;
+  p.scene.objects.push_back(object("rod", cylinder, "flint", at({0, 0, 0}, {10, 0, 20})));
+  p.scene.objects.back().normals = normals;
+  return p;
+}
+preset::Preset faceted_rod() { return rod(preset::Object::Normals::faceted); }
+preset::Preset smooth_rod() { return rod(preset::Object::Normals::smooth); }
 
 preset::Preset brilliant()
 {
@@ -205,18 +219,16 @@ preset::Preset mirrors()
 {
   preset::Preset p = prism();
   p.scene.objects.push_back(object("mirror", quad(8, 8), "mirror", at({0, -3, 0}, {10, 0, 5})));
-  p.scene.objects.push_back(object("ball mirror", ball(1.5, 64), "mirror", at({0, 3.5, 0})));
-  p.scene.objects.back().normals = preset::Object::Normals::smooth;
+  p.scene.objects.push_back(object("ball mirror", ball(1.5), "mirror", at({0, 3.5, 0})));
   return p;
 }
 
 /// Two curves: flint, a core of crown in it that takes its place, and a block of crown that overlaps both.
 preset::Preset nested()
 {
-  preset::Preset p = smooth_ball();
-  p.scene.objects.push_back(object("core", ball(0.5, 64), "crown", at({0.2, 0.1, 0})));
+  preset::Preset p = ball_of_flint();
+  p.scene.objects.push_back(object("core", ball(0.5), "crown", at({0.2, 0.1, 0})));
   p.scene.objects.back().priority = 1;
-  p.scene.objects.back().normals = preset::Object::Normals::smooth;
   p.scene.objects.push_back(object("block", box(1, 1, 1), "crown", at({0.8, 0, 0}, {20, 30, 0})));
   return p;
 }
@@ -301,8 +313,9 @@ TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Differential,
-                         testing::Values(DifferentialCase{"Prism", prism, 3}, DifferentialCase{"SmoothBall", smooth_ball, 3},
-                                         DifferentialCase{"FacetedBall", faceted_ball, 4}, DifferentialCase{"Brilliant", brilliant, 8},
+                         testing::Values(DifferentialCase{"Prism", prism, 3}, DifferentialCase{"Ball", ball_of_flint, 3},
+                                         DifferentialCase{"Ellipsoid", ellipsoid, 3}, DifferentialCase{"FacetedRod", faceted_rod, 4},
+                                         DifferentialCase{"SmoothRod", smooth_rod, 3}, DifferentialCase{"Brilliant", brilliant, 8},
                                          DifferentialCase{"Mirrors", mirrors, 5}, DifferentialCase{"NestedTwoCurves", nested, 6}),
                          [](const auto& scene) { return scene.param.name; });
 

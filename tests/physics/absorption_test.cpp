@@ -53,7 +53,6 @@ TEST(AbsorbingBall, TakesWhatItsChordsTake)
       material.dispersion.file = write_constant_nk(folder.path() / fmt::format("{}-{}.yml", n, tau), n, k);
       preset::Shape ball;
       ball.radius = radius;
-      ball.segments = 128;
       p.scene.materials["white"] = white();
       p.scene.objects = {object("ball", ball, "glass"), object("floor", quad(1, 1), "white", at({0, -1, 0}))}; // it catches some: no matter
       p.scene.objects[0].normals = preset::Object::Normals::smooth;

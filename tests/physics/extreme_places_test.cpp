@@ -7,7 +7,13 @@
 #include "spectral/energy.h"
 #include "spectral/engine.h"
 #include "tests/support/extremes.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
 
 using namespace nephroid;
 using namespace nephroid::test;
@@ -50,11 +56,21 @@ preset::Preset small_ball(double radius)
 {
   preset::Preset p = over_floor(1 << 14);
   p.scene.materials["glass"] = glass(1.5);
-  p.scene.objects.push_back(object("ball", sphere(radius, 256), "glass"));
-  p.scene.objects[1].normals = preset::Object::Normals::smooth;
+  p.scene.objects.push_back(object("ball", sphere(radius), "glass"));
   p.scene.lights.resize(1);
   p.scene.lights[0].position = {0.4, 1, 0.3};
   return p;
+}
+
+/// A ball of radius 1 of a million triangles, as OBJ.
+std::string write_ball(const std::filesystem::path& folder)
+{
+  const scene::Mesh mesh = sphere_mesh(1024, 512);
+  const std::filesystem::path file = folder / "ball.obj";
+  std::ofstream out(file);
+  for (const glm::vec3& p : mesh.positions) out << fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+  for (const glm::uvec3& t : mesh.triangles) out << fmt::format("f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1);
+  return file.string();
 }
 
 Outcome small_ball_is_like_any(double radius)
@@ -216,11 +232,15 @@ const std::vector<Extreme> extremes = {
        p.scene.lights[0].position = {0, 1, 0};
        return share(deposited(p), one_plate, photons);
      }},
-    {"MillionTriangles", "a ball of a million triangles", "that of 65 thousand",
+    {"MillionTriangles", "a ball of a million triangles", "the exact one",
      [] {
-       preset::Preset fine = small_ball(0.1), coarse = fine;
-       fine.scene.objects[1].shape->segments = 1024;
-       return near(deposited(fine), deposited(coarse), 1e-3);
+       const TemporaryFolder folder;
+       preset::Preset exact = small_ball(1), fine = exact;
+       fine.scene.objects[1].shape.reset();
+       fine.scene.objects[1].mesh = write_ball(folder.path());
+       fine.scene.objects[1].normals = preset::Object::Normals::smooth;
+       exact.scene.lights[0].position = fine.scene.lights[0].position = {0.4, 5, 0.3};
+       return near(deposited(fine), deposited(exact), 1e-3);
      }},
     {"InsideOut", "a closed mesh whose triangles look inwards", "turned round: Fresnel",
      [] {

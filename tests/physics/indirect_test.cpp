@@ -175,14 +175,14 @@ TEST(Indirect, ARedTileTintsAGreenScreen)
 }
 
 // A lit spot of a diffuse tile is a lamp: direct light of a small area lamp in its place, with the power that it reflects, is its
-// indirect light, at every place of a coarse ball with interpolated normals. So both layers mean the same by light on a shading normal.
+// indirect light, at every place of a coarse rod with interpolated normals. So both layers mean the same by light on a shading normal.
 TEST(Indirect, ALitTileIsALamp)
 {
   constexpr int pixels = 24, group = 4;
   constexpr double reflectance = 0.8, power = 4;
   preset::Preset p = indirect_only(pixels);
   p.scene.materials = {{"tile", white(reflectance)}, {"ball", white(0.6)}};
-  preset::Object thing = object("ball", check::ball(0.5, 10), "ball", at({0, 0, 0}, {20, 30, 0}));
+  preset::Object thing = object("ball", check::rod(0.5, 10), "ball", at({0, 0, 0}, {20, 30, 0}));
   thing.normals = preset::Object::Normals::smooth;
   p.scene.camera.position = {2.5, 0.3, 0.6};
   p.scene.camera.fov_deg = 26;
@@ -240,7 +240,7 @@ preset::Preset open_room(const std::filesystem::path& folder)
   p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::file;
   p.scene.materials["glass"].dispersion.file = write_constant_nk(folder / "glass.yml", 1.5, 2e-7);
   p.scene.objects = {object("floor", quad(4, 4), "wall", at({0, -1, 0})), object("back", quad(4, 4), "wall", at({0, 1, -2}, {90, 0, 0})),
-                     object("ball", check::ball(0.6, 64), "glass"), object("mirror", quad(1, 1), "mirror", at({1.5, 0, 0}, {0, 0, 80}))};
+                     object("ball", check::ball(0.6), "glass"), object("mirror", quad(1, 1), "mirror", at({1.5, 0, 0}, {0, 0, 80}))};
   preset::Light lamp, sun;
   lamp.position = {0.5, 2, 0.5};
   sun.type = preset::Light::Type::directional;

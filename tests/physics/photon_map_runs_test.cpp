@@ -27,7 +27,7 @@ preset::Preset glass_in_view(Estimator estimator, Effort effort = Effort::power)
   p.scene.materials["glass"].dispersion.type = preset::Dispersion::Type::file;
   p.scene.materials["glass"].dispersion.file = "N-SF66";
   p.unit = preset::Preset::Unit::cm;
-  p.scene.objects = {object("ball", check::ball(0.5, 32), "glass", at({0, 0.7, 0})), object("floor", quad(8, 8), "floor"),
+  p.scene.objects = {object("ball", check::ball(0.5), "glass", at({0, 0.7, 0})), object("floor", quad(8, 8), "floor"),
                      object("mirror", quad(3, 2), "mirror", at({0, 1, -1.2}, {90, 0, 0}))};
   preset::Light lamp;
   lamp.position = {1, 3, 1};

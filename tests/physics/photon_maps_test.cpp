@@ -181,7 +181,7 @@ preset::Preset ball_caustic()
   preset::Material& flint = p.scene.materials["glass"] = glass(1.7);
   flint.dispersion.type = preset::Dispersion::Type::cauchy;
   flint.dispersion.coefficients = {1.65, 0.03};
-  p.scene.objects = {object("ball", check::ball(0.5, 64), "glass", at({0, 1, 0})), object("floor", quad(20, 20), "floor")};
+  p.scene.objects = {object("ball", check::ball(0.5), "glass", at({0, 1, 0})), object("floor", quad(20, 20), "floor")};
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
   preset::Light light;
   light.position = {-3, 4, 0};

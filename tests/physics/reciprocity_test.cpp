@@ -139,7 +139,6 @@ TEST(Reciprocity, TheEyeSeesThroughGlassWhatPhotonsBring)
   base.scene.materials["glass"] = glass(1.6);
   preset::Shape ball;
   ball.radius = 0.5;
-  ball.segments = 128;
   const Patch patch{{0, 0.9, 0}, {0, -1, 0}, {0, 0, 1}, 0.5, 0.5, {180, 0, 0}};
   constexpr double side = 0.3;
   const preset::Vec3 receiver{0, -1, 0};

@@ -85,13 +85,13 @@ void expect_lit_as_directly(const std::string& what, const preset::Preset& with_
   record(what + ": light of the picture, over its truth", through.back().mean / truth, 1, tolerance(through.back()) / truth + bias);
 }
 
-TEST(SmoothReceiver, ACoarseBallIsLitAsDirectly)
+TEST(SmoothReceiver, ACoarseRodIsLitAsDirectly)
 {
-  const preset::Object ball = object("receiver", check::ball(0.5, 8), "white");
+  const preset::Object ball = object("receiver", check::rod(0.5, 8), "white");
   for (const bool relight : {false, true}) {
     preset::Preset with_plate = lit_receiver(ball, true), without = lit_receiver(ball, false);
     spectral::settings(with_plate).relight = spectral::settings(without).relight = relight;
-    expect_lit_as_directly(relight ? "smooth ball, layers" : "smooth ball", with_plate, without);
+    expect_lit_as_directly(relight ? "smooth rod, layers" : "smooth rod", with_plate, without);
   }
 }
 

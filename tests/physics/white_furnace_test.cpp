@@ -84,7 +84,6 @@ preset::Object ball(const std::string& name, double radius, const std::string& m
 {
   preset::Shape shape;
   shape.radius = radius;
-  shape.segments = 128;
   preset::Object o = object(name, shape, material, at({x, 0, 0}));
   o.normals = normals;
   o.priority = priority;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What kernels/tracing/differential.h is judged by: a path in double precision, written from the laws themselves, through a given sequence
-// of triangles, so that a slightly different index of refraction sends it through the same ones.
+// of triangles and ellipsoids, so that a slightly different index of refraction sends it through the same ones.
 #pragma once
 #include "scene/scene.h"
+#include "tests/support/ellipsoids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace nephroid::test {
 
 /// What a path meets, one after the other; the last is where it ends.
 struct Encounter {
-  std::uint32_t triangle = 0;
+  std::uint32_t triangle = 0; ///< or, beyond their number, an ellipsoid
   bool transmitted = false;
   bool shading = false; ///< bent about the interpolated normal: filled in by retrace where `decide` says so
 };
@@ -34,6 +35,14 @@ public:
     std::vector<int> inside;
     for (std::size_t i = 0; i < encounters.size(); ++i) {
       Encounter& e = encounters[i];
+      if (const std::size_t triangles = scene_.geometry.triangles.size(); e.triangle >= triangles) {
+        const scene::Ellipsoid& ellipsoid = scene_.geometry.ellipsoids[e.triangle - triangles];
+        ray.position += first_hit(ellipsoid, ray.position, ray.direction, 1e-6) * ray.direction;
+        const glm::dvec3 normal = normal_at(ellipsoid, ray.position);
+        if (i + 1 < encounters.size()) bend(ray, e, normal, normal, inside, n, decide);
+        states.push_back(ray);
+        continue;
+      }
       const glm::uvec3 c = scene_.geometry.triangles[e.triangle];
       const glm::dvec3 a = scene_.geometry.positions[c.x], e1 = glm::dvec3(scene_.geometry.positions[c.y]) - a,
                        e2 = glm::dvec3(scene_.geometry.positions[c.z]) - a;
@@ -46,7 +55,7 @@ public:
   }
 
 private:
-  const scene::Object& object_of(std::uint32_t triangle) const { return scene_.objects[scene_.object_of_triangle[triangle]]; }
+  const scene::Object& object_of(std::uint32_t triangle) const { return scene_.objects[scene_.object_of_primitive[triangle]]; }
 
   glm::dvec3 shading_normal(const glm::uvec3& corner, const glm::dvec3& from_a, const glm::dvec3& e1, const glm::dvec3& e2) const
   {
@@ -74,7 +83,7 @@ private:
     const scene::Object& object = object_of(e.triangle);
     const bool mirror = scene_.materials[static_cast<std::size_t>(object.material)].type == scene::Material::Type::mirror;
     std::vector<int> beyond = inside;
-    if (!mirror) cross(beyond, static_cast<int>(scene_.object_of_triangle[e.triangle]), side > 0);
+    if (!mirror) cross(beyond, static_cast<int>(scene_.object_of_primitive[e.triangle]), side > 0);
     const double n_i = index_in(inside, n), n_t = index_in(beyond, n);
     const auto bent = [&](const glm::dvec3& normal) {
       const double c = -glm::dot(ray.direction, normal), eta = n_i / n_t;

@@ -120,7 +120,7 @@ inline double largest_difference(const std::vector<float>& a, const std::vector<
   return difference / largest;
 }
 
-inline preset::Shape sphere(double radius, int segments = 64) { return check::ball(radius, segments); }
+inline preset::Shape sphere(double radius) { return check::ball(radius); }
 
 /// A white floor under a lamp of 1 W, seen from above; the picture is 1 m of it.
 inline preset::Preset lit_floor(int pixels = 16)

@@ -41,7 +41,6 @@ inline preset::Preset ball_scene()
   p.scene.materials["glass"].dispersion.coefficients = {1.5, 0.01};
   p.scene.materials["white"] = white(0.8);
   preset::Shape ball;
-  ball.segments = 32;
   p.scene.objects = {object("ball", ball, "glass", at({0, 1, 0})), object("floor", quad(8, 8), "white")};
   preset::Light light;
   light.position = {0.3, 2.5, 0.2};
@@ -77,7 +76,6 @@ inline preset::Preset spot_scene(double half_angle_deg)
 {
   preset::Preset p = ball_scene();
   preset::Shape beside;
-  beside.segments = 32;
   p.scene.objects.push_back(object("beside", beside, "glass", at({3, 1, 0})));
   p.scene.objects.back().transform.scale = {1.8, 1.8, 1.8};
   preset::Light& light = p.scene.lights[0];

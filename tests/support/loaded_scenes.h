@@ -2,6 +2,7 @@
 // What the tests of scene loading start from and ask of a loaded scene.
 #pragma once
 #include "preset/preset.h"
+#include "scene/corners.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/support/errors.h"
@@ -33,7 +34,6 @@ inline preset::Preset ball_over_floor()
   preset.scene.materials["wall"];
   preset.scene.objects = {shape_object("ball", preset::Shape::Type::sphere, "glass"),
                           shape_object("floor", preset::Shape::Type::quad, "wall")};
-  preset.scene.objects[0].shape->segments = 32;
   preset.scene.objects[1].transform.scale = {10, 1, 10};
   preset.scene.objects[1].transform.translate = {0, -1, 0};
   preset.scene.lights.resize(1);
@@ -47,24 +47,20 @@ inline std::string refusal(const preset::Preset& preset)
   return refusal_of([&] { scene::load_scene(preset); });
 }
 
-/// Lowest and highest corner of an object's triangles in the preset's coordinates.
+/// Lowest and highest corner of the box about an object in the preset's coordinates.
 inline std::pair<glm::dvec3, glm::dvec3> world_bounds(const scene::Scene& scene, std::size_t index)
 {
-  const scene::Object& object = scene.objects[index];
-  glm::dvec3 low(1e300), high(-1e300);
-  for (std::uint32_t t = object.first_triangle; t < object.first_triangle + object.triangle_count; ++t)
-    for (int i = 0; i < 3; ++i) {
-      const glm::dvec3 p = scene.origin + glm::dvec3(scene.geometry.positions[scene.geometry.triangles[t][i]]);
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-  return {low, high};
+  const scene::Bounds bounds = bounds_of(scene, scene.objects[index]);
+  return {scene.origin + bounds.low, scene.origin + bounds.high};
 }
 
-/// What an object's triangles enclose, in cubic units.
+/// What an object encloses, in cubic units.
 inline double volume(const scene::Scene& scene, std::size_t index)
 {
-  return scene::signed_volume(scene.geometry, scene.objects[index].first_triangle, scene.objects[index].triangle_count);
+  double sum = scene::signed_volume(scene.geometry, scene.objects[index].first_triangle, scene.objects[index].triangle_count);
+  for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(scene, scene.objects[index]))
+    sum += (ellipsoid.inwards ? -1 : 1) * volume_of(ellipsoid);
+  return sum;
 }
 
 inline void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6)

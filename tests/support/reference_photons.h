@@ -5,6 +5,7 @@
 #include "optics/fresnel.h"
 #include "scene/scene.h"
 #include "spectral/tables/run_tables.h"
+#include "tests/support/ellipsoids.h"
 #include "tests/support/tracer.h"
 
 #include <algorithm>
@@ -74,14 +75,26 @@ private:
   bool meet(const glm::dvec3& from, const glm::dvec3& direction, double t_max, Contact& contact) const
   {
     const Hit hit = tracer_.closest({.origin = glm::vec3(from), .t_max = static_cast<float>(t_max), .direction = glm::vec3(direction)});
-    if (hit.primitive == no_primitive) return false;
     const scene::Mesh& mesh = scene_.geometry;
+    double nearest = hit.primitive == no_primitive ? t_max : double(hit.t);
+    bool found = false;
+    for (std::uint32_t i = 0; i < mesh.ellipsoids.size(); ++i) {
+      const double t = first_hit(mesh.ellipsoids[i], from, direction);
+      if (!(t < nearest)) continue;
+      nearest = t;
+      found = true;
+      contact.position = from + t * direction;
+      contact.geometric = contact.shading = normal_at(mesh.ellipsoids[i], contact.position);
+      contact.triangle = static_cast<std::uint32_t>(mesh.triangles.size()) + i;
+      contact.object = static_cast<int>(scene_.object_of_primitive[contact.triangle]);
+    }
+    if (found || hit.primitive == no_primitive) return found;
     const glm::uvec3 c = mesh.triangles[hit.primitive];
     const glm::dvec3 a = mesh.positions[c.x], ab = glm::dvec3(mesh.positions[c.y]) - a, ac = glm::dvec3(mesh.positions[c.z]) - a;
     const double u = hit.u, v = hit.v;
     contact.position = a + u * ab + v * ac;
     contact.geometric = contact.shading = glm::normalize(glm::cross(ab, ac));
-    contact.object = static_cast<int>(scene_.object_of_triangle[hit.primitive]);
+    contact.object = static_cast<int>(scene_.object_of_primitive[hit.primitive]);
     contact.triangle = hit.primitive;
     if (scene_.objects[static_cast<std::size_t>(contact.object)].smooth)
       contact.shading = glm::normalize((1 - u - v) * glm::dvec3(mesh.normals[c.x]) + u * glm::dvec3(mesh.normals[c.y]) +

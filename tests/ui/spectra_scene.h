@@ -23,7 +23,7 @@ inline std::string room_text(const std::string& spectrum, const std::string& eff
       "unused": {"type": "diffuse", "reflectance": 1}
     },
     "objects": [
-      {"name": "ball", "shape": {"type": "sphere", "radius": 0.4, "segments": 32}, "material": "glass"},
+      {"name": "ball", "shape": {"type": "sphere", "radius": 0.4}, "material": "glass"},
       {"name": "room", "shape": {"type": "box", "size": [4, 4, 4], "inwards": true}, "material": "red"},
       {"name": "floor", "shape": {"type": "quad", "size": [4, 1, 4]}, "material": "floor", "transform": {"translate": [0, -1, 0]}}
     ],

@@ -4,6 +4,8 @@
 #include "optics/spectrum.h"
 #include "plan/plan.h"
 #include "scene/bvh.h"
+#include "scene/corners.h"
+#include "scene/ray.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "spectral/tables/run_tables.h"
@@ -47,6 +49,14 @@ void expect_enclosed(const scene::Scene& scene, const std::vector<scene::Sphere>
     }
     ASSERT_TRUE(enclosed) << "triangle " << t;
   }
+  for (const scene::Ellipsoid& e : ellipsoids_of(scene, thing))
+    for (int i = 0; i < 500; ++i) {
+      const glm::dvec3 u = scene::even_direction(i, 500);
+      const glm::dvec3 p =
+          glm::dvec3(e.centre) + u.x * glm::dvec3(e.half_axes[0]) + u.y * glm::dvec3(e.half_axes[1]) + u.z * glm::dvec3(e.half_axes[2]);
+      EXPECT_TRUE(
+          std::ranges::any_of(spheres, [&](const auto& s) { return glm::distance(p, glm::dvec3(s.centre)) <= s.radius * 1.000001; }));
+    }
 }
 
 TEST(Targets, ABallIsOneAndARodIsMany)

@@ -63,7 +63,7 @@ preset::Preset ball_in_a_room(const preset::Material& wall)
   p.source = "p.json";
   spectral::settings(p).effort = Effort::importance;
   p.scene.materials = {{"glass", glass(1.5)}, {"wall", wall}};
-  p.scene.objects = {object("room", room(6, 4, 5), "wall"), object("ball", check::ball(0.5, 64), "glass")};
+  p.scene.objects = {object("room", room(6, 4, 5), "wall"), object("ball", check::ball(0.5), "glass")};
   p.scene.lights = {lamp(illuminant("F2"))};
   return p;
 }
@@ -181,7 +181,7 @@ TEST(Importance, EveryCausticObjectCountsAlike)
 {
   preset::Preset p = ball_in_a_room(patch("blue"));
   p.scene.materials["closet"] = patch("yellow");
-  p.scene.objects.push_back(object("bead", check::ball(0.05, 16), "glass", at({2, 0, 0})));
+  p.scene.objects.push_back(object("bead", check::ball(0.05), "glass", at({2, 0, 0})));
   p.scene.objects.push_back(object("closet", room(0.2, 0.2, 0.2), "closet", at({2, 0, 0})));
   const WavelengthImportance result = importance_of(p);
   ASSERT_EQ(result.surroundings.size(), 2u);

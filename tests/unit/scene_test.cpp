@@ -29,11 +29,10 @@ TEST(Scene, HoldsWhatThePresetSays)
   const Scene scene = load_scene(ball_over_floor());
   EXPECT_THAT(scene.warnings, IsEmpty());
   ASSERT_EQ(scene.objects.size(), 2u);
-  EXPECT_EQ(scene.objects[0].triangle_count, 32u * 15 * 2);
-  EXPECT_EQ(scene.objects[1].first_triangle, scene.objects[0].triangle_count);
-  EXPECT_EQ(scene.geometry.triangles.size(), scene.object_of_triangle.size());
-  EXPECT_EQ(scene.object_of_triangle.front(), 0u);
-  EXPECT_EQ(scene.object_of_triangle.back(), 1u);
+  EXPECT_EQ(scene.objects[0].triangle_count, 0u);
+  EXPECT_EQ(scene.objects[0].ellipsoid_count, 1u);
+  EXPECT_EQ(scene.objects[1].first_triangle, 0u);
+  EXPECT_THAT(scene.object_of_primitive, ElementsAre(1, 1, 0)); // the floor's triangles first
   EXPECT_EQ(scene.geometry.normals.size(), scene.geometry.positions.size());
   EXPECT_TRUE(scene.objects[0].closed);
   EXPECT_FALSE(scene.objects[1].closed);
@@ -183,10 +182,54 @@ TEST(Scene, ClosedDielectricsAreTurnedOutwards)
   preset.scene.objects[0].shape->inwards = true;
   const Scene turned = load_scene(preset);
   EXPECT_GT(volume(turned, 0), 0);
-  EXPECT_THAT(turned.warnings, ElementsAre("object 'ball': is inside out; its triangles are turned round"));
-  EXPECT_GT(glm::dot(turned.geometry.normals[5], turned.geometry.positions[5]), 0);
+  EXPECT_THAT(turned.warnings, ElementsAre("object 'ball': is inside out; its surface is turned round"));
+  EXPECT_GT(normal_at(turned.geometry.ellipsoids[0], {0, 1, 0}).y, 0);
   preset.scene.objects[0].material = "wall"; // a room may face inwards
   EXPECT_LT(volume(load_scene(preset), 0), 0);
+}
+
+// Turned about any axis and mirrored, a sphere stays the same one; a scale that differs by axis makes an ellipsoid, whose half axes
+// turn with it.
+TEST(Scene, SpheresAndWhatAScaleMakesOfThem)
+{
+  preset::Preset preset = ball_over_floor();
+  preset.scene.objects[0].transform.scale = {-3, 3, 3};
+  preset.scene.objects[0].transform.rotate_deg = {10, 20, 30};
+  preset.scene.objects[0].transform.translate = {5, 6, 7};
+  const Scene sphere = load_scene(preset);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(sphere.geometry.ellipsoids[0].half_axes[static_cast<std::size_t>(k)][k], 1.5f);
+  EXPECT_FALSE(sphere.geometry.ellipsoids[0].inwards);
+  EXPECT_NEAR(volume(sphere, 0), 4.0 / 3 * M_PI * 1.5 * 1.5 * 1.5, 1e-5);
+  const auto [low, high] = world_bounds(sphere, 0);
+  test::expect_near(low, {3.5, 4.5, 5.5});
+  test::expect_near(high, {6.5, 7.5, 8.5});
+
+  preset.scene.objects[0].transform.scale = {2, 4, 6};
+  preset.scene.objects[0].transform.rotate_deg = {0, 0, 30};
+  const Scene scene = load_scene(preset);
+  const Ellipsoid& ellipsoid = scene.geometry.ellipsoids[0];
+  EXPECT_NEAR(volume(scene, 0), 4.0 / 3 * M_PI * 1 * 2 * 3, 1e-5);
+  // (x / 1)^2 + (y / 2)^2 = 1, turned by 30 degrees, reaches to sqrt((1 cos 30)^2 + (2 sin 30)^2) along x.
+  test::expect_near(world_bounds(scene, 0).second - glm::dvec3(5, 6, 7), {std::sqrt(0.75 + 1), std::sqrt(0.25 + 3), 3});
+  const glm::dvec3 tip = glm::dvec3(ellipsoid.centre) + glm::dvec3(std::cos(M_PI / 6), std::sin(M_PI / 6), 0);
+  test::expect_near(normal_at(ellipsoid, tip), {std::cos(M_PI / 6), std::sin(M_PI / 6), 0});
+  EXPECT_TRUE(contains(ellipsoid, glm::dvec3(ellipsoid.centre) + 0.999 * (tip - glm::dvec3(ellipsoid.centre))));
+  EXPECT_FALSE(contains(ellipsoid, glm::dvec3(ellipsoid.centre) + 1.001 * (tip - glm::dvec3(ellipsoid.centre))));
+}
+
+// On a floor a ball meets one point of it, and nothing is moved; two balls in one place are parted.
+TEST(Scene, BallsTouchInAPoint)
+{
+  preset::Preset preset = ball_over_floor();
+  preset.scene.objects[0].transform.translate = {0, -0.5, 0};
+  const Scene standing = load_scene(preset);
+  EXPECT_THAT(standing.warnings, IsEmpty());
+  EXPECT_EQ(standing.geometry.ellipsoids[0].half_axes[0].x, 0.5f);
+  preset.scene.objects.push_back(preset.scene.objects[0]);
+  preset.scene.objects.back().name = "twin";
+  const Scene twins = load_scene(preset);
+  EXPECT_THAT(twins.warnings, ElementsAre(HasSubstr("object 'ball' touches object 'twin': a gap of")));
+  EXPECT_LT(twins.geometry.ellipsoids[0].half_axes[0].x, 0.5f);
 }
 
 TEST(Scene, WarnsOfOpenDielectrics)

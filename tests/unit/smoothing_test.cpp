@@ -216,7 +216,6 @@ TEST(Smoothing, knows_what_a_window_shows)
 TEST(Smoothing, spreads_within_curved_glass)
 {
   preset::Object ball = test::shape_object("ball", preset::Shape::Type::sphere, "glass");
-  ball.shape->segments = 64;
   ball.transform.scale = {8, 8, 8};
   ball.transform.translate = {0, -4, 0};
   const scene::Scene scene = two_walls(ball, -20);

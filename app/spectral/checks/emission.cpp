@@ -31,7 +31,7 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   preset::Preset p = empty_preset();
   p.scene.materials["glass"] = glass(1.5);
   p.scene.materials["white"] = white();
-  p.scene.objects = {object("ball", ball(1, 16), "glass", at({0, 0, 0})), object("wall", quad(20, 20), "white", at({0, -2, 0}))};
+  p.scene.objects = {object("ball", ball(1), "glass", at({0, 0, 0})), object("wall", quad(20, 20), "white", at({0, -2, 0}))};
   p.scene.lights = {light};
   spectral::RunTables tables = device_tables(p);
   shared::DeviceLight& on_host = tables.lights.at(0);

@@ -106,7 +106,7 @@ Result through_nothing(const compute::Context& context, std::uint64_t seed)
 {
   preset::Preset p = lit_floor(16, 0.5, seed);
   p.scene.materials["nothing"] = glass(1);
-  p.scene.objects.push_back(object("ball", ball(0.3, 32), "nothing", at({0.1, 1, -0.2})));
+  p.scene.objects.push_back(object("ball", ball(0.3), "nothing", at({0.1, 1, -0.2})));
   spectral::settings(p).photons_per_pass = 1 << 19;
   const double photon_w = p.scene.lights[0].power_w / spectral::settings(p).photons_per_pass, pixel_area = 1.0 / (16 * 16);
   const Distance d = distance(render(p, context), "caustic", p, [&](const PixelTruth& t) { return t.irradiance * photon_w / pixel_area; });
@@ -162,7 +162,7 @@ preset::Preset everything(std::uint64_t seed)
   preset::Shape diamond;
   diamond.type = preset::Shape::Type::brilliant;
   diamond.radius = 1;
-  p.scene.objects = {object("ball", ball(1, 64), "glass", at({-1.5, 1.5, 0})),
+  p.scene.objects = {object("ball", ball(1), "glass", at({-1.5, 1.5, 0})),
                      object("diamond", diamond, "glass", at({1.5, 1.5, 0}, {20, 0, 15})),
                      object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})), object("floor", quad(12, 12), "white")};
   p.scene.objects[0].normals = preset::Object::Normals::smooth;

@@ -156,7 +156,7 @@ Result ball_lens(const compute::Context& context, std::uint64_t seed)
   const Screen screen{screen_z, -3.2 * radius, 0.2 * radius, 6 * radius, 6 * radius};
   screen.put_into(p);
   p.scene.materials["glass"] = glass(n);
-  p.scene.objects.push_back(object("ball", ball(radius, 256), "glass"));
+  p.scene.objects.push_back(object("ball", ball(radius), "glass"));
   p.scene.objects.back().normals = preset::Object::Normals::smooth;
   spectral::settings(p).photons_per_pass = 1 << 14;
   double worst = 0;

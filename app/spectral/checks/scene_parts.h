@@ -86,12 +86,22 @@ inline preset::Transform at(preset::Vec3 translate, preset::Vec3 rotate_deg = {0
   return t;
 }
 
-inline preset::Shape ball(double radius, int segments = 256)
+/// A cylinder as high as wide: the one shape with interpolated normals.
+inline preset::Shape rod(double radius, int segments)
+{
+  preset::Shape s;
+  s.type = preset::Shape::Type::cylinder;
+  s.radius = radius;
+  s.height = 2 * radius;
+  s.segments = segments;
+  return s;
+}
+
+inline preset::Shape ball(double radius)
 {
   preset::Shape s;
   s.type = preset::Shape::Type::sphere;
   s.radius = radius;
-  s.segments = segments;
   return s;
 }
 

@@ -29,7 +29,7 @@ tracing::WavelengthTables tables()
   p.scene.materials["glass"] = dispersive;
   p.scene.materials["patch"].reflectance.type = preset::Reflectance::Type::patch;
   p.scene.materials["patch"].reflectance.patch = "orange";
-  p.scene.objects = {object("ball", ball(1, 16), "glass", at({0, 2, 0})), object("floor", quad(4, 4), "patch")};
+  p.scene.objects = {object("ball", ball(1), "glass", at({0, 2, 0})), object("floor", quad(4, 4), "patch")};
   p.scene.lights.resize(1);
   p.scene.lights[0].position = {0, 5, 0};
   return device_tables(p).wavelengths;

@@ -33,7 +33,7 @@ Spectrum reflectance_of(const scene::Material& material)
   return m;
 }
 
-/// The corners of the box about an object's triangles, and its centre. The corners are drawn in by a thousandth: an object that stands on
+/// The corners of the box about an object, and its centre. The corners are drawn in by a thousandth: an object that stands on
 /// a floor has corners of its box in the floor, and they are to see it.
 std::array<glm::dvec3, 9> viewpoints(const scene::Scene& scene, const scene::Object& object)
 {
@@ -56,7 +56,7 @@ std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& 
   std::vector<bool> passed(scene.objects.size());
   for (std::size_t i = 0; i < passed.size(); ++i) passed[i] = material_of(scene, scene.objects[i]).type == Type::dielectric;
   for (const int i : throwers) passed[static_cast<std::size_t>(i)] = true;
-  const auto counts = [&](std::uint32_t triangle) { return !passed[scene.object_of_triangle[triangle]]; };
+  const auto counts = [&](std::uint32_t primitive) { return !passed[scene.object_of_primitive[primitive]]; };
 
   const auto points = static_cast<int>(9 * throwers.size());
   const int rays = std::max(rays_per_scene / points, least_rays_per_point);
@@ -67,7 +67,7 @@ std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& 
       for (int i = 0; i < rays; ++i) {
         // Each point's directions are turned against the others', so that their errors differ.
         const auto hit = scene::closest_hit(bvh, from, scene::even_direction(i, rays, double(point) / points), counts);
-        if (hit) ++hits[static_cast<std::size_t>(scene.objects[scene.object_of_triangle[hit->triangle]].material)];
+        if (hit) ++hits[static_cast<std::size_t>(scene.objects[scene.object_of_primitive[hit->primitive]].material)];
       }
       ++point;
     }
@@ -81,8 +81,7 @@ std::vector<double> used_materials(const scene::Scene& scene)
 {
   std::vector<double> used(scene.materials.size(), 0);
   for (const scene::Object& object : scene.objects)
-    if (object.triangle_count > 0 && material_of(scene, object).type != Type::dielectric)
-      used[static_cast<std::size_t>(object.material)] = 1;
+    if (!is_empty(object) && material_of(scene, object).type != Type::dielectric) used[static_cast<std::size_t>(object.material)] = 1;
   return used;
 }
 
@@ -192,7 +191,7 @@ std::vector<int> caustic_objects(const scene::Scene& scene)
   std::vector<int> objects;
   for (const Type type : {Type::dielectric, Type::mirror}) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
-      if (scene.objects[i].triangle_count > 0 && material_of(scene, scene.objects[i]).type == type) objects.push_back(static_cast<int>(i));
+      if (!is_empty(scene.objects[i]) && material_of(scene, scene.objects[i]).type == type) objects.push_back(static_cast<int>(i));
     if (!objects.empty()) break;
   }
   return objects;
