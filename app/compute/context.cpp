@@ -89,10 +89,7 @@ Context Context::open(const DeviceOptions& options)
   return context;
 }
 
-void tell_of_compiling(const Context& context, std::function<void()> tell)
-{
-  context.state->tell_of_compiling = std::move(tell);
-}
+void tell_of_compiling(const Context& context, std::function<void()> tell) { context.state->tell_of_compiling = std::move(tell); }
 
 const DeviceInfo& Context::device() const { return state->info; }
 

@@ -106,7 +106,8 @@ void write_run(const std::filesystem::path& folder, const Prepared& prepared, co
   std::filesystem::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message());
   write_picture(folder / "image", prepared.preset, device, *snapshot.picture);
-  for (const job::NamedPicture& further : snapshot.pictures) write_picture(folder / further.name, prepared.preset, device, *further.picture);
+  for (const job::NamedPicture& further : snapshot.pictures)
+    write_picture(folder / further.name, prepared.preset, device, *further.picture);
   for (const job::Curve& curve : snapshot.curves) write_file_whole(folder / (curve.name + ".csv"), to_csv(curve));
   for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / file.name, *file.bytes);
   if (snapshot.history) write_history(folder, *snapshot.history);

@@ -152,7 +152,8 @@ static inline int bvh_triangles(global const float* block, const BvhRay* r, floa
 }
 
 // The closest hit with t_min < t <= t_max, other than with triangle `skip`. No hit: t is t_max.
-static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
+static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max,
+                              uint skip)
 {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
   int waiting[NEPHROID_BVH_STACK];
@@ -282,7 +283,8 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
 }
 
 // Whether anything other than triangle `skip` is hit with 0 < t <= t_max.
-static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max, uint skip)
+static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max,
+                           uint skip)
 {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);
