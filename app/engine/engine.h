@@ -34,6 +34,9 @@ struct Engine {
 
   /// The engine's closed forms through its real kernels, for `nephroid check`.
   std::vector<check::Check> (*checks)();
+
+  /// Whether a job of `before` may take on `now` (job::Job::adopt). Null: never.
+  bool (*adoptable)(const preset::Preset& before, const preset::Preset& now) = nullptr;
 };
 
 /// Every engine there is: app/engines.cpp, a line each. The first is what a preset without "engine" has.

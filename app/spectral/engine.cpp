@@ -2,6 +2,7 @@
 #include "spectral/engine.h"
 
 #include "spectral/checks/subjects.h"
+#include "spectral/relight/only_relit.h"
 
 #include <algorithm>
 
@@ -56,6 +57,7 @@ constinit const engine::Engine engine{
     .job = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
               const compute::Context& context) { return make_job(preset, scene, bvh, dynamic_cast<const RunPlan&>(plan), context); },
     .reference = reference,
-    .checks = closed_forms};
+    .checks = closed_forms,
+    .adoptable = only_relit};
 
 } // namespace nephroid::spectral

@@ -2,8 +2,8 @@
 // Holding runs against each other in the window: pinned runs, flip and difference in the View.
 #include "measure/history_file.h"
 #include "ui/error/panel.h"
-#include "ui/shell/actions.h"
 #include "ui/view/shown_picture.h"
+#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ protected:
   }
   std::array<int, 3> first_texel() const
   {
-    const auto pixels = workspace.view().texture().pixels();
+    const auto pixels = workspace.panel<ui::ViewPanel>().texture().pixels();
     return {pixels[0], pixels[1], pixels[2]};
   }
 };
@@ -50,35 +50,35 @@ TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
   open();
   finish();
   press(ImGuiKey_P);
-  ASSERT_THAT(workbench.pinned().all(), SizeIs(1));
-  const PinnedRun pinned = workbench.pinned().all()[0];
+  ASSERT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
+  const PinnedRun pinned = workbench.comparing().pinned().all()[0];
   EXPECT_EQ(pinned.name, "Test");
   EXPECT_EQ(pinned.history->rows.size(), 20u);
   EXPECT_EQ(pinned.picture->rgb[2], 4);
   runs.history = [](int steps) { return falling_history(steps, 0.005); }; // half the error
   change_camera(2);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
   finish();
-  EXPECT_THAT(workspace.error().contents().runs, SizeIs(2));
-  EXPECT_EQ(workbench.pinned().all()[0].history, pinned.history);
-  EXPECT_EQ(workbench.pinned().all()[0].picture->rgb[2], 4);
+  EXPECT_THAT(workspace.panel<ui::ErrorPanel>().contents().runs, SizeIs(2));
+  EXPECT_EQ(workbench.comparing().pinned().all()[0].history, pinned.history);
+  EXPECT_EQ(workbench.comparing().pinned().all()[0].picture->rgb[2], 4);
   press(ImGuiKey_P);
-  ASSERT_THAT(workbench.pinned().all(), SizeIs(2));
-  EXPECT_EQ(workbench.pinned().all()[1].name, "Test: camera");
-  EXPECT_NE(workbench.pinned().all()[1].colour, pinned.colour);
+  ASSERT_THAT(workbench.comparing().pinned().all(), SizeIs(2));
+  EXPECT_EQ(workbench.comparing().pinned().all()[1].name, "Test: camera");
+  EXPECT_NE(workbench.comparing().pinned().all()[1].colour, pinned.colour);
   // Hidden, the first is no longer in the plot; the second is.
   workbench.apply({command::ChangePin{pinned.id, "far", pinned.colour, false}});
   frame();
-  EXPECT_EQ(workbench.pinned().find(pinned.id)->name, "far");
-  EXPECT_THAT(workspace.error().contents().runs, SizeIs(2));
-  EXPECT_EQ(workspace.error().contents().runs[0].name, "Test: camera");
+  EXPECT_EQ(workbench.comparing().pinned().find(pinned.id)->name, "far");
+  EXPECT_THAT(workspace.panel<ui::ErrorPanel>().contents().runs, SizeIs(2));
+  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().runs[0].name, "Test: camera");
   workbench.apply({command::CompareWith{pinned.id}, command::Unpin{pinned.id}});
   frame();
-  EXPECT_EQ(workbench.comparison().pin, 0u);
-  EXPECT_THAT(workbench.pinned().all(), SizeIs(1));
+  EXPECT_EQ(workbench.comparing().comparison().pin, 0u);
+  EXPECT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
   EXPECT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
   frames(2);
-  EXPECT_THAT(workbench.pinned().all(), SizeIs(1)) << "another preset may be compared with it";
+  EXPECT_THAT(workbench.comparing().pinned().all(), SizeIs(1)) << "another preset may be compared with it";
 }
 
 TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
@@ -88,16 +88,16 @@ TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
   finish();
   folder.write("history.csv", measure::to_csv(*falling_history(7)));
   workbench.apply({command::Open{folder.path().string()}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.pinned().all().size() == 1; }));
-  EXPECT_EQ(workbench.pinned().all()[0].history->rows.size(), 7u);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().pinned().all().size() == 1; }));
+  EXPECT_EQ(workbench.comparing().pinned().all()[0].history->rows.size(), 7u);
   EXPECT_EQ(workbench.preset()->name, "Test") << "the preset stays";
   frames(2);
-  EXPECT_THAT(workspace.error().contents().runs, SizeIs(2));
+  EXPECT_THAT(workspace.panel<ui::ErrorPanel>().contents().runs, SizeIs(2));
   workbench.apply({command::Open{folder.write("cut.csv", "seconds,wall_seconds,step,work,lab_mean\n1,1,1,1")}});
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.messages().size() == 1; }));
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("cut.csv:2"));
   EXPECT_EQ(workbench.messages()[0].kind, ErrorKind::bad_input);
-  EXPECT_THAT(workbench.pinned().all(), SizeIs(1));
+  EXPECT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
 }
 
 TEST_F(CompareTest, ADialogOpensAHistory)
@@ -112,8 +112,8 @@ TEST_F(CompareTest, ADialogOpensAHistory)
   ImGui::GetIO().AddInputCharactersUTF8(file.c_str());
   frames(2);
   press(ImGuiKey_Enter);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.pinned().all().size() == 1; }));
-  EXPECT_EQ(workbench.pinned().all()[0].name, "old");
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().pinned().all().size() == 1; }));
+  EXPECT_EQ(workbench.comparing().pinned().all()[0].name, "old");
   EXPECT_EQ(workbench.question(), Question::none);
 }
 
@@ -129,10 +129,10 @@ TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
   EXPECT_TRUE(imgui.pushed<command::Flip>()->on);
   frames(3);
   EXPECT_EQ(first_texel(), (std::array{255, 0, 0}));
-  EXPECT_EQ(workspace.view().shown().label, "Reference");
+  EXPECT_EQ(workspace.panel<ui::ViewPanel>().shown().label, "Reference");
   imgui.key(ImGuiKey_R, false);
   frames(2);
-  EXPECT_FALSE(workbench.comparison().flip);
+  EXPECT_FALSE(workbench.comparing().comparison().flip);
   EXPECT_EQ(first_texel(), (std::array{0, 0, 255}));
   EXPECT_EQ(runs.made, 1) << "no new run";
 }
@@ -149,8 +149,8 @@ TEST_F(CompareTest, KeysOfOneFrameDoNotUndoEachOther)
   frame();
   imgui.key(ImGuiKey_D, false);
   frame();
-  EXPECT_FALSE(workbench.comparison().flip);
-  EXPECT_TRUE(workbench.comparison().difference);
+  EXPECT_FALSE(workbench.comparing().comparison().flip);
+  EXPECT_TRUE(workbench.comparing().comparison().difference);
 }
 
 TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack)
@@ -160,10 +160,10 @@ TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack)
   finish();
   imgui.key(ImGuiKey_R, true);
   frames(2);
-  EXPECT_TRUE(workbench.comparison().flip);
+  EXPECT_TRUE(workbench.comparing().comparison().flip);
   ImGui::GetIO().AddFocusEvent(false);
   frames(2);
-  EXPECT_FALSE(workbench.comparison().flip);
+  EXPECT_FALSE(workbench.comparing().comparison().flip);
 }
 
 TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
@@ -172,34 +172,34 @@ TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
   finish();
   press(ImGuiKey_P);
   change_camera(0);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
   finish();
   EXPECT_EQ(first_texel(), (std::array{0, 0, 0}));
   press(ImGuiKey_N); // from the reference to the pinned run
-  EXPECT_EQ(workbench.comparison().pin, workbench.pinned().all()[0].id);
+  EXPECT_EQ(workbench.comparing().comparison().pin, workbench.comparing().pinned().all()[0].id);
   imgui.key(ImGuiKey_R, true);
   frames(2);
   EXPECT_EQ(first_texel(), (std::array{0, 0, 255}));
-  EXPECT_EQ(workspace.view().shown().label, "\"Test\"");
+  EXPECT_EQ(workspace.panel<ui::ViewPanel>().shown().label, "\"Test\"");
   imgui.key(ImGuiKey_R, false);
   frame();
   press(ImGuiKey_N);
-  EXPECT_EQ(workbench.comparison().pin, 0u) << "round again";
+  EXPECT_EQ(workbench.comparing().comparison().pin, 0u) << "round again";
 }
 
 TEST_F(CompareTest, WithoutAReferenceTheActionsSayWhy)
 {
   open();
   finish();
-  EXPECT_FALSE(action("Flip").enabled(workbench));
-  EXPECT_FALSE(action("Difference").enabled(workbench));
-  EXPECT_THAT(action("Flip").why_not(workbench), HasSubstr("the preset has no reference"));
+  EXPECT_FALSE(action("Flip").enabled(context()));
+  EXPECT_FALSE(action("Difference").enabled(context()));
+  EXPECT_THAT(action("Flip").why_not(context()), HasSubstr("the preset has no reference"));
   press(ImGuiKey_R);
   frame();
   ASSERT_THAT(workbench.messages(), SizeIs(1));
   EXPECT_FALSE(workbench.messages()[0].error);
   EXPECT_THAT(workbench.messages()[0].line, StartsWith("Flip: the preset has no reference"));
-  EXPECT_FALSE(workbench.comparison().flip);
+  EXPECT_FALSE(workbench.comparing().comparison().flip);
 }
 
 TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
@@ -209,22 +209,25 @@ TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
   finish();
   press(ImGuiKey_D);
   workbench.apply({command::ShowDifference{true, measure::DifferenceMetric::absolute}});
-  ASSERT_TRUE(
-      eventually([&] { frame(); }, [&] { return workspace.view().shown().owner == workbench.difference() && workbench.difference(); }));
-  const auto map = workbench.difference();
+  ASSERT_TRUE(eventually([&] { frame(); },
+                         [&] {
+                           return workspace.panel<ui::ViewPanel>().shown().owner == workbench.comparing().difference() &&
+                                  workbench.comparing().difference();
+                         }));
+  const auto map = workbench.comparing().difference();
   ASSERT_NE(map->values, nullptr);
   EXPECT_NEAR(map->values->at(0), 1.0 / 3, 1e-6) << "(|0| + |0| + |4 - 3|) / 3";
   EXPECT_EQ(map->scale, measure::colour_scale(*map->values));
   const auto colour = measure::map_colour(map->values->at(0) / map->scale);
   EXPECT_NEAR(first_texel()[0], colour[0], 2);
   EXPECT_NEAR(first_texel()[1], colour[1], 2);
-  EXPECT_THAT(pixel_text(workbench, {3, 2}), HasSubstr("\nReference   R 0   G 0   B 3"));
-  EXPECT_THAT(pixel_text(workbench, {3, 2}), HasSubstr("\ndifference   R +0   G +0   B +1"));
-  EXPECT_THAT(pixel_text(workbench, {3, 2}), HasSubstr("|a - b| 0.3333"));
+  EXPECT_THAT(pixel_text(context(), {3, 2}), HasSubstr("\nReference   R 0   G 0   B 3"));
+  EXPECT_THAT(pixel_text(context(), {3, 2}), HasSubstr("\ndifference   R +0   G +0   B +1"));
+  EXPECT_THAT(pixel_text(context(), {3, 2}), HasSubstr("|a - b| 0.3333"));
   // A fixed scale is another map of the same values, which are not computed again.
   workbench.apply({command::ShowDifference{true, measure::DifferenceMetric::absolute, 1.0 / 3}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference()->scale == 1.0 / 3; }));
-  EXPECT_EQ(workbench.difference()->values, map->values);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().difference()->scale == 1.0 / 3; }));
+  EXPECT_EQ(workbench.comparing().difference()->values, map->values);
   frame();
   EXPECT_NEAR(first_texel()[0], measure::map_colour(1)[0], 2);
   press(ImGuiKey_D);
@@ -241,10 +244,11 @@ TEST_F(CompareTest, EveryMetricHasADifference)
   for (std::size_t i = 0; i < measure::difference_names.size(); ++i) {
     const auto metric = static_cast<measure::DifferenceMetric>(i);
     workbench.apply({command::ShowDifference{true, metric}});
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference() && workbench.difference()->of.metric == metric; }));
+    ASSERT_TRUE(eventually([&] { frame(); },
+                           [&] { return workbench.comparing().difference() && workbench.comparing().difference()->of.metric == metric; }));
     frame();
-    EXPECT_EQ(workbench.difference()->error, "");
-    EXPECT_EQ(workspace.view().shown().hint, "");
+    EXPECT_EQ(workbench.comparing().difference()->error, "");
+    EXPECT_EQ(workspace.panel<ui::ViewPanel>().shown().hint, "");
   }
 }
 
@@ -253,15 +257,15 @@ TEST_F(CompareTest, PicturesOfOtherSizesAreSaidNotCompared)
   give_reference({1, 0, 0}, 32, 32);
   open();
   finish();
-  EXPECT_THAT(workbench.why_not_comparable(), HasSubstr("32 x 32, the picture 64 x 48"));
+  EXPECT_THAT(workbench.comparing().why_not(), HasSubstr("32 x 32, the picture 64 x 48"));
   workbench.apply({command::ShowDifference{}});
   frames(5);
-  EXPECT_THAT(workspace.view().shown().hint, HasSubstr("32 x 32"));
-  EXPECT_EQ(workbench.difference(), nullptr);
+  EXPECT_THAT(workspace.panel<ui::ViewPanel>().shown().hint, HasSubstr("32 x 32"));
+  EXPECT_EQ(workbench.comparing().difference(), nullptr);
   workbench.apply({command::Flip{}});
   frames(2);
-  EXPECT_THAT(workspace.view().shown().hint, HasSubstr("32 x 32"));
-  EXPECT_TRUE(action("Difference").why_not(workbench).size() > 10);
+  EXPECT_THAT(workspace.panel<ui::ViewPanel>().shown().hint, HasSubstr("32 x 32"));
+  EXPECT_TRUE(action("Difference").why_not(context()).size() > 10);
 }
 
 TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo)
@@ -270,9 +274,9 @@ TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo)
   open();
   finish();
   workbench.apply({command::ShowDifference{}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.difference() != nullptr; }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().difference() != nullptr; }));
   frame();
-  EXPECT_THAT(workspace.view().shown().hint, HasSubstr("reference.exr"));
+  EXPECT_THAT(workspace.panel<ui::ViewPanel>().shown().hint, HasSubstr("reference.exr"));
   EXPECT_TRUE(workbench.messages().empty());
 }
 

@@ -42,18 +42,18 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
   Workbench workbench(engine);
   const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2"}));
-  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
-  const double bright = sum(workbench.snapshot());
+  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::finished; }));
+  const double bright = sum(workbench.run().snapshot());
   EXPECT_GT(bright, 0);
-  const std::uint64_t first_run = workbench.status().generation;
+  const std::uint64_t first_run = workbench.run().status().generation;
 
   const std::string original = source();
   write("this is no kernel\n" + original);
-  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::failed; }));
+  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::failed; }));
   workbench.update();
   ASSERT_EQ(workbench.messages().size(), 1u);
   EXPECT_THAT(workbench.messages()[0].line, StartsWith("spectral/direct.cl:1: "));
-  EXPECT_EQ(sum(workbench.snapshot()), bright) << "the last picture stays";
+  EXPECT_EQ(sum(workbench.run().snapshot()), bright) << "the last picture stays";
 
   // Compiles again, and gives another picture: nothing is added to the film.
   std::string dark = original;
@@ -61,13 +61,13 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
   ASSERT_NE(dark.find(adding), std::string::npos);
   dark.replace(dark.find(adding), adding.size(), "(int)pixel, 0.0f * xyz,");
   write(dark);
-  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished && workbench.snapshot_is_current(); }));
-  EXPECT_EQ(sum(workbench.snapshot()), 0);
+  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::finished && workbench.run().snapshot_is_current(); }));
+  EXPECT_EQ(sum(workbench.run().snapshot()), 0);
   EXPECT_TRUE(workbench.messages().empty());
 
   write(original);
-  ASSERT_TRUE(until([&] { return sum(workbench.snapshot()) == bright; })) << sum(workbench.snapshot());
-  EXPECT_EQ(workbench.status().generation, first_run + 3) << "a change is one run";
+  ASSERT_TRUE(until([&] { return sum(workbench.run().snapshot()) == bright; })) << sum(workbench.run().snapshot());
+  EXPECT_EQ(workbench.run().status().generation, first_run + 3) << "a change is one run";
 }
 
 TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt)
@@ -76,10 +76,10 @@ TEST_F(EngineTest, ChangesWhileARunGoesOnReplaceIt)
   Workbench workbench(engine);
   const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=null", "stop.seconds=3600"}));
-  ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot() != nullptr; }));
   write(source() + "\n");
-  ASSERT_TRUE(until([&] { return workbench.status().generation == 2; }));
-  ASSERT_TRUE(until([&] { return workbench.snapshot_is_current(); }));
+  ASSERT_TRUE(until([&] { return workbench.run().status().generation == 2; }));
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot_is_current(); }));
 }
 
 TEST_F(EngineTest, WithoutAFolderNothingChanges)
@@ -97,18 +97,18 @@ TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
   Workbench workbench(engine);
   const auto until = [&](const std::function<bool()>& done) { return test::eventually([&] { workbench.update(); }, done); };
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2", "spectral.relight=true"}));
-  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
-  const double bright = sum(workbench.snapshot());
-  const std::uint64_t run = workbench.status().generation;
+  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::finished; }));
+  const double bright = sum(workbench.run().snapshot());
+  const std::uint64_t run = workbench.run().status().generation;
   EXPECT_GT(bright, 0);
 
   preset::Preset edited = *workbench.preset();
   edited.scene.lights[0].power_w *= 3;
   workbench.apply({command::Edit{"power", edited, 1, false}});
-  ASSERT_TRUE(until([&] { return workbench.snapshot_is_current(); }));
-  EXPECT_NEAR(sum(workbench.snapshot()) / bright, 3, 1e-4);
-  EXPECT_EQ(workbench.snapshot()->progress.step, 2);
-  EXPECT_EQ(workbench.status().generation, run);
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot_is_current(); }));
+  EXPECT_NEAR(sum(workbench.run().snapshot()) / bright, 3, 1e-4);
+  EXPECT_EQ(workbench.run().snapshot()->progress.step, 2);
+  EXPECT_EQ(workbench.run().status().generation, run);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "tests/support/temporary_folder.h"
 #include "ui/dispersion/edits.h"
 #include "ui/dispersion/figures.h"
+#include "ui/state/dielectrics.h"
 
 #include <gmock/gmock.h>
 
@@ -64,9 +65,9 @@ TEST(DispersionEdits, AWildCurveTakesAllThePointsItMayHave)
 TEST(DispersionEdits, LoadsFilesAndSaysWhatIsWrongWithThem)
 {
   const test::TemporaryFolder folder;
-  EXPECT_EQ(load_file(shipped("N-BK7"), "").file, shipped("N-BK7"));
-  EXPECT_EQ(load_file("N-BK7", "").file, "N-BK7") << "a shipped material's name means the same from every folder";
-  const auto refusal = [](const std::string& file) { return test::refusal_of([&] { load_file(file, ""); }); };
+  EXPECT_EQ(load_dispersion(shipped("N-BK7"), "").file, shipped("N-BK7"));
+  EXPECT_EQ(load_dispersion("N-BK7", "").file, "N-BK7") << "a shipped material's name means the same from every folder";
+  const auto refusal = [](const std::string& file) { return test::refusal_of([&] { load_dispersion(file, ""); }); };
   EXPECT_THAT(refusal((folder.path() / "missing.yml").string()), HasSubstr("missing.yml"));
   EXPECT_THAT(refusal(folder.write("broken.yml", "DATA: [")), HasSubstr("broken.yml"));
   EXPECT_THAT(refusal(folder.write("only-k.yml", "DATA:\n  - type: tabulated k\n    data: |\n      0.3 0.1\n      0.9 0.1\n")),

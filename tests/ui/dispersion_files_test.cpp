@@ -30,7 +30,7 @@ TEST_F(DispersionFilesTest, FilesAreLoadedIntoTheGlassThatIsShown)
   EXPECT_EQ(dispersion("a"), from_points(five));
   EXPECT_EQ(panel().model().curve().name, "N-BK7");
   EXPECT_EQ(shown_count(ClusterMethod::thesis), 12u);
-  EXPECT_EQ(workbench.history()->undo_label(), "load N-BK7 into glass");
+  EXPECT_EQ(workbench.edits()->undo_label(), "load N-BK7 into glass");
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(points(), five);
 }
@@ -47,7 +47,7 @@ TEST_F(DispersionFilesTest, AFileThatCannotBeLoadedIsAMessage)
     EXPECT_TRUE(workbench.messages().back().error);
     EXPECT_THAT(workbench.messages().back().line, HasSubstr(std::filesystem::path(bad).filename().string()));
     EXPECT_EQ(points(), five);
-    EXPECT_FALSE(workbench.history()->modified());
+    EXPECT_FALSE(workbench.edits()->modified());
   }
   expect_true_counts();
 }
@@ -58,7 +58,7 @@ TEST_F(DispersionFilesTest, WithoutGlassAFileIsRefused)
   workbench.apply({command::Open{shipped("N-BK7")}});
   ASSERT_THAT(workbench.messages(), SizeIs(1));
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("this preset has no dielectric"));
-  EXPECT_FALSE(workbench.history()->modified());
+  EXPECT_FALSE(workbench.edits()->modified());
 }
 
 TEST_F(DispersionFilesTest, AGlassIsMadeEditableAndBackByUndo)
@@ -90,7 +90,9 @@ TEST_F(DispersionFilesTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
   refused.outside = preset::Outside::refuse;
   const preset::Dispersion missing = from_file("nowhere.yml");
   for (const preset::Dispersion& bad : {refused, missing, nowhere}) {
-    workbench.apply({command::Edit{"bad", with_dispersion(*workbench.preset(), "glass", bad)}});
+    preset::Preset edited = *workbench.preset();
+    edited.scene.materials.at("glass").dispersion = bad;
+    workbench.apply({command::Edit{"bad", edited}});
     frames(3);
     EXPECT_NE(panel().model().error(), "");
     move(panel().plot().to_screen({500, 1.5}));

@@ -46,7 +46,7 @@ protected:
     ASSERT_TRUE(workbench.open(folder.write("glass.json", preset::to_json(made))));
     frames(4);
   }
-  const ui::DispersionPanel& panel() const { return workspace.dispersion(); }
+  const ui::DispersionPanel& panel() const { return workspace.panel<ui::DispersionPanel>(); }
   const preset::Dispersion& dispersion(const std::string& material = "glass") const
   {
     return workbench.preset()->scene.materials.at(material).dispersion;

@@ -6,7 +6,7 @@
 #include "preset/read.h"
 #include "spectra_scene.h"
 #include "spectral/clusters/clusters.h"
-#include "ui/shell/actions.h"
+#include "ui/widgets/action.h"
 
 #include <gmock/gmock.h>
 
@@ -49,10 +49,10 @@ TEST_F(DispersionPanelTest, ADragIsOneEntryAndClustersFollow)
   EXPECT_NEAR(points()[2][1], 1.6, 0.001);
   EXPECT_EQ(points()[1], five[1]);
   EXPECT_NE(shown_count(ClusterMethod::optimal), before);
-  EXPECT_EQ(workbench.history()->undo_label(), "move a control point of glass");
+  EXPECT_EQ(workbench.edits()->undo_label(), "move a control point of glass");
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(points(), five);
-  EXPECT_EQ(workbench.history()->undo_label(), "");
+  EXPECT_EQ(workbench.edits()->undo_label(), "");
   expect_true_counts();
 }
 
@@ -86,7 +86,7 @@ TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved)
   ASSERT_THAT(points(), SizeIs(6)) << "a double click";
   EXPECT_NEAR(points()[2][0], 500, 2);
   EXPECT_NEAR(points()[2][1], 1.6, 0.002);
-  click("Add");
+  click("add");
   ASSERT_THAT(points(), SizeIs(7)) << "in the widest gap";
   EXPECT_EQ(points()[5][0], 715);
   press(ImGuiKey_Delete);
@@ -173,7 +173,7 @@ TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
 TEST_F(DispersionPanelTest, AnUndoDuringADragIsNoHarm)
 {
   open_glass({{"glass", from_points(five)}});
-  click("Add");
+  click("add");
   ASSERT_THAT(points(), SizeIs(6));
   const auto place = panel().plot().to_screen(points()[5]);
   press_at(place);
@@ -211,7 +211,7 @@ protected:
   void open_room(const std::string& effort)
   {
     ASSERT_TRUE(workbench.open(folder.write("room.json", test::room_text("\"D65\"", effort))));
-    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.seen_by_glass() != nullptr; }));
+    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.run().seen<ui::SeenByGlass>() != nullptr; }));
     frames(2);
   }
 };
@@ -221,21 +221,21 @@ protected:
 TEST_F(DispersionEffortTest, UnequalWorkSavesMore)
 {
   open_room("radziszewski");
-  const ClusterFigures& chosen = workspace.dispersion().model().chosen();
+  const ClusterFigures& chosen = workspace.panel<ui::DispersionPanel>().model().chosen();
   double iterations = 0;
   for (const spectral::Cluster& cluster : chosen.clustering.clusters) {
     double u = 0;
     for (const int index : cluster.wavelengths) u = std::max(u, 1 / std::pow(std::cosh(0.0072 * (optics::wavelength_nm(index) - 538)), 2));
     iterations += std::ceil(100 * u);
   }
-  ASSERT_TRUE(workspace.dispersion().saving_by_effort());
-  EXPECT_NEAR(*workspace.dispersion().saving_by_effort(), 401 * 100 / iterations, 1e-9);
-  EXPECT_GT(*workspace.dispersion().saving_by_effort(), chosen.saving);
+  ASSERT_TRUE(workspace.panel<ui::DispersionPanel>().saving_by_effort());
+  EXPECT_NEAR(*workspace.panel<ui::DispersionPanel>().saving_by_effort(), 401 * 100 / iterations, 1e-9);
+  EXPECT_GT(*workspace.panel<ui::DispersionPanel>().saving_by_effort(), chosen.saving);
   open_room("importance");
-  ASSERT_TRUE(workspace.dispersion().saving_by_effort());
-  EXPECT_GT(*workspace.dispersion().saving_by_effort(), chosen.saving);
+  ASSERT_TRUE(workspace.panel<ui::DispersionPanel>().saving_by_effort());
+  EXPECT_GT(*workspace.panel<ui::DispersionPanel>().saving_by_effort(), chosen.saving);
   open_room("power");
-  EXPECT_FALSE(workspace.dispersion().saving_by_effort());
+  EXPECT_FALSE(workspace.panel<ui::DispersionPanel>().saving_by_effort());
 }
 
 // ------------------------------------------------------------------------------------------- what follows the mouse

@@ -35,7 +35,7 @@ std::vector<std::array<int, 2>> on_screen(const std::string& file, const std::ve
 {
   return test::in_window_like(size, "dispersion", file, [&](const Workspace& workspace, auto&, auto) {
     std::vector<std::array<int, 2>> pixels;
-    for (const ControlPoint& point : points) pixels.push_back(test::pixel(workspace.dispersion().plot().to_screen(point)));
+    for (const ControlPoint& point : points) pixels.push_back(test::pixel(workspace.panel<ui::DispersionPanel>().plot().to_screen(point)));
     return pixels;
   });
 }

@@ -2,7 +2,7 @@
 // The panel "Error against time": what it plots of any history, how its axes follow, how long a frame takes, what it copies.
 #include "measure/history_file.h"
 #include "ui/error/panel.h"
-#include "ui/shell/actions.h"
+#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>
@@ -29,23 +29,23 @@ protected:
 TEST_F(ErrorPanelTest, ThePlotFollowsTheRunInHand)
 {
   frames(3);
-  EXPECT_TRUE(workspace.error().contents().runs.empty()) << "nothing is open";
+  EXPECT_TRUE(workspace.panel<ui::ErrorPanel>().contents().runs.empty()) << "nothing is open";
   measured();
   open();
   finish();
-  const PlotContents& contents = workspace.error().contents();
+  const PlotContents& contents = workspace.panel<ui::ErrorPanel>().contents();
   EXPECT_EQ(contents.metric, "lab_mean");
   ASSERT_THAT(contents.runs, SizeIs(1));
   EXPECT_EQ(contents.runs[0].lines->error.curve.seconds.size(), 20u);
-  const PlotRange& shown = workspace.error().plot().shown();
+  const PlotRange& shown = workspace.panel<ui::ErrorPanel>().plot().shown();
   EXPECT_LT(shown.seconds[0], 0.01);
   EXPECT_GT(shown.seconds[1], 0.2);
   workbench.apply({command::ChooseMetric{"rel_mse"}});
   frame();
-  EXPECT_EQ(workspace.error().contents().metric, "rel_mse");
+  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "rel_mse");
   workbench.apply({command::ChooseMetric{"flip"}});
   frame();
-  EXPECT_EQ(workspace.error().contents().metric, "lab_mean") << "no run has that one";
+  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "lab_mean") << "no run has that one";
 }
 
 TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
@@ -76,14 +76,14 @@ TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
     finish();
     workbench.apply({command::PinRun{}});
     frames(2);
-    hover(workspace.error().plot().area());
+    hover(workspace.panel<ui::ErrorPanel>().plot().area());
     EXPECT_TRUE(workbench.messages().empty());
-    EXPECT_EQ(workbench.error_history(), history);
+    EXPECT_EQ(workbench.run().error_history(), history);
   }
-  EXPECT_EQ(workspace.error().contents().target, 0.03);
+  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().target, 0.03);
   workbench.apply({command::ChooseMetric{"psnr_db"}});
   frames(2);
-  EXPECT_EQ(workspace.error().contents().metric, "psnr_db");
+  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "psnr_db");
   EXPECT_TRUE(workbench.messages().empty());
 }
 
@@ -116,15 +116,15 @@ TEST_F(ErrorPanelTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
   measured();
   open();
   finish();
-  const PlotRange before = workspace.error().plot().shown();
-  hover(workspace.error().plot().area());
+  const PlotRange before = workspace.panel<ui::ErrorPanel>().plot().shown();
+  hover(workspace.panel<ui::ErrorPanel>().plot().area());
   for (int i = 0; i < 3; ++i) {
     imgui.wheel(1);
     frame();
   }
   frames(2);
-  EXPECT_FALSE(workspace.error().plot().follows());
-  EXPECT_GT(workspace.error().plot().shown().seconds[0], before.seconds[0]);
+  EXPECT_FALSE(workspace.panel<ui::ErrorPanel>().plot().follows());
+  EXPECT_GT(workspace.panel<ui::ErrorPanel>().plot().shown().seconds[0], before.seconds[0]);
   EXPECT_EQ(camera().position[2], 4) << "the wheel over the plot is the plot's";
   for (int click = 0; click < 2; ++click) {
     imgui.button(0, true);
@@ -133,8 +133,8 @@ TEST_F(ErrorPanelTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
     frame();
   }
   frames(2);
-  EXPECT_TRUE(workspace.error().plot().follows());
-  EXPECT_NEAR(workspace.error().plot().shown().seconds[0], before.seconds[0], 1e-9);
+  EXPECT_TRUE(workspace.panel<ui::ErrorPanel>().plot().follows());
+  EXPECT_NEAR(workspace.panel<ui::ErrorPanel>().plot().shown().seconds[0], before.seconds[0], 1e-9);
 }
 
 TEST_F(ErrorPanelTest, CopiesGoToTheClipboard)
@@ -144,7 +144,7 @@ TEST_F(ErrorPanelTest, CopiesGoToTheClipboard)
   finish();
   Commands commands;
   action("Copy history as CSV").run(workbench, commands);
-  EXPECT_EQ(std::string(ImGui::GetClipboardText()), measure::to_csv(*workbench.error_history()));
+  EXPECT_EQ(std::string(ImGui::GetClipboardText()), measure::to_csv(*workbench.run().error_history()));
   action("Copy plot as CSV").run(workbench, commands);
   EXPECT_THAT(std::string(ImGui::GetClipboardText()), StartsWith("run,line,seconds,error\n\"this run\",error,0.01,"));
   EXPECT_TRUE(commands.empty());

@@ -2,7 +2,7 @@
 // Opening files in the window: what it asks before unsaved changes go, and what it says about files that are no preset.
 #include "headless.h"
 #include "preset/read.h"
-#include "ui/state/file_kind.h"
+#include "ui/state/files.h"
 #include "workbench_fixture.h"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ protected:
   {
     ASSERT_TRUE(workbench.open(first));
     edit([](preset::Preset& p) { p.scene.camera.position = {0, 0, 2}; });
-    ASSERT_TRUE(workbench.history()->modified());
+    ASSERT_TRUE(workbench.edits()->modified());
   }
   std::string refusal(const std::string& file)
   {
@@ -93,7 +93,7 @@ TEST_F(OpeningTest, WhatCannotBeOpenedAsksNothing)
   workbench.apply({command::Open{folder.write("broken.json", "{")}, command::Open{folder.write("ball.obj", "v 0 0 0\n")}});
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_EQ(workbench.messages().size(), 2u);
-  EXPECT_TRUE(workbench.history()->modified());
+  EXPECT_TRUE(workbench.edits()->modified());
 }
 
 TEST_F(OpeningTest, TheDialogSavesAndOpens)

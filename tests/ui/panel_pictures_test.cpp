@@ -160,9 +160,9 @@ TEST_F(PanelPictures, AControlPointIsDragged)
   const auto [plot, canvas] = in_window_like(size, "dispersion", file, [&](const Workspace& workspace, auto&, auto) {
     const std::vector<ControlPoint> points = sorted_points(preset.scene.materials.at("glass").dispersion);
     const ControlPoint point = points[points.size() / 2];
-    way = {pixel(workspace.dispersion().plot().to_screen(point)),
-           pixel(workspace.dispersion().plot().to_screen({point[0] + 20, point[1] + 0.055}))};
-    return std::pair(workspace.dispersion().plot(), workspace.view().canvas());
+    way = {pixel(workspace.panel<ui::DispersionPanel>().plot().to_screen(point)),
+           pixel(workspace.panel<ui::DispersionPanel>().plot().to_screen({point[0] + 20, point[1] + 0.055}))};
+    return std::pair(workspace.panel<ui::DispersionPanel>().plot(), workspace.panel<ui::ViewPanel>().canvas());
   });
   test::PlayedWindow window = open(file, "dispersion");
   const auto before = strip(taken(window, "window-dispersion.png", "a picture of the run", picture_in(canvas)), plot);
@@ -190,13 +190,13 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
   test::Pixel search, box, other;
   const Canvas canvas =
       in_window_like<test::SeeingRuns>(size, "spectra", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
-        const auto field_at = [&](const std::string& widget) { return workspace.parameters().place_of(widget).value(); };
+        const auto field_at = [&](const std::string& widget) { return workspace.panel<ui::ParametersPanel>().place_of(widget).value(); };
         search = click(field_at("search"), imgui, draw);
         ImGui::GetIO().AddInputCharactersUTF8(found.c_str());
         for (int i = 0; i < 3; ++i) draw();
         box = click(field_at(field), imgui, draw);
         other = pixel(field_at(field + ":A"));
-        return workspace.view().canvas();
+        return workspace.panel<ui::ViewPanel>().canvas();
       });
   test::PlayedWindow window = open(file, "spectra");
   const image::Image before = taken(window, "window-spectra.png", "a picture of the run", picture_in(canvas));
@@ -220,8 +220,8 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
   const Canvas canvas =
       in_window_like<test::SeeingRuns>(size, "parameters", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
         for (const char* widget : {"/scene:label", "/scene/camera:label", "/scene/camera/fov_deg"})
-          way.push_back(click(workspace.parameters().place_of(widget).value(), imgui, draw));
-        return workspace.view().canvas();
+          way.push_back(click(workspace.panel<ui::ParametersPanel>().place_of(widget).value(), imgui, draw));
+        return workspace.panel<ui::ViewPanel>().canvas();
       });
   test::PlayedWindow window = open(file, "parameters");
   window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });

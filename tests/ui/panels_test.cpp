@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole window without a display: the mouse and the keys are injected, the preset and the commands are looked at.
-#include "ui/shell/actions.h"
+#include "ui/shell/layout.h"
 #include "ui/shell/status_line.h"
+#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,7 @@ TEST_F(PanelsTest, DrawsWithNothingOpen)
 {
   frames(3);
   EXPECT_TRUE(imgui.commands.empty());
-  EXPECT_GT(workspace.view().canvas().size[0], 500);
+  EXPECT_GT(workspace.panel<ui::ViewPanel>().canvas().size[0], 500);
   drag(0, 50, 0);
   EXPECT_EQ(workbench.preset(), nullptr);
 }
@@ -30,7 +31,7 @@ TEST_F(PanelsTest, ShowsTheJobsPicture)
 {
   open();
   // The camera at (0, 0, 4): no red, no green, blue beyond white.
-  const auto pixels = workspace.view().texture().pixels();
+  const auto pixels = workspace.panel<ui::ViewPanel>().texture().pixels();
   ASSERT_EQ(pixels.size(), 4u * 64 * 48);
   EXPECT_EQ(int(pixels[0]), 0);
   EXPECT_EQ(int(pixels[2]), 255);
@@ -39,16 +40,16 @@ TEST_F(PanelsTest, ShowsTheJobsPicture)
 TEST_F(PanelsTest, LeftDragOrbitsAsOneEntry)
 {
   open();
-  const double height = 48 * place(workbench.look(), workspace.view().canvas(), {64, 48}).scale;
+  const double height = 48 * place(workbench.chosen().look, workspace.panel<ui::ViewPanel>().canvas(), {64, 48}).scale;
   drag(0, height / 2, 0); // half the picture's height: a quarter round; the scene goes right, the camera left
   EXPECT_NEAR(camera().position[0], -4, 0.1);
   EXPECT_NEAR(camera().position[2], 0, 0.1);
   EXPECT_NEAR(distance(), 4, 1e-9);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
-  EXPECT_NEAR(workbench.snapshot()->picture->rgb[0], -4, 0.1) << "the run was started again with that camera";
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
+  EXPECT_NEAR(workbench.run().snapshot()->picture->rgb[0], -4, 0.1) << "the run was started again with that camera";
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(camera().position, (preset::Vec3{0, 0, 4}));
-  EXPECT_FALSE(workbench.history()->modified());
+  EXPECT_FALSE(workbench.edits()->modified());
 }
 
 TEST_F(PanelsTest, MiddleDragAndShiftDragPan)
@@ -96,45 +97,45 @@ TEST_F(PanelsTest, WithCtrlThePictureMovesAndNotTheCamera)
   frame();
   imgui.wheel(2);
   frame();
-  const double zoom = workbench.look().zoom;
-  EXPECT_FALSE(workbench.look().fit);
+  const double zoom = workbench.chosen().look.zoom;
+  EXPECT_FALSE(workbench.chosen().look.fit);
   drag(0, 30, 0);
   imgui.key(ImGuiMod_Ctrl, false);
   frame();
-  EXPECT_NEAR(workbench.look().centre[0], 32 - 30 / zoom, 0.1);
+  EXPECT_NEAR(workbench.chosen().look.centre[0], 32 - 30 / zoom, 0.1);
   EXPECT_EQ(camera().position, (preset::Vec3{0, 0, 4}));
-  EXPECT_FALSE(workbench.history()->modified());
+  EXPECT_FALSE(workbench.edits()->modified());
   EXPECT_EQ(runs.made, made) << "how a picture is shown needs no new run";
   press(ImGuiKey_F);
-  EXPECT_TRUE(workbench.look().fit);
+  EXPECT_TRUE(workbench.chosen().look.fit);
 }
 
 TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
 {
   runs.steps = 1;
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"scene.camera.position=[0.1, 0.2, 0.4]"}));
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::finished; }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::finished; }));
   frame();
-  const unsigned char before = workspace.view().texture().pixels()[1];
+  const unsigned char before = workspace.panel<ui::ViewPanel>().texture().pixels()[1];
   press(ImGuiKey_E, ImGuiMod_Shift);
   press(ImGuiKey_E, ImGuiMod_Shift);
   frame();
-  EXPECT_EQ(workbench.look().exposure_stops, -1);
-  EXPECT_LT(workspace.view().texture().pixels()[1], before);
+  EXPECT_EQ(workbench.chosen().look.exposure_stops, -1);
+  EXPECT_LT(workspace.panel<ui::ViewPanel>().texture().pixels()[1], before);
   press(ImGuiKey_0);
   frame();
-  EXPECT_EQ(workspace.view().texture().pixels()[1], before);
+  EXPECT_EQ(workspace.panel<ui::ViewPanel>().texture().pixels()[1], before);
   EXPECT_EQ(runs.made, 1);
 }
 
 TEST_F(PanelsTest, TheStatusLineSaysWhatTheRunDoes)
 {
   runs.steps = 100000;
-  EXPECT_STREQ(state_word(workbench), "no run");
+  EXPECT_STREQ(state_word(workbench.run()), "no run");
   open();
-  EXPECT_STREQ(state_word(workbench), "running");
+  EXPECT_STREQ(state_word(workbench.run()), "running");
   runs.compiles = true;
-  EXPECT_STREQ(state_word(workbench), "compiling");
+  EXPECT_STREQ(state_word(workbench.run()), "compiling");
 }
 
 TEST_F(PanelsTest, EscapeCancelsAndF5StartsAgain)
@@ -142,33 +143,32 @@ TEST_F(PanelsTest, EscapeCancelsAndF5StartsAgain)
   runs.steps = 100000;
   open();
   press(ImGuiKey_Escape);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::cancelled; }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::cancelled; }));
   press(ImGuiKey_F5);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::running; }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::running; }));
   press(ImGuiKey_Space);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::paused; }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::paused; }));
 }
 
 TEST_F(PanelsTest, AnErrorTakesAStripThatGoesWhenItIsDismissed)
 {
   open();
   frames(2);
-  const double height = workspace.view().canvas().size[1];
+  const double height = workspace.panel<ui::ViewPanel>().canvas().size[1];
   workbench.apply({command::Open{(folder.path() / "missing.json").string()}});
   frames(2);
   ASSERT_EQ(workbench.messages().size(), 1u);
-  EXPECT_LT(workspace.view().canvas().size[1], height - 20);
+  EXPECT_LT(workspace.panel<ui::ViewPanel>().canvas().size[1], height - 20);
   EXPECT_NE(workbench.preset(), nullptr);
   workbench.apply({command::Dismiss{workbench.messages()[0].id}});
   frames(2);
-  EXPECT_EQ(workspace.view().canvas().size[1], height);
+  EXPECT_EQ(workspace.panel<ui::ViewPanel>().canvas().size[1], height);
 }
 
 /// A panel that fails with windows, groups and identifiers open.
 class FailingPanel : public Panel {
 public:
-  const char* name() const override { return "Failing"; }
-  void draw(const Workbench&, Commands&) override
+  void draw(const Context&) override
   {
     ImGui::PushID("deep");
     ImGui::BeginGroup();
@@ -180,12 +180,46 @@ public:
 TEST_F(PanelsTest, APanelThatThrowsBecomesOneMessage)
 {
   open();
-  workspace.add(std::make_unique<FailingPanel>());
+  workspace.add({"failing", "Failing", "", nullptr}, std::make_unique<FailingPanel>());
   frames(5);
   ASSERT_EQ(workbench.messages().size(), 1u);
   EXPECT_EQ(workbench.messages()[0].line, "Failing: index out of range");
   drag(0, 100, 0); // the others go on
-  EXPECT_TRUE(workbench.history()->modified());
+  EXPECT_TRUE(workbench.edits()->modified());
+}
+
+class CountingPanel : public Panel {
+public:
+  explicit CountingPanel(int& drawn) : drawn_(drawn) {}
+  void draw(const Context&) override { ++drawn_; }
+
+private:
+  int& drawn_;
+};
+
+TEST_F(PanelsTest, APanelIsThereForThePresetsOfItsEngineOnly)
+{
+  int of_this = 0, of_another = 0, of_all = 0;
+  workspace.add({"this", "This", "spectral", nullptr}, std::make_unique<CountingPanel>(of_this));
+  workspace.add({"another", "Another", "anagram", nullptr}, std::make_unique<CountingPanel>(of_another));
+  workspace.add({"all", "All", "", nullptr}, std::make_unique<CountingPanel>(of_all));
+  frames(3);
+  const int before = of_another;
+  EXPECT_GT(before, 0) << "nothing is open: every panel says what it is for";
+  EXPECT_EQ(of_this, before);
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  frames(4);
+  EXPECT_EQ(of_this, before + 4);
+  EXPECT_EQ(of_another, before);
+  EXPECT_EQ(of_all, before + 4);
+}
+
+TEST(Layouts, AreNamedAfterThePanelInFront)
+{
+  for (const char* name : {"", "default", "error", "dispersion", "spectra", "plan", "parameters"})
+    EXPECT_NO_THROW(check_layout(name)) << name;
+  EXPECT_THROW(check_layout("view"), Error) << "it has a side of its own";
+  for (const PanelEntry& entry : panel_table().subspan(1)) EXPECT_NO_THROW(check_layout(std::string(entry.name)));
 }
 
 TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
@@ -199,11 +233,11 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
   workbench.apply({command::Ask{Question::save_picture}});
   frames(2);
   press(ImGuiKey_E);
-  EXPECT_EQ(workbench.look().exposure_stops, 0);
+  EXPECT_EQ(workbench.chosen().look.exposure_stops, 0);
   press(ImGuiKey_Escape);
   frames(2);
   EXPECT_EQ(workbench.question(), Question::none);
-  EXPECT_NE(workbench.status().state, job::State::cancelled);
+  EXPECT_NE(workbench.run().status().state, job::State::cancelled);
 }
 
 TEST_F(PanelsTest, ADialogOpensTheNameThatIsTyped)
@@ -228,9 +262,9 @@ TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture)
     preset::Preset edited = *workbench.preset();
     edited.scene.camera.resolution = {size, size};
     workbench.apply({command::Edit{"resolution", edited}});
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
     frames(3);
-    EXPECT_EQ(workspace.view().texture().pixels().size(), 4u * static_cast<unsigned>(size * size));
+    EXPECT_EQ(workspace.panel<ui::ViewPanel>().texture().pixels().size(), 4u * static_cast<unsigned>(size * size));
   }
 }
 
@@ -238,7 +272,7 @@ TEST_F(PanelsTest, APictureBeyondTheRenderersTexturesIsSaidNotDrawn)
 {
   runs.steps = 100000;
   open();
-  const PictureTexture& texture = workspace.view().texture();
+  const PictureTexture& texture = workspace.panel<ui::ViewPanel>().texture();
   const std::vector<unsigned char> before(texture.pixels().begin(), texture.pixels().end());
   const auto drawn_pictures = [&] { // commands of the frame that use the picture's texture
     int count = 0;

@@ -20,7 +20,7 @@ protected:
     runs.steps = 1000000;
   }
 
-  const ui::ParametersPanel& panel() const { return workspace.parameters(); }
+  const ui::ParametersPanel& panel() const { return workspace.panel<ui::ParametersPanel>(); }
   const std::map<std::string, ui::Problem>& problems() const { return panel().draft().problems(); }
   std::string text() const { return preset::to_json(*workbench.preset()); }
   /// Of the preset, not of the draft.

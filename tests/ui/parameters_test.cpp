@@ -53,7 +53,7 @@ TEST_F(ParametersTest, WhatIsImpossibleIsSaidAtItsFieldAndTheRunGoesOn)
   }
   frames(20);
   EXPECT_EQ(made(), runs_before) << "no run was begun";
-  EXPECT_EQ(workbench.status().state, job::State::running);
+  EXPECT_EQ(workbench.run().status().state, job::State::running);
   EXPECT_THAT(workbench.messages(), IsEmpty());
   enter(white, "2");
   EXPECT_EQ(at(white), 2) << "another field is edited all the same";
@@ -122,7 +122,7 @@ TEST_F(ParametersTest, ADragIsOneEntryAndTheRunFollows)
   undo();
   undo();
   EXPECT_EQ(text(), before);
-  EXPECT_FALSE(workbench.history()->modified());
+  EXPECT_FALSE(workbench.edits()->modified());
 }
 
 TEST_F(ParametersTest, EditsThatNeedEachOtherAreOneEntry)

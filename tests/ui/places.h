@@ -30,7 +30,7 @@ auto in_window_like(const std::array<int, 2>& size, const std::string& layout, c
   const auto draw = [&] { imgui.frame(workspace, workbench); };
   if (!preset.empty()) {
     workbench.open(preset);
-    eventually(draw, [&] { return !workspace.view().texture().empty(); });
+    eventually(draw, [&] { return !workspace.panel<ui::ViewPanel>().texture().empty(); });
   }
   for (int i = 0; i < 5; ++i) draw(); // strips and docks take their final places
   return look(workspace, imgui, draw);

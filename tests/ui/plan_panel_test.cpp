@@ -3,7 +3,7 @@
 #include "plan/plan.h"
 #include "preset/read.h"
 #include "ui/plan/panel.h"
-#include "ui/shell/actions.h"
+#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ protected:
   /// Clicks the box of a pass; the edit that this pushed.
   std::optional<command::Edit> click(const std::string& pass)
   {
-    const auto at = workspace.plan().box_of(pass);
+    const auto at = workspace.panel<ui::PlanPanel>().box_of(pass);
     if (!at) return std::nullopt;
     press_at(*at);
     let_go();
@@ -41,10 +41,10 @@ TEST_F(PlanPanelTest, WhatAFieldDecidesHasABox)
 {
   frames(3);
   open();
-  EXPECT_TRUE(workspace.plan().box_of("direct"));
-  EXPECT_TRUE(workspace.plan().box_of("mirrors"));
-  EXPECT_FALSE(workspace.plan().box_of("indirect"));
-  EXPECT_FALSE(workspace.plan().box_of("fog")) << "the preset has no such field";
+  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().box_of("direct"));
+  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().box_of("mirrors"));
+  EXPECT_FALSE(workspace.panel<ui::PlanPanel>().box_of("indirect"));
+  EXPECT_FALSE(workspace.panel<ui::PlanPanel>().box_of("fog")) << "the preset has no such field";
   EXPECT_TRUE(workbench.messages().empty());
 }
 
@@ -57,10 +57,10 @@ TEST_F(PlanPanelTest, ABoxEditsThePresetAndCanBeUndone)
   EXPECT_EQ(edit->label, "compute mirrors");
   preset::Preset back = edit->preset;
   back.leave_out = true;
-  EXPECT_EQ(back, workbench.history()->opened()) << "nothing else changed";
+  EXPECT_EQ(back, workbench.edits()->opened()) << "nothing else changed";
   EXPECT_FALSE(workbench.preset()->leave_out);
   const int made = runs.made;
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made || workbench.snapshot_is_current(); }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made || workbench.run().snapshot_is_current(); }));
   frames(2);
   const auto again = click("mirrors");
   ASSERT_TRUE(again);
@@ -82,24 +82,24 @@ TEST_F(PlanPanelTest, AFieldThatThereIsNotIsRefused)
 
 TEST_F(PlanPanelTest, ThePlanIsCopiedAsJson)
 {
-  EXPECT_FALSE(action("Copy plan as JSON").enabled(workbench));
+  EXPECT_FALSE(action("Copy plan as JSON").enabled(context()));
   open();
   Commands commands;
   action("Copy plan as JSON").run(workbench, commands);
-  EXPECT_EQ(std::string(ImGui::GetClipboardText()), plan::to_json(*workbench.plan()));
+  EXPECT_EQ(std::string(ImGui::GetClipboardText()), plan::to_json(*workbench.run().plan()));
 }
 
 TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
 {
   open();
-  EXPECT_NE(workbench.plan(), nullptr);
+  EXPECT_NE(workbench.run().plan(), nullptr);
   runs.make_ms = 300;
   ASSERT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
   frame();
-  EXPECT_EQ(workbench.plan(), nullptr);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.plan() != nullptr; }));
+  EXPECT_EQ(workbench.run().plan(), nullptr);
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().plan() != nullptr; }));
   frames(2);
-  EXPECT_TRUE(workspace.plan().box_of("mirrors"));
+  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().box_of("mirrors"));
 }
 
 } // namespace

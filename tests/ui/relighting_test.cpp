@@ -18,16 +18,17 @@ protected:
     runs.steps = steps;
     runs.reference = std::make_shared<measure::Reference>();
     ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {relight ? "spectral.relight=true" : "seed=1"}));
-    ASSERT_TRUE(until([&] { return workbench.snapshot() && workbench.plan() && workbench.status().state != job::State::preparing; }));
+    ASSERT_TRUE(until(
+        [&] { return workbench.run().snapshot() && workbench.run().plan() && workbench.run().status().state != job::State::preparing; }));
   }
   void edit_power(double watts, bool live = false)
   {
     edit([&](preset::Preset& p) { p.scene.lights[0].power_w = watts; }, 1, live);
   }
-  double shown_power() const { return spectral::energy_of(*workbench.snapshot()).emitted_w; }
+  double shown_power() const { return spectral::energy_of(*workbench.run().snapshot()).emitted_w; }
   bool shows(double watts)
   {
-    return until([&] { return workbench.snapshot_is_current() && shown_power() == watts; });
+    return until([&] { return workbench.run().snapshot_is_current() && shown_power() == watts; });
   }
 };
 
@@ -43,8 +44,8 @@ TEST_F(RelightingTest, AnotherSpectrumPowerOrWhiteGoesToTheRunInHand)
   ASSERT_TRUE(shows(20));
   EXPECT_EQ(runs.made, 1);
   EXPECT_EQ(runs.adopted, 1);
-  const auto steps = workbench.snapshot()->progress.step;
-  EXPECT_TRUE(until([&] { return workbench.snapshot()->progress.step > steps; })) << "it goes on converging";
+  const auto steps = workbench.run().snapshot()->progress.step;
+  EXPECT_TRUE(until([&] { return workbench.run().snapshot()->progress.step > steps; })) << "it goes on converging";
   workbench.apply({command::Undo{}});
   ASSERT_TRUE(shows(10));
   EXPECT_EQ(runs.made, 1);
@@ -73,10 +74,10 @@ TEST_F(RelightingTest, WithoutLayersEveryEditStartsANewRun)
 TEST_F(RelightingTest, ARunThatIsFinishedIsRelit)
 {
   open(3);
-  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::finished; }));
+  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::finished; }));
   edit_power(30);
   ASSERT_TRUE(shows(30));
-  EXPECT_EQ(workbench.status().state, job::State::finished);
+  EXPECT_EQ(workbench.run().status().state, job::State::finished);
   EXPECT_EQ(runs.made, 1);
 }
 
@@ -84,17 +85,17 @@ TEST_F(RelightingTest, ARunThatIsPausedIsRelitAndStaysPaused)
 {
   open(100000);
   workbench.apply({command::Pause{true}});
-  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::paused; }));
+  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::paused; }));
   edit_power(30);
   ASSERT_TRUE(shows(30));
-  EXPECT_EQ(workbench.status().state, job::State::paused);
+  EXPECT_EQ(workbench.run().status().state, job::State::paused);
 }
 
 TEST_F(RelightingTest, AfterACancelAnEditStartsANewRun)
 {
   open(100000);
   workbench.apply({command::Cancel{}});
-  ASSERT_TRUE(until([&] { return workbench.status().state == job::State::cancelled; }));
+  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::cancelled; }));
   edit_power(30);
   ASSERT_TRUE(shows(30));
   EXPECT_EQ(runs.made, 2);
@@ -125,10 +126,10 @@ TEST_F(RelightingTest, TheReferenceIsOfTheOldLight)
 {
   open(100000);
   workbench.apply({command::CompareWith{}});
-  EXPECT_THAT(workbench.why_not_comparable(), ::testing::Not(HasSubstr("no reference")));
+  EXPECT_THAT(workbench.comparing().why_not(), ::testing::Not(HasSubstr("no reference")));
   edit_power(20);
   ASSERT_TRUE(shows(20));
-  EXPECT_NE(workbench.why_not_comparable(), "");
+  EXPECT_NE(workbench.comparing().why_not(), "");
 }
 
 TEST_F(RelightingTest, ALightThatIsDraggedIsShownWhileTheMouseMoves)

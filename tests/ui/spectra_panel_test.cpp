@@ -35,10 +35,10 @@ protected:
   {
     runs.steps = 100000;
     open(room_text(spectrum, effort));
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.seen_by_glass() != nullptr; }));
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().seen<ui::SeenByGlass>() != nullptr; }));
     frames(2);
   }
-  const SpectraPanel& panel() const { return workspace.spectra(); }
+  const SpectraPanel& panel() const { return workspace.panel<ui::SpectraPanel>(); }
   const Spectra& spectra() const { return panel().maker().spectra(); }
   const preset::LightSpectrum& light() const { return workbench.preset()->scene.lights[0].spectrum; }
   using WindowFixtureOf::click;
@@ -59,7 +59,7 @@ TEST_F(SpectraPanelTest, AnIlluminantBecomesRowsToDrag)
   EXPECT_NEAR(light().table[9][1], 0.2, 0.02);
   for (int i = 0; i < 2; ++i) press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(light().illuminant, "D65");
-  EXPECT_FALSE(workbench.history()->modified()) << "two entries";
+  EXPECT_FALSE(workbench.edits()->modified()) << "two entries";
 }
 
 TEST_F(SpectraPanelTest, ARowThatIsDraggedFollowsTheMouseAndIsOneEntry)
@@ -73,7 +73,7 @@ TEST_F(SpectraPanelTest, ARowThatIsDraggedFollowsTheMouseAndIsOneEntry)
   EXPECT_EQ(spectra().lights[0].spectrum, scene::make_light_spectrum(dragged, "test")) << "the curve shown is of the preset as it is";
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(light().table[2], (PowerRow{600, 0.5}));
-  EXPECT_FALSE(workbench.history()->modified()) << "one entry";
+  EXPECT_FALSE(workbench.edits()->modified()) << "one entry";
 }
 
 TEST_F(SpectraPanelTest, ARowStopsAtItsNeighboursAndTheOthersStayWhereTheyAre)
@@ -161,7 +161,7 @@ TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines)
         spectral::settings(preset).importance = {cluster, geometry};
         const int made = runs.made;
         workbench.apply({command::Edit{"effort", preset}});
-        ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made && workbench.snapshot_is_current(); }));
+        ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made && workbench.run().snapshot_is_current(); }));
         frames(2);
         ASSERT_EQ(spectra().why_no_u, "");
         const spectral::WavelengthImportance expected = spectral::wavelength_importance(spectral::settings(preset), scene, bvh);
@@ -213,7 +213,7 @@ TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
   }
   imgui.button(0, false);
   frames(3);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.snapshot_is_current(); }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
   frames(3);
   EXPECT_EQ(panel().maker().made(), dragged) << "the new run's glass sees what the old one's saw";
 }

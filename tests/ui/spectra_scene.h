@@ -3,7 +3,7 @@
 #pragma once
 #include "fake_job.h"
 #include "run/run.h"
-#include "ui/spectra/curves.h"
+#include "ui/spectral/curves.h"
 
 #include <string>
 
@@ -43,7 +43,7 @@ public:
   {
     ui::NewRun run = FakeRuns::make(preset);
     const scene::Scene scene = scene::load_scene(preset);
-    run.seen = ui::look_around(preset, scene, scene::build_bvh(scene.geometry));
+    run.seen = {ui::SeenByGlass::look(preset, scene, scene::build_bvh(scene.geometry))};
     return run;
   }
 };

@@ -23,7 +23,8 @@ std::vector<std::array<int, 2>> on_screen(const std::string& file, const std::ve
 {
   return test::in_window_like<test::SeeingRuns>(size, "spectra", file, [&](const Workspace& workspace, auto&, auto) {
     std::vector<std::array<int, 2>> pixels;
-    for (const PowerRow& value : values) pixels.push_back(test::pixel(workspace.spectra().plot().place(value[0], value[1])));
+    for (const PowerRow& value : values)
+      pixels.push_back(test::pixel(workspace.panel<ui::SpectraPanel>().plot().place(value[0], value[1])));
     return pixels;
   });
 }

@@ -20,6 +20,8 @@ protected:
   ui::Workbench workbench{runs};
   ui::Workspace workspace;
 
+  /// What panels read; for what needs one and pushes nothing.
+  ui::Context context() { return workbench.context(unread_); }
   void frame() { imgui.frame(workspace, workbench); }
   void frames(int count)
   {
@@ -28,13 +30,13 @@ protected:
   void open(const std::string& text = test::preset_text)
   {
     ASSERT_TRUE(workbench.open(folder.write("test.json", text)));
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.view().texture().empty(); }));
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.panel<ui::ViewPanel>().texture().empty(); }));
     frames(3); // strips and docks take their final places
   }
   /// Until the run is over and drawn.
   void finish()
   {
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.status().state == job::State::finished; }));
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::finished; }));
     frames(2);
   }
   /// The runs that follow note an error after every step.
@@ -44,7 +46,7 @@ protected:
   }
   ui::Point middle() const
   {
-    const ui::Canvas& canvas = workspace.view().canvas();
+    const ui::Canvas& canvas = workspace.panel<ui::ViewPanel>().canvas();
     return {canvas.corner[0] + canvas.size[0] / 2, canvas.corner[1] + canvas.size[1] / 2};
   }
   void move(const ui::Point& at)
@@ -94,6 +96,9 @@ protected:
     return std::hypot(camera().position[0] - camera().target[0], camera().position[1] - camera().target[1],
                       camera().position[2] - camera().target[2]);
   }
+
+private:
+  ui::Commands unread_;
 };
 
 using WindowFixture = WindowFixtureOf<FakeRuns>;

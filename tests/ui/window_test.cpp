@@ -26,8 +26,9 @@ using test::bytes_at;
 /// Where a window of this size draws the picture.
 Placement placement_in_window(int width, int height, const std::array<int, 2>& picture)
 {
-  return test::in_window_like({width, height}, "", "",
-                              [&](const Workspace& workspace, auto&, auto) { return place(Look{}, workspace.view().canvas(), picture); });
+  return test::in_window_like({width, height}, "", "", [&](const Workspace& workspace, auto&, auto) {
+    return place(Look{}, workspace.panel<ui::ViewPanel>().canvas(), picture);
+  });
 }
 
 /// Without a display.

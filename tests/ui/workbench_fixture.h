@@ -23,7 +23,7 @@ protected:
   }
   bool until(job::State state)
   {
-    return until([&] { return workbench.status().state == state; });
+    return until([&] { return workbench.run().status().state == state; });
   }
   /// As a panel does; gesture and live: as command::Edit has them.
   void edit(const std::function<void(preset::Preset&)>& change, std::uint64_t gesture = 0, bool live = false)

@@ -19,7 +19,7 @@ protected:
   {
     edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; }, gesture, live);
   }
-  float picture_z() const { return workbench.snapshot() ? workbench.snapshot()->picture->rgb[2] : -1; }
+  float picture_z() const { return workbench.run().snapshot() ? workbench.run().snapshot()->picture->rgb[2] : -1; }
 };
 
 TEST_F(WorkbenchTest, OpensRunsAndFinishes)
@@ -28,10 +28,10 @@ TEST_F(WorkbenchTest, OpensRunsAndFinishes)
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   EXPECT_EQ(workbench.preset()->name, "Test");
   ASSERT_TRUE(until(job::State::finished));
-  EXPECT_EQ(workbench.status().progress.fraction, 1);
-  EXPECT_EQ(workbench.snapshot()->picture->width, 64);
-  EXPECT_EQ(workbench.snapshot()->progress.step, 20) << "a finished run shows its last picture";
-  EXPECT_TRUE(workbench.snapshot_is_current());
+  EXPECT_EQ(workbench.run().status().progress.fraction, 1);
+  EXPECT_EQ(workbench.run().snapshot()->picture->width, 64);
+  EXPECT_EQ(workbench.run().snapshot()->progress.step, 20) << "a finished run shows its last picture";
+  EXPECT_TRUE(workbench.run().snapshot_is_current());
   EXPECT_TRUE(workbench.messages().empty());
 }
 
@@ -53,9 +53,9 @@ TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
   workbench.update();
   EXPECT_EQ(runs.made, 1);
   EXPECT_EQ(picture_z(), 4) << "the last image stays";
-  EXPECT_FALSE(workbench.snapshot_is_current());
+  EXPECT_FALSE(workbench.run().snapshot_is_current());
   ASSERT_TRUE(until([&] { return picture_z() == 2; }));
-  EXPECT_TRUE(workbench.snapshot_is_current());
+  EXPECT_TRUE(workbench.run().snapshot_is_current());
   EXPECT_EQ(runs.made, 2);
 }
 
@@ -63,7 +63,7 @@ TEST_F(WorkbenchTest, AnEditReplacesARunningJob)
 {
   runs.steps = 100000;
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
-  ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot() != nullptr; }));
   const auto before = std::chrono::steady_clock::now();
   edit_z(3);
   ASSERT_TRUE(until([&] { return runs.made == 2; })) << "the old job's steps would go on for hours";
@@ -74,15 +74,15 @@ TEST_F(WorkbenchTest, DuringAGestureEveryRunShowsAPictureBeforeTheNextReplacesIt
 {
   runs.steps = 100000;
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
-  ASSERT_TRUE(until([&] { return workbench.snapshot() != nullptr; }));
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot() != nullptr; }));
   runs.make_ms = 20; // slower than the mouse moves
   int pictures = 0;
-  std::shared_ptr<const job::Snapshot> last = workbench.snapshot();
+  std::shared_ptr<const job::Snapshot> last = workbench.run().snapshot();
   for (int move = 0; move < 100; ++move) {
     edit_z(3 + 0.01 * move, 1, true);
     workbench.update();
-    if (workbench.snapshot() != last) ++pictures;
-    last = workbench.snapshot();
+    if (workbench.run().snapshot() != last) ++pictures;
+    last = workbench.run().snapshot();
     std::this_thread::sleep_for(3ms);
   }
   EXPECT_GE(pictures, 4) << "something is seen while the mouse moves";
@@ -114,7 +114,7 @@ TEST_F(WorkbenchTest, CancelAndPauseHoldTheRun)
   ASSERT_TRUE(until(job::State::running));
   workbench.apply({command::Cancel{}});
   ASSERT_TRUE(until(job::State::cancelled));
-  EXPECT_NE(workbench.snapshot(), nullptr) << "its picture stays";
+  EXPECT_NE(workbench.run().snapshot(), nullptr) << "its picture stays";
   workbench.apply({command::Restart{}});
   ASSERT_TRUE(until(job::State::running));
   EXPECT_EQ(runs.made, 2);
@@ -151,7 +151,7 @@ TEST_F(WorkbenchTest, ChangedKernelsStartTheRunAgainAndKeepThePictureWhereTheyDo
   runs.changed = true;
   ASSERT_TRUE(until(job::State::finished));
   EXPECT_TRUE(workbench.messages().empty());
-  EXPECT_TRUE(workbench.snapshot_is_current());
+  EXPECT_TRUE(workbench.run().snapshot_is_current());
   EXPECT_EQ(runs.made, 3);
 }
 
@@ -184,14 +184,14 @@ TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen)
 {
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   edit_z(2.5);
-  EXPECT_TRUE(workbench.history()->modified());
-  EXPECT_EQ(workbench.save_target(), folder.path() / "test.json");
+  EXPECT_TRUE(workbench.edits()->modified());
+  EXPECT_EQ(save_target(workbench.preset()), folder.path() / "test.json");
   workbench.apply({command::SavePreset{folder.path() / "other.json"}});
-  EXPECT_FALSE(workbench.history()->modified());
+  EXPECT_FALSE(workbench.edits()->modified());
   const preset::Preset saved = preset::read_preset((folder.path() / "other.json").string());
   EXPECT_EQ(preset::to_json(saved), preset::to_json(*workbench.preset()));
   EXPECT_EQ(saved.scene.camera.position[2], 2.5);
-  EXPECT_EQ(workbench.save_target(), folder.path() / "other.json");
+  EXPECT_EQ(save_target(workbench.preset()), folder.path() / "other.json");
 }
 
 TEST_F(WorkbenchTest, WhereAPresetCannotBeSavedItSaysSoAndStaysUnsaved)
@@ -199,7 +199,7 @@ TEST_F(WorkbenchTest, WhereAPresetCannotBeSavedItSaysSoAndStaysUnsaved)
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   edit_z(2.5);
   workbench.apply({command::SavePreset{folder.path() / "missing" / "other.json"}});
-  EXPECT_TRUE(workbench.history()->modified());
+  EXPECT_TRUE(workbench.edits()->modified());
   ASSERT_EQ(workbench.messages().size(), 1u);
   EXPECT_TRUE(workbench.messages()[0].error);
 }

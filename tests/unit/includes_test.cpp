@@ -83,6 +83,17 @@ std::string break_of(const std::string& folder, const std::string& included, con
   return "";
 }
 
+/// The same between the folders of ui/: what panels share knows no panel, and panels not each other.
+std::string break_in_ui(const std::string& folder, const std::string& included)
+{
+  if (!included.starts_with("ui/")) return "";
+  const std::string into = included.substr(3, included.find('/', 3) - 3);
+  if (into == folder || folder == "shell" || into == "state") return "";
+  if (into == "widgets" && folder != "state") return "";
+  if (into == "spectral" && folder != "state" && folder != "widgets") return ""; // what the panels of engine 1 share
+  return "ui/" + folder + " may not include ui/" + into;
+}
+
 /// The folder of the table that a file belongs to; empty for app/main.cpp, which may include all.
 std::string folder_of(const fs::path& relative)
 {
@@ -104,7 +115,8 @@ std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& re
     ++number;
     std::smatch match;
     if (!std::regex_match(line, match, include)) continue;
-    const std::string wrong = break_of(folder, match.str(1), table);
+    std::string wrong = break_of(folder, match.str(1), table);
+    if (folder == "ui" && wrong.empty()) wrong = break_in_ui(std::next(relative.begin())->string(), match.str(1));
     if (!wrong.empty()) breaks.push_back(relative.string() + ":" + std::to_string(number) + ": " + match.str(1) + ": " + wrong);
   }
   return breaks;
@@ -181,6 +193,13 @@ TEST(Includes, breaks_are_seen)
   EXPECT_EQ(break_of("optics", "CL/cl.h", table), "only compute may know this library");
   EXPECT_EQ(break_of("cli", "OpenImageIO/imageio.h", table), "only image may know this library");
   EXPECT_NE(break_of("optics", "../base/error.h", table), "");
+  EXPECT_EQ(break_in_ui("view", "ui/widgets/panel.h"), "");
+  EXPECT_EQ(break_in_ui("shell", "ui/view/panel.h"), "");
+  EXPECT_EQ(break_in_ui("dispersion", "ui/spectral/curves.h"), "");
+  EXPECT_EQ(break_in_ui("state", "ui/view/panel.h"), "ui/state may not include ui/view");
+  EXPECT_EQ(break_in_ui("state", "ui/widgets/theme.h"), "ui/state may not include ui/widgets");
+  EXPECT_EQ(break_in_ui("widgets", "ui/shell/menus.h"), "ui/widgets may not include ui/shell");
+  EXPECT_EQ(break_in_ui("error", "ui/plan/panel.h"), "ui/error may not include ui/plan");
   EXPECT_THROW(allowed_folders("base, optcis", {"base", "optics"}), std::runtime_error);
 }
 

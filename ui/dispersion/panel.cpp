@@ -2,7 +2,7 @@
 #include "ui/dispersion/panel.h"
 
 #include "base/counted.h"
-#include "ui/state/workbench.h"
+#include "ui/state/dielectrics.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/wavelength_axis.h"
 
@@ -44,55 +44,54 @@ std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& 
 
 } // namespace
 
-void DispersionPanel::draw(const Workbench& workbench, Commands& commands)
+void DispersionPanel::draw(const Context& context)
 {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
-  if (!workbench.preset()) return draw_hint(corner, size, "Open a preset: the dispersion of its glass, and the wavelength clusters");
-  const std::vector<std::string> names = dielectrics(*workbench.preset());
+  if (!context.preset()) return draw_hint(corner, size, "Open a preset: the dispersion of its glass, and the wavelength clusters");
+  const std::vector<std::string> names = dielectrics(*context.preset());
   if (names.empty()) return draw_hint(corner, size, "No material of this preset is a dielectric");
-  follow(workbench);
-  const Frame frame{workbench, *workbench.preset(), workbench.preset()->scene.materials.at(shown_), commands};
-  draw_toolbar(frame, names);
-  draw_source(frame);
-  draw_points_row(frame);
-  draw_plot(frame);
+  follow(context);
+  draw_toolbar(context, names);
+  draw_source();
+  draw_points_row(context);
+  draw_plot(context);
   const float top = ImGui::GetCursorPosY();
   if (model_.error().empty()) {
-    draw_methods(frame);
-    draw_bias(frame);
+    draw_methods(context);
+    draw_bias(context);
   } else
     draw_wrapped(colour::error, model_.error());
   below_plot_ = ImGui::GetCursorPosY() - top;
 }
 
 /// Takes over what the preset says now. Another material leaves no point selected.
-void DispersionPanel::follow(const Workbench& workbench)
+void DispersionPanel::follow(const Context& context)
 {
-  const preset::Preset& preset = *workbench.preset();
-  const std::string material = shown_dielectric(preset, workbench.material());
+  const preset::Preset& preset = *context.preset();
+  const std::string material = shown_dielectric(preset, context.chosen.material);
   model_.update(preset, material);
-  points_ = sorted_points(preset.scene.materials.at(material).dispersion);
-  const bool another = material != shown_;
-  shown_ = material;
+  dispersion_ = preset.scene.materials.at(material).dispersion;
+  points_ = sorted_points(dispersion_);
+  const bool another = std::exchange(shown_, material) != material;
   editor_.keep(points_.size());
   if (!another) return;
   editor_.unmark();
   fitted_text_.clear();
 }
 
-void DispersionPanel::draw_toolbar(const Frame& frame, const std::vector<std::string>& names)
+void DispersionPanel::draw_toolbar(const Context& context, const std::vector<std::string>& names)
 {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
   if (ImGui::BeginCombo("##material", shown_.c_str())) {
     for (const std::string& name : names)
-      if (ImGui::Selectable(name.c_str(), name == shown_)) frame.commands.push_back(command::ChooseMaterial{name});
+      if (ImGui::Selectable(name.c_str(), name == shown_)) context.push(command::ChooseMaterial{name});
     ImGui::EndCombo();
   }
   ImGui::SetItemTooltip("The dielectric that is shown; files that are dropped on the window are loaded into it");
   ImGui::SameLine();
-  const bool editable = frame.material.dispersion.type == Type::points;
+  const bool editable = dispersion_.type == Type::points;
   ImGui::BeginDisabled(editable || !model_.curve().error.empty());
-  if (ImGui::Button("Make editable")) make_editable(frame);
+  if (ImGui::Button("Make editable")) make_editable(context);
   places_.note("Make editable");
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled | ImGuiHoveredFlags_DelayNormal))
@@ -102,16 +101,15 @@ void DispersionPanel::draw_toolbar(const Frame& frame, const std::vector<std::st
                                 : "Control points that reproduce n at 380..780 nm");
 }
 
-void DispersionPanel::draw_source(const Frame& frame) const
+void DispersionPanel::draw_source() const
 {
-  const preset::Dispersion& dispersion = frame.material.dispersion;
-  std::string text = source_text(dispersion, model_.curve());
-  if (!fitted_text_.empty() && dispersion == fitted_) text += "; " + fitted_text_;
+  std::string text = source_text(dispersion_, model_.curve());
+  if (!fitted_text_.empty() && dispersion_ == fitted_) text += "; " + fitted_text_;
   draw_wrapped(colour::quiet_text, text);
   if (!model_.curve().note.empty()) draw_wrapped(colour::note, model_.curve().note);
 }
 
-void DispersionPanel::draw_points_row(const Frame& frame)
+void DispersionPanel::draw_points_row(const Context& context)
 {
   if (ImGui::Button("All")) {
     const bool has = !points_.empty();
@@ -131,55 +129,40 @@ void DispersionPanel::draw_points_row(const Frame& frame)
   places_.note("Snap");
   ImGui::SetItemTooltip("%s", fmt::format("Dragged points keep to a grid: 1 nm, and {:.6g} of n at this zoom", plot_.grid()[1]).c_str());
   ImGui::SameLine();
-  if (ImGui::Button("Add")) {
-    const double nm = middle_of_widest_gap(points_);
-    const auto index = static_cast<std::size_t>(std::clamp(std::lround(nm) - optics::first_nm, 0L, optics::wavelength_count - 1L));
-    const double n = model_.curve().error.empty() ? model_.curve().n[index] : points_.front()[1];
-    edit_points(frame, editor_.add(points_, {nm, n}, point_rules, frame.commands));
-  }
-  places_.note("Add");
-  ImGui::SetItemTooltip("A control point on the curve in the widest gap; a double click on the plot adds one at the mouse");
-  ImGui::SameLine();
-  ImGui::BeginDisabled(!editor_.marked());
-  if (ImGui::Button("Remove") || (editor_.marked() && delete_pressed()))
-    edit_points(frame, editor_.remove(points_, *editor_.marked(), point_rules, frame.commands));
-  places_.note("Remove");
-  ImGui::EndDisabled();
-  ImGui::SetItemTooltip("The selected point; Delete, or a right click on a point, does the same");
+  const double nm = middle_of_widest_gap(points_);
+  const auto index = static_cast<std::size_t>(std::clamp(std::lround(nm) - optics::first_nm, 0L, optics::wavelength_count - 1L));
+  const double n = model_.curve().error.empty() ? model_.curve().n[index] : points_.front()[1];
+  follow_rows(context, draw_row_buttons({nm, n}, editor_.marked(), places_));
 }
 
-void DispersionPanel::draw_plot(const Frame& frame)
+void DispersionPanel::draw_plot(const Context& context)
 {
   const float em = ImGui::GetFontSize(), free = ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y;
   const float below = below_plot_ > 0 ? below_plot_ : 11 * em;
-  const DispersionContents contents{&model_, points_, editor_.marked(), sorted_, frame.material.absorption};
-  RowGesture gesture = plot_.draw(contents, axis_, std::max(free - below, 10 * em));
-  gesture.to = place(gesture.to);
-  edit_points(frame, editor_.follow(gesture, points_, point_rules, frame.commands));
+  const bool absorbs = context.preset()->scene.materials.at(shown_).absorption;
+  RowGesture gesture = plot_.draw({&model_, points_, editor_.marked(), sorted_, absorbs}, axis_, std::max(free - below, 10 * em));
+  if (snap_) gesture.to = snapped(gesture.to, plot_.grid());
+  follow_rows(context, gesture);
 }
 
-/// On the grid, if it is wanted; else in figures that a person can read in the preset, finer than a pixel.
-ControlPoint DispersionPanel::place(const ControlPoint& mouse) const
+void DispersionPanel::follow_rows(const Context& context, const RowGesture& gesture)
 {
-  const ControlPoint to = snap_ ? snapped(mouse, plot_.grid()) : mouse;
-  return {std::round(to[0] * 100) / 100, std::round(to[1] * 1e6) / 1e6};
+  if (const auto edit = editor_.follow(gesture, points_, point_rules, context.commands)) edit_points(context, *edit);
 }
 
-void DispersionPanel::edit_points(const Frame& frame, const std::optional<RowsEdit>& edit) const
+void DispersionPanel::edit_points(const Context& context, const RowsEdit& edit) const
 {
-  if (!edit) return;
-  preset::Preset edited = with_dispersion(frame.preset, shown_, with_points(frame.material.dispersion, edit->rows));
-  frame.commands.push_back(command::Edit{fmt::format("{} of {}", edit->label, shown_), std::move(edited), edit->gesture, edit->live});
+  const auto change = [&](preset::Preset& p) { p.scene.materials.at(shown_).dispersion = with_points(dispersion_, edit.rows); };
+  context.edit(fmt::format("{} of {}", edit.label, shown_), change, edit.gesture, edit.live);
 }
 
-void DispersionPanel::make_editable(const Frame& frame)
+void DispersionPanel::make_editable(const Context& context)
 {
-  FittedPoints fitted = fit_points(model_.curve().n);
+  const FittedPoints fitted = fit_points(model_.curve().n);
+  fitted_ = with_points(dispersion_, fitted.points);
   fitted_text_ = fmt::format("they reproduce {} within {:.1g} of n", model_.curve().name, fitted.greatest_deviation);
-  const std::string note = fmt::format("{} is made of {} control points now: {}", shown_, fitted.points.size(), fitted_text_);
-  edit_points(frame, RowsEdit{"make control points", std::move(fitted.points)});
-  fitted_ = std::get<command::Edit>(frame.commands.back()).preset.scene.materials.at(shown_).dispersion;
-  frame.commands.push_back(command::Report{note, false});
+  edit_points(context, {"make control points", fitted.points});
+  context.note(fmt::format("{} is made of {} control points now: {}", shown_, fitted.points.size(), fitted_text_));
   editor_.unmark();
 }
 

@@ -4,9 +4,8 @@
 #pragma once
 #include "ui/dispersion/model.h"
 #include "ui/dispersion/plot.h"
-#include "ui/spectra/curves.h"
+#include "ui/spectral/curves.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/row_editor.h"
 #include "ui/widgets/widgets.h"
 
 #include <string>
@@ -21,8 +20,7 @@ public:
   static constexpr const char* title = "Dispersion";
   /// axis outlives the panel.
   explicit DispersionPanel(WavelengthAxis& axis) : axis_(axis) {}
-  const char* name() const override { return title; }
-  void draw(const Workbench& workbench, Commands& commands) override;
+  void draw(const Context& context) override;
 
   /// For tests: what was drawn last, and where (the middle on the screen) a widget of this name was.
   const DispersionModel& model() const { return model_; }
@@ -32,27 +30,19 @@ public:
   std::array<double, 2> widget(const std::string& name) const { return places_.of(name).value(); }
 
 private:
-  /// What one frame's parts read: the preset, the material, and where edits go.
-  struct Frame {
-    const Workbench& workbench;
-    const preset::Preset& preset;
-    const preset::Material& material;
-    Commands& commands;
-  };
+  void follow(const Context& context);
+  void draw_toolbar(const Context& context, const std::vector<std::string>& names);
+  void draw_source() const;
+  void draw_points_row(const Context& context);
+  void draw_plot(const Context& context);
+  void draw_methods(const Context& context) const;
+  void draw_bias(const Context& context);
+  void draw_effort(const Context& context);
 
-  void follow(const Workbench& workbench);
-  void draw_toolbar(const Frame& frame, const std::vector<std::string>& names);
-  void draw_source(const Frame& frame) const;
-  void draw_points_row(const Frame& frame);
-  void draw_plot(const Frame& frame);
-  ControlPoint place(const ControlPoint& mouse) const;
-  void draw_methods(const Frame& frame) const;
-  void draw_bias(const Frame& frame);
-  void draw_effort(const Frame& frame);
+  void make_editable(const Context& context);
+  void follow_rows(const Context& context, const RowGesture& gesture);
+  void edit_points(const Context& context, const RowsEdit& edit) const;
 
-  void make_editable(const Frame& frame);
-  /// The control points as they shall be; nothing where there is no edit.
-  void edit_points(const Frame& frame, const std::optional<RowsEdit>& edit) const;
   WavelengthAxis& axis_;
   Gestures gestures_{title};
   RowEditor editor_{gestures_};
@@ -60,7 +50,8 @@ private:
   DispersionPlot plot_;
   SpectraMaker work_; ///< iterations a cluster, where the effort gives each its own
   std::optional<double> saving_by_effort_;
-  std::string shown_;                ///< the material
+  std::string shown_;                ///< the material,
+  preset::Dispersion dispersion_;    ///< and its
   std::vector<ControlPoint> points_; ///< of this frame, by rising wavelength
   bool sorted_ = false, snap_ = false;
   preset::Dispersion fitted_; ///< what "Make editable" made,

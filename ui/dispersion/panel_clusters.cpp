@@ -4,7 +4,6 @@
 #include "preset/choices.h"
 #include "spectral/describe_settings.h"
 #include "ui/dispersion/panel.h"
-#include "ui/state/workbench.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 
@@ -35,7 +34,7 @@ void cell(const std::string& text)
 } // namespace
 
 /// The run's method is the one that is not greyed.
-void DispersionPanel::draw_methods(const Frame& frame) const
+void DispersionPanel::draw_methods(const Context& context) const
 {
   if (!ImGui::BeginTable("methods", 5, ImGuiTableFlags_SizingStretchProp)) return;
   heading("Method", "How wavelengths are grouped (spectral.method); the run's is not greyed");
@@ -50,7 +49,7 @@ void DispersionPanel::draw_methods(const Frame& frame) const
     const std::string name(choice.name == "brute_force" ? "brute force" : choice.name);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::BeginDisabled(spectral::settings(frame.preset).method != choice.value);
+    ImGui::BeginDisabled(spectral::settings(*context.preset()).method != choice.value);
     ImGui::TextUnformatted(name.c_str());
     ImGui::SetItemTooltip("%s", std::string(choice.sentence).c_str());
     cell(fmt::format("{}", figures.clustering.clusters.size()));
@@ -62,31 +61,31 @@ void DispersionPanel::draw_methods(const Frame& frame) const
   ImGui::EndTable();
 }
 
-void DispersionPanel::draw_bias(const Frame& frame)
+void DispersionPanel::draw_bias(const Context& context)
 {
   const Spread& spread = model_.chosen().at_45;
   std::string text;
-  if (spectral::settings(frame.preset).jitter)
+  if (spectral::settings(*context.preset()).jitter)
     text = "Bias 0: each photon takes one wavelength of its cluster";
   else if (spread.greatest_deg == 0)
     text = "Bias 0: no cluster bends two rays alike that differ";
   else
     text = fmt::format("Bias: rays of a cluster go one way that differ by up to {:.2g} degrees", spread.greatest_deg);
   draw_wrapped(colour::quiet_text, text);
-  draw_effort(frame);
+  draw_effort(context);
   if (const auto clusters = model_.clusters_of_run(); clusters && *clusters != model_.chosen().clustering.clusters.size())
     draw_wrapped(colour::quiet_text,
                  fmt::format("The run has {}: those of all its glasses, step_nm and differentials", counted(*clusters, "cluster")));
 }
 
 /// What unequal work saves on top of the clusters.
-void DispersionPanel::draw_effort(const Frame& frame)
+void DispersionPanel::draw_effort(const Context& context)
 {
   using Effort = spectral::Settings::Effort;
   saving_by_effort_.reset();
-  const Effort effort = spectral::settings(frame.preset).effort;
+  const Effort effort = spectral::settings(*context.preset()).effort;
   if (effort != Effort::importance && effort != Effort::radziszewski) return;
-  const Spectra& work = work_.update(frame.preset, frame.workbench.seen_by_glass());
+  const Spectra& work = work_.update(*context.preset(), context.run.seen<SeenByGlass>());
   if (!work.why_no_u.empty() || work.iterations() == 0) return; // the panel "Spectra and importance" says why
   saving_by_effort_ = static_cast<double>(work.brute_force()) / static_cast<double>(work.iterations());
   draw_wrapped(colour::quiet_text, fmt::format("With effort {}: {:.3g} times fewer iterations than brute force",

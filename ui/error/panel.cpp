@@ -2,8 +2,7 @@
 #include "ui/error/panel.h"
 
 #include "measure/run_curves.h"
-#include "ui/shell/actions.h"
-#include "ui/state/workbench.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 
@@ -19,61 +18,61 @@ constexpr const char* this_run = "this run";
 constexpr const char* nothing_measured = "nothing measured"; ///< in the box of metrics, as wide as any name of one
 
 /// Every metric of the run in hand and of the pinned ones, each once.
-std::vector<std::string> all_metrics(const Workbench& workbench)
+std::vector<std::string> all_metrics(const Context& context)
 {
   std::vector<std::string> all;
   const auto add = [&](const job::History& history) {
     for (std::string& metric : measure::metric_names(history))
       if (std::find(all.begin(), all.end(), metric) == all.end()) all.push_back(std::move(metric));
   };
-  if (const auto history = workbench.error_history()) add(*history);
-  for (const PinnedRun& pin : workbench.pinned().all()) add(*pin.history);
+  if (const auto history = context.run.error_history()) add(*history);
+  for (const PinnedRun& pin : context.comparing.pinned().all()) add(*pin.history);
   return all;
 }
 
-std::string empty_hint(const Workbench& workbench)
+std::string empty_hint(const Context& context)
 {
-  if (!workbench.preset()) return "Open a preset: its error is measured while it runs. Or open the history of an earlier run.";
-  if (!workbench.snapshot()) return "Nothing is measured yet";
-  if (!workbench.error_history()) return "This run is not measured: the preset has no reference, and measure.estimate is false";
+  if (!context.preset()) return "Open a preset: its error is measured while it runs. Or open the history of an earlier run.";
+  if (!context.run.snapshot()) return "Nothing is measured yet";
+  if (!context.run.error_history()) return "This run is not measured: the preset has no reference, and measure.estimate is false";
   return "The first measurement is to come";
 }
 
 /// The target where it is about this metric.
-std::optional<double> target_of(const Workbench& workbench, const std::string& metric)
+std::optional<double> target_of(const Context& context, const std::string& metric)
 {
-  const auto history = workbench.error_history();
+  const auto history = context.run.error_history();
   if (!history || measure::error_column_of(history->error_column).metric != metric) return std::nullopt;
   return history->target;
 }
 
 } // namespace
 
-std::string shown_metric(const Workbench& workbench)
+std::string shown_metric(const Context& context)
 {
-  const std::vector<std::string> all = all_metrics(workbench);
+  const std::vector<std::string> all = all_metrics(context);
   const auto there = [&](const std::string& metric) { return std::find(all.begin(), all.end(), metric) != all.end(); };
-  if (there(workbench.error_metric())) return workbench.error_metric();
-  if (const auto history = workbench.error_history(); history && there(measure::error_column_of(history->error_column).metric))
+  if (there(context.chosen.error_metric)) return context.chosen.error_metric;
+  if (const auto history = context.run.error_history(); history && there(measure::error_column_of(history->error_column).metric))
     return measure::error_column_of(history->error_column).metric;
   return all.empty() ? std::string() : all.front();
 }
 
-std::string plot_as_csv(const Workbench& workbench)
+std::string plot_as_csv(const Context& context)
 {
-  const std::string metric = shown_metric(workbench);
+  const std::string metric = shown_metric(context);
   std::vector<RunLines> lines;
   std::vector<std::string> names;
   const auto add = [&](const std::string& name, const job::History& history) {
     lines.push_back(lines_of(history, metric));
     names.push_back(name);
   };
-  for (const PinnedRun& pin : workbench.pinned().all())
+  for (const PinnedRun& pin : context.comparing.pinned().all())
     if (pin.shown) add(pin.name, *pin.history);
-  if (const auto history = workbench.error_history()) add(this_run, *history);
+  if (const auto history = context.run.error_history()) add(this_run, *history);
   std::vector<NamedLines> named;
   for (std::size_t i = 0; i < lines.size(); ++i) named.push_back({names[i], &lines[i]});
-  return plot_csv(named, target_of(workbench, metric));
+  return plot_csv(named, target_of(context, metric));
 }
 
 const RunLines& ErrorPanel::lines(std::uint64_t id, const std::shared_ptr<const job::History>& history)
@@ -84,55 +83,56 @@ const RunLines& ErrorPanel::lines(std::uint64_t id, const std::shared_ptr<const 
   return made.lines;
 }
 
-void ErrorPanel::collect(const Workbench& workbench)
+void ErrorPanel::collect(const Context& context)
 {
-  contents_.metric = shown_metric(workbench);
-  contents_.target = target_of(workbench, contents_.metric);
+  contents_.metric = shown_metric(context);
+  contents_.target = target_of(context, contents_.metric);
   contents_.runs.clear();
-  std::erase_if(made_, [&](const auto& entry) { return entry.first != 0 && !workbench.pinned().find(entry.first); });
-  for (const PinnedRun& pin : workbench.pinned().all())
+  std::erase_if(made_, [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
+  for (const PinnedRun& pin : context.comparing.pinned().all())
     if (const RunLines& of_pin = lines(pin.id, pin.history); pin.shown && !of_pin.empty())
       contents_.runs.push_back({pin.name, pin.colour, 1.5f, &of_pin});
-  if (const RunLines& present = lines(0, workbench.error_history()); !present.empty())
+  if (const RunLines& present = lines(0, context.run.error_history()); !present.empty())
     contents_.runs.push_back({this_run, colour::text, 2, &present});
 }
 
-void ErrorPanel::draw(const Workbench& workbench, Commands& commands)
+void ErrorPanel::draw(const Context& context)
 {
-  collect(workbench);
-  draw_toolbar(workbench, commands);
+  collect(context);
+  draw_toolbar(context);
   const float em = ImGui::GetFontSize(), height = ImGui::GetContentRegionAvail().y;
-  const float pins =
-      workbench.pinned().all().empty() ? 0 : std::min(0.45f * height, 4.2f * em * static_cast<float>(workbench.pinned().all().size()));
+  const float pins = context.comparing.pinned().all().empty()
+                         ? 0
+                         : std::min(0.45f * height, 4.2f * em * static_cast<float>(context.comparing.pinned().all().size()));
   plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em));
   if (contents_.runs.empty()) {
     const auto& area = plot_.area();
     draw_hint({static_cast<float>(area[0]), static_cast<float>(area[1])}, {static_cast<float>(area[2]), static_cast<float>(area[3])},
-              empty_hint(workbench));
+              empty_hint(context));
   }
-  if (pins > 0) draw_pins(workbench, commands);
+  if (pins > 0) draw_pins(context);
 }
 
-void ErrorPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
+void ErrorPanel::draw_toolbar(const Context& context)
 {
   const char* const shown = contents_.metric.empty() ? nothing_measured : contents_.metric.c_str();
   ImGui::SetNextItemWidth(ImGui::CalcTextSize(shown).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
   if (ImGui::BeginCombo("##metric", shown)) {
-    for (const std::string& metric : all_metrics(workbench))
-      if (ImGui::Selectable(metric.c_str(), metric == contents_.metric)) commands.push_back(command::ChooseMetric{metric});
+    for (const std::string& metric : all_metrics(context))
+      if (ImGui::Selectable(metric.c_str(), metric == contents_.metric)) context.push(command::ChooseMetric{metric});
     ImGui::EndCombo();
   }
   ImGui::SetItemTooltip(
       "The error that is shown; docs/comparing.md defines each. Solid: against the reference; dashed: the run's own estimate.");
   ImGui::SameLine();
-  action_button("Pin this run", workbench, commands);
+  action_button("Pin this run", context);
   ImGui::SameLine();
-  action_button("Open history...", workbench, commands);
+  action_button("Open history...", context);
   ImGui::SameLine();
   if (ImGui::Button("Copy...")) ImGui::OpenPopup("copy");
   if (ImGui::BeginPopup("copy")) {
-    action_item("Copy history as CSV", workbench, commands);
-    action_item("Copy plot as CSV", workbench, commands);
+    action_item(action("Copy history as CSV"), context);
+    action_item(action("Copy plot as CSV"), context);
     ImGui::EndPopup();
   }
   ImGui::SameLine();
@@ -143,22 +143,22 @@ void ErrorPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
       "Axes that show everything and grow with the run; a double click on the plot does the same. Wheel zooms, drag moves.");
 }
 
-void ErrorPanel::draw_pins(const Workbench& workbench, Commands& commands)
+void ErrorPanel::draw_pins(const Context& context)
 {
   if (ImGui::BeginChild("pins")) {
-    for (const PinnedRun& pin : workbench.pinned().all()) {
+    for (const PinnedRun& pin : context.comparing.pinned().all()) {
       ImGui::PushID(static_cast<int>(pin.id));
-      draw_pin(workbench, pin, commands);
+      draw_pin(context, pin);
       ImGui::PopID();
     }
   }
   ImGui::EndChild();
 }
 
-void ErrorPanel::draw_pin(const Workbench& workbench, const PinnedRun& pin, Commands& commands)
+void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)
 {
   const auto change = [&](const std::string& name, std::uint32_t to_colour, bool shown) {
-    commands.push_back(command::ChangePin{pin.id, name, to_colour, shown});
+    context.push(command::ChangePin{pin.id, name, to_colour, shown});
   };
   bool shown = pin.shown;
   if (ImGui::Checkbox("##shown", &shown)) change({}, pin.colour, shown);
@@ -174,21 +174,21 @@ void ErrorPanel::draw_pin(const Workbench& workbench, const PinnedRun& pin, Comm
   input_text("##name", "name", name);
   if (ImGui::IsItemDeactivatedAfterEdit()) change(name, pin.colour, pin.shown);
   ImGui::SameLine();
-  const bool compared = workbench.comparison().pin == pin.id;
-  if (ImGui::RadioButton("Compare", compared)) commands.push_back(command::CompareWith{compared ? 0 : pin.id});
+  const bool compared = context.comparing.comparison().pin == pin.id;
+  if (ImGui::RadioButton("Compare", compared)) context.push(command::CompareWith{compared ? 0 : pin.id});
   ImGui::SetItemTooltip("%s", pin.picture ? "The View flips to this run's picture and shows the difference from it"
                                           : "Only a history was read: the View has no picture of this run");
   ImGui::SameLine();
-  if (ImGui::Button("Unpin")) commands.push_back(command::Unpin{pin.id});
+  if (ImGui::Button("Unpin")) context.push(command::Unpin{pin.id});
   ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s", findings(workbench, pin).c_str());
+  ImGui::TextDisabled("%s", findings(context, pin).c_str());
   ImGui::PopTextWrapPos();
 }
 
 /// The run's slope, and how much faster the run in hand is at equal error: the error and both times belong to it.
-std::string ErrorPanel::findings(const Workbench& workbench, const PinnedRun& pin)
+std::string ErrorPanel::findings(const Context& context, const PinnedRun& pin)
 {
-  const RunLines &of_pin = lines(pin.id, pin.history), &present = lines(0, workbench.error_history());
+  const RunLines &of_pin = lines(pin.id, pin.history), &present = lines(0, context.run.error_history());
   if (of_pin.empty()) return fmt::format("no {} in its history", contents_.metric.empty() ? "error" : contents_.metric);
   std::string text;
   if (const auto& fit = of_pin.judged().fit) text = fmt::format("slope {:.2f}; ", fit->exponent);

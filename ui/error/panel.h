@@ -10,18 +10,15 @@
 
 namespace nephroid::ui {
 
-struct PinnedRun;
-
 /// The metric that the plot shows: the chosen one where any run has it, else the run's own, else the first there is; else empty.
-std::string shown_metric(const Workbench& workbench);
+std::string shown_metric(const Context& context);
 /// Every number of the plot as CSV (plot_csv); of the run in hand and of the pinned runs that are shown.
-std::string plot_as_csv(const Workbench& workbench);
+std::string plot_as_csv(const Context& context);
 
 class ErrorPanel : public Panel {
 public:
   static constexpr const char* title = "Error against time";
-  const char* name() const override { return title; }
-  void draw(const Workbench& workbench, Commands& commands) override;
+  void draw(const Context& context) override;
 
   /// For tests: what was drawn last.
   const ErrorPlot& plot() const { return plot_; }
@@ -35,13 +32,13 @@ private:
     RunLines lines;
   };
 
-  void collect(const Workbench& workbench);
+  void collect(const Context& context);
   /// id: of a pinned run, 0 for the run in hand.
   const RunLines& lines(std::uint64_t id, const std::shared_ptr<const job::History>& history);
-  void draw_toolbar(const Workbench& workbench, Commands& commands);
-  void draw_pins(const Workbench& workbench, Commands& commands);
-  void draw_pin(const Workbench& workbench, const PinnedRun& pin, Commands& commands);
-  std::string findings(const Workbench& workbench, const PinnedRun& pin);
+  void draw_toolbar(const Context& context);
+  void draw_pins(const Context& context);
+  void draw_pin(const Context& context, const PinnedRun& pin);
+  std::string findings(const Context& context, const PinnedRun& pin);
 
   std::map<std::uint64_t, Made> made_;
   PlotContents contents_;

@@ -2,7 +2,6 @@
 #include "ui/parameters/panel.h"
 
 #include "preset/origins.h"
-#include "ui/state/workbench.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -88,16 +87,16 @@ std::string help_of(const Outline& o, const std::string& pointer)
 
 } // namespace
 
-void ParametersPanel::draw(const Workbench& workbench, Commands& commands)
+void ParametersPanel::draw(const Context& context)
 {
-  if (!workbench.preset()) {
+  if (!context.preset()) {
     draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(), "Open a preset: every field of it can be edited here");
     return;
   }
-  draft_.follow(*workbench.preset());
+  draft_.follow(*context.preset());
   places_.clear();
   const std::string revealing = reveal_;
-  follow_run(workbench);
+  follow_run(context);
   draw_top();
   const float room = ImGui::GetContentRegionAvail().y,
               help = room > 24 * ImGui::GetFontSize() ? 3.5f * ImGui::GetTextLineHeightWithSpacing() : 0;
@@ -115,19 +114,19 @@ void ParametersPanel::draw(const Workbench& workbench, Commands& commands)
   if (help > 0)
     draw_wrapped(colour::quiet_text, help_.empty() ? "Drag a number, or click on it and type. A right click on a name resets it." : help_);
   if (reveal_ == revealing) reveal_.clear(); // in sight, or nowhere
-  carry_out(commands);
+  carry_out(context);
 }
 
-void ParametersPanel::carry_out(Commands& commands)
+void ParametersPanel::carry_out(const Context& context)
 {
   for (Asked& asked : std::exchange(asked_, {})) {
     if (auto made = draft_.edit(asked.pointer, std::move(asked.value)))
-      commands.push_back(command::Edit{std::move(asked.label), *std::move(made), asked.live ? gestures_.number() : 0, asked.live});
+      context.push(command::Edit{std::move(asked.label), *std::move(made), asked.live ? gestures_.number() : 0, asked.live});
     else if (!asked.live)
       for (const auto& [edit, problem] : draft_.problems())
         if (is_inside(asked.pointer, edit)) reveal_ = shown_at(problem);
   }
-  if (std::exchange(let_go_, false)) commands.push_back(command::EndGesture{});
+  if (std::exchange(let_go_, false)) context.push(command::EndGesture{});
 }
 
 void ParametersPanel::ask(std::string label, const std::string& pointer, Json value, bool live)
@@ -136,12 +135,12 @@ void ParametersPanel::ask(std::string label, const std::string& pointer, Json va
 }
 
 /// What the run found wrong with the preset is said at its field, too.
-void ParametersPanel::follow_run(const Workbench& workbench)
+void ParametersPanel::follow_run(const Context& context)
 {
   told_.reset();
-  const std::optional<Error>& error = workbench.status().error;
+  const std::optional<Error>& error = context.run.status().error;
   if (!error) return;
-  const std::string field = preset::field_of(*workbench.preset(), error->place());
+  const std::string field = preset::field_of(*context.preset(), error->place());
   if (!field.empty()) told_ = {field, field, error->text()};
 }
 

@@ -19,8 +19,7 @@ namespace nephroid::ui {
 class ParametersPanel : public Panel {
 public:
   static constexpr const char* title = "Parameters";
-  const char* name() const override { return title; }
-  void draw(const Workbench& workbench, Commands& commands) override;
+  void draw(const Context& context) override;
 
   /// For tests: what waits, and the middle of a widget on the screen: "/scene/camera/fov_deg" is a field's own, "/scene/lights:add",
   /// "/white:reset" and so on are buttons, "search" is the box at the top. Nothing where it is not drawn.
@@ -47,7 +46,7 @@ private:
   };
 
   // panel.cpp: the panel and its rows
-  void follow_run(const Workbench& workbench);
+  void follow_run(const Context& context);
   void draw_top();
   void draw_fields(const Fields& fields, const Json& object, const std::string& pointer);
   void draw_field(const Outline& o, const Json& value, const std::string& pointer);
@@ -61,7 +60,7 @@ private:
   bool is_searching() const { return !search_.empty() || only_changed_; }
   static std::string shown_at(const Problem& problem);
   void ask(std::string label, const std::string& pointer, Json value, bool live = false);
-  void carry_out(Commands& commands);
+  void carry_out(const Context& context);
   void note(const std::string& widget) { places_.note(widget); }
 
   // values.cpp: a field's own widget

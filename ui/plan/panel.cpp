@@ -2,8 +2,7 @@
 #include "ui/plan/panel.h"
 
 #include "preset/read.h"
-#include "ui/shell/actions.h"
-#include "ui/state/workbench.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 
@@ -45,7 +44,7 @@ void seconds_cell(std::optional<double> seconds)
 }
 
 /// Seconds that are no pass of the plan's: other phases, and measuring, which is not in the work's time.
-void draw_other_seconds(const Workbench& workbench, const plan::Plan& plan)
+void draw_other_seconds(const Context& context, const plan::Plan& plan)
 {
   const auto row = [](const std::string& name, double seconds, const char* why) {
     ImGui::TableNextRow();
@@ -55,11 +54,11 @@ void draw_other_seconds(const Workbench& workbench, const plan::Plan& plan)
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", why);
   };
-  if (!workbench.snapshot()) return;
-  for (const auto& [phase, seconds] : workbench.snapshot()->phases)
+  if (!context.run.snapshot()) return;
+  for (const auto& [phase, seconds] : context.run.snapshot()->phases)
     if (std::none_of(plan.passes.begin(), plan.passes.end(), [&, name = phase](const plan::Pass& pass) { return pass.name == name; }))
       row(phase, seconds, "");
-  if (const auto history = workbench.error_history()) row("measuring", history->measuring_seconds, "not counted as work");
+  if (const auto history = context.run.error_history()) row("measuring", history->measuring_seconds, "not counted as work");
 }
 
 void draw_buffers(const plan::Plan& plan)
@@ -111,23 +110,23 @@ preset::Preset with_field(const preset::Preset& preset, const std::string& point
   return edited;
 }
 
-void PlanPanel::draw(const Workbench& workbench, Commands& commands)
+void PlanPanel::draw(const Context& context)
 {
-  const plan::Plan* plan = workbench.plan().get();
+  const plan::Plan* plan = context.run.plan().get();
   if (!plan) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     draw_hint(corner, ImGui::GetContentRegionAvail(),
-              workbench.preset() ? "The plan is being made" : "Open a preset: what it runs, what is left out and why");
+              context.preset() ? "The plan is being made" : "Open a preset: what it runs, what is left out and why");
     return;
   }
-  read_fields(workbench);
+  read_fields(context);
   ImGui::AlignTextToFramePadding();
   const auto left_out = std::count_if(plan->passes.begin(), plan->passes.end(), [](const plan::Pass& pass) { return !pass.runs; });
   ImGui::TextUnformatted(fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->passes.size()).c_str());
   ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 8, ImGui::GetFontSize() * 14));
-  action_button("Copy plan as JSON", workbench, commands);
+  action_button("Copy plan as JSON", context);
   if (ImGui::BeginChild("plan")) {
-    draw_passes(workbench, commands);
+    draw_passes(context);
     draw_buffers(*plan);
     draw_defines(*plan);
     draw_notes(*plan);
@@ -136,11 +135,11 @@ void PlanPanel::draw(const Workbench& workbench, Commands& commands)
 }
 
 /// What the fields say now: from the preset's JSON, in which the plan's pointers point. Only where plan or preset changed.
-void PlanPanel::read_fields(const Workbench& workbench)
+void PlanPanel::read_fields(const Context& context)
 {
-  if (plan_ == workbench.plan() && preset_ == *workbench.preset()) return;
-  plan_ = workbench.plan();
-  preset_ = *workbench.preset();
+  if (plan_ == context.run.plan() && preset_ == *context.preset()) return;
+  plan_ = context.run.plan();
+  preset_ = *context.preset();
   boxes_.clear();
   const nlohmann::json fields = nlohmann::json::parse(preset::to_json(preset_));
   for (const plan::Pass& pass : plan_->passes) {
@@ -153,7 +152,7 @@ void PlanPanel::read_fields(const Workbench& workbench)
   }
 }
 
-void PlanPanel::draw_passes(const Workbench& workbench, Commands& commands)
+void PlanPanel::draw_passes(const Context& context)
 {
   if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
   ImGui::TableSetupColumn("Always", ImGuiTableColumnFlags_WidthFixed);
@@ -166,28 +165,28 @@ void PlanPanel::draw_passes(const Workbench& workbench, Commands& commands)
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(static_cast<int>(i));
-    if (boxes_[i].computed) draw_box(workbench, pass, boxes_[i], commands);
+    if (boxes_[i].computed) draw_box(context, pass, boxes_[i]);
     ImGui::PopID();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, pass.runs ? colour::text : colour::quiet_text);
     ImGui::TextUnformatted(pass.name.c_str());
     ImGui::PopStyleColor();
-    seconds_cell(seconds_of(workbench.snapshot().get(), pass.name));
+    seconds_cell(seconds_of(context.run.snapshot().get(), pass.name));
     ImGui::TableNextColumn();
     ImGui::PushTextWrapPos(0);
     ImGui::TextDisabled("%s", (pass.runs ? "runs: " + pass.reason : "left out: " + pass.reason).c_str());
     ImGui::PopTextWrapPos();
   }
-  draw_other_seconds(workbench, *plan_);
+  draw_other_seconds(context, *plan_);
   ImGui::EndTable();
 }
 
-void PlanPanel::draw_box(const Workbench& workbench, const plan::Pass& pass, Box& box, Commands& commands) const
+void PlanPanel::draw_box(const Context& context, const plan::Pass& pass, Box& box) const
 {
   bool computed = *box.computed;
   if (ImGui::Checkbox("##computed", &computed)) {
     const std::string label = (computed ? "compute " : "leave out ") + pass.name;
-    commands.push_back(command::Edit{label, with_field(*workbench.preset(), pass.field, computed ? pass.run_value : !pass.run_value)});
+    context.push(command::Edit{label, with_field(*context.preset(), pass.field, computed ? pass.run_value : !pass.run_value)});
   }
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   box.middle = {(low.x + high.x) / 2, (low.y + high.y) / 2};

@@ -17,8 +17,7 @@ namespace nephroid::ui {
 class PlanPanel : public Panel {
 public:
   static constexpr const char* title = "Plan";
-  const char* name() const override { return title; }
-  void draw(const Workbench& workbench, Commands& commands) override;
+  void draw(const Context& context) override;
 
   /// Where the box of a pass was drawn last (its middle on the screen); nothing where it has none. For tests.
   std::optional<std::array<double, 2>> box_of(const std::string& pass) const;
@@ -30,9 +29,9 @@ private:
     std::array<double, 2> middle{0, 0};
   };
 
-  void read_fields(const Workbench& workbench);
-  void draw_passes(const Workbench& workbench, Commands& commands);
-  void draw_box(const Workbench& workbench, const plan::Pass& pass, Box& box, Commands& commands) const;
+  void read_fields(const Context& context);
+  void draw_passes(const Context& context);
+  void draw_box(const Context& context, const plan::Pass& pass, Box& box) const;
 
   std::shared_ptr<const plan::Plan> plan_; ///< what boxes_ belong to,
   preset::Preset preset_;                  ///< and the preset that they were read from

@@ -13,27 +13,24 @@
 namespace nephroid::ui {
 namespace {
 
-const char* title(Question question)
-{
-  switch (question) {
-  case Question::open:
-    return "Open a preset";
-  case Question::open_history:
-    return "Open the history of a run";
-  case Question::save_preset:
-    return "Save the preset as";
-  case Question::save_picture:
-    return "Save the picture as";
-  case Question::unsaved:
-    return "Unsaved changes";
-  case Question::none:
-    break;
-  }
-  return "";
-}
+/// In the order of Question.
+constexpr const char* titles[] = {
+    "", "Open a preset", "Open the history of a run", "Save the preset as", "Save the picture as", "Unsaved changes"};
 
-/// True when Enter was pressed.
-bool entered_text(const char* hint, std::string& text) { return input_text("##file", hint, text, ImGuiInputTextFlags_EnterReturnsTrue); }
+const char* title(Question question) { return titles[static_cast<std::size_t>(question)]; }
+
+/// A field for a file's name, and a button. True where the name is chosen by one of them.
+bool choose_name(const char* hint, float width, std::string& name, const char* button)
+{
+  ImGui::SetNextItemWidth(width);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  const bool entered = input_text("##file", hint, name, ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::SameLine();
+  ImGui::BeginDisabled(name.empty());
+  const bool pressed = ImGui::Button(button);
+  ImGui::EndDisabled();
+  return pressed || (entered && !name.empty());
+}
 
 bool exists(const std::string& file)
 {
@@ -46,7 +43,9 @@ bool exists(const std::string& file)
 void Dialogs::begin(const Workbench& workbench)
 {
   shown_ = workbench.question();
-  name_ = shown_ == Question::open || shown_ == Question::open_history ? std::string() : workbench.proposed_name(shown_);
+  name_.clear();
+  const bool picture = shown_ == Question::save_picture;
+  if (picture || shown_ == Question::save_preset) name_ = proposed_name(workbench.preset(), picture ? ".png" : "-edited.json");
   shipped_.clear();
   ImGui::OpenPopup(title(shown_));
   if (shown_ == Question::open) shipped_ = preset::shipped_presets();
@@ -82,13 +81,7 @@ void Dialogs::draw(const Workbench& workbench, Commands& commands)
 void Dialogs::draw_open(Commands& commands)
 {
   const float em = ImGui::GetFontSize();
-  ImGui::SetNextItemWidth(em * 41);
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered = entered_text("path of a preset file, or its name", name_);
-  ImGui::SameLine();
-  ImGui::BeginDisabled(name_.empty());
-  if (ImGui::Button("Open") || (entered && !name_.empty())) commands.push_back(command::Open{name_});
-  ImGui::EndDisabled();
+  if (choose_name("path of a preset file, or its name", em * 41, name_, "Open")) commands.push_back(command::Open{name_});
   ImGui::SeparatorText("Shipped presets");
   if (ImGui::BeginChild("shipped", {em * 46, em * 14})) {
     for (const preset::ShippedPreset& shipped : shipped_) {
@@ -102,32 +95,17 @@ void Dialogs::draw_open(Commands& commands)
 
 void Dialogs::draw_open_history(Commands& commands)
 {
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 30);
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered = entered_text("folder of a run, or its history.csv", name_);
-  ImGui::SameLine();
-  ImGui::BeginDisabled(name_.empty());
-  if (ImGui::Button("Open") || (entered && !name_.empty())) commands.push_back(command::PinFile{name_});
-  ImGui::EndDisabled();
+  if (choose_name("folder of a run, or its history.csv", ImGui::GetFontSize() * 30, name_, "Open"))
+    commands.push_back(command::PinFile{name_});
   ImGui::TextDisabled("Of a folder the picture is kept too. Dropping it on the window does the same.");
 }
 
 void Dialogs::draw_save(Commands& commands)
 {
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 30);
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const bool entered = entered_text("file", name_);
-  ImGui::SameLine();
-  ImGui::BeginDisabled(name_.empty());
-  const bool there = !name_.empty() && exists(name_);
-  if (ImGui::Button(there ? "Replace" : "Save") || (entered && !name_.empty())) {
-    if (shown_ == Question::save_picture)
-      commands.push_back(command::SavePicture{name_});
-    else
-      commands.push_back(command::SavePreset{name_});
-  }
-  ImGui::EndDisabled();
-  if (shown_ == Question::save_picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
+  const bool picture = shown_ == Question::save_picture, there = !name_.empty() && exists(name_);
+  if (choose_name("file", ImGui::GetFontSize() * 30, name_, there ? "Replace" : "Save"))
+    commands.push_back(picture ? Command(command::SavePicture{name_}) : Command(command::SavePreset{name_}));
+  if (picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
   if (there) ImGui::TextDisabled("This file is there already.");
 }
 
@@ -135,7 +113,7 @@ void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands)
 {
   const std::string then = std::holds_alternative<command::Quit>(*workbench.waiting()) ? "quit" : "open";
   ImGui::TextUnformatted("The preset was changed and is not saved.");
-  const std::filesystem::path target = workbench.save_target();
+  const std::filesystem::path target = save_target(workbench.preset());
   // What waits is carried out once the preset is saved; where saving fails the question stays.
   if (ImGui::Button(target.empty() ? "Save as..." : ("Save and " + then).c_str())) {
     if (target.empty())

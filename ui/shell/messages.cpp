@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/shell/messages.h"
 
-#include "ui/shell/actions.h"
-#include "ui/state/workbench.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 
 #include <imgui.h>
@@ -14,11 +13,7 @@ namespace {
 
 constexpr std::size_t most_shown = 4; ///< the newest; the others come up when these are dismissed
 
-std::span<const Message> shown(const Workbench& workbench)
-{
-  const std::span<const Message> all = workbench.messages();
-  return all.last(std::min(all.size(), most_shown));
-}
+std::span<const Message> shown(std::span<const Message> all) { return all.last(std::min(all.size(), most_shown)); }
 
 /// Room at the right for the buttons.
 float text_width(float width) { return std::max(width - ImGui::GetFontSize() * 12, ImGui::GetFontSize() * 10); }
@@ -31,18 +26,18 @@ float line_height(const Message& message, float width)
 
 } // namespace
 
-float messages_height(const Workbench& workbench, float width)
+float messages_height(const std::vector<Message>& messages, float width)
 {
-  if (workbench.messages().empty()) return 0;
+  if (messages.empty()) return 0;
   float height = 2 * ImGui::GetStyle().WindowPadding.y;
-  for (const Message& message : shown(workbench)) height += line_height(message, width);
+  for (const Message& message : shown(messages)) height += line_height(message, width);
   return height;
 }
 
-void draw_messages(const Workbench& workbench, Commands& commands)
+void draw_messages(const Context& context)
 {
   const float width = ImGui::GetWindowWidth(), em = ImGui::GetFontSize();
-  for (const Message& message : shown(workbench)) {
+  for (const Message& message : shown(context.messages)) {
     ImGui::PushID(static_cast<int>(message.id));
     const float top = ImGui::GetCursorPosY();
     ImGui::AlignTextToFramePadding();
@@ -53,11 +48,11 @@ void draw_messages(const Workbench& workbench, Commands& commands)
     ImGui::PopTextWrapPos();
     ImGui::SetCursorPos({width - em * 10.5f, top});
     if (message.error) {
-      action_button("Open...", workbench, commands);
+      action_button("Open...", context);
       ImGui::SameLine();
     } else
       ImGui::SetCursorPosX(width - em * 5.5f);
-    if (ImGui::Button("Dismiss")) commands.push_back(command::Dismiss{message.id});
+    if (ImGui::Button("Dismiss")) context.push(command::Dismiss{message.id});
     ImGui::SetCursorPosY(top + line_height(message, width));
     ImGui::Dummy({0, 0});
     ImGui::PopID();

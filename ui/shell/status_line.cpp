@@ -3,8 +3,7 @@
 
 #include "base/counted.h"
 #include "job/pace.h"
-#include "ui/shell/actions.h"
-#include "ui/state/workbench.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -16,9 +15,8 @@ namespace nephroid::ui {
 namespace {
 
 /// How many there are; the lines themselves in a tooltip.
-void draw_notes(const Workbench& workbench)
+void draw_notes(const std::vector<std::string>& notes)
 {
-  const std::vector<std::string> notes = workbench.notes();
   if (notes.empty()) return;
   ImGui::SameLine(0, ImGui::GetFontSize());
   ImGui::PushStyleColor(ImGuiCol_Text, colour::note);
@@ -60,7 +58,7 @@ const char* name_of(job::State state)
   return "";
 }
 
-const char* state_word(const Workbench& workbench) { return workbench.compiling() ? "compiling" : name_of(workbench.status().state); }
+const char* state_word(const RunInHand& run) { return run.compiling() ? "compiling" : name_of(run.status().state); }
 
 std::string rate_text(const job::Progress& progress)
 {
@@ -79,33 +77,33 @@ std::string duration_text(double seconds)
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-void draw_status_line(const Workbench& workbench, Commands& commands)
+void draw_status_line(const Context& context, const std::vector<std::string>& notes)
 {
-  const job::Status& status = workbench.status();
+  const job::Status& status = context.run.status();
   const job::Progress& progress = status.progress;
   const bool paused = status.state == job::State::paused;
   const float em = ImGui::GetFontSize();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(state_word(workbench));
+  ImGui::TextUnformatted(state_word(context.run));
   ImGui::SameLine(em * 6);
   ImGui::ProgressBar(static_cast<float>(progress.fraction), {em * 14, 0}, fmt::format("{:.0f} %", 100 * progress.fraction).c_str());
   ImGui::SameLine();
   if (paused) {
     // The same action under the name that says what it does now.
-    if (ImGui::Button("Go on")) commands.push_back(command::Pause{false});
+    if (ImGui::Button("Go on")) context.push(command::Pause{false});
   } else
-    action_button("Pause", workbench, commands);
+    action_button("Pause", context);
   ImGui::SameLine();
-  action_button("Cancel", workbench, commands);
+  action_button("Cancel", context);
   ImGui::SameLine();
-  action_button("Start again", workbench, commands);
+  action_button("Start again", context);
   std::string text = rate_text(progress);
   const double left = seconds_left(progress);
   if (left > 0 && (status.state == job::State::running || paused)) text += "    " + duration_text(left) + " left";
   if (progress.work_seconds > 0) text += fmt::format("    {} of work", duration_text(progress.work_seconds));
   ImGui::SameLine(0, em);
   ImGui::TextUnformatted(text.c_str());
-  draw_notes(workbench);
+  draw_notes(notes);
   const char* help = "Mouse and keys: F1";
   const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(help).x - em;
   if (right < ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + em) return;

@@ -10,9 +10,6 @@
 #include "ui/shell/status_line.h"
 #include "ui/shell/workspace.h"
 #include "ui/state/device_runs.h"
-#include "ui/state/file_kind.h"
-#include "ui/state/pinned_runs.h"
-#include "ui/state/workbench.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +29,7 @@ std::string title(const Workbench& workbench)
   const preset::Preset* preset = workbench.preset();
   if (!preset) return "Nephroid";
   const std::string name = preset->name.empty() ? preset->source : preset->name;
-  return fmt::format("{}{} - Nephroid", workbench.history()->modified() ? "* " : "", name);
+  return fmt::format("{}{} - Nephroid", workbench.edits()->modified() ? "* " : "", name);
 }
 
 bool is_over(job::State state)
@@ -96,7 +93,7 @@ private:
     window_.present();
     workbench_.apply(commands);
     window_.set_title(title(workbench_));
-    const job::Status& status = workbench_.status();
+    const job::Status& status = workbench_.run().status();
     clock_.end(name_of(status.state), status.progress.fraction);
     if (!screen.rgba8.empty()) image::write_png_bytes(options_.screenshot, screen.width, screen.height, screen.rgba8);
   }
@@ -105,14 +102,14 @@ private:
   {
     if (limit_ == 0 || clock_.frames() + 1 < static_cast<std::size_t>(limit_)) return false;
     if (workbench_.works_on_files()) return false; // runs to pin, from the command line
-    const job::Status& status = workbench_.status();
+    const job::Status& status = workbench_.run().status();
     if (options_.until <= 0) return true;
     return is_over(status.state) || (options_.until < 1 && status.progress.fraction >= options_.until);
   }
 
   void rest()
   {
-    const job::State state = workbench_.status().state;
+    const job::State state = workbench_.run().status().state;
     FrameClock::Pace pace = FrameClock::Pace::idle;
     if (Clock::now() - last_touch_ < hands_rest)
       pace = FrameClock::Pace::hands_on;
@@ -168,8 +165,8 @@ int open_window(const Options& options)
   compute::DeviceOptions device;
   device.selector = options.device;
   device.kernels = options.kernels;
-  DeviceRuns engine(device);
-  Workbench workbench(engine);
+  DeviceRuns runs(device, look_around);
+  Workbench workbench(runs);
   if (!cache_note.empty()) workbench.add_note(cache_note);
   open_first(workbench, options);
   {

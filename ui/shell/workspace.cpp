@@ -2,12 +2,10 @@
 #include "ui/shell/workspace.h"
 
 #include "base/error.h"
-#include "ui/shell/actions.h"
-#include "ui/shell/help.h"
 #include "ui/shell/layout.h"
+#include "ui/shell/menus.h"
 #include "ui/shell/messages.h"
 #include "ui/shell/status_line.h"
-#include "ui/state/workbench.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -46,49 +44,46 @@ void strip(const char* name, float height, Draw draw)
   ImGui::End();
 }
 
-} // namespace
-
-template <class P, class... Arguments>
-P* Workspace::add_own(Arguments&... arguments)
+void draw_panel(const char* title, Panel& panel, const Context& context)
 {
-  auto panel = std::make_unique<P>(arguments...);
-  P* added = panel.get();
-  add(std::move(panel));
-  return added;
+  // Without NoFocusOnAppearing the last panel to be drawn would come before the one that the layout has in front.
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
+  if (ImGui::Begin(title, nullptr, flags)) panel.draw(context);
+  ImGui::End();
 }
+
+} // namespace
 
 Workspace::Workspace(std::string layout) : layout_(std::move(layout))
 {
   check_layout(layout_);
-  view_ = add_own<ViewPanel>();
-  error_ = add_own<ErrorPanel>();
-  parameters_ = add_own<ParametersPanel>();
-  dispersion_ = add_own<DispersionPanel>(wavelengths_);
-  spectra_ = add_own<SpectraPanel>(wavelengths_);
-  plan_ = add_own<PlanPanel>();
+  for (const PanelEntry& entry : panel_table()) add(entry, entry.make(wavelengths_));
 }
 
 Commands Workspace::draw(Workbench& workbench)
 {
   Commands commands;
+  const Context context = workbench.context(commands);
   plots_.follow_scale();
   guarded("menu", commands, [&] {
     if (ImGui::BeginMainMenuBar()) {
-      draw_menus(workbench, commands);
+      draw_menus(context);
       ImGui::EndMainMenuBar();
     }
-    run_shortcuts(workbench, commands);
+    run_shortcuts(context, workbench.question() != Question::none);
   });
   guarded("status line", commands, [&] {
-    strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y, [&] { draw_status_line(workbench, commands); });
+    strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y, [&] { draw_status_line(context, workbench.notes()); });
   });
   guarded("messages", commands, [&] {
-    const float height = messages_height(workbench, ImGui::GetMainViewport()->Size.x);
-    if (height > 0) strip("messages", height, [&] { draw_messages(workbench, commands); });
+    const float height = messages_height(context.messages, ImGui::GetMainViewport()->Size.x);
+    if (height > 0) strip("messages", height, [&] { draw_messages(context); });
   });
   guarded("layout", commands, [&] { draw_dock_space(workbench); });
-  for (const std::unique_ptr<Panel>& panel : panels_) guarded(panel->name(), commands, [&] { draw_panel(*panel, workbench, commands); });
-  guarded("help", commands, [&] { draw_help(workbench, commands); });
+  for (const Open& open : panels_)
+    if (serves(open.entry, context.preset()))
+      guarded(open.entry.title, commands, [&] { draw_panel(open.entry.title, *open.panel, context); });
+  if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
   return commands;
 }
@@ -100,14 +95,6 @@ void Workspace::draw_dock_space(Workbench& workbench)
   laid_out_ = true;
   const ImVec2 size = ImGui::GetMainViewport()->WorkSize;
   build_layout(layout_, id, size.x, size.y);
-}
-
-void Workspace::draw_panel(Panel& panel, const Workbench& workbench, Commands& commands) const
-{
-  // Without NoFocusOnAppearing the last panel to be drawn would come before the one that the layout has in front.
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin(panel.name(), nullptr, flags)) panel.draw(workbench, commands);
-  ImGui::End();
 }
 
 } // namespace nephroid::ui

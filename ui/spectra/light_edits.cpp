@@ -77,7 +77,7 @@ LightSpectrum sorted(LightSpectrum spectrum)
 
 RowRules row_rules(const LightSpectrum& spectrum)
 {
-  return {spectrum.type == Type::lines ? "line" : "row", preset::power_bounds, 0.1, spectrum.type == Type::table ? 2u : 1u};
+  return {spectrum.type == Type::lines ? "line" : "row", preset::power_bounds, 0.1, spectrum.type == Type::table ? 2u : 1u, readable};
 }
 
 PowerRow readable(const PowerRow& row)

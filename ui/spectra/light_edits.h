@@ -2,7 +2,7 @@
 // Edits of a light's spectrum as pure functions from one to the next: the rows of a table or of lines. No Dear ImGui.
 #pragma once
 #include "preset/preset.h"
-#include "ui/widgets/sorted_rows.h"
+#include "ui/widgets/rows.h"
 
 namespace nephroid::ui {
 
@@ -18,7 +18,7 @@ double largest_power(const preset::LightSpectrum& spectrum);
 /// power 1.
 preset::LightSpectrum as_table(const preset::LightSpectrum& spectrum);
 
-/// The rows by rising wavelength, as ui/widgets/sorted_rows.h expects them.
+/// The rows by rising wavelength, as ui/widgets/rows.h expects them.
 preset::LightSpectrum sorted(preset::LightSpectrum spectrum);
 /// A table has two rows at least, lines one.
 RowRules row_rules(const preset::LightSpectrum& spectrum);

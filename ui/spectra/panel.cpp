@@ -3,7 +3,6 @@
 
 #include "base/counted.h"
 #include "preset/choices.h"
-#include "ui/state/workbench.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/wavelength_axis.h"
 
@@ -52,17 +51,17 @@ std::string times(std::int64_t more, std::int64_t fewer)
 
 } // namespace
 
-void SpectraPanel::draw(const Workbench& workbench, Commands& commands)
+void SpectraPanel::draw(const Context& context)
 {
-  if (!workbench.preset()) {
+  if (!context.preset()) {
     draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
               "Open a preset: its light, what reflects it and what the eye makes of it");
     return;
   }
   places_.clear();
-  maker_.update(*workbench.preset(), workbench.seen_by_glass());
-  choose_light(*workbench.preset());
-  draw_light(workbench, commands);
+  maker_.update(*context.preset(), context.run.seen<SeenByGlass>());
+  choose_light(*context.preset());
+  draw_light(context);
   draw_switches();
   draw_copy();
   const Spectra& spectra = maker_.spectra();
@@ -70,7 +69,7 @@ void SpectraPanel::draw(const Workbench& workbench, Commands& commands)
   const auto seen = spectra.importance.surroundings.size();
   const float table = seen == 0 ? 0 : static_cast<float>(std::min(seen, most_seen) + 1) * cell + ImGui::GetStyle().ItemSpacing.y;
   const float below = 2 * line + 2 * ImGui::GetStyle().ItemSpacing.y + table;
-  draw_plot(workbench, commands, std::max(ImGui::GetContentRegionAvail().y - below, 16 * em()));
+  draw_plot(context, std::max(ImGui::GetContentRegionAvail().y - below, 16 * em()));
   draw_numbers();
   draw_surroundings();
 }
@@ -84,15 +83,14 @@ void SpectraPanel::choose_light(const preset::Preset& preset)
   editor_.keep(has_rows(spectrum_) ? spectrum_.table.size() : 0);
 }
 
-void SpectraPanel::draw_light(const Workbench& workbench, Commands& commands)
+void SpectraPanel::draw_light(const Context& context)
 {
-  if (workbench.preset()->scene.lights.empty()) {
+  if (context.preset()->scene.lights.empty()) {
     draw_wrapped(colour::note, "The scene has no light");
     return;
   }
-  draw_light_choice(*workbench.preset());
-  draw_spectrum_controls(workbench, commands);
-  if (has_rows(spectrum_)) draw_row_controls(workbench, commands);
+  draw_light_choice(*context.preset());
+  draw_spectrum_controls(context);
   if (const std::string& error = maker_.spectra().lights[light_].error; !error.empty()) draw_wrapped(colour::error, error);
 }
 
@@ -117,42 +115,21 @@ void SpectraPanel::draw_light_choice(const preset::Preset& preset)
   places_.note("light");
 }
 
-void SpectraPanel::draw_spectrum_controls(const Workbench& workbench, Commands& commands)
+void SpectraPanel::draw_spectrum_controls(const Context& context)
 {
   same_line_if_room(8 * em());
   if (has_rows(spectrum_)) {
     ImGui::TextDisabled("%s", counted(spectrum_.table.size(), "row").c_str());
     ImGui::SetItemTooltip("Drag a point. A double click adds one, a click with the right button removes one.");
+    ImGui::SameLine();
+    follow_rows(context, draw_row_buttons(in_widest_gap(spectrum_), editor_.marked(), places_));
     return;
   }
-  if (ImGui::Button("Make editable")) {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.lights[light_].spectrum = as_table(spectrum_);
-    commands.push_back(command::Edit{fmt::format("make rows of light {}", light_ + 1), std::move(edited)});
-  }
+  if (ImGui::Button("Make editable"))
+    context.edit(fmt::format("make rows of light {}", light_ + 1),
+                 [&](preset::Preset& p) { p.scene.lights[light_].spectrum = as_table(spectrum_); });
   places_.note("make editable");
   ImGui::SetItemTooltip("Rows every 20 nm, to drag");
-}
-
-/// Buttons for what the mouse does too.
-void SpectraPanel::draw_row_controls(const Workbench& workbench, Commands& commands)
-{
-  const std::vector<PowerRow>& rows = spectrum_.table;
-  const RowRules rules = row_rules(spectrum_);
-  const std::optional<std::size_t> marked = editor_.marked();
-  if (ImGui::Button("Add")) edit_rows(workbench, editor_.add(rows, in_widest_gap(spectrum_), rules, commands), commands);
-  places_.note("add");
-  ImGui::SetItemTooltip("One more row, in the widest gap; a double click in the plot adds one there.");
-  ImGui::SameLine();
-  ImGui::BeginDisabled(!marked || rows.size() <= rules.fewest);
-  if (ImGui::Button("Remove") || (marked && delete_pressed()))
-    edit_rows(workbench, editor_.remove(rows, *marked, rules, commands), commands);
-  places_.note("remove");
-  ImGui::EndDisabled();
-  if (marked) return;
-  same_line_if_room(12 * em());
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("click a point to mark it");
 }
 
 void SpectraPanel::draw_switches()
@@ -190,23 +167,22 @@ void SpectraPanel::draw_copy()
   ImGui::SetItemTooltip("Every curve as CSV, a row a wavelength");
 }
 
-void SpectraPanel::draw_plot(const Workbench& workbench, Commands& commands, float height)
+void SpectraPanel::draw_plot(const Context& context, float height)
 {
   SpectraPlotContents contents{&maker_.spectra(), &switches_, nullptr, light_, editor_.marked()};
-  if (!workbench.preset()->scene.lights.empty()) contents.edited = &spectrum_;
-  RowGesture gesture = plot_.draw(contents, axis_, height);
-  gesture.to = readable(gesture.to);
-  edit_rows(workbench, editor_.follow(gesture, spectrum_.table, row_rules(spectrum_), commands), commands);
+  if (!context.preset()->scene.lights.empty()) contents.edited = &spectrum_;
+  follow_rows(context, plot_.draw(contents, axis_, height));
 }
 
-void SpectraPanel::edit_rows(const Workbench& workbench, const std::optional<RowsEdit>& edit, Commands& commands)
+void SpectraPanel::follow_rows(const Context& context, const RowGesture& gesture)
 {
+  const auto edit = editor_.follow(gesture, spectrum_.table, row_rules(spectrum_), context.commands);
   if (!edit) return;
-  preset::Preset edited = *workbench.preset();
-  preset::LightSpectrum& spectrum = edited.scene.lights[light_].spectrum;
-  spectrum = spectrum_;
-  spectrum.table = edit->rows;
-  commands.push_back(command::Edit{fmt::format("{} of light {}", edit->label, light_ + 1), std::move(edited), edit->gesture, edit->live});
+  const auto change = [&](preset::Preset& p) {
+    p.scene.lights[light_].spectrum = spectrum_;
+    p.scene.lights[light_].spectrum.table = edit->rows;
+  };
+  context.edit(fmt::format("{} of light {}", edit->label, light_ + 1), change, edit->gesture, edit->live);
 }
 
 /// What the clusters cost, and what of brute force that is.

@@ -3,10 +3,9 @@
 // of each cluster, on the wavelength axis that the panel "Dispersion" has too. The rows of a light's spectrum
 // are edited here.
 #pragma once
-#include "ui/spectra/curves.h"
 #include "ui/spectra/plot.h"
+#include "ui/spectral/curves.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/row_editor.h"
 #include "ui/widgets/widgets.h"
 
 #include <array>
@@ -22,8 +21,7 @@ public:
   static constexpr const char* title = "Spectra and importance";
   /// axis outlives the panel.
   explicit SpectraPanel(WavelengthAxis& axis) : axis_(axis) {}
-  const char* name() const override { return title; }
-  void draw(const Workbench& workbench, Commands& commands) override;
+  void draw(const Context& context) override;
 
   /// For tests: what was drawn last, and the middle of a widget on the screen; nothing where there is no such widget.
   const SpectraMaker& maker() const { return maker_; }
@@ -32,18 +30,16 @@ public:
 
 private:
   void choose_light(const preset::Preset& preset);
-  void draw_light(const Workbench& workbench, Commands& commands);
+  void draw_light(const Context& context);
   void draw_light_choice(const preset::Preset& preset);
-  void draw_spectrum_controls(const Workbench& workbench, Commands& commands);
-  void draw_row_controls(const Workbench& workbench, Commands& commands);
+  void draw_spectrum_controls(const Context& context);
   void draw_switches();
   void draw_copy();
-  void draw_plot(const Workbench& workbench, Commands& commands, float height);
+  void draw_plot(const Context& context, float height);
   void draw_numbers() const;
   void draw_surroundings() const;
 
-  /// The rows as they shall be; nothing where there is no edit.
-  void edit_rows(const Workbench& workbench, const std::optional<RowsEdit>& edit, Commands& commands);
+  void follow_rows(const Context& context, const RowGesture& gesture);
 
   WavelengthAxis& axis_;
   SpectraMaker maker_;

@@ -116,9 +116,7 @@ struct SavePicture {
 struct Dismiss {
   std::uint64_t message = 0;
 };
-struct ShowHelp {
-  bool on = true;
-};
+struct ToggleHelp {};
 struct ResetLayout {};
 /// Becomes a message: an error from a panel that could not go on, or a note that goes by itself.
 struct Report {
@@ -136,7 +134,7 @@ using Command =
     std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
                  command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::PinRun,
                  command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
-                 command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::Dismiss, command::ShowHelp,
+                 command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::Dismiss, command::ToggleHelp,
                  command::ResetLayout, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 

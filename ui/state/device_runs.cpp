@@ -6,7 +6,6 @@
 #include "preset/origins.h"
 #include "run/reference.h"
 #include "run/run.h"
-#include "ui/spectra/curves.h"
 
 #include <chrono>
 #include <string>
@@ -42,7 +41,7 @@ struct Lowered {
 
 } // namespace
 
-DeviceRuns::DeviceRuns(compute::DeviceOptions device) : options_(std::move(device))
+DeviceRuns::DeviceRuns(compute::DeviceOptions device, LookAround look_around) : options_(std::move(device)), look_around_(look_around)
 {
   if (!options_.kernels.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
@@ -65,7 +64,8 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
   auto plan = std::make_shared<plan::Plan>(*previous_->plan);
   std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan->notes);
   auto job = measure::measured(run::make_job(*previous_, *context_), preset, reference);
-  auto seen = look_around(preset, previous_->loaded->scene, *previous_->loaded->bvh);
+  std::vector<std::any> seen;
+  if (look_around_) seen = look_around_(preset, previous_->loaded->scene, *previous_->loaded->bvh);
   return {std::move(job), std::move(plan), std::move(reference), std::move(seen)};
 }
 

@@ -14,12 +14,20 @@
 namespace nephroid::run {
 struct Prepared;
 }
+namespace nephroid::scene {
+struct Scene;
+struct Bvh;
+} // namespace nephroid::scene
 
 namespace nephroid::ui {
 
+/// NewRun::seen of a loaded scene; on the worker's thread.
+using LookAround = std::vector<std::any> (*)(const preset::Preset&, const scene::Scene&, const scene::Bvh&);
+
 class DeviceRuns : public RunSource {
 public:
-  explicit DeviceRuns(compute::DeviceOptions device);
+  /// look_around: null where nobody wants to know what is seen.
+  explicit DeviceRuns(compute::DeviceOptions device, LookAround look_around = nullptr);
   ~DeviceRuns() override;
   /// Reads the scene and builds the job. Throws as run::prepare and compute do.
   NewRun make(const preset::Preset& preset) override;
@@ -31,6 +39,7 @@ private:
   void watch(const std::stop_token& stop);
 
   compute::DeviceOptions options_;
+  LookAround look_around_;
   /// Building and watching take turns: compute::kernels_changed forgets the built programs, which make() looks up and adds to. A
   /// job that runs needs no turn: it builds nothing, and its kernels stay while it holds them.
   std::mutex building_;

@@ -6,19 +6,17 @@
 #include "plan/plan.h"
 #include "preset/preset.h"
 
+#include <any>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace nephroid::ui {
-
-struct SeenByGlass; // ui/spectra/curves.h
 
 struct NewRun {
   std::unique_ptr<job::Job> job;
   std::shared_ptr<const plan::Plan> plan;
   std::shared_ptr<const measure::Reference> reference; ///< what it is measured against; null where there is none
-  std::shared_ptr<const SeenByGlass> seen = nullptr;   ///< null where nobody looked
+  std::vector<std::any> seen = {};                     ///< what panels looked for in the loaded scene: RunInHand::seen
 };
 
 class RunSource {

@@ -20,6 +20,7 @@ public:
   bool undo();
   bool redo();
   const preset::Preset& current() const { return entries_[index_].preset; }
+  /// As it was read.
   const preset::Preset& opened() const { return opened_; }
   /// What undo() would undo and redo() redo; empty where there is nothing.
   std::string undo_label() const { return index_ > 0 ? entries_[index_].label : std::string(); }

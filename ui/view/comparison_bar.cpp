@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/comparison_bar.h"
 
-#include "ui/shell/actions.h"
-#include "ui/state/workbench.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -16,18 +15,23 @@ namespace {
 
 using measure::DifferenceMetric;
 
-constexpr std::array all_metrics{DifferenceMetric::lab,    DifferenceMetric::absolute,  DifferenceMetric::relative,
-                                 DifferenceMetric::square, DifferenceMetric::luminance, DifferenceMetric::flip};
+struct NamedMetric {
+  DifferenceMetric metric;
+  const char* name;
+};
+constexpr NamedMetric all_metrics[] = {{DifferenceMetric::lab, "CIELAB distance"},       {DifferenceMetric::absolute, "|a - b|"},
+                                       {DifferenceMetric::relative, "relative |a - b|"}, {DifferenceMetric::square, "(a - b)^2"},
+                                       {DifferenceMetric::luminance, "luminance a - b"}, {DifferenceMetric::flip, "FLIP"}};
 
-void draw_other_choice(const Workbench& workbench, Commands& commands)
+void draw_other_choice(const Context& context)
 {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
-  if (!ImGui::BeginCombo("##other", other_name(workbench).c_str())) return;
+  if (!ImGui::BeginCombo("##other", other_name(context).c_str())) return;
   const auto choice = [&](const char* name, std::uint64_t pin) {
-    if (ImGui::Selectable(name, workbench.comparison().pin == pin)) commands.push_back(command::CompareWith{pin});
+    if (ImGui::Selectable(name, context.comparing.comparison().pin == pin)) context.push(command::CompareWith{pin});
   };
   choice("Reference", 0);
-  for (const PinnedRun& run : workbench.pinned().all()) {
+  for (const PinnedRun& run : context.comparing.pinned().all()) {
     ImGui::PushID(static_cast<int>(run.id));
     choice(run.name.c_str(), run.id);
     ImGui::PopID();
@@ -35,21 +39,22 @@ void draw_other_choice(const Workbench& workbench, Commands& commands)
   ImGui::EndCombo();
 }
 
-void draw_metric_choice(const Comparison& comparison, Commands& commands)
+void draw_metric_choice(const Context& context)
 {
+  const Comparison& comparison = context.comparing.comparison();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
   if (!ImGui::BeginCombo("##difference metric", metric_name(comparison.metric))) return;
-  for (const DifferenceMetric metric : all_metrics)
-    if (ImGui::Selectable(metric_name(metric), metric == comparison.metric))
-      commands.push_back(command::ShowDifference{true, metric, 0}); // the values of another metric have another size
+  for (const auto& [metric, name] : all_metrics)
+    if (ImGui::Selectable(name, metric == comparison.metric))
+      context.push(command::ShowDifference{true, metric, 0}); // the values of another metric have another size
   ImGui::EndCombo();
 }
 
-void draw_scale_choice(const Workbench& workbench, Commands& commands)
+void draw_scale_choice(const Context& context)
 {
-  const Comparison& comparison = workbench.comparison();
-  const auto set = [&](double scale) { commands.push_back(command::ShowDifference{true, comparison.metric, scale}); };
-  const auto& map = workbench.difference();
+  const Comparison& comparison = context.comparing.comparison();
+  const auto set = [&](double scale) { context.push(command::ShowDifference{true, comparison.metric, scale}); };
+  const auto& map = context.comparing.difference();
   bool automatic = comparison.scale == 0;
   if (ImGui::Checkbox("Auto", &automatic)) set(automatic ? 0 : map ? map->scale : 1);
   ImGui::SetItemTooltip("The colours end where 99 %% of the pixels are below; else at the value given here.");
@@ -66,53 +71,40 @@ void draw_scale_choice(const Workbench& workbench, Commands& commands)
 
 const char* metric_name(DifferenceMetric metric)
 {
-  switch (metric) {
-  case DifferenceMetric::lab:
-    return "CIELAB distance";
-  case DifferenceMetric::absolute:
-    return "|a - b|";
-  case DifferenceMetric::relative:
-    return "relative |a - b|";
-  case DifferenceMetric::square:
-    return "(a - b)^2";
-  case DifferenceMetric::luminance:
-    return "luminance a - b";
-  case DifferenceMetric::flip:
-    return "FLIP";
-  }
-  return "";
+  return std::find_if(std::begin(all_metrics), std::end(all_metrics), [&](const NamedMetric& named) { return named.metric == metric; })
+      ->name;
 }
 
-std::string other_name(const Workbench& workbench)
+std::string other_name(const Context& context)
 {
-  const PinnedRun* pin = workbench.pinned().find(workbench.comparison().pin);
+  const PinnedRun* pin = context.comparing.pinned().find(context.comparing.comparison().pin);
   return pin ? '"' + pin->name + '"' : "Reference";
 }
 
-std::string difference_label(const Workbench& workbench)
+std::string difference_label(const Context& context)
 {
-  const std::string other = workbench.comparison().pin == 0 ? "the reference" : other_name(workbench);
-  return fmt::format("{} to {}", metric_name(workbench.comparison().metric), other);
+  const std::string other = context.comparing.comparison().pin == 0 ? "the reference" : other_name(context);
+  return fmt::format("{} to {}", metric_name(context.comparing.comparison().metric), other);
 }
 
-void draw_comparison_bar(const Workbench& workbench, Commands& commands)
+void draw_comparison_bar(const Context& context)
 {
-  const Comparison& comparison = workbench.comparison();
+  const Comparison& comparison = context.comparing.comparison();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Compare");
   ImGui::SameLine();
-  draw_other_choice(workbench, commands);
+  draw_other_choice(context);
   ImGui::SameLine();
-  action_button("Flip", workbench, commands);
+  action_button("Flip", context);
   ImGui::SameLine();
   if (comparison.difference) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-  action_button("Difference", workbench, commands);
+  action_button("Difference", context);
   if (!comparison.difference) return;
   ImGui::PopStyleColor();
   ImGui::SameLine();
-  draw_metric_choice(comparison, commands);
+  draw_metric_choice(context);
   ImGui::SameLine();
-  draw_scale_choice(workbench, commands);
+  draw_scale_choice(context);
 }
 
 void draw_colour_scale(const ShownDifference& map, const Canvas& canvas)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/panel.h"
 
-#include "ui/state/workbench.h"
 #include "ui/view/camera_moves.h"
 #include "ui/view/comparison_bar.h"
 #include "ui/view/shown_pixels.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 
@@ -36,33 +36,33 @@ void draw_overlay(const ImVec2& at, const std::string& text)
 
 } // namespace
 
-void ViewPanel::draw(const Workbench& workbench, Commands& commands)
+void ViewPanel::draw(const Context& context)
 {
-  shown_ = shown_picture(workbench);
-  draw_toolbar(workbench, commands);
-  draw_comparison_bar(workbench, commands);
+  shown_ = shown_picture(context);
+  draw_toolbar(context);
+  draw_comparison_bar(context);
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   canvas_ = {{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
   ImGui::InvisibleButton("picture", vec(canvas_.size),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   hovered_ = ImGui::IsItemHovered();
-  use_mouse(workbench, commands);
-  refresh_texture(workbench);
-  const auto& map = workbench.difference();
+  use_mouse(context);
+  refresh_texture(context);
+  const auto& map = context.comparing.difference();
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
-  draw_picture(workbench);
+  draw_picture(context);
   if (!shown_.hint.empty()) draw_hint(corner, vec(canvas_.size), shown_.hint);
   if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
   if (map && map == shown_.owner) draw_colour_scale(*map, canvas_);
-  draw_pixel_value(workbench);
+  draw_pixel_value(context);
   draw_list->PopClipRect();
 }
 
-void ViewPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
+void ViewPanel::draw_toolbar(const Context& context)
 {
-  Look look = workbench.look();
+  Look look = context.chosen.look;
   float stops = static_cast<float>(look.exposure_stops);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Exposure");
@@ -70,24 +70,20 @@ void ViewPanel::draw_toolbar(const Workbench& workbench, Commands& commands)
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
   if (ImGui::SliderFloat("##exposure", &stops, -10, 10, "%+.2f stops", ImGuiSliderFlags_NoRoundToFormat)) {
     look.exposure_stops = stops;
-    commands.push_back(command::SetLook{look});
+    context.push(command::SetLook{look});
   }
   ImGui::SetItemTooltip("Brighter E, darker Shift+E, as it is 0. Ctrl+click to type. The run goes on.");
-  if (!workbench.preset()) return;
+  if (!context.preset()) return;
   const auto& size = shown_.size;
   ImGui::SameLine(0, ImGui::GetFontSize());
-  if (ImGui::Button("Fit")) {
-    look.fit = true;
-    commands.push_back(command::SetLook{look});
-  }
-  ImGui::SetItemTooltip("The whole picture: F. Ctrl+wheel zooms about the cursor, Ctrl+drag moves it.");
+  action_button("Fit", context);
   ImGui::SameLine();
   ImGui::TextDisabled("%.0f %%   %d x %d", 100 * place(look, canvas_, size).scale, size[0], size[1]);
 }
 
-void ViewPanel::refresh_texture(const Workbench& workbench)
+void ViewPanel::refresh_texture(const Context& context)
 {
-  const double stops = shown_.rgba.empty() ? workbench.look().exposure_stops : 0;
+  const double stops = shown_.rgba.empty() ? context.chosen.look.exposure_stops : 0;
   if (!shown_.owner || (shown_.owner == in_texture_ && stops == stops_in_texture_)) return;
   const std::span<unsigned char> bytes = texture_.edit(shown_.size[0], shown_.size[1]);
   if (shown_.rgba.empty())
@@ -98,11 +94,11 @@ void ViewPanel::refresh_texture(const Workbench& workbench)
   stops_in_texture_ = stops;
 }
 
-void ViewPanel::draw_picture(const Workbench& workbench)
+void ViewPanel::draw_picture(const Context& context)
 {
   if (!shown_.owner) return;
   const auto& size = shown_.size;
-  const Placement placement = place(workbench.look(), canvas_, size);
+  const Placement placement = place(context.chosen.look, canvas_, size);
   const ImVec2 from = vec(placement.to_screen({0, 0}));
   const ImVec2 to = vec(placement.to_screen({static_cast<double>(size[0]), static_cast<double>(size[1])}));
   const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
@@ -115,25 +111,25 @@ void ViewPanel::draw_picture(const Workbench& workbench)
 }
 
 /// What the pixel under the cursor is, in the picture's lower left corner.
-void ViewPanel::draw_pixel_value(const Workbench& workbench) const
+void ViewPanel::draw_pixel_value(const Context& context) const
 {
-  if (!hovered_ || !workbench.snapshot()) return;
-  const auto pixel = pixel_at(place(workbench.look(), canvas_, shown_.size), shown_.size, mouse());
+  if (!hovered_ || !context.run.snapshot()) return;
+  const auto pixel = pixel_at(place(context.chosen.look, canvas_, shown_.size), shown_.size, mouse());
   if (!pixel) return;
-  const std::string text = pixel_text(workbench, *pixel);
+  const std::string text = pixel_text(context, *pixel);
   const float pad = ImGui::GetFontSize() * 0.4f;
   draw_overlay(vec({canvas_.corner[0] + pad, canvas_.corner[1] + canvas_.size[1] - ImGui::CalcTextSize(text.c_str()).y - 3 * pad}), text);
 }
 
-void ViewPanel::use_mouse(const Workbench& workbench, Commands& commands)
+void ViewPanel::use_mouse(const Context& context)
 {
-  if (!workbench.preset()) return;
-  if (ImGui::IsItemActivated()) start_drag(workbench);
-  if (drag_ != Drag::none) continue_drag(workbench, commands);
-  if (hovered_ && ImGui::GetIO().MouseWheel != 0) use_wheel(workbench, commands);
+  if (!context.preset()) return;
+  if (ImGui::IsItemActivated()) start_drag(context);
+  if (drag_ != Drag::none) continue_drag(context);
+  if (hovered_ && ImGui::GetIO().MouseWheel != 0) use_wheel(context);
 }
 
-void ViewPanel::start_drag(const Workbench& workbench)
+void ViewPanel::start_drag(const Context& context)
 {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl)
@@ -145,61 +141,57 @@ void ViewPanel::start_drag(const Workbench& workbench)
   else
     drag_ = Drag::orbit;
   drag_from_ = mouse();
-  camera_at_start_ = workbench.preset()->scene.camera;
-  look_at_start_ = workbench.look();
+  camera_at_start_ = context.preset()->scene.camera;
+  look_at_start_ = context.chosen.look;
   ++gesture_;
 }
 
-void ViewPanel::continue_drag(const Workbench& workbench, Commands& commands)
+void ViewPanel::continue_drag(const Context& context)
 {
   const ImVec2 step = ImGui::GetIO().MouseDelta;
   const Point delta{mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]};
   if (step.x != 0 || step.y != 0) {
     if (drag_ == Drag::move_picture) {
       Look look = dragged(look_at_start_, canvas_, shown_.size, delta);
-      look.exposure_stops = workbench.look().exposure_stops;
-      commands.push_back(command::SetLook{look});
+      look.exposure_stops = context.chosen.look.exposure_stops;
+      context.push(command::SetLook{look});
     } else
-      move_camera(workbench, delta, commands);
+      move_camera(context, delta);
   }
   if (ImGui::IsItemActive()) return;
   drag_ = Drag::none;
-  commands.push_back(command::EndGesture{});
+  context.push(command::EndGesture{});
 }
 
-void ViewPanel::move_camera(const Workbench& workbench, const Point& delta, Commands& commands) const
+void ViewPanel::move_camera(const Context& context, const Point& delta) const
 {
-  const double height = place(workbench.look(), canvas_, shown_.size).scale * shown_.size[1];
+  const double height = place(context.chosen.look, canvas_, shown_.size).scale * shown_.size[1];
   const double across = delta[0] / height, down = delta[1] / height;
-  preset::Preset edited = *workbench.preset();
-  const char* label = "";
-  if (drag_ == Drag::orbit) {
-    // The scene follows the mouse: to the right means that the camera goes to the left.
-    edited.scene.camera = orbit(camera_at_start_, -orbit_deg_per_height * across, orbit_deg_per_height * down);
-    label = "orbit";
-  } else if (drag_ == Drag::pan) {
-    edited.scene.camera = pan(camera_at_start_, across, down);
-    label = "move the camera";
-  } else {
-    edited.scene.camera = dolly(camera_at_start_, std::exp2(2 * down));
-    label = "distance of the camera";
-  }
-  commands.push_back(command::Edit{label, std::move(edited), gesture_, true});
+  const auto edit = [&](const char* label, const preset::Camera& camera) {
+    context.edit(
+        label, [&](preset::Preset& p) { p.scene.camera = camera; }, gesture_, true);
+  };
+  if (drag_ == Drag::orbit) // the scene follows the mouse: to the right means that the camera goes to the left
+    edit("orbit", orbit(camera_at_start_, -orbit_deg_per_height * across, orbit_deg_per_height * down));
+  else if (drag_ == Drag::pan)
+    edit("move the camera", pan(camera_at_start_, across, down));
+  else
+    edit("distance of the camera", dolly(camera_at_start_, std::exp2(2 * down)));
 }
 
-void ViewPanel::use_wheel(const Workbench& workbench, Commands& commands)
+void ViewPanel::use_wheel(const Context& context)
 {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl) {
-    commands.push_back(command::SetLook{zoomed(workbench.look(), canvas_, shown_.size, mouse(), std::pow(notch, io.MouseWheel))});
+    context.push(command::SetLook{zoomed(context.chosen.look, canvas_, shown_.size, mouse(), std::pow(notch, io.MouseWheel))});
     return;
   }
   const double now = ImGui::GetTime();
   if (last_wheel_s_ < 0 || now - last_wheel_s_ > wheel_gesture_s) ++gesture_;
   last_wheel_s_ = now;
-  preset::Preset edited = *workbench.preset();
-  edited.scene.camera = dolly(edited.scene.camera, std::pow(notch, -io.MouseWheel));
-  commands.push_back(command::Edit{"distance of the camera", std::move(edited), gesture_, false});
+  const double factor = std::pow(notch, -io.MouseWheel);
+  context.edit(
+      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(p.scene.camera, factor); }, gesture_);
 }
 
 } // namespace nephroid::ui

@@ -14,8 +14,7 @@ namespace nephroid::ui {
 class ViewPanel : public Panel {
 public:
   static constexpr const char* title = "View";
-  const char* name() const override { return title; }
-  void draw(const Workbench& workbench, Commands& commands) override;
+  void draw(const Context& context) override;
 
   /// Where the picture's part of the panel was drawn last, and the picture in it; for tests.
   const Canvas& canvas() const { return canvas_; }
@@ -26,15 +25,15 @@ public:
 private:
   enum class Drag { none, orbit, pan, dolly, move_picture };
 
-  void draw_toolbar(const Workbench& workbench, Commands& commands);
-  void draw_picture(const Workbench& workbench);
-  void draw_pixel_value(const Workbench& workbench) const;
-  void use_mouse(const Workbench& workbench, Commands& commands);
-  void start_drag(const Workbench& workbench);
-  void continue_drag(const Workbench& workbench, Commands& commands);
-  void move_camera(const Workbench& workbench, const Point& delta, Commands& commands) const;
-  void use_wheel(const Workbench& workbench, Commands& commands);
-  void refresh_texture(const Workbench& workbench);
+  void draw_toolbar(const Context& context);
+  void draw_picture(const Context& context);
+  void draw_pixel_value(const Context& context) const;
+  void use_mouse(const Context& context);
+  void start_drag(const Context& context);
+  void continue_drag(const Context& context);
+  void move_camera(const Context& context, const Point& delta) const;
+  void use_wheel(const Context& context);
+  void refresh_texture(const Context& context);
 
   Canvas canvas_;
   ShownPicture shown_; ///< of the frame that is being drawn

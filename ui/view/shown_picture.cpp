@@ -2,7 +2,6 @@
 #include "ui/view/shown_picture.h"
 
 #include "measure/lab.h"
-#include "ui/state/workbench.h"
 #include "ui/view/comparison_bar.h"
 
 #include <fmt/format.h>
@@ -28,28 +27,28 @@ std::string too_large_hint(const std::array<int, 2>& size)
 }
 
 /// What to do or to wait for before the first picture.
-std::string waiting_hint(const Workbench& workbench)
+std::string waiting_hint(const Context& context)
 {
-  if (!workbench.preset()) return "Drop a preset here, or open one: Ctrl+O";
-  if (workbench.status().state == job::State::failed) return "No picture: see the message below";
-  if (workbench.status().state == job::State::cancelled) return "Cancelled before the first picture; start again: F5";
+  if (!context.preset()) return "Drop a preset here, or open one: Ctrl+O";
+  if (context.run.status().state == job::State::failed) return "No picture: see the message below";
+  if (context.run.status().state == job::State::cancelled) return "Cancelled before the first picture; start again: F5";
   return "Preparing: reading the scene, building the kernels";
 }
 
 /// The newest map, where it is of the metric and the pictures that are compared now; of the run's own picture an earlier one will do.
-std::shared_ptr<const ShownDifference> fitting_map(const Workbench& workbench, const HeldPicture& other, const std::array<int, 2>& size)
+std::shared_ptr<const ShownDifference> fitting_map(const Context& context, const HeldPicture& other, const std::array<int, 2>& size)
 {
-  const auto& map = workbench.difference();
-  if (!map || map->of.metric != workbench.comparison().metric || map->of.other.owner != other.owner) return nullptr;
+  const auto& map = context.comparing.difference();
+  if (!map || map->of.metric != context.comparing.comparison().metric || map->of.other.owner != other.owner) return nullptr;
   const measure::Pixels& of = map->of.picture.pixels;
   return of.width == size[0] && of.height == size[1] ? map : nullptr;
 }
 
 /// The map, or why there is none yet.
-void show_difference(const Workbench& workbench, const HeldPicture& other, ShownPicture& shown)
+void show_difference(const Context& context, const HeldPicture& other, ShownPicture& shown)
 {
-  const auto map = fitting_map(workbench, other, shown.size);
-  shown.label = difference_label(workbench);
+  const auto map = fitting_map(context, other, shown.size);
+  shown.label = difference_label(context);
   if (!map)
     shown.hint = "The difference is being computed";
   else if (!map->error.empty())
@@ -80,52 +79,52 @@ std::string text_of(const Rgb& value, double white, const char* format)
 
 } // namespace
 
-ShownPicture shown_picture(const Workbench& workbench)
+ShownPicture shown_picture(const Context& context)
 {
   ShownPicture shown;
-  if (const preset::Preset* preset = workbench.preset()) shown.size = preset->scene.camera.resolution;
-  const auto& snapshot = workbench.snapshot();
+  if (const preset::Preset* preset = context.preset()) shown.size = preset->scene.camera.resolution;
+  const auto& snapshot = context.run.snapshot();
   if (!snapshot) {
-    shown.hint = waiting_hint(workbench);
+    shown.hint = waiting_hint(context);
     return shown;
   }
   const job::Picture& picture = *snapshot->picture;
   shown.size = {picture.width, picture.height};
-  const Comparison& comparison = workbench.comparison();
+  const Comparison& comparison = context.comparing.comparison();
   if (too_large(shown.size))
     shown.hint = too_large_hint(shown.size);
   else if (!comparison.flip && !comparison.difference) {
     shown.owner = snapshot;
     shown.rgb = picture.rgb;
-  } else if (const HeldPicture other = workbench.other_picture(); !other.owner)
-    shown.hint = "Nothing to compare with: " + workbench.why_not_comparable();
+  } else if (const HeldPicture other = context.comparing.other_picture(); !other.owner)
+    shown.hint = "Nothing to compare with: " + context.comparing.why_not();
   else if (comparison.flip) {
     shown.owner = other.owner;
     shown.rgb = other.pixels.rgb;
-    shown.label = other_name(workbench);
+    shown.label = other_name(context);
   } else
-    show_difference(workbench, other, shown);
+    show_difference(context, other, shown);
   return shown;
 }
 
-std::string pixel_text(const Workbench& workbench, const std::array<int, 2>& pixel)
+std::string pixel_text(const Context& context, const std::array<int, 2>& pixel)
 {
-  const auto& snapshot = workbench.snapshot();
-  if (!snapshot || !workbench.preset()) return {};
+  const auto& snapshot = context.run.snapshot();
+  if (!snapshot || !context.preset()) return {};
   const job::Picture& picture = *snapshot->picture;
   const std::array<int, 2> size{picture.width, picture.height};
-  const double white = workbench.preset()->white;
+  const double white = context.preset()->white;
   constexpr const char* format = "R {:.4g}   G {:.4g}   B {:.4g}   Y {:.4g} W/m2/sr";
   const Rgb of_run = value_at(picture.rgb, size, pixel);
   std::string text = fmt::format("({}, {})   ", pixel[0], pixel[1]) + text_of(of_run, white, format);
-  const Comparison& comparison = workbench.comparison();
-  const HeldPicture other = workbench.other_picture();
+  const Comparison& comparison = context.comparing.comparison();
+  const HeldPicture other = context.comparing.other_picture();
   if (!(comparison.flip || comparison.difference) || !other.owner) return text;
   const Rgb of_other = value_at(other.pixels.rgb, size, pixel);
   const Rgb difference{of_run[0] - of_other[0], of_run[1] - of_other[1], of_run[2] - of_other[2]};
-  text += fmt::format("\n{}   {}\ndifference   {}", other_name(workbench), text_of(of_other, white, format),
+  text += fmt::format("\n{}   {}\ndifference   {}", other_name(context), text_of(of_other, white, format),
                       text_of(difference, white, "R {:+.4g}   G {:+.4g}   B {:+.4g}   Y {:+.4g} W/m2/sr"));
-  if (const auto map = fitting_map(workbench, other, size); comparison.difference && map && map->values)
+  if (const auto map = fitting_map(context, other, size); comparison.difference && map && map->values)
     text += fmt::format("   {} {:.4g}", metric_name(map->of.metric), (*map->values)[index_of(size, pixel)]);
   return text;
 }

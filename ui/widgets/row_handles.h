@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorted rows as points of an ImPlot plot that the mouse takes hold of: drag one, click the right button on one, double click beside them.
-// A row that is dragged cannot be clicked; where rows come or go meanwhile, the drag ends.
+// Rows as points of an ImPlot plot that the mouse takes hold of: drag one, click the right button on one, double click beside them.
+// A row that is dragged cannot be clicked; where rows come or go meanwhile, the drag ends. And buttons that do the same.
 #pragma once
-#include "ui/widgets/row_editor.h"
+#include "ui/widgets/rows.h"
+#include "ui/widgets/widgets.h"
 
 #include <cstdint>
 #include <optional>
@@ -35,5 +36,8 @@ private:
   bool waits_ = false;           ///< what was held is gone: the mouse holds nothing until its button is let go
   bool over_row_ = false;
 };
+
+/// Buttons that add this row and remove the marked one; Delete removes it too. Their places are noted as "add" and "remove".
+RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& marked, WidgetPlaces& places);
 
 } // namespace nephroid::ui

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/widgets/sorted_rows.h"
+#include "ui/widgets/rows.h"
 
 #include "optics/wavelength.h"
 #include "preset/describe_limits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -18,6 +21,15 @@ double inside(double value, const preset::Bounds& bounds) { return std::clamp(va
 double readable_nm(double nm) { return std::round(1e6 * nm) / 1e6; }
 
 bool before(const Row& a, const Row& b) { return a[0] < b[0]; }
+
+/// Why add_row adds nothing.
+std::string refusal(const std::vector<Row>& rows, const Row& row, const RowRules& rules)
+{
+  if (rows.size() >= preset::max_rows) return fmt::format("a preset has at most {} rows", preset::max_rows);
+  if (!std::isfinite(row[0]) || !std::isfinite(row[1])) return "its place is not finite";
+  const double nm = std::clamp(row[0], preset::wavelength_bounds.low, preset::wavelength_bounds.high);
+  return fmt::format("another is less than {} nm from {:.6g} nm", rules.least_gap_nm, nm);
+}
 
 } // namespace
 
@@ -69,6 +81,55 @@ double middle_of_widest_gap(const std::vector<Row>& rows)
     if (row[0] > optics::first_nm && row[0] < optics::last_nm) look(row[0]);
   look(optics::last_nm);
   return middle;
+}
+
+void RowEditor::keep(std::size_t rows)
+{
+  removed_ = false;
+  if (marked_ && *marked_ >= rows) marked_.reset();
+}
+
+std::optional<RowsEdit> RowEditor::follow(const RowGesture& gesture, std::vector<Row> rows, const RowRules& rules, Commands& commands)
+{
+  using Kind = RowGesture::Kind;
+  const Row to = rules.readable ? rules.readable(gesture.to) : gesture.to;
+  const auto refuse = [&](const char* what, const std::string& why) {
+    commands.push_back(command::Report{fmt::format("no {} was {}: {}", rules.noun, what, why), false});
+  };
+  switch (gesture.kind) {
+  case Kind::none:
+    break;
+  case Kind::take:
+    marked_ = gesture.row;
+    gestures_.begin();
+    break;
+  case Kind::move: {
+    if (removed_) break; // else the row would be back
+    const std::vector<Row> before = rows;
+    move_row(rows, gesture.row, to, rules);
+    if (rows != before) return RowsEdit{fmt::format("move a {}", rules.noun), std::move(rows), gestures_.number(), true};
+    break;
+  }
+  case Kind::let_go:
+    commands.push_back(command::EndGesture{});
+    break;
+  case Kind::add:
+    if (const auto added = add_row(rows, to, rules)) {
+      marked_ = added;
+      return RowsEdit{fmt::format("add a {}", rules.noun), std::move(rows)};
+    }
+    refuse("added", refusal(rows, to, rules));
+    break;
+  case Kind::remove:
+    if (remove_row(rows, gesture.row, rules)) {
+      marked_.reset();
+      removed_ = true;
+      return RowsEdit{fmt::format("remove a {}", rules.noun), std::move(rows)};
+    }
+    refuse("removed", fmt::format("at least {} must stay", rules.fewest));
+    break;
+  }
+  return std::nullopt;
 }
 
 } // namespace nephroid::ui

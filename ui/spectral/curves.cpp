@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/spectra/curves.h"
+#include "ui/spectral/curves.h"
 
 #include "base/error.h"
 #include "base/files.h"
@@ -102,14 +102,14 @@ std::vector<double> importance_of(const spectral::Settings& settings, const Spec
 
 } // namespace
 
-std::shared_ptr<const SeenByGlass> look_around(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
+std::any SeenByGlass::look(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
   seen->whereabouts = spectral::whereabouts(spectral::settings(preset), scene, bvh);
   seen->settings = spectral::settings(preset);
   seen->clusters = spectral::scene_clusters(spectral::settings(preset), scene);
-  return seen;
+  return std::shared_ptr<const SeenByGlass>(std::move(seen));
 }
 
 std::int64_t Spectra::iterations() const

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panel "Spectra and importance" shows of a preset: curves on the 401 wavelengths, u(lambda) and iterations a cluster, made
-// anew where what they hang on changed. No Dear ImGui.
+// What the panels of engine 1 show of a preset beside its dispersions: curves on the 401 wavelengths, u(lambda) and iterations a cluster,
+// made anew where what they hang on changed. No Dear ImGui.
 #pragma once
 #include "optics/wavelength.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "spectral/effort/importance.h"
 
+#include <any>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -16,17 +17,19 @@
 
 namespace nephroid::ui {
 
-/// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with a run; panels do
-/// the rest.
+/// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with a run
+/// (RunInHand::seen); panels do the rest.
 struct SeenByGlass {
   std::vector<std::string> materials; ///< names of Scene::materials, in whose order the shares are
   spectral::Whereabouts whereabouts;
   spectral::Settings settings;            ///< of the run,
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
   bool operator==(const SeenByGlass&) const = default;
+
+  /// A std::shared_ptr<const SeenByGlass>, as RunInHand::seen finds it. On the thread that made the run ready. Rays are traced only where
+  /// the preset's effort asks for them.
+  static std::any look(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 };
-/// On the thread that made the run ready. Rays are traced only where the preset's effort asks for them.
-std::shared_ptr<const SeenByGlass> look_around(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 
 struct LightCurve {
   optics::Spectrum spectrum{}; ///< sums to 1; all 0 where there is an error

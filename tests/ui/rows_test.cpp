@@ -4,7 +4,7 @@
 #include "preset/describe_limits.h"
 #include "ui/dispersion/edits.h"
 #include "ui/spectra/light_edits.h"
-#include "ui/widgets/row_editor.h"
+#include "ui/widgets/rows.h"
 
 #include <gmock/gmock.h>
 
@@ -147,7 +147,7 @@ TEST_F(RowEditorTest, WhatIsAddedIsMarkedAndWhatIsRemovedIsNot)
 TEST_F(RowEditorTest, WhatCannotBeIsSaid)
 {
   EXPECT_FALSE(follow({Kind::add, 0, {500.2, 1.5}}));
-  EXPECT_FALSE(editor.remove({three[0], three[1]}, 0, point_rules, commands));
+  EXPECT_FALSE(editor.follow({Kind::remove, 0, {}}, {three[0], three[1]}, point_rules, commands));
   ASSERT_THAT(commands, SizeIs(2));
   EXPECT_THAT(std::get<command::Report>(commands[0]).line, HasSubstr("another is less than 0.5 nm from 500.2 nm"));
   EXPECT_THAT(std::get<command::Report>(commands[1]).line, HasSubstr("at least 2 must stay"));
@@ -157,9 +157,9 @@ TEST_F(RowEditorTest, WhyNothingIsAddedIsTrue)
 {
   std::vector<Row> full(preset::max_rows);
   for (std::size_t i = 0; i < full.size(); ++i) full[i] = {1000 + double(i), 1};
-  EXPECT_FALSE(editor.add(full, {500, 1.5}, point_rules, commands));
-  EXPECT_FALSE(editor.add(three, {500.2, nan}, point_rules, commands));
-  EXPECT_FALSE(editor.add({{1, 1.5}, {500, 1.5}}, {-3, 1.5}, point_rules, commands));
+  EXPECT_FALSE(editor.follow({Kind::add, 0, {500, 1.5}}, full, point_rules, commands));
+  EXPECT_FALSE(editor.follow({Kind::add, 0, {500.2, nan}}, three, point_rules, commands));
+  EXPECT_FALSE(editor.follow({Kind::add, 0, {-3, 1.5}}, {{1, 1.5}, {500, 1.5}}, point_rules, commands));
   ASSERT_THAT(commands, SizeIs(3));
   EXPECT_EQ(std::get<command::Report>(commands[0]).line, "no control point was added: a preset has at most 100000 rows");
   EXPECT_EQ(std::get<command::Report>(commands[1]).line, "no control point was added: its place is not finite");
@@ -172,7 +172,7 @@ TEST_F(RowEditorTest, WhatIsRemovedIsNotMovedInTheSameFrame)
 {
   editor.keep(3);
   follow({Kind::take, 1, {}});
-  ASSERT_TRUE(editor.remove(three, 1, point_rules, commands));
+  ASSERT_TRUE(follow({Kind::remove, 1, {}}));
   EXPECT_FALSE(follow({Kind::move, 1, {510, 1.55}}));
   editor.keep(2);
   EXPECT_TRUE(follow({Kind::move, 1, {510, 1.55}}));

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a panel reads, and where what it asks for goes. Made anew for every frame.
+#pragma once
+#include "ui/state/commands.h"
+#include "ui/state/comparing.h"
+#include "ui/state/messages.h"
+#include "ui/state/run_in_hand.h"
+#include "ui/state/undo.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nephroid::ui {
+
+/// What a person chose to see. Nothing here needs a new run.
+struct Chosen {
+  Look look;
+  std::string error_metric; ///< to be plotted; empty: the run's own. Not every run has it.
+  std::string material;     ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
+};
+
+struct Context {
+  const UndoStack* edits; ///< the preset that is edited, with its history; null before one is opened
+  const RunInHand& run;
+  const Comparing& comparing;
+  const Chosen& chosen;
+  const std::vector<Message>& messages;
+  Commands& commands;
+
+  /// Null before a preset is opened.
+  const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
+  void push(Command command) const { commands.push_back(std::move(command)); }
+  void note(std::string line) const { push(command::Report{std::move(line), false}); }
+  /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.
+  template <class Change>
+  void edit(std::string label, Change change, std::uint64_t gesture = 0, bool live = false) const
+  {
+    preset::Preset edited = edits->current();
+    change(edited);
+    push(command::Edit{std::move(label), std::move(edited), gesture, live});
+  }
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/files.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "image/image.h"
+#include "run/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <exception>
+#include <fstream>
+#include <string_view>
+
+namespace nephroid::ui {
+namespace {
+
+struct Kind {
+  std::string_view endings; ///< lower case, each followed by a space
+  const char* what;
+  const char* remedy; ///< FILE stands for the file's name
+};
+
+constexpr std::array kinds{
+    Kind{".yml .yaml ", "is dispersion data",
+         "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion FILE`"},
+    Kind{".obj .ply .stl .gltf .glb .3ds ", "is a mesh", "name it in a preset as an object's \"mesh\""},
+    Kind{".exr .hdr .pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
+         "a run's pictures lie beside its preset.json: open that; pictures as environments are not rendered yet"},
+    Kind{".cl ", "is a kernel source", "start with --kernels and its folder"},
+};
+
+std::string lower_ending(const std::filesystem::path& file)
+{
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+std::string with_name(std::string text, const std::string& name)
+{
+  if (const std::size_t at = text.find("FILE"); at != std::string::npos) text.replace(at, 4, name);
+  return text;
+}
+
+bool is_shipped(const std::filesystem::path& file)
+{
+  std::error_code unknown;
+  try {
+    const std::filesystem::path inside = std::filesystem::relative(file, presets_folder(), unknown);
+    return !unknown && !inside.empty() && *inside.begin() != "..";
+  } catch (const Error&) {
+    return false; // there is no folder of shipped presets
+  }
+}
+
+/// Whether the first character that is no white space opens a JSON object. An empty file may become one: reading it says so.
+bool may_be_object(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  char first = '{';
+  in >> first;
+  return first == '{';
+}
+
+} // namespace
+
+void refuse_other_kinds(const std::string& name)
+{
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(name, ignored)) return;
+  constexpr const char* expected = "the window opens presets";
+  const std::string ending = lower_ending(name);
+  for (const Kind& kind : kinds)
+    if (!ending.empty() && kind.endings.find(ending + ' ') != std::string_view::npos)
+      throw bad_input(name, kind.what, expected, with_name(kind.remedy, name));
+  if (ending != ".json" && !may_be_object(name))
+    throw bad_input(name, "is no preset and of no kind that Nephroid knows", std::string(expected) + ", JSON files",
+                    "see `nephroid presets` for those that are shipped");
+}
+
+bool is_dispersion_file(const std::filesystem::path& file)
+{
+  const std::string ending = lower_ending(file);
+  return ending == ".yml" || ending == ".yaml";
+}
+
+std::filesystem::path save_target(const preset::Preset* preset)
+{
+  if (!preset || preset->source.empty()) return {};
+  const std::filesystem::path source = preset->source;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(source, ignored) || is_shipped(source)) return {};
+  return source;
+}
+
+std::string proposed_name(const preset::Preset* preset, const std::string& ending)
+{
+  return (!preset || preset->source.empty() ? "untitled" : std::filesystem::path(preset->source).stem().string()) + ending;
+}
+
+void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops)
+{
+  background_.push_back(std::async(std::launch::async, [=] {
+    const std::string extension = file.extension().string();
+    if (extension == ".png")
+      image::write_png(file, picture->width, picture->height, picture->rgb, exposure_stops);
+    else if (extension == ".exr")
+      image::write_exr(file, run::with_layers(*picture));
+    else
+      throw bad_input(file.string(), "a picture cannot be saved as \"" + extension + "\"",
+                      "expected .png (as shown) or .exr (linear, with layers)");
+    return Done{"saved " + file.string(), std::nullopt};
+  }));
+}
+
+void FileWork::pin(const std::filesystem::path& path)
+{
+  background_.push_back(std::async(std::launch::async, [path] { return Done{{}, read_pin(path)}; }));
+}
+
+void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin)
+{
+  for (std::future<Done>& future : background_) {
+    if (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) continue;
+    try {
+      Done done = future.get();
+      if (!done.note.empty()) messages.note(done.note);
+      if (done.pin) take_pin(std::move(*done.pin));
+    } catch (const std::exception& error) {
+      messages.error(error);
+    }
+  }
+  std::erase_if(background_, [](const std::future<Done>& f) { return !f.valid(); });
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which files a person may open, drop and save, and the reading and writing that takes too long for a frame.
+#pragma once
+#include "job/job.h"
+#include "preset/preset.h"
+#include "ui/state/messages.h"
+#include "ui/state/pinned_runs.h"
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+/// Throws bad_input in one line where `name` is a file of a kind that is no preset: a mesh, dispersion data, a picture, a kernel,
+/// anything that does not begin as a JSON object. Presets, broken ones too, and names of no file pass: reading them says the rest.
+void refuse_other_kinds(const std::string& name);
+/// Whether a file's name ends as dispersion data does.
+bool is_dispersion_file(const std::filesystem::path& file);
+
+/// Where "save" writes without asking: the file that was opened, unless it is one of the shipped presets. Empty: ask. preset may be null.
+std::filesystem::path save_target(const preset::Preset* preset);
+/// A proposal for a file's name in the current folder: the preset's own with another ending.
+std::string proposed_name(const preset::Preset* preset, const std::string& ending);
+
+/// Files that are read and written away from the window's thread.
+class FileWork {
+public:
+  /// By the extension of file: .png as shown with this exposure, .exr linear with every layer.
+  void save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops);
+  /// read_pin() of a path.
+  void pin(const std::filesystem::path& path);
+  bool busy() const { return !background_.empty(); }
+  /// Once a frame: says what is done, and hands over the runs that were read.
+  void collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin);
+
+private:
+  struct Done {
+    std::string note;             ///< empty where there is nothing to say
+    std::optional<PinnedRun> pin; ///< that was read
+  };
+  std::vector<std::future<Done>> background_; ///< what is thrown there becomes a message
+};
+
+} // namespace nephroid::ui

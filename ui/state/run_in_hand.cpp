@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/run_in_hand.h"
+
+#include "engine/engine.h"
+
+#include <filesystem>
+#include <mutex>
+#include <utility>
+
+namespace nephroid::ui {
+
+/// Filled on the worker's thread when a run was made ready.
+struct RunInHand::Arrival {
+  std::mutex mutex;
+  std::shared_ptr<const plan::Plan> plan; ///< null: not yet
+  std::shared_ptr<const measure::Reference> reference;
+  std::vector<std::any> seen;
+  std::shared_ptr<const preset::Preset> preset; ///< that it was made of
+};
+
+void RunInHand::forget()
+{
+  plan_.reset();
+  reference_.reset();
+  seen_.clear();
+  snapshot_.reset();
+}
+
+std::function<std::unique_ptr<job::Job>()> RunInHand::maker() const
+{
+  return [&source = source_, preset = preset_, arrival = arrival_] {
+    NewRun run = source.make(*preset);
+    const std::lock_guard lock(arrival->mutex);
+    arrival->plan = std::move(run.plan);
+    arrival->reference = std::move(run.reference);
+    arrival->seen = std::move(run.seen);
+    arrival->preset = preset;
+    return std::move(run.job);
+  };
+}
+
+/// What every way to another preset begins with.
+void RunInHand::take_over(const UndoStack& edits)
+{
+  restart_wanted_ = snapshot_is_current_ = false;
+  messages_.dismiss(failure_message_);
+  preset_ = std::make_shared<const preset::Preset>(edits.current());
+  const std::string edit = edits.undo_label();
+  name_ = preset_->name.empty() ? std::filesystem::path(preset_->source).stem().string() : preset_->name;
+  if (!edit.empty()) name_ += ": " + edit;
+}
+
+void RunInHand::start(const UndoStack& edits)
+{
+  take_over(edits);
+  gesture_lasts_ = kernels_changed_ = shown_since_start_ = false;
+  before_start_ = worker_.snapshot();
+  arrival_ = std::make_shared<Arrival>();
+  worker_.start(maker());
+}
+
+void RunInHand::adopt_or_start(const UndoStack& edits)
+{
+  const auto adoptable = preset_ ? engine::engine_of(*preset_).adoptable : nullptr;
+  if (kernels_changed_ || !adoptable || !adoptable(*preset_, edits.current())) return start(edits);
+  take_over(edits);
+  reference_.reset(); // it is of the old light
+  adoption_ = worker_.adopt(preset_, maker());
+}
+
+void RunInHand::follow_edit(bool live)
+{
+  restart_wanted_ = true;
+  gesture_lasts_ = live;
+  snapshot_is_current_ = false;
+}
+
+void RunInHand::cancel()
+{
+  restart_wanted_ = false;
+  worker_.cancel();
+}
+
+void RunInHand::take_arrival()
+{
+  if (!arrival_) return;
+  const std::lock_guard lock(arrival_->mutex);
+  if (!arrival_->plan) return;
+  plan_ = std::exchange(arrival_->plan, nullptr);
+  reference_ = std::exchange(arrival_->reference, nullptr);
+  seen_ = std::exchange(arrival_->seen, {});
+  if (arrival_->preset != preset_) reference_.reset(); // it is of another light
+}
+
+void RunInHand::take_snapshot()
+{
+  std::shared_ptr<const job::Snapshot> newest = worker_.snapshot();
+  if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_) return;
+  snapshot_ = std::move(newest);
+  snapshot_name_ = name_;
+  shown_since_start_ = true;
+  snapshot_is_current_ = !restart_wanted_ && snapshot_->adoption >= adoption_;
+}
+
+void RunInHand::report_failure()
+{
+  if (status_.state != job::State::failed || status_.failures == reported_failure_) return;
+  reported_failure_ = status_.failures;
+  messages_.error(*status_.error);
+  failure_message_ = messages_.newest();
+}
+
+void RunInHand::update(const UndoStack* edits)
+{
+  // In this order: the worker makes a run's last snapshot before it says that the run is over.
+  status_ = worker_.status();
+  take_snapshot();
+  take_arrival();
+  report_failure();
+  if (!edits) return;
+  if (source_.take_changed()) {
+    restart_wanted_ = kernels_changed_ = true;
+    snapshot_is_current_ = false;
+  }
+  // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device every move of
+  // the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen until the mouse rests.
+  const bool working = status_.state == job::State::preparing || status_.state == job::State::running;
+  if (restart_wanted_ && (!gesture_lasts_ || !working || shown_since_start_)) adopt_or_start(*edits);
+}
+
+} // namespace nephroid::ui

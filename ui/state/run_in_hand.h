@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The run of the preset that is being edited: started, replaced or told of another light when the preset changes; its newest picture
+// and what came with it. Never waits for a device.
+#pragma once
+#include "job/worker.h"
+#include "preset/preset.h"
+#include "ui/state/messages.h"
+#include "ui/state/run_source.h"
+#include "ui/state/undo.h"
+
+#include <any>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+class RunInHand {
+public:
+  /// Both outlive it. messages: where a failure is said, and taken back with the next start.
+  RunInHand(RunSource& source, Messages& messages) : source_(source), messages_(messages) {}
+
+  /// Nothing of earlier runs is shown any more: another preset's picture would be mistaken for this one's.
+  void forget();
+  void start(const UndoStack& edits);
+  /// Where only the light differs, the run in hand takes it on and goes on converging.
+  void adopt_or_start(const UndoStack& edits);
+  /// The preset was edited: the run follows with the next update(). live: the gesture still lasts.
+  void follow_edit(bool live);
+  void end_gesture() { gesture_lasts_ = false; }
+  void cancel();
+  void pause(bool on) { worker_.pause(on); }
+  /// Once a frame: takes the newest snapshot, and starts the run that edits ask for. edits: null before a preset is opened.
+  void update(const UndoStack* edits);
+
+  const job::Status& status() const { return status_; }
+  /// Whether kernels are being compiled for it.
+  bool compiling() const { return source_.compiling(); }
+  /// The newest picture there is, also of an earlier run until the present one has shown its first; null before the first of all.
+  const std::shared_ptr<const job::Snapshot>& snapshot() const { return snapshot_; }
+  /// Whether snapshot() is of the preset as it is now.
+  bool snapshot_is_current() const { return snapshot_is_current_; }
+  /// Of the run that snapshot() is of: "Ball lens: distance of the camera", the preset and the newest edit.
+  const std::string& snapshot_name() const { return snapshot_name_; }
+  /// What the run's error was so far, of snapshot(); null where nothing is measured.
+  std::shared_ptr<const job::History> error_history() const { return snapshot_ ? snapshot_->history : nullptr; }
+  /// Of the newest run that was made ready; null before the first of a preset. Another plan is another object.
+  const std::shared_ptr<const plan::Plan>& plan() const { return plan_; }
+  /// What that run is measured against; null where there is nothing.
+  const std::shared_ptr<const measure::Reference>& reference() const { return reference_; }
+  /// Whether the preset of the run has a reference, which may still be on its way.
+  bool has_reference() const { return preset_ && preset_->reference; }
+  /// What a panel looked for in the loaded scene of that run (shell/panels.h); null as plan(), and where the run's source did not look.
+  template <class T>
+  std::shared_ptr<const T> seen() const
+  {
+    for (const std::any& one : seen_)
+      if (const auto* found = std::any_cast<std::shared_ptr<const T>>(&one)) return *found;
+    return nullptr;
+  }
+
+private:
+  struct Arrival;
+  /// Makes a run of the preset as it is now, on the worker's thread.
+  std::function<std::unique_ptr<job::Job>()> maker() const;
+  void take_over(const UndoStack& edits);
+  void take_snapshot();
+  void take_arrival();
+  void report_failure();
+
+  RunSource& source_;
+  Messages& messages_;
+  bool restart_wanted_ = false;    ///< the preset changed since the last start
+  bool kernels_changed_ = false;   ///< ... or the kernels
+  bool gesture_lasts_ = false;     ///< ... by a gesture that goes on
+  bool shown_since_start_ = false; ///< a snapshot of the run in hand has come
+  bool snapshot_is_current_ = false;
+  std::uint64_t reported_failure_ = 0;           ///< Status::failures when the newest one became a message
+  std::uint64_t failure_message_ = 0;            ///< its message's id
+  std::shared_ptr<const preset::Preset> preset_; ///< of the run in hand
+  std::uint64_t adoption_ = 0;                   ///< of it by the run in hand: Snapshot::adoption of a picture of it is not less
+  job::Status status_;
+  std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
+  std::shared_ptr<Arrival> arrival_; ///< where the run in hand leaves what came with it
+  std::shared_ptr<const plan::Plan> plan_;
+  std::shared_ptr<const measure::Reference> reference_;
+  std::vector<std::any> seen_;
+  std::string name_, snapshot_name_;
+  job::Worker worker_; ///< last: its thread uses the source
+};
+
+} // namespace nephroid::ui
