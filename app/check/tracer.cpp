@@ -13,7 +13,7 @@ constexpr std::size_t local_size = 64;
 KernelTracer::KernelTracer(const compute::Context& context, const scene::Bvh& bvh, compute::Defines defines)
     : bvh_(bvh), context_(context), nodes_(context, "nodes", std::span(bvh.nodes)), blocks_(context, "blocks", std::span(bvh.blocks))
 {
-  defines["NEPHROID_ELLIPSOIDS"] = bvh.ellipsoid_places.empty() ? "0" : "1";
+  defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!bvh.ellipsoid_places.empty()));
   defines["NEPHROID_BVH_STACK"] = std::to_string(bvh.stack);
   const compute::Program program(context, "tracing/trace.cl", defines);
   closest_ = program.kernel("closest_hits");

@@ -61,8 +61,8 @@ public:
     };
     for (int ring = 0; ring < around / 2; ++ring)
       for (int i = 0; i < around; ++i) {
-        mark({corner(ring, i), corner(ring + 1, i), corner(ring + 1, i + 1)});
-        mark({corner(ring, i), corner(ring + 1, i + 1), corner(ring, i + 1)});
+        mark(std::array{corner(ring, i), corner(ring + 1, i), corner(ring + 1, i + 1)});
+        mark(std::array{corner(ring, i), corner(ring + 1, i + 1), corner(ring, i + 1)});
       }
   }
 
