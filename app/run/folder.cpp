@@ -89,10 +89,11 @@ std::optional<job::Progress> finished_run(const fs::path& folder, const preset::
   try {
     const auto run = nlohmann::json::parse(read_file(folder / "run.json"));
     if (!run.at("finished").get<bool>()) return std::nullopt;
+    const auto& units = run.at("units"); // what the engine calls them
     job::Progress progress;
     progress.fraction = 1;
-    progress.step = progress.steps = run.at("passes").get<std::int64_t>();
-    progress.work = run.at("photons").get<std::uint64_t>();
+    progress.step = progress.steps = run.at(units.at("steps")).get<std::int64_t>();
+    progress.work = run.at(units.at("work")).get<std::uint64_t>();
     progress.work_seconds = run.at("work_seconds").get<double>();
     return progress;
   } catch (const nlohmann::json::exception&) {

@@ -257,7 +257,7 @@ TEST(Indirect, AccountsForItsEnergy)
   const preset::Preset p = open_room(temporary.path());
   const job::Snapshot snapshot = render(p);
   ASSERT_TRUE(spectral::indirect_energy_of(snapshot));
-  const spectral::IndirectBalance& e = *spectral::indirect_energy_of(snapshot);
+  const spectral::IndirectBalance e = *spectral::indirect_energy_of(snapshot);
   expect_truth("indirect, energy: accounted for / emitted", (e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1, 1e-12);
   EXPECT_GT(e.absorbed_w, 0.1 * e.emitted_w);
   EXPECT_GT(e.escaped_w, 0.1 * e.emitted_w);

@@ -17,7 +17,6 @@
 
 using namespace nephroid;
 using namespace nephroid::test;
-using spectral::Settings;
 
 namespace {
 
@@ -106,8 +105,8 @@ std::vector<double> radiance_in_lines(const job::Snapshot& snapshot)
 
 struct Way {
   const char* name;
-  Spectral::Estimator estimator;
-  Spectral::Method method;
+  spectral::Settings::Estimator estimator;
+  spectral::Settings::Method method;
 };
 
 class MapBands : public testing::TestWithParam<Way> {};
@@ -123,7 +122,7 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine)
     spectral::settings(p).method = GetParam().method;
     const std::vector<Estimate> figures = render_passes(p, radiance_in_lines);
     const double truth = radiance(lines[i]);
-    const bool hang_together = GetParam().estimator == Spectral::Estimator::sppm;
+    const bool hang_together = GetParam().estimator == spectral::Settings::Estimator::sppm;
     const double error = hang_together ? tolerance_over_seeds(lines[i].sppm_scatter, 30) : tolerance(figures[i]) / truth + 1e-3;
     expect_truth(fmt::format("stripe through a prism, {} nm, {}: radiance over its truth", lines[i].nm, GetParam().name),
                  figures[i].mean / truth, 1, error);
@@ -133,9 +132,9 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine)
 }
 
 INSTANTIATE_TEST_SUITE_P(, MapBands,
-                         testing::Values(Way{"automatic", Spectral::Estimator::automatic, Spectral::Method::optimal},
-                                         Way{"sppm", Spectral::Estimator::sppm, Spectral::Method::optimal},
-                                         Way{"clusters", Spectral::Estimator::automatic, Spectral::Method::brute_force}),
+                         testing::Values(Way{"automatic", spectral::Settings::Estimator::automatic, spectral::Settings::Method::optimal},
+                                         Way{"sppm", spectral::Settings::Estimator::sppm, spectral::Settings::Method::optimal},
+                                         Way{"clusters", spectral::Settings::Estimator::automatic, spectral::Settings::Method::brute_force}),
                          [](const auto& way) { return std::string(way.param.name); });
 
 } // namespace

@@ -19,7 +19,6 @@ using namespace nephroid::test;
 
 namespace {
 
-using spectral::Settings;
 
 /// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
 /// whole clusters, are independent, and are dealt by power: what a test is about it turns on.
@@ -38,7 +37,7 @@ preset::Preset dispersing_ball(bool absorbing)
   }
   spectral::settings(p).photons_per_pass = 1 << 13;
   spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = false;
-  spectral::settings(p).effort = Spectral::Effort::power;
+  spectral::settings(p).effort = spectral::Settings::Effort::power;
   p.stop.passes = 24;
   return p;
 }
@@ -76,10 +75,10 @@ class WavelengthJitter : public testing::TestWithParam<bool> {};
 TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce)
 {
   preset::Preset p = dispersing_ball(GetParam());
-  spectral::settings(p).method = Spectral::Method::brute_force;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
   const std::vector<Estimate> truth = render_passes(p, figures);
   p.seed = 2;
-  spectral::settings(p).method = Spectral::Method::optimal;
+  spectral::settings(p).method = spectral::Settings::Method::optimal;
   spectral::settings(p).threshold_deg = 80; // one cluster
   spectral::settings(p).jitter = true;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
@@ -88,7 +87,7 @@ TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce)
   spectral::settings(p).threshold_deg = 0.5;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
   p.seed = 4;
-  spectral::settings(p).effort = Spectral::Effort::variance;
+  spectral::settings(p).effort = spectral::Settings::Effort::variance;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
 }
 
@@ -98,10 +97,10 @@ INSTANTIATE_TEST_SUITE_P(, WavelengthJitter, testing::Bool(), [](const auto& tes
 TEST(WholeClusters, AreBiased)
 {
   preset::Preset p = dispersing_ball(false);
-  spectral::settings(p).method = Spectral::Method::brute_force;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
   const std::vector<Estimate> truth = render_passes(p, figures);
   p.seed = 2;
-  spectral::settings(p).method = Spectral::Method::optimal;
+  spectral::settings(p).method = spectral::Settings::Method::optimal;
   spectral::settings(p).threshold_deg = 80;
   EXPECT_LT(p_of_same(render_passes(p, figures), truth), false_alarm);
 }
@@ -174,7 +173,7 @@ TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters)
   p.scene.objects[0].transform.translate = {0, 2, 0};
   p.scene.lights[0].position = {0.3, 1.8, 0.2};
   p.scene.camera.position = {0, 6, 0.1};
-  spectral::settings(p).method = Spectral::Method::brute_force;
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
   spectral::settings(p).caustic = false;
   p.stop.passes = 2;
   const double ratio = believed_over_true_error(p);

@@ -2,6 +2,8 @@
 // Random presets: every field that means something gets a random legal value, by a visitor over the descriptions.
 #pragma once
 #include "preset/describe.h"
+#include "preset/settings_type.h"
+#include "spectral/describe_settings.h"
 
 #include <cmath>
 #include <cstring>
@@ -23,6 +25,13 @@ public:
   void field(const preset::Field& f, T& value)
   {
     fill(f, value);
+  }
+  void engine(const preset::Field&, preset::Settings&) {} // the first
+  void settings(preset::Settings& settings) { describe(*this, settings.as<spectral::Settings>()); }
+  void settings(std::optional<preset::Settings>& recipe)
+  {
+    recipe.reset();
+    if (random_() % 2) settings(recipe.emplace());
   }
 
 private:
@@ -137,17 +146,19 @@ inline preset::Preset random_preset(std::uint64_t seed)
     if (l.type == Light::Type::area) l.direction = {0.1, -1, 1.0 / 3}, l.up = {0, 0.2, 1};
     if (l.type != Light::Type::point) l.direction[1] += l.direction == Vec3{0, 0, 0} ? 1 : 0;
   }
-  for (Spectral* s : {&spectral::settings(p), p.reference && spectral::settings(*p.reference) ? &*p.reference->spectral : nullptr}) {
-    if (!s) continue;
-    if (s->effort == Spectral::Effort::random) s->estimator = Spectral::Estimator::sppm;
-    if (s->effort == Spectral::Effort::variance) s->estimator = Spectral::Estimator::automatic;
-  }
-  if (Spectral& s = spectral::settings(p); s.relight) { // what layers cannot keep
-    s.estimator = Spectral::Estimator::splat;
-    s.effort = Spectral::Effort::power;
+  const auto agree = [](Settings& settings) {
+    auto& s = settings.as<spectral::Settings>();
+    if (s.effort == spectral::Settings::Effort::random) s.estimator = spectral::Settings::Estimator::sppm;
+    if (s.effort == spectral::Settings::Effort::variance) s.estimator = spectral::Settings::Estimator::automatic;
+  };
+  agree(p.settings);
+  if (p.reference && p.reference->settings) agree(*p.reference->settings);
+  if (spectral::Settings& s = spectral::settings(p); s.relight) { // what layers cannot keep
+    s.estimator = spectral::Settings::Estimator::splat;
+    s.effort = spectral::Settings::Effort::power;
     s.differentials = s.indirect = false;
   }
-  const bool estimates = p.measure.estimate && spectral::settings(p).estimator != Spectral::Estimator::sppm;
+  const bool estimates = p.measure.estimate && spectral::settings(p).estimator != spectral::Settings::Estimator::sppm;
   if (!estimates && !p.reference) p.stop.error.reset(); // nothing would measure it
   p.scene.camera.target = {0, 0.1, 1.0 / 3};
   p.scene.camera.position = {3, 2, 1e-5};

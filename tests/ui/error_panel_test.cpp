@@ -143,9 +143,9 @@ TEST_F(ErrorPanelTest, CopiesGoToTheClipboard)
   open();
   finish();
   Commands commands;
-  action("Copy history as CSV").run(workbench, commands);
+  action("Copy history as CSV").run(workbench.context(commands));
   EXPECT_EQ(std::string(ImGui::GetClipboardText()), measure::to_csv(*workbench.run().error_history()));
-  action("Copy plot as CSV").run(workbench, commands);
+  action("Copy plot as CSV").run(workbench.context(commands));
   EXPECT_THAT(std::string(ImGui::GetClipboardText()), StartsWith("run,line,seconds,error\n\"this run\",error,0.01,"));
   EXPECT_TRUE(commands.empty());
 }

@@ -21,8 +21,6 @@ const Json& given(const Json& node) { return node.contains("anyOf") ? node["anyO
 
 bool is_optional(const Json& node) { return node.contains("anyOf") && node["anyOf"].back().value("type", "") == "null"; }
 
-bool is_fixed(const Json& array) { return array.contains("minItems") && array["minItems"] == array.value("maxItems", 0); }
-
 class ParametersSchemaTest : public test::ParametersFixture {
 protected:
   ParametersSchemaTest() : schema(Json::parse(preset::schema())) {}

@@ -84,8 +84,7 @@ TEST_F(PlanPanelTest, ThePlanIsCopiedAsJson)
 {
   EXPECT_FALSE(action("Copy plan as JSON").enabled(context()));
   open();
-  Commands commands;
-  action("Copy plan as JSON").run(workbench, commands);
+  action("Copy plan as JSON").run(context());
   EXPECT_EQ(std::string(ImGui::GetClipboardText()), plan::to_json(*workbench.run().plan()));
 }
 

@@ -55,7 +55,7 @@ TEST(GlassPixels, AreAllThatAPathMayMeetGlassIn)
       const glm::dvec3 way =
           glm::dvec3(c.forward) + (2 * x / width - 1) * c.tan_x * glm::dvec3(c.right) + (1 - 2 * y / height) * c.tan_y * glm::dvec3(c.up);
       const auto hit = scene::closest_hit(bvh, c.position, way);
-      if (hit && scene.object_of_triangle[hit->triangle] != 0)
+      if (hit && scene.object_of_primitive[hit->primitive] != 0)
         met[static_cast<std::size_t>(static_cast<int>(y) * width + static_cast<int>(x))] = true;
     }
     int more = 0, all = 0;

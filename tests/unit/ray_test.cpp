@@ -27,7 +27,7 @@ double distance_to(const scene::Mesh& mesh, std::uint32_t triangle, const dvec3&
   return u >= 0 && v >= 0 && u + v <= 1 && distance > 0 ? distance : INFINITY;
 }
 
-double closest_of_all(const scene::Mesh& mesh, const dvec3& origin, const dvec3& direction, const scene::CountsTriangle& counts)
+double closest_of_all(const scene::Mesh& mesh, const dvec3& origin, const dvec3& direction, const scene::CountsPrimitive& counts)
 {
   double closest = INFINITY;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -55,7 +55,7 @@ TEST(HostRays, HitWhatEveryTriangleOnItsOwnSays)
 {
   const scene::Mesh mesh = balls_in_a_room();
   const scene::Bvh bvh = scene::build_bvh(mesh);
-  const scene::CountsTriangle some = [](std::uint32_t t) { return t % 3 != 0; }, all = [](std::uint32_t) { return true; };
+  const scene::CountsPrimitive some = [](std::uint32_t t) { return t % 3 != 0; }, all = [](std::uint32_t) { return true; };
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-3, 3);
   int hits = 0;
@@ -63,7 +63,7 @@ TEST(HostRays, HitWhatEveryTriangleOnItsOwnSays)
     const dvec3 origin(uniform(random), uniform(random), uniform(random));
     dvec3 direction = 2.5 * dvec3(random_direction(random));
     if (i % 7 == 0) direction[i % 3] = 0; // along the boxes' sides
-    for (const scene::CountsTriangle& counts : {some, all}) {
+    for (const scene::CountsPrimitive& counts : {some, all}) {
       const double expected = closest_of_all(mesh, origin, direction, counts);
       const auto hit = scene::closest_hit(bvh, origin, direction, counts);
       if (!std::isfinite(expected)) { // out through a missing triangle of the room
@@ -72,7 +72,7 @@ TEST(HostRays, HitWhatEveryTriangleOnItsOwnSays)
       }
       ASSERT_TRUE(hit);
       EXPECT_NEAR(hit->t, expected, 1e-9 * (1 + expected));
-      EXPECT_TRUE(counts(hit->triangle));
+      EXPECT_TRUE(counts(hit->primitive));
       EXPECT_FALSE(scene::closest_hit(bvh, origin, direction, counts, 0.999 * expected));
       ++hits;
     }

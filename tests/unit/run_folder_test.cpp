@@ -29,7 +29,7 @@ protected:
   const std::filesystem::path folder = temporary.path();
 };
 
-constexpr const char* whole = R"({"finished":true,"passes":7,"photons":9000000000,"work_seconds":1.5})";
+constexpr const char* whole = R"({"finished":true,"passes":7,"photons":9000000000,"units":{"steps":"passes","work":"photons"},"work_seconds":1.5})";
 
 TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
 {
@@ -37,7 +37,7 @@ TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
   ASSERT_TRUE(progress);
   EXPECT_EQ(progress->fraction, 1);
   EXPECT_EQ(progress->step, 7);
-  EXPECT_EQ(progress->photons, 9000000000u);
+  EXPECT_EQ(progress->work, 9000000000u);
   EXPECT_EQ(progress->work_seconds, 1.5);
 }
 

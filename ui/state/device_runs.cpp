@@ -53,10 +53,8 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
   auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get())); });
   const std::lock_guard lock(building_);
   const Lowered compiling{compiling_};
-  if (!context_) {
-    context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
-    compute::tell_of_compiling(*context_, [this] { compiling_ = true; });
-  }
+  if (!context_) context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
+  compute::tell_of_compiling(*context_, [this] { compiling_ = true; });
   // The sources are read below: what changed until here is in this run.
   compute::kernels_changed(*context_);
   changed_ = false;
@@ -64,6 +62,7 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
   auto plan = std::make_shared<plan::Plan>(*previous_->plan);
   std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan->notes);
   auto job = measure::measured(run::make_job(*previous_, *context_), preset, reference);
+  compute::tell_of_compiling(*context_, [] {}); // what a job builds later is short
   std::vector<std::any> seen;
   if (look_around_) seen = look_around_(preset, previous_->loaded->scene, *previous_->loaded->bvh);
   return {std::move(job), std::move(plan), std::move(reference), std::move(seen)};
