@@ -109,27 +109,27 @@ Mesh make_sphere(float radius)
   return mesh;
 }
 
-void require(bool good, const Place& where, const char* field, const std::string& value, const char* expected)
+void require(bool good, const Place& where, const std::string& value, const char* expected)
 {
-  if (!good) throw bad_input(where / field, fmt::format("{} is out of range", value), expected);
+  if (!good) throw bad_input(where, fmt::format("{} is out of range", value), expected);
 }
 
 void check(const preset::Shape& shape, const Place& where)
 {
   using Type = preset::Shape::Type;
-  const auto length = [&](bool used, const char* field, double value) {
-    require(!used || (value > 0 && value < 1e30), where, field, fmt::format("{}", value), "a length greater than 0");
+  const auto length = [&](bool used, const Place& place, double value) {
+    require(!used || (value > 0 && value < 1e30), place, fmt::format("{}", value), "a length greater than 0");
   };
   const bool flat = shape.type == Type::quad, boxy = shape.type == Type::box || shape.type == Type::plate;
-  length(flat || boxy, "size/0", shape.size[0]);
-  length(boxy, "size/1", shape.size[1]);
-  length(flat || boxy, "size/2", shape.size[2]);
-  length(shape.type == Type::sphere || shape.type == Type::cylinder || shape.type == Type::brilliant, "radius", shape.radius);
-  length(shape.type == Type::cylinder || shape.type == Type::prism, "height", shape.height);
-  length(shape.type == Type::prism, "side", shape.side);
-  require(shape.type != Type::prism || (shape.apex_deg > 0 && shape.apex_deg < 180), where, "apex_deg", fmt::format("{}", shape.apex_deg),
+  length(flat || boxy, where / "size" / 0, shape.size[0]);
+  length(boxy, where / "size" / 1, shape.size[1]);
+  length(flat || boxy, where / "size" / 2, shape.size[2]);
+  length(shape.type == Type::sphere || shape.type == Type::cylinder || shape.type == Type::brilliant, where / "radius", shape.radius);
+  length(shape.type == Type::cylinder || shape.type == Type::prism, where / "height", shape.height);
+  length(shape.type == Type::prism, where / "side", shape.side);
+  require(shape.type != Type::prism || (shape.apex_deg > 0 && shape.apex_deg < 180), where / "apex_deg", fmt::format("{}", shape.apex_deg),
           "an angle between 0 and 180 degrees");
-  require(shape.type != Type::cylinder || (shape.segments >= 3 && shape.segments <= max_segments), where, "segments",
+  require(shape.type != Type::cylinder || (shape.segments >= 3 && shape.segments <= max_segments), where / "segments",
           fmt::format("{}", shape.segments), "3 to 16384 segments");
 }
 

@@ -50,6 +50,7 @@ TEST_F(GradientEngine, RunsAndWritesWhateverItFound)
   EXPECT_EQ(all.at("gradient").at("level"), 1);
   EXPECT_EQ(bytes("out/gradient.txt"), "32 16\n");
   EXPECT_THAT(bytes("out/settling.csv"), HasSubstr("sweep,standard_deviation\n1,0.2\n"));
+  EXPECT_THAT(bytes("out/report.html"), HasSubstr("standard_deviation"));
   EXPECT_TRUE(std::filesystem::exists(folder / "out/upside_down.exr") && std::filesystem::exists(folder / "out/upside_down.png"));
 }
 

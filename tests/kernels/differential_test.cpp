@@ -196,7 +196,7 @@ preset::Preset rod(preset::Object::Normals normals)
   cylinder.type = preset::Shape::Type::cylinder;
   cylinder.radius = 1;
   cylinder.height = 2;
-  cylinder.segments = 24;
+  cylinder.segments = 23; // no two facets are parallel
   p.scene.objects.push_back(object("rod", cylinder, "flint", at({0, 0, 0}, {10, 0, 20})));
   p.scene.objects.back().normals = normals;
   return p;
@@ -294,7 +294,8 @@ TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive)
     const Ray64 above = reference.retrace(rays[i], encounters, indices(tables, clusters[i], h), false).back(),
                 below = reference.retrace(rays[i], encounters, indices(tables, clusters[i], -h), false).back();
     const glm::dvec3 d_position = (above.position - below.position) / (2 * h), d_direction = (above.direction - below.direction) / (2 * h);
-    if (!std::isfinite(glm::length(d_position)) || glm::length(d_direction) * h < 1e-12) continue; // hits mirrors only, critical angle
+    // Mirrors only, parallel faces (the ends of a rod), the critical angle.
+    if (!std::isfinite(glm::length(d_position)) || glm::length(d_direction) < 1e-4) continue;
     const State& last = paths[i].states.back();
     of_place.push_back(glm::distance(last.d_position, d_position) / glm::length(d_position));
     of_direction.push_back(glm::distance(last.d_direction, d_direction) / glm::length(d_direction));

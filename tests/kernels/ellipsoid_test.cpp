@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, EllipsoidRays,
                          [](const auto& tested) { return "case" + std::to_string(tested.index); });
 
 // A ray that leaves a sphere outwards does not meet it again, one that enters it meets its far side: also at a radius of 1e-5 of the
-// coordinates, where the rounded place is off the surface by a hundredth of the radius.
+// coordinates, where the rounded place is off the surface by a two-hundredth of the radius.
 TEST(Ellipsoid, TheOneThatARayLeavesIsMetOnItsFarSideOnly)
 {
   const compute::Context context = compute::Context::open(device_options());
@@ -134,7 +134,8 @@ TEST(Ellipsoid, TheOneThatARayLeavesIsMetOnItsFarSideOnly)
       for (int i = 0; i < 20000; ++i) {
         const glm::vec3 normal = random_direction(random), direction = random_direction(random);
         const float cosine = glm::dot(normal, direction);
-        if (std::abs(cosine) < 0.05f) continue;
+        // A place that is rounded by 5e-8 of its coordinates, .005 of the radius, is off the ray's chord where the cosine is below .1.
+        if (std::abs(cosine) < 0.12f) continue;
         rays.push_back({.origin = centre + radius * normal, .direction = direction, .skip = 0});
         inwards.push_back(cosine < 0);
       }
@@ -186,7 +187,7 @@ TEST(Ellipsoid, ATreeOfManyFindsTheClosest)
     wrong += cosine > 1e-2 && closest > 1e-5 && (!host || host->primitive != which);
   }
   EXPECT_EQ(wrong, 0u);
-  EXPECT_GT(spheres, rays.size() / 4);
+  EXPECT_GT(spheres, rays.size() / 8);
 }
 
 } // namespace

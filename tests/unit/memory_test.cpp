@@ -27,8 +27,9 @@ compute::DeviceInfo device(const char* type, std::uint64_t memory_bytes, std::ui
 plan::Plan large_plan()
 {
   plan::Plan plan;
-  plan.passes = {{"direct", true, ""}, {"photons", true, ""}, {"smoothing", false, ""}};
+  plan.passes = {{"direct", true, ""}, {"photons", true, ""}};
   plan.layers = 2;
+  plan.picture_bytes_a_pixel = 48;
   plan.buffers = {{"tree", gib / 2}, {"film direct", 6 * gib}, {"film caustic", 6 * gib}, {"picture (host)", 48 * gib, true}};
   return plan;
 }
@@ -48,7 +49,7 @@ TEST(Memory, TheHostHoldsThePictureAndTheEncodedFile)
   one.layers = 1;
   EXPECT_EQ(run::picture_and_files(one, 16384, 16384).bytes, 21 * gib);
   // 36 and the error's draw, 84.
-  one.passes.push_back({"error estimate", true, ""});
+  one.estimates_error = true;
   EXPECT_EQ(run::picture_and_files(one, 16384, 16384).bytes, 30 * gib);
 }
 

@@ -42,7 +42,7 @@ protected:
     environment.file = file;
     environment.radiance = 3;
     environment.rotate_deg = 20;
-    return make_environment(environment, FileFinder(), "p.json#/scene/environment", warnings);
+    return make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
   }
 };
 
@@ -73,7 +73,7 @@ TEST_F(SceneEnvironment, AConstantIsOneTexel)
   preset::Environment environment;
   environment.type = preset::Environment::Type::constant;
   environment.colour = {0.25, 0.5, 0};
-  Environment e = make_environment(environment, FileFinder(), "p.json#/scene/environment", warnings);
+  Environment e = make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
   EXPECT_EQ(e.width * e.height, 1);
   EXPECT_THAT(e.rgb, ElementsAre(0.25f, 0.5f, 0));
   EXPECT_FALSE(e.is_black());

@@ -119,20 +119,6 @@ TEST(Scene, MirroringKeepsTrianglesOutwards)
   }
 }
 
-// An ellipsoid's normals are those of the inverse transpose: at p they point along p / (semi-axes squared).
-TEST(Scene, NormalsOfAStretchedBall)
-{
-  preset::Preset preset = ball_over_floor();
-  preset.scene.objects[0].transform.scale = {4, 1, 2};
-  preset.scene.objects[0].normals = preset::Object::Normals::smooth;
-  const Scene scene = load_scene(preset);
-  EXPECT_TRUE(scene.objects[0].smooth);
-  for (std::uint32_t t = 0; t < scene.objects[0].triangle_count; ++t) {
-    const std::uint32_t v = scene.geometry.triangles[t].x;
-    expect_near(scene.geometry.normals[v], glm::normalize(glm::dvec3(scene.geometry.positions[v]) / glm::dvec3(16, 1, 4)), 1e-5);
-  }
-}
-
 TEST(Scene, HoldsAtAMillimetreAndAKilometre)
 {
   for (double scale : {1e-3, 1.0, 1e3}) {

@@ -224,7 +224,7 @@ TEST(Shapes, InwardsTurnsEverythingRound)
 void expect_refused(const preset::Shape& bad, const char* pointer)
 {
   try {
-    make_shape(bad, "p.json#/scene/objects/0/shape");
+    make_shape(bad, Place("p.json", "/scene/objects/0/shape"));
     FAIL() << pointer << " was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::bad_input);
