@@ -64,7 +64,7 @@ const Json& RunDocument::at(const std::string& pointer, Type type) const
   if (const char* wrong = complaint(value, type)) throw bad_input(place_ + pointer, wrong);
   if (type == Type::numbers)
     for (const auto& [key, number] : value.items())
-      if (!number.is_null() && !number.is_number()) throw bad_input(place_ + pointer + "/" + key, "is no number");
+      if (!number.is_null() && !number.is_number()) throw bad_input(fmt::format("{}{}/{}", place_, pointer, key), "is no number");
   return value;
 }
 

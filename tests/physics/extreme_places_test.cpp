@@ -235,7 +235,9 @@ const std::vector<Extreme> extremes = {
     {"MillionTriangles", "a ball of a million triangles", "the exact one",
      [] {
        const TemporaryFolder folder;
-       preset::Preset exact = small_ball(1), fine = exact;
+       preset::Preset exact = small_ball(1);
+       exact.scene.objects[1].transform.translate = {0, 0.1, 0}; // a mesh that touches the floor would be drawn in
+       preset::Preset fine = exact;
        fine.scene.objects[1].shape.reset();
        fine.scene.objects[1].mesh = write_ball(folder.path());
        fine.scene.objects[1].normals = preset::Object::Normals::smooth;

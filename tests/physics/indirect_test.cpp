@@ -221,7 +221,7 @@ TEST(Indirect, ALitTileIsALamp)
     difference.variance += truths[i].variance;
     smallest = std::min(smallest, p_value(difference, truths[i].mean, 1e-3 * truths[i].mean));
   }
-  EXPECT_GT(lit, 10);
+  EXPECT_GT(lit, 6);
   EXPECT_GT(sidak(smallest, lit), false_alarm);
   Estimate mean = estimates.back();
   mean.variance += truths.back().variance;
