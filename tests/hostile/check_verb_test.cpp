@@ -47,7 +47,7 @@ TEST_F(CheckVerb, AWrongKernelIsNamedAndExitsWithOne)
   nephroid::write_file_whole(kernels / "tracing/trace.cl", "nonsense\n");
   const Ended ended = check({"--kernels", kernels.string()});
   EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_THAT(ended.err, HasSubstr("5 failed: film: takes what fits, refuses the rest, rays: closest hits, "));
+  EXPECT_THAT(ended.err, HasSubstr("6 failed: film: takes what fits, refuses the rest, rays: closest hits, "));
   EXPECT_THAT(ended.out, HasSubstr("trace.cl:1: "));                  // why, under the line
   EXPECT_THAT(ended.out, HasSubstr("interface: Snell's directions")); // and it went on
 }

@@ -284,7 +284,7 @@ TEST_F(BadPresets, OverridesAreRefusedInOneLine)
       {"a number that begins with 0", R"(seed=007)",
        R"(--set seed=007: is the string '007'; expected a whole number from 0 to 18446744073709551615)"},
       {"broken JSON after a short number", R"(scene.camera.position=[.5 1])",
-       R"(--set scene.camera.position=[.5 1]:1:2: is not JSON; syntax error while parsing value - invalid literal; expected '[', '{', or a literal)"},
+       R"(--set scene.camera.position=[.5 1]:1:2: is not JSON; syntax error while parsing value - invalid literal; last read: '[.')"},
       {"beyond a double", R"(white=1e999)",
        R"(--set white=1e999: is the string '1e999'; expected a number from 1e-12 to 1000000000000 W/(m^2 sr))"},
       {"a value that is not UTF-8", "name=\xff\x41", "--set: 'name=\xef\xbf\xbd\x41' is not UTF-8; expected KEY=VALUE in UTF-8"},

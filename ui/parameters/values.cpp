@@ -255,7 +255,7 @@ void ParametersPanel::draw_file_choice(const std::string& pointer)
     for (const std::string& name : std::vector<std::string>(files_)) {
       const bool folder = name.ends_with('/');
       const bool chosen = ImGui::Selectable(name.c_str(), false, folder ? ImGuiSelectableFlags_NoAutoClosePopups : 0);
-      note(pointer + ":" + name);
+      note(fmt::format("{}:{}", pointer, name));
       if (!chosen) continue;
       const fs::path path = fs::path(folder_) / name, near = path.lexically_relative(beside);
       if (folder)
