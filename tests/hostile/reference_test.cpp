@@ -73,11 +73,15 @@ TEST_F(Measured, WithoutAReferenceARunLogsItsEstimate)
 }
 
 // With independent photons: of a low-discrepancy sequence each half has its own, so that one film gets other photons than two halves.
+// Without what goes by the halves: smoothing, and the deal of photons.
 TEST_F(Measured, WithTheEstimateLeftOutThePictureIsTheSameBits)
 {
-  const std::string independent = "spectral.low_discrepancy=false";
-  ASSERT_EQ(run("with", {"--passes", "3", "--set", independent}).exit_code, 0);
-  ASSERT_EQ(run("without", {"--passes", "3", "--set", independent, "--set", "measure.estimate=false"}).exit_code, 0);
+  std::vector<std::string> arguments{"--passes", "3"};
+  for (const char* set : {"spectral.low_discrepancy=false", "spectral.smoothing=off", "spectral.effort=power"})
+    arguments.insert(arguments.end(), {"--set", set});
+  ASSERT_EQ(run("with", arguments).exit_code, 0);
+  arguments.insert(arguments.end(), {"--set", "measure.estimate=false"});
+  ASSERT_EQ(run("without", arguments).exit_code, 0);
   const auto a = nephroid::image::read_image(file("with") / "image.exr"), b = nephroid::image::read_image(file("without") / "image.exr");
   EXPECT_EQ(a.data, b.data);
   EXPECT_FALSE(fs::exists(file("without") / "history.csv"));
