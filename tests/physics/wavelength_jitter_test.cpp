@@ -97,6 +97,7 @@ INSTANTIATE_TEST_SUITE_P(, WavelengthJitter, testing::Bool(), [](const auto& tes
 TEST(WholeClusters, AreBiased)
 {
   preset::Preset p = dispersing_ball(false);
+  spectral::settings(p).photons_per_pass = 1 << 16;
   spectral::settings(p).method = spectral::Settings::Method::brute_force;
   const std::vector<Estimate> truth = render_passes(p, figures);
   p.seed = 2;

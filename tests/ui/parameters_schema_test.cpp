@@ -186,8 +186,11 @@ protected:
       EXPECT_TRUE(panel().place_of(pointer)) << "a choice of types";
     } else {
       if (is_optional(property) && drafted(pointer).is_null()) {
+        if (pointer.ends_with("/mesh")) { // one of both
+          search("scene.objects.0.shape");
+          click("/scene/objects/0/shape:given");
+        }
         search(dotted(pointer));
-        if (pointer.ends_with("/mesh")) click("/scene/objects/0/shape:given"); // one of both
         click(pointer + ":given");
         EXPECT_FALSE(drafted(pointer).is_null());
         if (type.empty() && drafted(pointer) == "") set(given(property), pointer, candidates(given(property), pointer, owner).front());

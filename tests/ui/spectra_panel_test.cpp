@@ -119,7 +119,8 @@ TEST_F(SpectraPanelTest, RowsAreAddedAndRemoved)
   EXPECT_THAT(light().table, SizeIs(2)) << "the one that was added is marked";
   click("copy");
   EXPECT_EQ(std::string(ImGui::GetClipboardText()), to_csv(spectra()));
-  EXPECT_TRUE(workbench.messages().empty());
+  ASSERT_THAT(workbench.messages(), SizeIs(1)) << "of the row that had to stay";
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("at least 2 must stay"));
 }
 
 // row_drags_test.cpp has the other ways in which rows go while one is dragged.

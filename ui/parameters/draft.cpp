@@ -138,7 +138,7 @@ std::optional<preset::Preset> Draft::settle(const std::string& pointer)
   for (const int reach : {0, 1, 2}) {
     const Edits edits = together(pointer, reach);
     if (auto problem = problem_of(edits, pointer, made)) {
-      problems_.try_emplace(pointer, *std::move(problem));
+      problems_.insert_or_assign(pointer, *std::move(problem)); // of the most edits together: they say one thing
       continue;
     }
     take(std::move(made));

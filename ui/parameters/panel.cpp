@@ -82,7 +82,8 @@ std::string help_of(const Outline& o, const std::string& pointer)
   text += fmt::format("\nWanted: {}", preset::expected(o));
   if (o.optional) return text + "; may be left out";
   if (o.field.required || o.chooses || o.standard.size() > 8) return text;
-  return text + fmt::format("; by default {}", o.standard.is_string() ? fmt::format("\"{}\"", o.standard.get<std::string>()) : o.standard.dump());
+  return text +
+         fmt::format("; by default {}", o.standard.is_string() ? fmt::format("\"{}\"", o.standard.get<std::string>()) : o.standard.dump());
 }
 
 } // namespace
@@ -290,7 +291,9 @@ bool ParametersPanel::is_wanted(const Outline& o, const Json& value, const std::
   if (o.of_engine && draft_.value()["engine"] != o.field.name) return false;
   if (!is_searching()) return true;
   if (only_changed_ && !is_changed(o, value)) return false;
-  if (holds(lower(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit)), lower(search_))) return true;
+  const std::string wanted = lower(search_);
+  if (holds(lower(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit)), wanted)) return true;
+  if (!o.fields && wanted.starts_with(lower(dotted(pointer)) + ".")) return true; // a number of it
   if (value.is_null() || !o.fields) return false;
   if (o.kind == Kind::object) return any_wanted(o, value, pointer);
   const auto items = value.items();

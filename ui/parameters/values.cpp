@@ -6,6 +6,7 @@
 #include "ui/parameters/panel.h"
 #include "ui/widgets/theme.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
