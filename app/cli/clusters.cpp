@@ -9,10 +9,10 @@
 #include "cli/verbs.h"
 #include "cli/wavelength_runs.h"
 #include "preset/choices.h"
-#include "spectral/describe_settings.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "scene/materials.h"
+#include "spectral/describe_settings.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

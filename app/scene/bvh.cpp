@@ -254,7 +254,8 @@ Bvh build_bvh(const Mesh& mesh)
   arguments.createLeaf = create_leaf;
   const auto* root = build ? static_cast<const BuildNode*>(rtcBuildBVH(&arguments)) : nullptr;
   if (!root)
-    throw failed("mesh", fmt::format("Embree built no tree over {} primitives (error {})", boxes.size(), int{rtcGetDeviceError(device.get())}));
+    throw failed("mesh",
+                 fmt::format("Embree built no tree over {} primitives (error {})", boxes.size(), int{rtcGetDeviceError(device.get())}));
   bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
   if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
   return bvh;

@@ -9,8 +9,8 @@
 
 namespace nephroid::spectral {
 
-/// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch, whatever stands before it; all of
-/// them for a camera inside glass. Every path that meets glass or a mirror first is of one of these.
+/// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch, whatever stands before
+/// it; all of them for a camera inside glass. Every path that meets glass or a mirror first is of one of these.
 std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene);
 
 } // namespace nephroid::spectral

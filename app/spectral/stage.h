@@ -3,8 +3,8 @@
 // kernels and films; the job gives each its turn. Sums are exact, so how a stage cuts its pass into steps changes no bit.
 #pragma once
 #include "job/job.h"
-#include "spectral/energy.h"
 #include "preset/preset.h"
+#include "spectral/energy.h"
 #include "tracing/state_bytes.h"
 
 #include <cstdint>

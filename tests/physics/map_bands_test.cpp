@@ -134,7 +134,8 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine)
 INSTANTIATE_TEST_SUITE_P(, MapBands,
                          testing::Values(Way{"automatic", spectral::Settings::Estimator::automatic, spectral::Settings::Method::optimal},
                                          Way{"sppm", spectral::Settings::Estimator::sppm, spectral::Settings::Method::optimal},
-                                         Way{"clusters", spectral::Settings::Estimator::automatic, spectral::Settings::Method::brute_force}),
+                                         Way{"clusters", spectral::Settings::Estimator::automatic,
+                                             spectral::Settings::Method::brute_force}),
                          [](const auto& way) { return std::string(way.param.name); });
 
 } // namespace

@@ -19,7 +19,6 @@ using namespace nephroid::test;
 
 namespace {
 
-
 /// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
 /// whole clusters, are independent, and are dealt by power: what a test is about it turns on.
 preset::Preset dispersing_ball(bool absorbing)

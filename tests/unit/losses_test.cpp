@@ -2,9 +2,9 @@
 // Which wavelengths glass and mirrors take alike: the bound against a search, and that parts keep it and are as few as can be.
 #include "scene/scene.h"
 #include "spectral/clusters/losses.h"
-#include "tracing/wavelength_tables.h"
 #include "tests/support/presets.h"
 #include "tests/support/temporary_folder.h"
+#include "tracing/wavelength_tables.h"
 
 #include <gtest/gtest.h>
 

@@ -47,10 +47,7 @@ TEST(PresetReading, BareValuesStandForObjects)
   EXPECT_EQ(p.scene.lights.at(0).spectrum.illuminant, "F10");
 }
 
-TEST(PresetReading, WholeNumbersMayHaveAPoint)
-{
-  EXPECT_EQ(parse(R"("seed":1e3)").seed, 1000u);
-}
+TEST(PresetReading, WholeNumbersMayHaveAPoint) { EXPECT_EQ(parse(R"("seed":1e3)").seed, 1000u); }
 
 TEST(PresetReading, UnitsInMetres)
 {

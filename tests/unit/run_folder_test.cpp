@@ -29,7 +29,8 @@ protected:
   const std::filesystem::path folder = temporary.path();
 };
 
-constexpr const char* whole = R"({"finished":true,"passes":7,"photons":9000000000,"units":{"steps":"passes","work":"photons"},"work_seconds":1.5})";
+constexpr const char* whole =
+    R"({"finished":true,"passes":7,"photons":9000000000,"units":{"steps":"passes","work":"photons"},"work_seconds":1.5})";
 
 TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages of a run that keeps layers share: the light as it is now, and which cells the films have (thesis 6.2.2).
 #pragma once
-#include "spectral/settings.h"
 #include "spectral/relight/layer_cells.h"
 #include "spectral/relight/layer_light.h"
+#include "spectral/settings.h"
 #include "spectral/stage.h"
 #include "spectral/tables/device_world.h"
 
