@@ -65,7 +65,7 @@ std::string child_of(const std::string& pointer, std::string_view key) { return 
 std::string dotted(const std::string& pointer)
 {
   std::string text;
-  for (Pointer at(pointer); !at.empty(); at.pop_back()) text = at.back() + (text.empty() ? "" : "." + text);
+  for (Pointer at(pointer); !at.empty(); at.pop_back()) text.insert(0, text.empty() ? at.back() : at.back() + '.');
   return text;
 }
 
@@ -156,8 +156,13 @@ std::optional<preset::Preset> Draft::edit(const std::string& pointer, Json value
   std::string root = pointer; // an edit inside of one that waits is part of that
   for (const auto& [waiting, _] : waiting_)
     if (is_inside(pointer, waiting)) root = waiting;
-  Json whole = root == pointer ? std::move(value) : value_.at(Pointer(root));
-  if (root != pointer) whole[Pointer(pointer.substr(root.size()))] = std::move(value);
+  Json whole;
+  if (root == pointer)
+    whole = std::move(value);
+  else {
+    whole = value_.at(Pointer(root));
+    whole[Pointer(pointer.substr(root.size()))] = std::move(value);
+  }
   std::erase_if(waiting_, [&](const auto& edit) { return is_inside(edit.first, root); });
   std::erase_if(problems_, [&](const auto& problem) { return is_inside(problem.first, root); });
   waiting_[root] = std::move(whole);

@@ -58,7 +58,7 @@ void rename_uses(const std::vector<Outline>& fields, Json& object, const std::st
 /// A copy of an item that has a name of its own.
 Json copy_of(const Json& items, Json item)
 {
-  if (const auto name = item.find("name"); name != item.end() && *name != "")
+  if (const auto name = item.find("name"); name != item.end() && name->is_string() && !name->get_ref<const std::string&>().empty())
     *name = free_name(*name, [&](const std::string& n) {
       return std::any_of(items.begin(), items.end(), [&](const Json& other) { return other.value("name", "") == n; });
     });
@@ -136,10 +136,11 @@ void ParametersPanel::draw_items(const Outline& o, const Json& value, const std:
 {
   for (const auto& entry : value.items()) {
     const Json& item = entry.value();
-    const std::string key = entry.key(), at = child_of(pointer, key);
+    const std::string& key = entry.key();
+    const std::string at = child_of(pointer, key);
     if (is_searching() && !any_wanted(o, item, at)) continue;
     const std::string name = item.value("name", "");
-    const bool open = draw_label(name.empty() ? key : key + "  " + name, at, false, true);
+    const bool open = draw_label(name.empty() ? key : fmt::format("{}  {}", key, name), at, false, true);
     ImGui::TableNextColumn();
     draw_type(o.fields, item, at);
     draw_item_buttons(value, key, pointer);
