@@ -152,19 +152,36 @@ preset::Settings reference(const preset::Preset& preset, int)
   return made;
 }
 
+/// The rightmost column's mean against its closed form, (width - 1/2) / width of the level, in standard errors.
+check::Result rises(const compute::Context&, std::uint64_t seed)
+{
+  preset::Preset preset;
+  preset.settings = preset::Settings(settings_type());
+  preset.seed = seed;
+  preset.scene.camera.resolution = {8, 64};
+  preset.stop.passes = 4;
+  GradientPlan plan;
+  plan.settings = settings(preset);
+  GradientJob job(preset, plan);
+  while (!job.finished()) job.step();
+  const job::Snapshot snapshot = job.snapshot();
+  double mean = 0;
+  for (std::size_t row = 0; row < 64; ++row) mean += snapshot.picture->rgb[3 * (8 * row + 7)] / 64.0;
+  const double error = plan.settings.noise / std::sqrt(64.0 * 4 * plan.settings.samples_per_pass);
+  return {{}, (mean - 7.5 / 8) / error, 5.5, "sigma", "the rightmost column against its closed form"};
+}
+
+std::vector<check::Check> checks() { return {{"gradient: it rises", rises}}; }
+
 } // namespace
 
-constinit const engine::Engine engine{
-    .settings = settings_type,
-    .plan = make_plan,
-    .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan, const compute::Context&)
-        -> std::unique_ptr<job::Job> { return std::make_unique<GradientJob>(preset, dynamic_cast<const GradientPlan&>(plan)); },
-    .reference = reference,
-    .checks =
-        [] {
-          return std::vector<check::Check>{{"gradient: it rises", [](const compute::Context&, std::uint64_t) {
-                                              return check::Result{"", 0, 1, "", "the right is brighter"};
-                                            }}};
-        }};
+constinit const engine::Engine engine{.settings = settings_type,
+                                      .plan = make_plan,
+                                      .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&,
+                                                const plan::Plan& plan, const compute::Context&) -> std::unique_ptr<job::Job> {
+                                        return std::make_unique<GradientJob>(preset, dynamic_cast<const GradientPlan&>(plan));
+                                      },
+                                      .reference = reference,
+                                      .checks = checks};
 
 } // namespace nephroid::gradient
