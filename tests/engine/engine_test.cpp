@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
+#include "tests/support/x_display.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -84,6 +85,37 @@ TEST_F(GradientEngine, IsPlannedAndInTheSchema)
   EXPECT_EQ(schema.at("$defs").at("Gradient").at("properties").at("noise").at("maximum"), 1);
   EXPECT_TRUE(schema.at("properties").contains("gradient") && schema.at("properties").contains("spectral"));
 }
+
+#ifdef NEPHROID_UI
+TEST_F(GradientEngine, OpensInTheWindow)
+{
+  if (!there_is("Xvfb")) GTEST_SKIP() << "needs Xvfb";
+  const XDisplay display;
+  const Ended ended =
+      run({"g.json", "--set", "gradient.noise=0", "--frames", "30", "--until", "1", "--size", "1400x900", "--screenshot", "window.png"},
+          display.environment());
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const nephroid::image::Image window = nephroid::image::read_image(folder / "window.png");
+  ASSERT_EQ(window.width, 1400);
+  // Somewhere the picture lies: a row that grows brighter by steps, 32 greys side by side.
+  int longest = 0;
+  const std::size_t channels = window.channels.size();
+  for (int y = 0; y < window.height; ++y) {
+    int steps = 0;
+    float last = 2;
+    for (int x = 0; x < window.width; ++x) {
+      const float* pixel = &window.data[static_cast<std::size_t>(y * window.width + x) * channels];
+      const bool grey = pixel[0] == pixel[1] && pixel[1] == pixel[2];
+      if (!grey || pixel[0] < last)
+        longest = std::max(longest, steps), steps = 0;
+      else if (pixel[0] > last)
+        ++steps;
+      last = grey ? pixel[0] : 2;
+    }
+  }
+  EXPECT_EQ(longest, 31);
+}
+#endif
 
 TEST_F(GradientEngine, RefusesWhatIsNotItsOwn)
 {

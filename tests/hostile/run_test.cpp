@@ -7,6 +7,7 @@
 #include "run/run.h"
 #include "tests/support/json_lines.h"
 #include "tests/support/plate_runs.h"
+#include "tests/support/test_kernels.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -179,6 +180,33 @@ TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
     EXPECT_THAT(answer({}), HasSubstr("is no checkpoint"));
   }
   EXPECT_EQ(run("a", {"--passes", "1"}).exit_code, 0) << "without --resume it starts over";
+}
+
+TEST_F(Runs, RefuseCheckpointsOfAnotherDeviceOtherKernelsOrAnotherVersion)
+{
+  ASSERT_EQ(run("a", {"--passes", "2"}).exit_code, 0);
+  const auto answer = [&](const std::vector<std::string>& more, const nephroid::test::Environment& environment = {}) {
+    std::vector<std::string> arguments{"--passes", "4", "--resume"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = nephroid::test::nephroid(into("a", arguments), scratch.path(), logs, environment);
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(lines(ended.err), 1u) << ended.err;
+    return ended.err;
+  };
+  EXPECT_THAT(answer({}, {{"POCL_DEVICES", "basic"}}), HasSubstr("checkpoint.bin: was written on another device"));
+  const fs::path kernels = scratch.path() / "kernels";
+  fs::copy(nephroid::test::kernel_folder(), kernels, fs::copy_options::recursive);
+  const std::string photons = read_file(kernels / "spectral/photons.cl");
+  write_file_whole(kernels / "spectral/photons.cl", photons + "// other text\n");
+  EXPECT_THAT(answer({"--kernels", kernels.string()}), HasSubstr("checkpoint.bin: was written with other kernels"));
+  const std::string good = read_file(file("a", "checkpoint.bin"));
+  std::string older = good;
+  older[16] ^= 1; // the hash of the program's version follows the magic word and the format
+  write_file_whole(file("a", "checkpoint.bin"), older);
+  EXPECT_THAT(answer({}), HasSubstr("checkpoint.bin: was written by another version of the program"));
+  write_file_whole(file("a", "checkpoint.bin"), good);
+  write_file_whole(kernels / "spectral/photons.cl", photons);
+  EXPECT_EQ(run("a", {"--passes", "4", "--resume", "--kernels", kernels.string()}).exit_code, 0) << "the same text from another place";
 }
 
 TEST_F(Runs, SweepsFillNumberedFolders)
