@@ -37,15 +37,6 @@ int terminal_columns()
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/// "950", "1.21 M": three figures and the SI prefix.
-std::string with_prefix(double amount)
-{
-  const char* const prefixes[] = {"", " k", " M", " G", " T"};
-  int prefix = 0;
-  for (; amount >= 1000 && prefix < 4; ++prefix) amount /= 1000;
-  return fmt::format("{:.{}f}{}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, prefixes[prefix]);
-}
-
 /// "0:07", "12:30", "3:00:00"
 std::string clock_time(double seconds)
 {
@@ -80,7 +71,7 @@ ProgressStyle progress_style(bool json)
 std::string progress_line(const std::string& label, const job::Progress& now, const job::Pace& pace, int columns)
 {
   std::string figures = fmt::format("{:3.0f} %  {}", std::floor(now.fraction * 100), pass_text(now));
-  if (pace.work_per_second > 0) figures += fmt::format("  {} {}/s", with_prefix(pace.work_per_second), now.units.works);
+  if (pace.work_per_second > 0) figures += "  " + job::rate_text(pace, now.units);
   if (pace.seconds_left >= 0) figures += fmt::format("  {} left", clock_time(pace.seconds_left));
   const int room = columns - static_cast<int>(label.size() + figures.size()) - 6;
   std::string line = room >= 5 ? fmt::format("{}  [{}]  {}", label, bar(now.fraction, std::min(room, 30)), figures) : figures;

@@ -315,14 +315,6 @@ TEST(Actions, HaveNamesOfTheirOwnAndShortcutsOfTheirOwn)
 
 TEST(StatusLine, SaysRatesAndTimesAsAPersonWould)
 {
-  job::Progress p;
-  EXPECT_EQ(rate_text(p), "");
-  EXPECT_LT(seconds_left(p), 0);
-  p.fraction = 0.25;
-  p.work_seconds = 5;
-  p.work = 9'000'000;
-  EXPECT_DOUBLE_EQ(seconds_left(p), 15);
-  EXPECT_EQ(rate_text(p), "1.80 M photons/s");
   EXPECT_EQ(duration_text(9.6), "10 s");
   EXPECT_EQ(duration_text(185), "3 min 05 s");
   EXPECT_EQ(duration_text(7800), "2 h 10 min");

@@ -31,12 +31,6 @@ void draw_notes(const std::vector<std::string>& notes)
 
 } // namespace
 
-double seconds_left(const job::Progress& progress)
-{
-  if (progress.fraction < 0.005) return -1; // the first steps are not typical
-  return job::pace_between({}, progress).seconds_left;
-}
-
 const char* name_of(job::State state)
 {
   switch (state) {
@@ -59,15 +53,6 @@ const char* name_of(job::State state)
 }
 
 const char* state_word(const RunInHand& run) { return run.compiling() ? "compiling" : name_of(run.status().state); }
-
-std::string rate_text(const job::Progress& progress)
-{
-  const double rate = job::pace_between({}, progress).work_per_second;
-  if (rate <= 0) return {};
-  if (rate >= 1e6) return fmt::format("{:.2f} M photons/s", rate / 1e6);
-  if (rate >= 1e3) return fmt::format("{:.1f} k photons/s", rate / 1e3);
-  return fmt::format("{:.0f} photons/s", rate);
-}
 
 std::string duration_text(double seconds)
 {
@@ -97,8 +82,9 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   action_button("Cancel", context);
   ImGui::SameLine();
   action_button("Start again", context);
-  std::string text = rate_text(progress);
-  const double left = seconds_left(progress);
+  const job::Pace pace = job::pace_between({}, progress);
+  std::string text = pace.work_per_second > 0 ? job::rate_text(pace, progress.units) : "";
+  const double left = pace.seconds_left;
   if (left > 0 && (status.state == job::State::running || paused)) text += "    " + duration_text(left) + " left";
   if (progress.work_seconds > 0) text += fmt::format("    {} of work", duration_text(progress.work_seconds));
   ImGui::SameLine(0, em);

@@ -12,14 +12,10 @@ namespace nephroid::ui {
 /// notes: what is worth knowing and needs no answer.
 void draw_status_line(const Context& context, const std::vector<std::string>& notes);
 
-/// Seconds still to work at the rate so far; negative where it cannot be said yet.
-double seconds_left(const job::Progress& progress);
 /// "running", "finished", ...
 const char* name_of(job::State state);
 /// The same of the run in hand, or that its kernels are compiled.
 const char* state_word(const RunInHand& run);
-/// "1.8 M photons/s", empty before there is a rate.
-std::string rate_text(const job::Progress& progress);
 /// "12 s", "3 min 05 s", "2 h 10 min".
 std::string duration_text(double seconds);
 
