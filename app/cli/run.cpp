@@ -102,7 +102,7 @@ void report_result(const RunOptions& options, const Target& target, const job::P
     fmt::print("{}\n", json_text(all));
   } else {
     const job::Units& units = progress.units;
-    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", (target.folder / "image.exr").string(),
+    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", (target.folder / "image.png").string(),
                counted(progress.step, std::string(units.step), std::string(units.steps)), static_cast<double>(progress.work) * 1e-6,
                units.works, progress.work_seconds);
   }
