@@ -17,10 +17,11 @@
 namespace nephroid::engine {
 
 struct Engine {
-  /// Its name is what a preset's "engine" says, and the folder in kernels/ that has the engine's own.
+  /// Their name is the word in a preset's "engine", and the folder in kernels/ that has the engine's own kernels.
   const preset::SettingsType& (*settings)();
 
-  /// What runs, what is left out and why; with what the engine worked out on the way. Throws bad_input for what it cannot render.
+  /// What runs, what is left out and why. The engine may add what it worked out on the way, for its job. Throws bad_input for what it
+  /// cannot render.
   std::unique_ptr<plan::Plan> (*plan)(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// The job on a device. plan: what `plan` gave for the same preset and scene. The scene and tree need not outlive the call. Throws failed
@@ -28,8 +29,8 @@ struct Engine {
   std::unique_ptr<job::Job> (*job)(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
                                    const compute::Context& context);
 
-  /// The settings of a reference of `preset` that has so many passes: the recipe's own, or else the preset's, made exact. Nothing in them
-  /// is biased.
+  /// The settings of a reference of `preset` with so many passes: the recipe's own, or else the preset's, made exact. They leave no bias
+  /// but what the recipe asks for.
   preset::Settings (*reference)(const preset::Preset& preset, int passes);
 
   /// The engine's closed forms through its real kernels, for `nephroid check`.
@@ -39,10 +40,10 @@ struct Engine {
   bool (*adoptable)(const preset::Preset& before, const preset::Preset& now) = nullptr;
 };
 
-/// Every engine there is: app/engines.cpp, a line each. The first is what a preset without "engine" has.
+/// Every engine there is: app/engines.cpp, a line each. A default-constructed preset has the first one.
 const std::vector<const Engine*>& engines();
 
-/// All checks there are: of what engines share, then each engine's own. Under 30 s together on two processor cores.
+/// All checks there are: first those of what engines share, then each engine's own. Under 30 s together on two processor cores.
 const std::vector<check::Check>& checks();
 
 /// Of a preset.

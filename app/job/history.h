@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Error against run time: what a job noted about its own error while it worked, a row a measurement. The data only; who measures is
-// measure/measured_job.h, the file is measure/history_file.h.
+// Error against run time: what a job noted about its own error while it worked, a row for each measurement. This is the data only:
+// measure/measured_job.h measures, measure/history_file.h reads and writes the file.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,19 +14,19 @@ namespace nephroid::job {
 
 struct HistoryRow {
   double seconds = 0;         ///< of work, without start-up and without measuring
-  double wall_seconds = 0;    ///< since the run began, everything included; those of a resumed run's earlier parts count
-  std::int64_t step = 0;      ///< passes completed
-  std::uint64_t work = 0;     ///< photons sent
+  double wall_seconds = 0;    ///< since the run began, everything included, also before it was resumed
+  std::int64_t step = 0;      ///< steps of job::Progress completed: passes
+  std::uint64_t work = 0;     ///< done, in the engine's unit: photons sent
   std::vector<double> errors; ///< one a column; NaN where it is undefined, as psnr_db of identical pictures is
   bool operator==(const HistoryRow&) const = default;
 };
 
-/// Columns are metrics by their names of measure/metrics.h against the reference ("lab_mean"), of the mask's pixels alone
+/// Columns are metrics, named as in measure/metrics.h: against the reference ("lab_mean"), the same of the mask's pixels alone
 /// ("masked_lab_mean"), and the run's own estimate, which needs no reference ("estimated_lab_mean").
 struct History {
   std::vector<std::string> columns;
   std::vector<HistoryRow> rows;    ///< seconds never fall
-  std::vector<double> noise_floor; ///< of each column: what the reference itself is off by; NaN: not known. Empty: of none
+  std::vector<double> noise_floor; ///< of each column: what the reference itself is off by; NaN: not known. Empty: known of none
   std::string error_column;        ///< the one that a run can stop at and that panels show first; empty where nothing is measured
   std::optional<double> target;    ///< of error_column: stop.error
   double measuring_seconds = 0;    ///< spent on measuring so far, which `seconds` does not contain

@@ -16,7 +16,7 @@
 namespace nephroid::job {
 
 struct Layer {
-  std::string name;       ///< "direct", "caustic", ... (contract.md)
+  std::string name;       ///< "direct", "caustic", ...
   std::vector<float> rgb; ///< linear sRGB, 3 a pixel, row 0 at the top, divided by the preset's white
 };
 
@@ -24,9 +24,9 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<float> rgb; ///< the sum of the layers
   std::vector<Layer> layers;
-  /// An independent draw of the picture's own error, like rgb: the difference of two independent halves of the samples, a and b of them
-  /// in number, times sqrt(a b) / (a + b), which has the expectation 0 and the covariance of rgb. Empty where no halves are kept
-  /// or one of them has no sample yet.
+  /// An independent draw of the picture's own error, laid out like rgb. It is the difference of two independent halves of a and b samples,
+  /// times sqrt(a b) / (a + b). Its expectation is 0, its covariance that of rgb. Empty where no halves are kept, or where one of them has
+  /// no sample yet.
   std::vector<float> error_draw;
 };
 
@@ -98,7 +98,8 @@ public:
   virtual void step() = 0;
   virtual bool finished() const = 0;
   virtual Progress progress() const = 0;
-  /// Reads the device's state and makes a picture of it: a few milliseconds; with smoothing a tenth of a second or more for large pictures.
+  /// Reads the device's state and makes a picture of it. Takes a few milliseconds; with smoothing a tenth of a second or more where the
+  /// picture is large.
   virtual Snapshot snapshot() = 0;
   /// Whether its pictures come with a draw of their error (Picture::error_draw).
   virtual bool estimates_error() const { return true; }
@@ -108,9 +109,9 @@ public:
   virtual void save(ByteSink& to) = 0;
   /// Reads what save() wrote, to its end. Throws bad_input where that is of another version or preset, or is cut.
   virtual void load(ByteSource& from) = 0;
-  /// Takes on another preset without starting again, where it can: where only the light differs (spectral::only_relit) and the job keeps
-  /// what it needs to weigh it anew. What was computed so far stays. False, and nothing has changed, where it cannot. Throws bad_input at
-  /// FILE#/scene/lights/... for a spectrum that cannot be used; nothing has changed then either.
+  /// Takes on another preset without starting again, and keeps what was computed so far. True only where the engine can do so
+  /// (engine::Engine::adoptable): a relighting run can where only the light differs. Throws bad_input at FILE#/scene/lights/... for a
+  /// spectrum that cannot be used. Where it returns false or throws, nothing has changed.
   virtual bool adopt(const preset::Preset&) { return false; }
 };
 

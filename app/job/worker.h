@@ -30,10 +30,10 @@ public:
   /// Cancels what runs and starts over: make() runs on the worker thread (loading, kernels) and gives the job. Returns at once.
   /// An exception from make() or from a step becomes State::failed with its line. A pause ends.
   void start(std::function<std::unique_ptr<Job>()> make);
-  /// Lets the job in hand take on a preset (Job::adopt) and shows its picture at once. One that is paused or finished does so too: a
-  /// finished job stays until the next start() or cancel(). One that is being made does so when it is ready. Where there is no job, or it
+  /// Lets the job in hand take on a preset (Job::adopt) and shows its picture at once. A paused or finished job does so too: a
+  /// finished job stays until the next start() or cancel(). A job that is being made does so when it is ready. Where there is no job, or it
   /// cannot, this is start(otherwise). What Job::adopt throws becomes State::failed, but the job stays for the next adopt().
-  /// Returns at once, with this adoption's number (Snapshot::adoption); of several that wait only the newest is taken on.
+  /// Returns at once, with this adoption's number (Snapshot::adoption). Where several wait, only the newest is taken on.
   std::uint64_t adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise);
   void cancel(); ///< after the step in hand, or after make() where that is still running
   void pause(bool paused);
@@ -41,8 +41,8 @@ public:
   /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first, so that a
   /// view does not flicker. Never waits for the device.
   std::shared_ptr<const Snapshot> snapshot() const;
-  /// How often snapshots are made while running (default 100 ms; the first after the first step). Where one takes so long that this
-  /// would be more than a fifth of the time, they are made less often.
+  /// How often snapshots are made while running (default 100 ms; the first after the first step). Where snapshots would take more than a
+  /// fifth of the time, they are made less often.
   void set_snapshot_interval(std::chrono::milliseconds interval);
   /// Blocks until the job is finished, cancelled or failed; for tests.
   void wait();

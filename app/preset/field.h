@@ -40,10 +40,10 @@ struct Columns {
   const Column& operator[](std::size_t i) const { return i == 0 ? first : second; }
 };
 
-/// text: anything; line: without line breaks and other control characters; file: the name of a file, looked up as docs/presets.md says.
+/// text: anything. line: without line breaks and other control characters. file: the name of a file, looked up as docs/presets.md says.
 enum class Text { text, line, file };
 
-/// Of what a text is a name. Whether there is such a one is known where the preset is used.
+/// Of what a text is a name. Whether there is such a thing is checked where the preset is used.
 enum class Names { nothing, material, illuminant, patch };
 
 /// One field. Its default is not here: it is what a default-constructed struct holds.

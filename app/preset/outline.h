@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The description of the preset (describe.h) as data: which fields a JSON value of it has, of what kind, with which default. What draws a
-// preset field by field, the editor, goes by it and names no field.
+// The description of the preset (describe.h) as data: which fields a JSON value of it has, of what kind, with which default. The panel
+// Parameters draws a preset from it, field by field, and names no field itself.
 #pragma once
 #include "preset/field.h"
 #include "preset/json_text.h"
@@ -36,7 +36,8 @@ struct Outline {
 /// The fields of a preset.
 std::vector<Outline> outline(const Json& preset);
 
-/// `object` as another type of its struct: what both types have stays, the rest is by default. chooser, of `fields`: of the old type.
+/// `object` as another type of its struct. What both types have stays, the rest is by default. fields: of the struct. chooser: its field
+/// that chooses the type, as the old type has it.
 Json as_type(const Json& object, std::vector<Outline> (*fields)(const Json&), const Outline& chooser, std::string_view type);
 
 /// What the field may be: "a number from 0 to 1 W", "one of point, spot".

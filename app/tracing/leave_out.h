@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run may do without where its scene does not need it; omissions.h finds out where. A preset leaves out everything or nothing; tests
-// turn one thing back on and show that the picture stays the same.
+// What a run may do without where its scene does not need it; omissions.h finds out where. A preset leaves out all of that or nothing.
+// Tests turn one thing back on and show that the picture stays the same.
 #pragma once
 
 namespace nephroid::tracing {

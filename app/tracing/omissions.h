@@ -25,11 +25,11 @@ ObjectCounts count_objects(const scene::Scene& scene);
 /// False only where no object of glass and no mirror is in the camera's view, and none encloses the camera.
 bool may_see_glass_or_mirror(const scene::Scene& scene);
 
-/// A pass of the plan that may be left out: it runs where the scene needs it or where nothing is left out. reason: why the scene needs it
-/// or not.
+/// A row of the plan for what may be left out: it runs where the scene needs it, or where nothing is left out. reason: why the scene needs
+/// it or not.
 plan::Pass omission(const std::string& name, bool leave_out, bool needed, std::string reason);
 
-/// What the tables of a scene do without; only what there is something of to leave out. targets: SceneTables::spheres.
+/// What the tables of a scene do without. Rows only for what the scene has and does not need. targets: SceneTables::spheres.
 std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene, const std::vector<scene::Sphere>& targets);
 
 /// What kernels are compiled without.

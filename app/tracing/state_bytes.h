@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a checkpoint holds, byte after byte: plain values, and device buffers piece by piece, without the pieces that are all 0. So nobody
-// holds a second film on the host, and a film that nothing was added to takes no room.
+// What a checkpoint holds, byte after byte: plain values, and device buffers piece by piece, without the pieces that are all 0. So no
+// second film is held on the host, and an empty film takes no room.
 #pragma once
 #include "base/bytes.h"
 #include "compute/compute.h"

@@ -11,8 +11,8 @@ class StepSize {
 public:
   explicit StepSize(double start) : amount_(start) {}
   double amount() const { return amount_; }
-  /// Calls work(), which does `amount` of it, and learns from the time it took: by little at a time, because the first step of a kernel
-  /// also compiles it, and the rows of a picture differ.
+  /// Calls work(), which does `amount` of it, and learns from the time it took. It learns slowly, because the first step of a kernel also
+  /// compiles it, and the rows of a picture differ.
   template <class Work>
   void timed(double amount, const Work& work)
   {

@@ -18,7 +18,7 @@ enum class StretchParameter { none, index, wavelength };
 
 StretchParameter stretch_parameter(const scene::Scene& scene);
 
-/// The clusters, those that are no run of neighbouring wavelengths cut into such runs; ordered by their smallest wavelength.
+/// The clusters, cut into runs of neighbouring wavelengths where they are none; ordered by their smallest wavelength.
 std::vector<std::vector<int>> split_into_runs(const std::vector<std::vector<int>>& clusters);
 
 /// All in float4 for the device, w unused. s is counted from 580 nm, so that differences are exact in single precision.

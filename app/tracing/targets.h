@@ -10,15 +10,15 @@ namespace nephroid::tracing {
 
 inline constexpr std::size_t max_targets = MAX_TARGETS;
 
-/// At most max_targets spheres that hold all of every dielectric and mirror object. A bunny in one sphere lets two photons
-/// of three pass beside it; an object is cut into pieces, each with its own sphere, as long as that makes the shadow of all spheres
-/// smaller. Empty where there is no such object.
+/// At most max_targets spheres that hold all dielectric and mirror objects. Two of three photons towards one sphere about a bunny miss the
+/// bunny. So an object is cut into pieces, each with its own sphere, as long as that makes the shadow of all spheres smaller. Empty where
+/// there is no such object.
 std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);
 
 /// One sphere about the whole scene and every light, so that a light sends its photons wherever it shines.
 scene::Sphere everything(const scene::Scene& scene);
 
-/// Whether any light from the light can start towards a point of the sphere: not where it is outside of a spot's cone or behind an area
+/// Whether the light can send anything towards a point of the sphere: not where the sphere is outside of a spot's cone or behind an area
 /// light. True in doubt.
 bool reaches(const scene::Light& light, const scene::Sphere& sphere);
 

@@ -22,14 +22,14 @@ struct WavelengthTables {
   std::vector<shared::float4> light_xyz;         ///< [light][401]: share times (xbar, ybar, zbar), share
   std::vector<shared::float4> reflected_xyz;     ///< [light][cluster][reflector]; w: the share, as of a white one
   std::vector<shared::float4> reflected_xyz_all; ///< [light][reflector]
-  std::vector<float> cluster_cdf;                ///< exact_cdf_from_zero of what paths through glass are worth in each cluster
+  std::vector<float> cluster_cdf;                ///< exact_cdf_from_zero: what paths through glass are worth in each cluster
   std::vector<std::vector<double>> share;        ///< [light][cluster]: of the light's power
   std::vector<std::vector<double>> seen;         ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3: see worth.h
   int attenuator_count = 0, reflector_count = 0;
 };
 
-/// Of a wavelength, exp(-a s) is left: a = 4 pi k / lambda in 1/m and s metres of glass that absorbs (Beer and Lambert), or a =
-/// -ln(reflectance) and s reflections on a mirror. [401]; empty for a material that takes nothing away.
+/// a for each wavelength [401], where exp(-a s) of the light is left. In glass that absorbs (Beer and Lambert) a = 4 pi k / lambda in 1/m,
+/// and s is metres. On a mirror a = -ln(reflectance), and s is the number of reflections. Empty for a material that takes nothing away.
 std::vector<double> loss_coefficients(const scene::Material& material);
 
 /// For `lights` of the scene; fills materials[i].type, reflector and attenuator and every table. Only materials that an object uses get

@@ -57,7 +57,7 @@ struct World {
     context.finish();
   }
 
-  /// Photons that one work item follows, one after the other, so that what an item adds up for itself is worth while: on a CPU.
+  /// Photons that one work item follows, one after the other. Several on a CPU, where it pays that an item adds up its own sums first.
   unsigned photons_per_item() const { return context.device().type == "cpu" ? 16 : 1; }
   /// For a kernel that run_photons runs.
   compute::Defines photon_defines() const

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light is worth sending a path for, wherever paths are dealt to lights, clusters or wavelengths without anything measured.
+// What light is worth, where paths are dealt to lights, clusters or wavelengths and nothing has been measured.
 #pragma once
 
 namespace nephroid::tracing {
