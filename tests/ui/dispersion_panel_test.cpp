@@ -4,7 +4,6 @@
 #include "dispersion_fixture.h"
 #include "optics/dispersion.h"
 #include "preset/read.h"
-#include "spectra_scene.h"
 #include "spectral/clusters/clusters.h"
 #include "ui/widgets/action.h"
 
@@ -201,41 +200,6 @@ TEST_F(DispersionPanelTest, TheWavelengthsAreZoomedByTheWheel)
   }
   frames(2);
   EXPECT_GT(panel().plot().to_screen({780, 1.55})[0] - panel().plot().to_screen({380, 1.55})[0], 1.1 * before);
-}
-
-// -------------------------------------------------------------------------------------------------------- effort
-
-class DispersionEffortTest : public test::WindowFixtureOf<test::SeeingRuns> {
-protected:
-  DispersionEffortTest() : test::WindowFixtureOf<test::SeeingRuns>("dispersion") {}
-  void open_room(const std::string& effort)
-  {
-    ASSERT_TRUE(workbench.open(folder.write("room.json", test::room_text("\"D65\"", effort))));
-    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.run().seen<ui::SeenByGlass>() != nullptr; }));
-    frames(2);
-  }
-};
-
-// Radziszewski et al.: u = 1 / cosh^2(.0072 (l - 538)); a cluster has its largest, and ceil(u N) of N = 100 iterations. The largest u
-// is 1 already: 538 nm is one of the wavelengths.
-TEST_F(DispersionEffortTest, UnequalWorkSavesMore)
-{
-  open_room("radziszewski");
-  const ClusterFigures& chosen = workspace.panel<ui::DispersionPanel>().model().chosen();
-  double iterations = 0;
-  for (const spectral::Cluster& cluster : chosen.clustering.clusters) {
-    double u = 0;
-    for (const int index : cluster.wavelengths) u = std::max(u, 1 / std::pow(std::cosh(0.0072 * (optics::wavelength_nm(index) - 538)), 2));
-    iterations += std::ceil(100 * u);
-  }
-  ASSERT_TRUE(workspace.panel<ui::DispersionPanel>().saving_by_effort());
-  EXPECT_NEAR(*workspace.panel<ui::DispersionPanel>().saving_by_effort(), 401 * 100 / iterations, 1e-9);
-  EXPECT_GT(*workspace.panel<ui::DispersionPanel>().saving_by_effort(), chosen.saving);
-  open_room("importance");
-  ASSERT_TRUE(workspace.panel<ui::DispersionPanel>().saving_by_effort());
-  EXPECT_GT(*workspace.panel<ui::DispersionPanel>().saving_by_effort(), chosen.saving);
-  open_room("power");
-  EXPECT_FALSE(workspace.panel<ui::DispersionPanel>().saving_by_effort());
 }
 
 // ------------------------------------------------------------------------------------------- what follows the mouse

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole window without a display: the mouse and the keys are injected, the preset and the commands are looked at.
-#include "ui/shell/layout.h"
 #include "ui/shell/status_line.h"
 #include "ui/widgets/action.h"
 #include "window_fixture.h"

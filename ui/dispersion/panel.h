@@ -4,7 +4,6 @@
 #pragma once
 #include "ui/dispersion/model.h"
 #include "ui/dispersion/plot.h"
-#include "ui/spectral/curves.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/widgets.h"
 
@@ -25,8 +24,6 @@ public:
   /// For tests: what was drawn last, and where (the middle on the screen) a widget of this name was.
   const DispersionModel& model() const { return model_; }
   const DispersionPlot& plot() const { return plot_; }
-  /// 401 N over the iterations of all clusters, where the effort gives clusters different ones.
-  std::optional<double> saving_by_effort() const { return saving_by_effort_; }
   std::array<double, 2> widget(const std::string& name) const { return places_.of(name).value(); }
 
 private:
@@ -36,8 +33,7 @@ private:
   void draw_points_row(const Context& context);
   void draw_plot(const Context& context);
   void draw_methods(const Context& context) const;
-  void draw_bias(const Context& context);
-  void draw_effort(const Context& context);
+  void draw_bias(const Context& context) const;
 
   void make_editable(const Context& context);
   void follow_rows(const Context& context, const RowGesture& gesture);
@@ -48,8 +44,6 @@ private:
   RowEditor editor_{gestures_};
   DispersionModel model_;
   DispersionPlot plot_;
-  SpectraMaker work_; ///< iterations a cluster, where the effort gives each its own
-  std::optional<double> saving_by_effort_;
   std::string shown_;                ///< the material,
   preset::Dispersion dispersion_;    ///< and its
   std::vector<ControlPoint> points_; ///< of this frame, by rising wavelength

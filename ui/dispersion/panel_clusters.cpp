@@ -10,9 +10,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace nephroid::ui {
 namespace {
 
@@ -61,7 +58,7 @@ void DispersionPanel::draw_methods(const Context& context) const
   ImGui::EndTable();
 }
 
-void DispersionPanel::draw_bias(const Context& context)
+void DispersionPanel::draw_bias(const Context& context) const
 {
   const Spread& spread = model_.chosen().at_45;
   std::string text;
@@ -72,24 +69,9 @@ void DispersionPanel::draw_bias(const Context& context)
   else
     text = fmt::format("Bias: rays of a cluster go one way that differ by up to {:.2g} degrees", spread.greatest_deg);
   draw_wrapped(colour::quiet_text, text);
-  draw_effort(context);
   if (const auto clusters = model_.clusters_of_run(); clusters && *clusters != model_.chosen().clustering.clusters.size())
     draw_wrapped(colour::quiet_text,
                  fmt::format("The run has {}: those of all its glasses, step_nm and differentials", counted(*clusters, "cluster")));
-}
-
-/// What unequal work saves on top of the clusters.
-void DispersionPanel::draw_effort(const Context& context)
-{
-  using Effort = spectral::Settings::Effort;
-  saving_by_effort_.reset();
-  const Effort effort = spectral::settings(*context.preset()).effort;
-  if (effort != Effort::importance && effort != Effort::radziszewski) return;
-  const Spectra& work = work_.update(*context.preset(), context.run.seen<SeenByGlass>());
-  if (!work.why_no_u.empty() || work.iterations() == 0) return; // the panel "Spectra and importance" says why
-  saving_by_effort_ = static_cast<double>(work.brute_force()) / static_cast<double>(work.iterations());
-  draw_wrapped(colour::quiet_text, fmt::format("With effort {}: {:.3g} times fewer iterations than brute force",
-                                               effort == Effort::importance ? "importance" : "radziszewski", *saving_by_effort_));
 }
 
 } // namespace nephroid::ui

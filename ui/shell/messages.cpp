@@ -34,10 +34,10 @@ float messages_height(const std::vector<Message>& messages, float width)
   return height;
 }
 
-void draw_messages(const Context& context)
+void draw_messages(const std::vector<Message>& messages, const Context& context)
 {
   const float width = ImGui::GetWindowWidth(), em = ImGui::GetFontSize();
-  for (const Message& message : shown(context.messages)) {
+  for (const Message& message : shown(messages)) {
     ImGui::PushID(static_cast<int>(message.id));
     const float top = ImGui::GetCursorPosY();
     ImGui::AlignTextToFramePadding();

@@ -7,6 +7,6 @@ namespace nephroid::ui {
 
 /// The height that the messages take at this width; 0 where there are none.
 float messages_height(const std::vector<Message>& messages, float width);
-void draw_messages(const Context& context);
+void draw_messages(const std::vector<Message>& messages, const Context& context);
 
 } // namespace nephroid::ui

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of panels: a line each.
+// The table of panels, a line each, and where they are: the first at the left, the others as tabs at the right. A layout is named after the
+// panel that is in front of the tabs.
 #pragma once
 #include "preset/preset.h"
 #include "scene/bvh.h"
@@ -10,6 +11,7 @@
 #include <any>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,11 +27,16 @@ struct PanelEntry {
   std::any (*look_around)(const preset::Preset&, const scene::Scene&, const scene::Bvh&) = nullptr;
 };
 
-/// In the order of their tabs; the first has the window's left side for itself.
+/// In the order of their tabs.
 std::span<const PanelEntry> panel_table();
 /// Whether the panel is for this preset; null: none is open, and every panel says what it is for.
 bool serves(const PanelEntry& entry, const preset::Preset* preset);
 /// What the panels of the preset's engine look for in a scene (LookAround of state/device_runs.h).
 std::vector<std::any> look_around(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
+
+/// Throws bad_input naming the layouts there are. Empty means the default.
+void check_layout(const std::string& name);
+/// Docks every panel into the dock space of this id (an ImGuiID). Inside of a frame.
+void build_layout(const std::string& name, unsigned dock_space, float width, float height);
 
 } // namespace nephroid::ui

@@ -6,7 +6,6 @@
 #include "preset/read.h"
 #include "ui/shell/frame_clock.h"
 #include "ui/shell/glfw_window.h"
-#include "ui/shell/layout.h"
 #include "ui/shell/status_line.h"
 #include "ui/shell/workspace.h"
 #include "ui/state/device_runs.h"

@@ -2,7 +2,6 @@
 #include "ui/shell/workspace.h"
 
 #include "base/error.h"
-#include "ui/shell/layout.h"
 #include "ui/shell/menus.h"
 #include "ui/shell/messages.h"
 #include "ui/shell/status_line.h"
@@ -76,8 +75,8 @@ Commands Workspace::draw(Workbench& workbench)
     strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y, [&] { draw_status_line(context, workbench.notes()); });
   });
   guarded("messages", commands, [&] {
-    const float height = messages_height(context.messages, ImGui::GetMainViewport()->Size.x);
-    if (height > 0) strip("messages", height, [&] { draw_messages(context); });
+    const float height = messages_height(workbench.messages(), ImGui::GetMainViewport()->Size.x);
+    if (height > 0) strip("messages", height, [&] { draw_messages(workbench.messages(), context); });
   });
   guarded("layout", commands, [&] { draw_dock_space(workbench); });
   for (const Open& open : panels_)

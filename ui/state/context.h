@@ -3,13 +3,11 @@
 #pragma once
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
-#include "ui/state/messages.h"
 #include "ui/state/run_in_hand.h"
 #include "ui/state/undo.h"
 
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -25,7 +23,6 @@ struct Context {
   const RunInHand& run;
   const Comparing& comparing;
   const Chosen& chosen;
-  const std::vector<Message>& messages;
   Commands& commands;
 
   /// Null before a preset is opened.

@@ -31,7 +31,7 @@ public:
   void update(Clock::time_point now = Clock::now());
 
   /// For one frame; what is asked for goes to `commands`.
-  Context context(Commands& commands) const { return {edits(), run_, comparing_, chosen_, messages_.all(), commands}; }
+  Context context(Commands& commands) const { return {edits(), run_, comparing_, chosen_, commands}; }
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }
