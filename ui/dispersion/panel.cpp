@@ -4,7 +4,7 @@
 #include "base/counted.h"
 #include "ui/state/dielectrics.h"
 #include "ui/widgets/theme.h"
-#include "ui/widgets/wavelength_axis.h"
+#include "ui/widgets/plots.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -4,7 +4,6 @@
 #include "base/counted.h"
 #include "ui/widgets/plots.h"
 #include "ui/widgets/theme.h"
-#include "ui/widgets/wavelength_axis.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -4,7 +4,6 @@
 #pragma once
 #include "preset/outline.h"
 #include "ui/parameters/draft.h"
-#include "ui/widgets/gestures.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/widgets.h"
 

@@ -6,7 +6,7 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/wavelength_axis.h"
+#include "ui/widgets/plots.h"
 
 #include <any>
 #include <memory>

@@ -33,23 +33,8 @@ void draw_notes(const std::vector<std::string>& notes)
 
 const char* name_of(job::State state)
 {
-  switch (state) {
-  case job::State::idle:
-    return "no run";
-  case job::State::preparing:
-    return "preparing";
-  case job::State::running:
-    return "running";
-  case job::State::paused:
-    return "paused";
-  case job::State::finished:
-    return "finished";
-  case job::State::cancelled:
-    return "cancelled";
-  case job::State::failed:
-    return "failed";
-  }
-  return "";
+  constexpr const char* names[] = {"no run", "preparing", "running", "paused", "finished", "cancelled", "failed"}; // in the order of State
+  return names[static_cast<std::size_t>(state)];
 }
 
 const char* state_word(const RunInHand& run) { return run.compiling() ? "compiling" : name_of(run.status().state); }

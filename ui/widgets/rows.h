@@ -4,7 +4,7 @@
 #pragma once
 #include "preset/field.h"
 #include "ui/state/commands.h"
-#include "ui/widgets/gestures.h"
+#include "ui/widgets/widgets.h"
 
 #include <array>
 #include <cstddef>

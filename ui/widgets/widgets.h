@@ -3,9 +3,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 struct ImVec2;
 
@@ -32,6 +34,20 @@ public:
 
 private:
   std::map<std::string, std::array<double, 2>> places_;
+};
+
+/// Numbers for the gestures of one panel. UndoStack makes one entry of the edits that have one number, so no two panels may have the same.
+class Gestures {
+public:
+  /// panel: its name, which is no other panel's.
+  explicit Gestures(std::string_view panel) : number_(std::uint64_t{std::hash<std::string_view>{}(panel)} << 32) {}
+  /// A new gesture; returns its number, which is not 0.
+  std::uint64_t begin() { return ++number_; }
+  /// Of the newest one.
+  std::uint64_t number() const { return number_; }
+
+private:
+  std::uint64_t number_; ///< the panel above, the count below
 };
 
 } // namespace nephroid::ui
