@@ -6,7 +6,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/dispersion/edits.h"
-#include "ui/dispersion/figures.h"
+#include "ui/dispersion/model.h"
 #include "ui/state/dielectrics.h"
 
 #include <gmock/gmock.h>

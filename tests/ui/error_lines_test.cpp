@@ -142,8 +142,7 @@ TEST(ErrorLines, CopyAsCsv)
   history.columns = {"lab_mean", "estimated_lab_mean"};
   history.rows = {{1.5, 2, 1, 10, {0.5, nan}}, {3, 4, 2, 20, {0.25, 0.3}}};
   history.noise_floor = {0.125, nan};
-  const RunLines lines = lines_of(history, "lab_mean");
-  const NamedLines named[] = {{"a \"b\"", &lines}};
+  const NamedLines named[] = {{"a \"b\"", lines_of(history, "lab_mean")}};
   EXPECT_EQ(plot_csv(named, 0.0625), "run,line,seconds,error\n"
                                      "\"a \"\"b\"\"\",error,1.5,0.5\n\"a \"\"b\"\"\",error,3,0.25\n\"a \"\"b\"\"\",estimate,3,0.3\n"
                                      "\"a \"\"b\"\"\",noise floor,,0.125\n,target,,0.0625\n");

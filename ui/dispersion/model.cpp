@@ -5,6 +5,7 @@
 #include "optics/dispersion.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
+#include "spectral/clusters/clusters_theta.h"
 #include "spectral/clusters/scene_clusters.h"
 #include "ui/state/dielectrics.h"
 
@@ -13,6 +14,7 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace nephroid::ui {
@@ -60,7 +62,58 @@ std::vector<std::string> used_dielectrics(const preset::Preset& preset)
   return used;
 }
 
+/// theta2 = asin(sin theta1 / n) at theta1 = 45 degrees; 90 degrees beyond the critical angle.
+double angle_at_45_deg(double n) { return std::asin(std::min(1.0, std::numbers::sqrt2 / 2 / n)) * 180 / std::numbers::pi; }
+
+double mean_angle_deg(double n) { return spectral::refraction_integral_deg2(n) / spectral::last_angle_deg; }
+
+/// angle: of refraction, as a function of n, falling.
+template <class Angle>
+Spread spread_of(const spectral::Clustering& clustering, const optics::Spectrum& n, Angle angle)
+{
+  Spread spread;
+  for (const spectral::Cluster& cluster : clustering.clusters) {
+    const double highest = n[static_cast<std::size_t>(cluster.wavelengths.front())];
+    const double lowest = n[static_cast<std::size_t>(cluster.wavelengths.back())];
+    if (highest == lowest) continue;
+    const double inside = std::max(0.0, angle(lowest) - angle(highest));
+    spread.greatest_deg = std::max(spread.greatest_deg, inside);
+    spread.mean_deg += inside * static_cast<double>(cluster.wavelengths.size()) / optics::wavelength_count;
+  }
+  return spread;
+}
+
 } // namespace
+
+ClusterFigures figures_of(spectral::Clustering clustering, const optics::Spectrum& n)
+{
+  ClusterFigures figures;
+  figures.saving = static_cast<double>(optics::wavelength_count) / static_cast<double>(clustering.clusters.size());
+  figures.at_45 = spread_of(clustering, n, angle_at_45_deg);
+  figures.over_angles = spread_of(clustering, n, mean_angle_deg);
+  figures.clustering = std::move(clustering);
+  return figures;
+}
+
+std::array<std::size_t, optics::wavelength_count> cluster_of_wavelengths(const spectral::Clustering& clustering)
+{
+  std::array<std::size_t, optics::wavelength_count> cluster_of{};
+  for (std::size_t c = 0; c < clustering.clusters.size(); ++c)
+    for (const int index : clustering.clusters[c].wavelengths) cluster_of[static_cast<std::size_t>(index)] = c;
+  return cluster_of;
+}
+
+std::vector<Band> bands_of(const spectral::Clustering& clustering)
+{
+  const auto cluster_of = cluster_of_wavelengths(clustering);
+  std::vector<Band> bands;
+  for (int i = 0; i < optics::wavelength_count; ++i) {
+    const std::size_t cluster = cluster_of[static_cast<std::size_t>(i)];
+    if (bands.empty() || bands.back().cluster != cluster) bands.push_back({i, i, cluster});
+    bands.back().last = i;
+  }
+  return bands;
+}
 
 GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where)
 {
@@ -96,26 +149,21 @@ bool DispersionModel::update_curve(const preset::Preset& preset, const std::stri
 
 void DispersionModel::update(const preset::Preset& preset, const std::string& material)
 {
+  if (material_ == material && preset_ == preset) return;
+  const spectral::Settings& settings = spectral::settings(preset);
   std::erase_if(glasses_, [&](const auto& glass) { return !preset.scene.materials.contains(glass.first); });
   bool changed = std::exchange(material_, material) != material;
   changed |= update_curve(preset, material);
-  changed |= std::exchange(threshold_deg_, spectral::settings(preset).threshold_deg) != spectral::settings(preset).threshold_deg;
+  changed |= std::exchange(threshold_deg_, settings.threshold_deg) != settings.threshold_deg;
   curve_ = &glasses_.at(material).curve;
   if (changed) cluster();
-
-  changed |= std::exchange(method_, spectral::settings(preset).method) != spectral::settings(preset).method;
-  if (changed && error_.empty()) {
+  method_ = settings.method;
+  if (error_.empty()) {
     bands_ = bands_of(chosen().clustering);
     cluster_of_ = cluster_of_wavelengths(chosen().clustering);
   }
-  std::vector<std::string> used = used_dielectrics(preset);
-  for (const std::string& name : used) changed |= update_curve(preset, name);
-  changed |= used != used_;
-  used_ = std::move(used);
-  changed |= std::exchange(step_nm_, spectral::settings(preset).step_nm) != spectral::settings(preset).step_nm;
-  changed |= std::exchange(differentials_, spectral::settings(preset).differentials) != spectral::settings(preset).differentials;
-  changed |= std::exchange(relight_, spectral::settings(preset).relight) != spectral::settings(preset).relight;
-  if (changed) combine(spectral::settings(preset));
+  combine(preset);
+  preset_ = preset;
 }
 
 void DispersionModel::cluster()
@@ -132,11 +180,13 @@ void DispersionModel::cluster()
 }
 
 /// By the engine's own rule, which asks for each object's index of refraction only.
-void DispersionModel::combine(const spectral::Settings& settings)
+void DispersionModel::combine(const preset::Preset& preset)
 {
   clusters_of_run_.reset();
+  const spectral::Settings& settings = spectral::settings(preset);
   scene::Scene outline;
-  for (const std::string& name : used_) {
+  for (const std::string& name : used_dielectrics(preset)) {
+    update_curve(preset, name);
     const GlassCurve& glass = glasses_.at(name).curve;
     if (!glass.error.empty() || (settings.relight && glass.has_k)) return; // layers also hang on the lengths of paths in what absorbs
     outline.objects.emplace_back().material = static_cast<int>(outline.materials.size());

@@ -12,8 +12,6 @@
 
 namespace nephroid::ui {
 
-class WavelengthAxis;
-
 class DispersionPanel : public Panel {
 public:
   static constexpr const char* title = "Dispersion";

@@ -2,8 +2,8 @@
 #include "ui/dispersion/plot.h"
 
 #include "base/counted.h"
-#include "ui/widgets/plots.h"
 #include "ui/widgets/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -146,11 +146,8 @@ void draw_values(const DispersionModel& model, int wavelength)
   const std::size_t c = model.cluster_of()[index];
   const spectral::Clustering& clustering = model.chosen().clustering;
   const spectral::Cluster& cluster = clustering.clusters[c];
-  ImGui::PushStyleColor(ImGuiCol_Text, cluster_colour(c));
-  ImGui::TextUnformatted(fmt::format("cluster {} of {}: {}, mean n {:.6g}", c + 1, clustering.clusters.size(),
-                                     counted(cluster.wavelengths.size(), "wavelength"), cluster.n_mean)
-                             .c_str());
-  ImGui::PopStyleColor();
+  draw_text(cluster_colour(c), fmt::format("cluster {} of {}: {}, mean n {:.6g}", c + 1, clustering.clusters.size(),
+                                           counted(cluster.wavelengths.size(), "wavelength"), cluster.n_mean));
   ImGui::TextDisabled("%s", stretches(model, c).c_str());
   ImGui::EndTooltip();
 }
@@ -214,20 +211,19 @@ RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAx
 
   constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText | ImPlotFlags_NoLegend;
   if (!ImPlot::BeginPlot(sorted ? "##sorted" : "##dispersion", {-1, height}, flags)) return {};
+  std::array<double, 2> x_ends{axis.low_nm(), axis.high_nm()};
   if (sorted) {
-    x_ends_ = {-ranks_margin, optics::wavelength_count - 1 + ranks_margin};
+    x_ends = {-ranks_margin, optics::wavelength_count - 1 + ranks_margin};
     ImPlot::SetupAxis(ImAxis_X1, "rank by falling n", ImPlotAxisFlags_Lock);
-    ImPlot::SetupAxisLimits(ImAxis_X1, x_ends_[0], x_ends_[1], ImPlotCond_Always);
-  } else {
-    x_ends_ = {axis.low_nm(), axis.high_nm()};
+    ImPlot::SetupAxisLimits(ImAxis_X1, x_ends[0], x_ends[1], ImPlotCond_Always);
+  } else
     axis.set_up();
-  }
-  if (!handles_.held()) n_ends_ = ends_of_n(contents, x, n, x_ends_); // else the axis would run away below the mouse
+  const std::array<double, 2> n_ends = handles_.held() ? area_.y : ends_of_n(contents, x, n, x_ends); // a held axis does not run away
   ImPlot::SetupAxis(ImAxis_Y1, "index of refraction n", ImPlotAxisFlags_NoMenus);
-  ImPlot::SetupAxisLimits(ImAxis_Y1, n_ends_[0], n_ends_[1], ImPlotCond_Always);
+  ImPlot::SetupAxisLimits(ImAxis_Y1, n_ends[0], n_ends[1], ImPlotCond_Always);
   if (has_k) set_up_k(contents);
   ImPlot::SetupFinish();
-  keep_area();
+  area_ = PlotArea::in_hand();
 
   if (!sorted) shade_beyond();
   const int under_mouse = columns ? wavelength_under_mouse(*columns) : -1;
@@ -253,26 +249,11 @@ RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAx
   return gesture;
 }
 
-void DispersionPlot::keep_area()
-{
-  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
-  area_ = {corner.x, corner.y, size.x, size.y};
-  const ImPlotRect limits = ImPlot::GetPlotLimits();
-  x_ends_ = {limits.X.Min, limits.X.Max};
-  n_ends_ = {limits.Y.Min, limits.Y.Max};
-}
-
 ControlPoint DispersionPlot::grid() const
 {
-  const double wanted = (n_ends_[1] - n_ends_[0]) / 40, decimal = std::pow(10, std::floor(std::log10(wanted)));
+  const double wanted = (area_.y[1] - area_.y[0]) / 40, decimal = std::pow(10, std::floor(std::log10(wanted)));
   const double steps = wanted / decimal; // 1 .. 10
   return {1, decimal * (steps <= 1 ? 1 : steps <= 2 ? 2 : steps <= 5 ? 5 : 10)};
-}
-
-std::array<double, 2> DispersionPlot::to_screen(const ControlPoint& point) const
-{
-  return {area_[0] + area_[2] * (point[0] - x_ends_[0]) / (x_ends_[1] - x_ends_[0]),
-          area_[1] + area_[3] * (n_ends_[1] - point[1]) / (n_ends_[1] - n_ends_[0])};
 }
 
 } // namespace nephroid::ui

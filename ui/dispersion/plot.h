@@ -4,6 +4,7 @@
 #pragma once
 #include "ui/dispersion/edits.h"
 #include "ui/dispersion/model.h"
+#include "ui/widgets/plots.h"
 #include "ui/widgets/row_handles.h"
 
 #include <array>
@@ -12,8 +13,6 @@
 #include <vector>
 
 namespace nephroid::ui {
-
-class WavelengthAxis;
 
 struct DispersionContents {
   const DispersionModel* model = nullptr; ///< outlives the call
@@ -31,16 +30,12 @@ public:
   ControlPoint grid() const;
 
   /// For tests: where the area was drawn last (x, y, width, height), and where in it a point lies.
-  const std::array<double, 4>& area() const { return area_; }
-  std::array<double, 2> to_screen(const ControlPoint& point) const;
+  const std::array<double, 4>& area() const { return area_.screen; }
+  std::array<double, 2> to_screen(const ControlPoint& point) const { return area_.to_screen(point); }
 
 private:
-  void keep_area();
-
-  RowHandles handles_;                 ///< the points; while one is dragged the axes stay
-  std::array<double, 2> n_ends_{1, 2}; ///< of the y axis,
-  std::array<double, 2> x_ends_{0, 1}; ///< and of the x axis, as drawn last
-  std::array<double, 4> area_{};
+  RowHandles handles_; ///< the points; while one is dragged the axes stay
+  PlotArea area_;      ///< as it was drawn last
 };
 
 /// A cluster's colour (IM_COL32, opaque): neighbours differ most.

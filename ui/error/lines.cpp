@@ -2,6 +2,7 @@
 #include "ui/error/lines.h"
 
 #include "measure/run_curves.h"
+#include "ui/widgets/plots.h"
 
 #include <fmt/format.h>
 
@@ -134,21 +135,15 @@ std::vector<double> axis_ticks(const std::array<double, 2>& ends)
 
 std::string plot_csv(std::span<const NamedLines> runs, std::optional<double> target)
 {
-  // A name in quotes, as RFC 4180 has them.
-  const auto quoted = [](const std::string& name) {
-    std::string text = "\"";
-    for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return text + '"';
-  };
   std::string csv = "run,line,seconds,error\n";
   for (const NamedLines& run : runs) {
     const auto add = [&](const char* line, const measure::Curve& curve) {
       for (std::size_t i = 0; i < curve.seconds.size(); ++i)
-        fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", quoted(run.name), line, curve.seconds[i], curve.errors[i]);
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{}\n", in_csv(run.name), line, curve.seconds[i], curve.errors[i]);
     };
-    add("error", run.lines->error.curve);
-    add("estimate", run.lines->estimate.curve);
-    if (run.lines->noise_floor) csv += fmt::format("{},noise floor,,{}\n", quoted(run.name), *run.lines->noise_floor);
+    add("error", run.lines.error.curve);
+    add("estimate", run.lines.estimate.curve);
+    if (run.lines.noise_floor) csv += fmt::format("{},noise floor,,{}\n", in_csv(run.name), *run.lines.noise_floor);
   }
   if (target) csv += fmt::format(",target,,{}\n", *target);
   return csv;

@@ -60,7 +60,7 @@ std::vector<double> axis_ticks(const std::array<double, 2>& ends);
 /// "run,line,seconds,error" of what the plot shows, every row.
 struct NamedLines {
   std::string name;
-  const RunLines* lines = nullptr;
+  RunLines lines;
 };
 std::string plot_csv(std::span<const NamedLines> runs, std::optional<double> target);
 

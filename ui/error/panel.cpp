@@ -61,18 +61,11 @@ std::string shown_metric(const Context& context)
 std::string plot_as_csv(const Context& context)
 {
   const std::string metric = shown_metric(context);
-  std::vector<RunLines> lines;
-  std::vector<std::string> names;
-  const auto add = [&](const std::string& name, const job::History& history) {
-    lines.push_back(lines_of(history, metric));
-    names.push_back(name);
-  };
+  std::vector<NamedLines> runs;
   for (const PinnedRun& pin : context.comparing.pinned().all())
-    if (pin.shown) add(pin.name, *pin.history);
-  if (const auto history = context.run.error_history()) add(this_run, *history);
-  std::vector<NamedLines> named;
-  for (std::size_t i = 0; i < lines.size(); ++i) named.push_back({names[i], &lines[i]});
-  return plot_csv(named, target_of(context, metric));
+    if (pin.shown) runs.push_back({pin.name, lines_of(*pin.history, metric)});
+  if (const auto history = context.run.error_history()) runs.push_back({this_run, lines_of(*history, metric)});
+  return plot_csv(runs, target_of(context, metric));
 }
 
 const RunLines& ErrorPanel::lines(std::uint64_t id, const std::shared_ptr<const job::History>& history)
@@ -164,8 +157,8 @@ void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)
   if (ImGui::Checkbox("##shown", &shown)) change({}, pin.colour, shown);
   ImGui::SetItemTooltip("In the plot");
   ImGui::SameLine();
-  ImVec4 colour = ImGui::ColorConvertU32ToFloat4(pin.colour);
-  if (ImGui::ColorEdit3("##colour", &colour.x, ImGuiColorEditFlags_NoInputs)) change({}, ImGui::ColorConvertFloat4ToU32(colour), pin.shown);
+  ImVec4 edited = ImGui::ColorConvertU32ToFloat4(pin.colour);
+  if (ImGui::ColorEdit3("##colour", &edited.x, ImGuiColorEditFlags_NoInputs)) change({}, ImGui::ColorConvertFloat4ToU32(edited), pin.shown);
   ImGui::SameLine();
   const float buttons = ImGui::CalcTextSize("CompareUnpin").x + 4 * ImGui::GetStyle().FramePadding.x + 3 * ImGui::GetStyle().ItemSpacing.x +
                         ImGui::GetFrameHeight();
@@ -180,9 +173,7 @@ void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)
                                           : "Only a history was read: the View has no picture of this run");
   ImGui::SameLine();
   if (ImGui::Button("Unpin")) context.push(command::Unpin{pin.id});
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s", findings(context, pin).c_str());
-  ImGui::PopTextWrapPos();
+  draw_wrapped(colour::quiet_text, findings(context, pin));
 }
 
 /// The run's slope, and how much faster the run in hand is at equal error: the error and both times belong to it.

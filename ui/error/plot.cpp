@@ -2,8 +2,8 @@
 #include "ui/error/plot.h"
 
 #include "measure/run_curves.h"
-#include "ui/widgets/plots.h"
 #include "ui/widgets/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -97,9 +97,7 @@ void draw_values(const PlotContents& contents)
     if (error) text += fmt::format("  {:.4g} ({:.3g} s)", error->error, error->seconds);
     if (estimate) text += fmt::format("  estimate {:.4g}", estimate->error);
     if (estimate && !error) text += fmt::format(" ({:.3g} s)", estimate->seconds);
-    ImGui::PushStyleColor(ImGuiCol_Text, run.colour);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
+    draw_text(run.colour, text);
   }
   ImGui::EndTooltip();
   const ImVec2 top = ImPlot::GetPlotPos();
@@ -171,12 +169,9 @@ void ErrorPlot::draw(const PlotContents& contents, float height)
   constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText;
   if (!ImPlot::BeginPlot("##error against time", {-1, height}, flags)) return;
   // While nobody holds the axes they are as wide as what there is; else as they were drawn last, which the ticks go by.
-  set_up_axes(contents, follows_ ? plot_range(lines, levels) : shown_, follows_);
+  set_up_axes(contents, follows_ ? plot_range(lines, levels) : shown(), follows_);
   plot_runs(contents);
-  const ImPlotRect limits = ImPlot::GetPlotLimits();
-  shown_ = {{limits.X.Min, limits.X.Max}, {limits.Y.Min, limits.Y.Max}};
-  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
-  area_ = {corner.x, corner.y, size.x, size.y};
+  area_ = PlotArea::in_hand();
   const bool hovered = ImPlot::IsPlotHovered();
   if (hovered && !contents.runs.empty()) draw_values(contents);
   ImPlot::EndPlot();

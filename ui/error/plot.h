@@ -2,6 +2,7 @@
 // The plot of error against time on two log axes: lines of several runs, noise floor, target, and the values under the cursor.
 #pragma once
 #include "ui/error/lines.h"
+#include "ui/widgets/plots.h"
 
 #include <cstdint>
 #include <optional>
@@ -31,13 +32,12 @@ public:
   bool follows() const { return follows_; }
   void follow() { follows_ = true; }
   /// Where the plot's area was drawn last, and the ends of its axes; for tests.
-  const std::array<double, 4>& area() const { return area_; } ///< x, y, width, height
-  const PlotRange& shown() const { return shown_; }
+  const std::array<double, 4>& area() const { return area_.screen; } ///< x, y, width, height
+  PlotRange shown() const { return {area_.x, area_.y}; }
 
 private:
   bool follows_ = true;
-  std::array<double, 4> area_{};
-  PlotRange shown_;
+  PlotArea area_;
 };
 
 } // namespace nephroid::ui

@@ -84,21 +84,15 @@ void draw_defines(const plan::Plan& plan)
 {
   if (plan.defines.empty()) return;
   heading("Kernels are built with");
-  ImGui::PushTextWrapPos(0);
   for (const auto& [name, value] : plan.defines)
-    ImGui::TextDisabled("%s", fmt::format("-D {}{}{}", name, value.empty() ? "" : "=", value).c_str());
-  ImGui::PopTextWrapPos();
+    draw_wrapped(colour::quiet_text, fmt::format("-D {}{}{}", name, value.empty() ? "" : "=", value));
 }
 
 void draw_notes(const plan::Plan& plan)
 {
   if (plan.notes.empty()) return;
   heading("Notes");
-  ImGui::PushTextWrapPos(0);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour::note);
-  for (const std::string& note : plan.notes) ImGui::TextUnformatted(note.c_str());
-  ImGui::PopStyleColor();
-  ImGui::PopTextWrapPos();
+  for (const std::string& note : plan.notes) draw_wrapped(colour::note, note);
 }
 
 } // namespace
@@ -120,6 +114,7 @@ void PlanPanel::draw(const Context& context)
     return;
   }
   read_fields(context);
+  places_.clear();
   ImGui::AlignTextToFramePadding();
   const auto left_out = std::count_if(plan->passes.begin(), plan->passes.end(), [](const plan::Pass& pass) { return !pass.runs; });
   ImGui::TextUnformatted(fmt::format("Engine {}: {} left out of {}", plan->engine, left_out, plan->passes.size()).c_str());
@@ -140,15 +135,12 @@ void PlanPanel::read_fields(const Context& context)
   if (plan_ == context.run.plan() && preset_ == *context.preset()) return;
   plan_ = context.run.plan();
   preset_ = *context.preset();
-  boxes_.clear();
+  computed_.clear();
   const nlohmann::json fields = nlohmann::json::parse(preset::to_json(preset_));
   for (const plan::Pass& pass : plan_->passes) {
-    Box box{pass.name, std::nullopt, {}};
-    if (!pass.field.empty()) {
-      const nlohmann::json::json_pointer pointer(pass.field);
-      if (fields.contains(pointer) && fields[pointer].is_boolean()) box.computed = fields[pointer] == pass.run_value;
-    }
-    boxes_.push_back(std::move(box));
+    std::optional<bool>& computed = computed_.emplace_back();
+    const nlohmann::json::json_pointer pointer(pass.field);
+    if (!pass.field.empty() && fields.contains(pointer) && fields[pointer].is_boolean()) computed = fields[pointer] == pass.run_value;
   }
 }
 
@@ -165,41 +157,28 @@ void PlanPanel::draw_passes(const Context& context)
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(static_cast<int>(i));
-    if (boxes_[i].computed) draw_box(context, pass, boxes_[i]);
+    if (computed_[i]) draw_box(context, pass, *computed_[i]);
     ImGui::PopID();
     ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, pass.runs ? colour::text : colour::quiet_text);
-    ImGui::TextUnformatted(pass.name.c_str());
-    ImGui::PopStyleColor();
+    draw_text(pass.runs ? colour::text : colour::quiet_text, pass.name);
     seconds_cell(seconds_of(context.run.snapshot().get(), pass.name));
     ImGui::TableNextColumn();
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextDisabled("%s", (pass.runs ? "runs: " + pass.reason : "left out: " + pass.reason).c_str());
-    ImGui::PopTextWrapPos();
+    draw_wrapped(colour::quiet_text, (pass.runs ? "runs: " : "left out: ") + pass.reason);
   }
   draw_other_seconds(context, *plan_);
   ImGui::EndTable();
 }
 
-void PlanPanel::draw_box(const Context& context, const plan::Pass& pass, Box& box) const
+void PlanPanel::draw_box(const Context& context, const plan::Pass& pass, bool computed)
 {
-  bool computed = *box.computed;
   if (ImGui::Checkbox("##computed", &computed)) {
     const std::string label = (computed ? "compute " : "leave out ") + pass.name;
     context.push(command::Edit{label, with_field(*context.preset(), pass.field, computed ? pass.run_value : !pass.run_value)});
   }
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  box.middle = {(low.x + high.x) / 2, (low.y + high.y) / 2};
+  places_.note(pass.name);
   ImGui::SetItemTooltip("%s", fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",
                                           path_of(pass.field), pass.run_value)
                                   .c_str());
-}
-
-std::optional<std::array<double, 2>> PlanPanel::box_of(const std::string& pass) const
-{
-  for (const Box& box : boxes_)
-    if (box.pass == pass && box.computed) return box.middle;
-  return std::nullopt;
 }
 
 } // namespace nephroid::ui

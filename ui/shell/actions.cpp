@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of actions.
+// The table of actions, and what is made of it.
+#include "ui/shell/menus.h"
+
 #include "measure/history_file.h"
 #include "ui/error/panel.h"
 #include "ui/state/files.h"
-#include "ui/widgets/action.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace nephroid::ui {
 namespace {
@@ -54,14 +58,10 @@ void look(C c, Change change)
   c.push(command::SetLook{look});
 }
 
-void brighter(C c)
+template <int half_stops>
+void expose(C c)
 {
-  look(c, [](Look& l) { l.exposure_stops += 0.5; });
-}
-
-void darker(C c)
-{
-  look(c, [](Look& l) { l.exposure_stops -= 0.5; });
+  look(c, [](Look& l) { l.exposure_stops += half_stops / 2.0; });
 }
 
 void as_it_is(C c)
@@ -153,15 +153,93 @@ const Action table[] = {
     {"View", "Compare with the next", ImGuiKey_N, false, "The reference, then each pinned run", has_choice, compare_with_next, no_choice},
     {"View", "Fit", ImGuiKey_F, false, "The whole picture in the panel", has_picture, fit},
     {"View", "Actual size", ImGuiKey_1, false, "One pixel of the picture is one of the screen", has_picture, actual_size},
-    {"View", "Brighter", ImGuiKey_E, true, "Half a stop more exposure", always, brighter},
-    {"View", "Darker", shift | ImGuiKey_E, true, "Half a stop less exposure", always, darker},
+    {"View", "Brighter", ImGuiKey_E, true, "Half a stop more exposure", always, expose<1>},
+    {"View", "Darker", shift | ImGuiKey_E, true, "Half a stop less exposure", always, expose<-1>},
     {"View", "Exposure 0", ImGuiKey_0, false, "The picture as image.png shows it", always, as_it_is},
     {"View", "Reset layout", 0, false, "Every panel back to its place", always, push<command::ResetLayout>},
     {"Help", "Mouse and keys", ImGuiKey_F1, false, "What the mouse and the keys do", always, push<command::ToggleHelp>},
 };
 
+struct MouseHabit {
+  const char* how;
+  const char* what;
+};
+
+const MouseHabit mouse_habits[] = {
+    {"Left drag", "Orbit: the scene turns with the mouse"},
+    {"Middle or Shift+left drag", "Pan: move the camera sideways and up"},
+    {"Wheel, or right drag", "Distance of the camera"},
+    {"Ctrl+wheel", "Zoom the picture about the cursor"},
+    {"Ctrl+drag", "Move the picture in the panel"},
+    {"Hover", "Linear values and luminance of the pixel"},
+    {"Drop a file", "Open that preset; pin a run's folder or history.csv"},
+    {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},
+};
+
+void row(const char* how, const char* what)
+{
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(how);
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", what);
+}
+
+/// The key of a chord without its modifiers.
+ImGuiKey key_of(int shortcut) { return static_cast<ImGuiKey>(shortcut & ~ImGuiMod_Mask_); }
+
 } // namespace
 
 std::span<const Action> actions() { return table; }
+
+void draw_menus(const Context& context)
+{
+  const char* menu = nullptr;
+  bool open = false;
+  for (const Action& action : actions()) {
+    if (!menu || std::string_view(menu) != action.menu) {
+      if (open) ImGui::EndMenu();
+      menu = action.menu;
+      open = ImGui::BeginMenu(menu);
+    }
+    if (open) action_item(action, context);
+  }
+  if (open) ImGui::EndMenu();
+}
+
+void run_shortcuts(const Context& context, bool dialog)
+{
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool elsewhere = dialog || io.WantTextInput;
+  for (const Action& action : actions()) {
+    if (!action.shortcut) continue;
+    // A window that loses the keyboard never hears that the key went up.
+    if (action.let_go && (ImGui::IsKeyReleased(key_of(action.shortcut)) || io.AppFocusLost)) action.let_go(context);
+    // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would be lost.
+    const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
+    if (elsewhere || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
+    if (action.enabled(context))
+      action.run(context);
+    else if (action.why_not)
+      context.note(fmt::format("{}: {}", action.name, action.why_not(context)));
+  }
+}
+
+void draw_help(const Context& context)
+{
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->GetWorkCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+  bool open = true;
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings;
+  if (ImGui::Begin("Mouse and keys", &open, flags) && ImGui::BeginTable("help", 2, ImGuiTableFlags_RowBg)) {
+    for (const MouseHabit& habit : mouse_habits) row(habit.how, habit.what);
+    for (const Action& action : actions())
+      if (action.shortcut) row(keys_of(action), action.help);
+    ImGui::EndTable();
+  }
+  ImGui::End();
+  if (!open) context.push(command::ToggleHelp{});
+}
 
 } // namespace nephroid::ui

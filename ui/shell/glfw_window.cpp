@@ -16,13 +16,6 @@
 namespace nephroid::ui {
 namespace {
 
-/// What GLFW's callbacks, plain C functions, leave for the window that they belong to.
-struct Events {
-  std::vector<std::string> dropped;
-};
-
-Events& events_of(GLFWwindow* window) { return *static_cast<Events*>(glfwGetWindowUserPointer(window)); }
-
 std::string last_glfw_error()
 {
   const char* description = nullptr;
@@ -56,14 +49,15 @@ GlfwWindow::GlfwWindow(const std::string& title, std::array<int, 2> size) : wind
 {
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
-  glfwSetWindowUserPointer(window_, new Events);
+  glfwSetWindowUserPointer(window_, &dropped_);
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
-    for (int i = 0; i < count; ++i) events_of(window).dropped.emplace_back(paths[i]);
+    auto& dropped = *static_cast<std::vector<std::string>*>(glfwGetWindowUserPointer(window));
+    dropped.insert(dropped.end(), paths, paths + count);
   });
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.ConfigFlags |= ImGuiConfigFlags_DockingEnable;
-  io.IniFilename = nullptr; // the layout is built at every start (layout.h)
+  io.IniFilename = nullptr; // the layout is built at every start (panels.h)
   add_font();
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   back_ends_ = ImGui_ImplOpenGL3_Init("#version 130");
@@ -74,7 +68,6 @@ GlfwWindow::~GlfwWindow()
 {
   shut_down_back_ends();
   ImGui::DestroyContext();
-  delete &events_of(window_);
   glfwDestroyWindow(window_);
   glfwTerminate();
 }
@@ -136,18 +129,17 @@ std::vector<unsigned char> GlfwWindow::read_back(int& width, int& height) const
 
 void GlfwWindow::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
 
-bool GlfwWindow::close_requested() const { return glfwWindowShouldClose(window_); }
-
-void GlfwWindow::refuse_close() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+bool GlfwWindow::take_close_request()
+{
+  const bool requested = glfwWindowShouldClose(window_);
+  glfwSetWindowShouldClose(window_, GLFW_FALSE);
+  return requested;
+}
 
 void GlfwWindow::set_title(const std::string& title)
 {
   if (title != std::exchange(title_, title)) glfwSetWindowTitle(window_, title.c_str());
 }
-
-std::vector<std::string> GlfwWindow::take_dropped() { return std::exchange(events_of(window_).dropped, {}); }
-
-bool GlfwWindow::take_activity() { return std::exchange(activity_, false); }
 
 std::string GlfwWindow::renderer() const
 {

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct GLFWwindow;
@@ -27,13 +28,13 @@ public:
   /// Sleeps until something happens to the window or the time is over.
   void wait(double seconds);
 
-  bool close_requested() const;
-  void refuse_close();
+  /// True once after somebody wants to close the window, which stays: there may be something to ask first.
+  bool take_close_request();
   void set_title(const std::string& title);
   /// Files that were dropped on the window since the last call.
-  std::vector<std::string> take_dropped();
+  std::vector<std::string> take_dropped() { return std::exchange(dropped_, {}); }
   /// True where the mouse or a key was used since the last call.
-  bool take_activity();
+  bool take_activity() { return std::exchange(activity_, false); }
   /// The renderer's name, for messages.
   std::string renderer() const;
   /// Lets go of what the back ends hold, textures of panels too; the context stays until the destructor.
@@ -44,6 +45,7 @@ private:
 
   GLFWwindow* window_ = nullptr;
   std::string title_;
+  std::vector<std::string> dropped_;
   float scale_ = 0;
   bool back_ends_ = false, activity_ = false;
 };

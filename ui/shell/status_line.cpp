@@ -5,11 +5,14 @@
 #include "job/pace.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace nephroid::ui {
 namespace {
@@ -19,14 +22,25 @@ void draw_notes(const std::vector<std::string>& notes)
 {
   if (notes.empty()) return;
   ImGui::SameLine(0, ImGui::GetFontSize());
-  ImGui::PushStyleColor(ImGuiCol_Text, colour::note);
-  ImGui::TextUnformatted(counted(notes.size(), "note").c_str());
-  ImGui::PopStyleColor();
+  draw_text(colour::note, counted(notes.size(), "note"));
   if (!ImGui::BeginItemTooltip()) return;
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40);
   for (const std::string& note : notes) ImGui::TextUnformatted(note.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+constexpr std::size_t most_shown = 4; ///< the newest; the others come up when these are dismissed
+
+std::span<const Message> shown(std::span<const Message> all) { return all.last(std::min(all.size(), most_shown)); }
+
+/// Room at the right for the buttons.
+float text_width(float width) { return std::max(width - ImGui::GetFontSize() * 12, ImGui::GetFontSize() * 10); }
+
+float line_height(const Message& message, float width)
+{
+  return std::max(ImGui::CalcTextSize(message.line.c_str(), nullptr, false, text_width(width)).y, ImGui::GetFrameHeight()) +
+         ImGui::GetStyle().ItemSpacing.y;
 }
 
 } // namespace
@@ -80,6 +94,37 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   if (right < ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + em) return;
   ImGui::SameLine(right);
   ImGui::TextDisabled("%s", help);
+}
+
+float messages_height(const std::vector<Message>& messages, float width)
+{
+  if (messages.empty()) return 0;
+  float height = 2 * ImGui::GetStyle().WindowPadding.y;
+  for (const Message& message : shown(messages)) height += line_height(message, width);
+  return height;
+}
+
+void draw_messages(const std::vector<Message>& messages, const Context& context)
+{
+  const float width = ImGui::GetWindowWidth(), em = ImGui::GetFontSize();
+  for (const Message& message : shown(messages)) {
+    ImGui::PushID(static_cast<int>(message.id));
+    const float top = ImGui::GetCursorPosY();
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + text_width(width));
+    draw_text(message.error ? colour::error : colour::text, message.line);
+    ImGui::PopTextWrapPos();
+    ImGui::SetCursorPos({width - em * 10.5f, top});
+    if (message.error) {
+      action_button("Open...", context);
+      ImGui::SameLine();
+    } else
+      ImGui::SetCursorPosX(width - em * 5.5f);
+    if (ImGui::Button("Dismiss")) context.push(command::Dismiss{message.id});
+    ImGui::SetCursorPosY(top + line_height(message, width));
+    ImGui::Dummy({0, 0});
+    ImGui::PopID();
+  }
 }
 
 } // namespace nephroid::ui

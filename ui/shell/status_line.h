@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line at the window's foot: what the run does, how far it is, how fast, how long it still takes, and how to hold or end it.
+// The window's foot: a line of what the run does, how far it is, how fast, how long it still takes, and how to hold or end it; above it
+// errors and notes, the whole line, wrapped, with what can be done about it.
 #pragma once
 #include "job/worker.h"
 #include "ui/state/context.h"
@@ -11,6 +12,10 @@ namespace nephroid::ui {
 
 /// notes: what is worth knowing and needs no answer.
 void draw_status_line(const Context& context, const std::vector<std::string>& notes);
+
+/// The height that the messages take at this width; 0 where there are none.
+float messages_height(const std::vector<Message>& messages, float width);
+void draw_messages(const std::vector<Message>& messages, const Context& context);
 
 /// "running", "finished", ...
 const char* name_of(job::State state);

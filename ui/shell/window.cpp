@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "image/image.h"
 #include "preset/read.h"
-#include "ui/shell/frame_clock.h"
 #include "ui/shell/glfw_window.h"
 #include "ui/shell/status_line.h"
 #include "ui/shell/workspace.h"
@@ -12,9 +11,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <memory>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -48,9 +50,74 @@ void open_first(Workbench& workbench, const Options& options)
   if (options.files.empty()) workbench.apply({command::Ask{Question::open}});
 }
 
-struct Screen {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgba8;
+double milliseconds(Clock::duration time) { return std::chrono::duration<double, std::milli>(time).count(); }
+
+/// When the next frame is drawn, and how long frames took.
+class FrameClock {
+public:
+  /// Somebody moves the mouse: the display's rate. A run goes on: often enough for its snapshots. Else: seldom.
+  enum class Pace { hands_on, running, idle };
+
+  /// keep: every frame's time, for summary(); else frames are only counted. file: CSV with the line
+  /// frame,draw_ms,period_ms,state,fraction of a frame as soon as it has been drawn, so that who reads along knows what the window is
+  /// at; empty: none. Throws failed where it cannot be written.
+  FrameClock(bool keep, const std::filesystem::path& file) : keep_(keep), file_(file)
+  {
+    if (file.empty()) return;
+    lines_.open(file, std::ios::binary);
+    write("frame,draw_ms,period_ms,state,fraction\n");
+  }
+  bool keeps() const { return keep_; }
+  std::size_t frames() const { return frames_; }
+
+  void begin() { previous_ = std::exchange(began_, Clock::now()); }
+
+  /// Throws failed where the file cannot be written any more.
+  void end(const job::Status& run)
+  {
+    const double draw_ms = milliseconds(Clock::now() - began_);
+    last_draw_s_ = draw_ms / 1000;
+    if (keep_) draw_ms_.push_back(draw_ms);
+    if (!file_.empty()) {
+      const double period_ms = frames_ == 0 ? 0 : milliseconds(began_ - previous_); // what a person sees
+      write(fmt::format("{},{:.3f},{:.3f},{},{:.4f}\n", frames_, draw_ms, period_ms, name_of(run.state), run.progress.fraction));
+    }
+    ++frames_;
+  }
+
+  /// Seconds to sleep before the next frame. The device may be the processor that draws, too: while nobody touches the window it
+  /// takes at most a quarter of the time, so that drawing without need does not slow the run.
+  double rest(Pace pace) const
+  {
+    double period_s = 1.0 / 60;
+    if (pace == Pace::running) period_s = std::max(1.0 / 30, 4 * last_draw_s_);
+    if (pace == Pace::idle) period_s = 1.0 / 4;
+    return std::max(0.0, period_s - milliseconds(Clock::now() - began_) / 1000);
+  }
+
+  /// "N frames, draw median A ms, 99 % B ms, most C ms" over what was drawn so far: at least a frame.
+  std::string summary() const
+  {
+    std::vector<double> sorted = draw_ms_;
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double part) { return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))]; };
+    return fmt::format("{} frames, draw median {:.1f} ms, 99 % {:.1f} ms, most {:.1f} ms", sorted.size(), at(0.5), at(0.99), sorted.back());
+  }
+
+private:
+  void write(const std::string& line)
+  {
+    lines_ << line << std::flush;
+    if (!lines_) throw failed(file_.string(), "cannot be written", "", "choose another file for --frame-times");
+  }
+
+  bool keep_ = false;
+  std::size_t frames_ = 0;
+  double last_draw_s_ = 0;
+  Clock::time_point began_{}, previous_{};
+  std::vector<double> draw_ms_; ///< of each frame, from the first event taken to the buffers swapped: what the window itself costs
+  std::filesystem::path file_;
+  std::ofstream lines_;
 };
 
 /// The loop of one window, from its first frame to its last.
@@ -81,20 +148,17 @@ private:
     workbench_.update();
     Commands commands = workspace_.draw(workbench_);
     for (const std::string& file : window_.take_dropped()) commands.push_back(command::Open{file});
-    if (window_.close_requested()) {
-      window_.refuse_close(); // the workbench may have something to ask first
-      commands.push_back(command::Quit{});
-    }
+    if (window_.take_close_request()) commands.push_back(command::Quit{});
     window_.draw_frame();
     done_ = workbench_.quitting() || is_last_frame();
-    Screen screen;
-    if (done_ && !options_.screenshot.empty()) screen.rgba8 = window_.read_back(screen.width, screen.height);
+    int width = 0, height = 0;
+    std::vector<unsigned char> screen;
+    if (done_ && !options_.screenshot.empty()) screen = window_.read_back(width, height);
     window_.present();
     workbench_.apply(commands);
     window_.set_title(title(workbench_));
-    const job::Status& status = workbench_.run().status();
-    clock_.end(name_of(status.state), status.progress.fraction);
-    if (!screen.rgba8.empty()) image::write_png_bytes(options_.screenshot, screen.width, screen.height, screen.rgba8);
+    clock_.end(workbench_.run().status());
+    if (!screen.empty()) image::write_png_bytes(options_.screenshot, width, height, screen);
   }
 
   bool is_last_frame() const

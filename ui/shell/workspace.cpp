@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "ui/shell/menus.h"
-#include "ui/shell/messages.h"
 #include "ui/shell/status_line.h"
 
 #include <imgui.h>

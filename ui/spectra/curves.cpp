@@ -10,6 +10,7 @@
 #include "spectral/effort/effort.h"
 #include "tracing/omissions.h"
 #include "tracing/wavelength_tables.h"
+#include "ui/widgets/plots.h"
 
 #include <fmt/format.h>
 
@@ -256,17 +257,10 @@ void SpectraMaker::make_clusters(const preset::Preset& now)
 
 std::string to_csv(const Spectra& spectra)
 {
-  // A name in quotes, as RFC 4180 has them.
-  const auto quoted = [](const std::string& name) {
-    std::string text = "\"";
-    for (const char c : name) text.append(c == '"' ? 2 : 1, c);
-    text += '"';
-    return text;
-  };
   std::string csv = "wavelength_nm";
   for (std::size_t i = 0; i < spectra.lights.size(); ++i) csv += fmt::format(",light {}", i + 1);
   csv += ",luminosity";
-  for (const ReflectanceCurve& curve : spectra.reflectances) csv += fmt::format(",{}", quoted("reflectance of " + curve.material));
+  for (const ReflectanceCurve& curve : spectra.reflectances) csv += fmt::format(",{}", in_csv("reflectance of " + curve.material));
   csv += ",u,cluster,iterations\n";
   for (std::size_t w = 0; w < wavelength_count; ++w) {
     csv += std::to_string(optics::wavelength_nm(static_cast<int>(w)));

@@ -4,7 +4,6 @@
 #include "base/counted.h"
 #include "preset/choices.h"
 #include "ui/widgets/theme.h"
-#include "ui/widgets/plots.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

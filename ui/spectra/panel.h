@@ -14,8 +14,6 @@
 
 namespace nephroid::ui {
 
-class WavelengthAxis;
-
 class SpectraPanel : public Panel {
 public:
   static constexpr const char* title = "Spectra and importance";

@@ -2,8 +2,7 @@
 #include "ui/spectra/plot.h"
 
 #include "optics/colour.h"
-#include "ui/widgets/plots.h"
-#include "ui/widgets/theme.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -15,12 +14,6 @@
 namespace nephroid::ui {
 
 namespace spectra_colour {
-const std::uint32_t light = IM_COL32(255, 206, 112, 255);
-const std::uint32_t luminosity = IM_COL32(132, 204, 146, 255);
-const std::uint32_t u = IM_COL32(206, 158, 255, 255); // most walls are white
-const std::uint32_t iterations = colour::accent;
-const std::uint32_t rim = IM_COL32(132, 132, 132, 255);
-
 /// A contrast below 2 with the ground, as WCAG defines it: (L + 0.05) / (L of the ground + 0.05), L the relative luminance.
 bool is_dark(std::uint32_t colour)
 {
@@ -129,13 +122,6 @@ std::optional<int> pointed_wavelength()
 
 std::string row_text(const PowerRow& row) { return fmt::format("{:.6g} nm, relative power {:.4g}", row[0], row[1]); }
 
-void value_line(std::uint32_t colour, const std::string& text)
-{
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
-}
-
 /// "540 to 561 nm", or "540 nm and 3 more"
 std::string extent_of(const std::vector<int>& wavelengths)
 {
@@ -155,17 +141,17 @@ void draw_values(const SpectraPlotContents& contents, int index)
   ImGui::TextDisabled("%d nm", wavelength_nm(index));
   for (std::size_t i = 0; shown.light && i < s.lights.size(); ++i)
     if (s.lights[i].error.empty())
-      value_line(spectra_colour::light,
-                 fmt::format("light {}: {:.3g} of its largest", i + 1, s.lights[i].spectrum[w] / s.lights[i].largest));
-  if (shown.luminosity) value_line(spectra_colour::luminosity, fmt::format("luminosity: {:.3g}", optics::cie_1931().y[w]));
+      draw_text(spectra_colour::light,
+                fmt::format("light {}: {:.3g} of its largest", i + 1, s.lights[i].spectrum[w] / s.lights[i].largest));
+  if (shown.luminosity) draw_text(spectra_colour::luminosity, fmt::format("luminosity: {:.3g}", optics::cie_1931().y[w]));
   for (const ReflectanceCurve& curve : s.reflectances)
     if (!shown.hidden.contains(curve.material))
-      value_line(colour::text, fmt::format("{}: reflects {:.3g}", curve.material, curve.reflectance[w]));
-  if (shown.u && s.why_no_u.empty()) value_line(spectra_colour::u, fmt::format("u: {:.3g}", s.importance.u[w]));
+      draw_text(colour::text, fmt::format("{}: reflects {:.3g}", curve.material, curve.reflectance[w]));
+  if (shown.u && s.why_no_u.empty()) draw_text(spectra_colour::u, fmt::format("u: {:.3g}", s.importance.u[w]));
   if (const int c = s.cluster_of[w]; c >= 0) {
     const ClusterWork& cluster = s.clusters[static_cast<std::size_t>(c)];
-    value_line(colour::quiet_text, fmt::format("cluster {} of {}, {}: {:.3g} of {} iterations, {}", c + 1, s.clusters.size(),
-                                               extent_of(cluster.wavelengths), cluster.importance, s.passes, cluster.iterations));
+    draw_text(colour::quiet_text, fmt::format("cluster {} of {}, {}: {:.3g} of {} iterations, {}", c + 1, s.clusters.size(),
+                                              extent_of(cluster.wavelengths), cluster.importance, s.passes, cluster.iterations));
   }
   ImGui::EndTooltip();
 }
@@ -223,10 +209,7 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
     gesture = draw_rows(contents);
   else
     handles_.leave();
-  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
-  const ImPlotRange nm = ImPlot::GetPlotLimits().X;
-  area_ = {corner.x, corner.y, size.x, size.y};
-  shown_nm_ = {nm.Min, nm.Max};
+  area_ = PlotArea::in_hand();
   std::optional<int> pointed;
   draw_pointer(contents, pointed);
   const bool all = !rows && double_clicked();
@@ -269,11 +252,6 @@ void SpectraPlot::draw_pointer(const SpectraPlotContents& contents, std::optiona
     ImPlot::PlotInfLines("pointer", &nm, 1, line_spec(with_alpha(colour::text, 0.43f), 1));
   }
   if (here) draw_values(contents, *here);
-}
-
-std::array<double, 2> SpectraPlot::place(double nm, double value) const
-{
-  return {area_[0] + area_[2] * (nm - shown_nm_[0]) / (shown_nm_[1] - shown_nm_[0]), area_[1] + area_[3] * (1 - value / top)};
 }
 
 } // namespace nephroid::ui

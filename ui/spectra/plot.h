@@ -4,7 +4,9 @@
 #pragma once
 #include "ui/spectra/curves.h"
 #include "ui/spectra/light_edits.h"
+#include "ui/widgets/plots.h"
 #include "ui/widgets/row_handles.h"
+#include "ui/widgets/theme.h"
 
 #include <array>
 #include <cstddef>
@@ -15,8 +17,6 @@
 
 namespace nephroid::ui {
 
-class WavelengthAxis;
-
 /// Which curves are shown.
 struct SpectraSwitches {
   bool light = true, luminosity = true, u = true, iterations = true;
@@ -25,9 +25,10 @@ struct SpectraSwitches {
 
 /// IM_COL32 of each curve; a reflectance has its own.
 namespace spectra_colour {
-extern const std::uint32_t light, luminosity, u, iterations;
-/// About what is in a dark colour, so that it is seen on the plot's ground, and in its own colour.
-extern const std::uint32_t rim;
+inline constexpr std::uint32_t light = IM_COL32(255, 206, 112, 255), luminosity = IM_COL32(132, 204, 146, 255);
+inline constexpr std::uint32_t u = IM_COL32(206, 158, 255, 255); ///< most walls are white
+inline constexpr std::uint32_t iterations = colour::accent;
+inline constexpr std::uint32_t rim = IM_COL32(132, 132, 132, 255); ///< about what is in a dark colour, so that it is seen on the plot
 bool is_dark(std::uint32_t colour);
 /// As bytes for the display.
 std::uint32_t of(const std::array<double, 3>& srgb);
@@ -47,7 +48,7 @@ public:
   RowGesture draw(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
 
   /// For tests: where a value of the upper plot was drawn last, on the screen.
-  std::array<double, 2> place(double nm, double value) const;
+  std::array<double, 2> place(double nm, double value) const { return area_.to_screen({nm, value}); }
   /// What 1 stands for in the light's own units.
   double unit() const { return unit_; }
 
@@ -57,11 +58,10 @@ private:
   void draw_iterations(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
   void draw_pointer(const SpectraPlotContents& contents, std::optional<int>& pointed);
 
-  RowHandles handles_;               ///< of the light that is edited
-  double unit_ = 1;                  ///< stays while a row is held, or the others would move against it
-  std::optional<int> pointed_;       ///< the wavelength (index) under the mouse, in either plot
-  std::array<double, 4> area_{};     ///< of the upper plot: x, y, width, height
-  std::array<double, 2> shown_nm_{}; ///< and the ends of its axis
+  RowHandles handles_;         ///< of the light that is edited
+  double unit_ = 1;            ///< stays while a row is held, or the others would move against it
+  std::optional<int> pointed_; ///< the wavelength (index) under the mouse, in either plot
+  PlotArea area_;              ///< the upper plot
 };
 
 } // namespace nephroid::ui

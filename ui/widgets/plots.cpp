@@ -27,6 +27,20 @@ ImPlotSpec line_spec(std::uint32_t colour, float width)
   return spec;
 }
 
+PlotArea PlotArea::in_hand()
+{
+  const ImVec2 corner = ImPlot::GetPlotPos(), size = ImPlot::GetPlotSize();
+  const ImPlotRect limits = ImPlot::GetPlotLimits();
+  return {{corner.x, corner.y, size.x, size.y}, {limits.X.Min, limits.X.Max}, {limits.Y.Min, limits.Y.Max}};
+}
+
+std::string in_csv(const std::string& name)
+{
+  std::string text = "\"";
+  for (const char c : name) text.append(c == '"' ? 2 : 1, c);
+  return text + '"';
+}
+
 PlotContext::PlotContext() : context_(ImPlot::CreateContext()) { ImPlot::SetCurrentContext(context_); }
 
 PlotContext::~PlotContext() { ImPlot::DestroyContext(context_); }

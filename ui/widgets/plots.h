@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What plots of several panels share: ImPlot's context, with its sizes at the display's scale, and the wavelength axis.
 #pragma once
-
+#include <array>
 #include <cstdint>
+#include <string>
 
 struct ImPlotContext;
 struct ImPlotSpec;
@@ -11,6 +12,23 @@ namespace nephroid::ui {
 
 /// A line of this colour (IM_COL32) and width in pixels at scale 1, which does not decide what axes show.
 ImPlotSpec line_spec(std::uint32_t colour, float width);
+
+/// Where a plot lies on the screen, and what its axes show.
+struct PlotArea {
+  std::array<double, 4> screen{}; ///< x, y, width, height
+  std::array<double, 2> x{0, 1}, y{0, 1};
+
+  /// Of the plot in hand, after SetupFinish.
+  static PlotArea in_hand();
+  /// Where a point is, on linear axes.
+  std::array<double, 2> to_screen(const std::array<double, 2>& point) const
+  {
+    return {screen[0] + screen[2] * (point[0] - x[0]) / (x[1] - x[0]), screen[1] + screen[3] * (y[1] - point[1]) / (y[1] - y[0])};
+  }
+};
+
+/// A name in quotes, as CSV has it (RFC 4180).
+std::string in_csv(const std::string& name);
 
 class PlotContext {
 public:

@@ -24,12 +24,17 @@ bool input_text(const char* label, const char* hint, std::string& text, int flag
   return ImGui::InputTextWithHint(label, hint, text.data(), text.capacity() + 1, flags | ImGuiInputTextFlags_CallbackResize, resize, &text);
 }
 
-void draw_wrapped(std::uint32_t colour, const std::string& text)
+void draw_text(std::uint32_t colour, const std::string& text)
 {
-  ImGui::PushTextWrapPos(0);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
+}
+
+void draw_wrapped(std::uint32_t colour, const std::string& text)
+{
+  ImGui::PushTextWrapPos(0);
+  draw_text(colour, text);
   ImGui::PopTextWrapPos();
 }
 

@@ -15,7 +15,8 @@ namespace nephroid::ui {
 
 /// A text field of any length; `flags` are ImGuiInputTextFlags. Returns what ImGui::InputText does.
 bool input_text(const char* label, const char* hint, std::string& text, int flags = 0);
-/// Text in a colour (IM_COL32), wrapped at the window's edge.
+/// Text in a colour (IM_COL32); and wrapped at the window's edge.
+void draw_text(std::uint32_t colour, const std::string& text);
 void draw_wrapped(std::uint32_t colour, const std::string& text);
 /// A quiet sentence in the middle of an area of the window, wrapped at nine tenths of its width.
 void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint);
