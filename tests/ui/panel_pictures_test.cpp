@@ -141,11 +141,12 @@ auto picture_in(const Canvas& canvas)
   return [&canvas](const image::Image& screen) { return count(colours_in(screen, canvas)) > 200; };
 }
 
-/// Red over blue of what the View shows.
+/// Red over blue of what the View shows, without the greys beside the picture.
 double warmth(const image::Image& screen, const Canvas& canvas)
 {
   double red = 0, blue = 0;
   for (const auto& colour : colours_in(screen, canvas)) {
+    if (colour[0] == colour[2]) continue;
     red += colour[0];
     blue += colour[2];
   }
@@ -216,23 +217,34 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
 TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
 {
   const std::string file = folder.write("prism.json", preset::to_json(prism()));
+  const std::string wrong = "200", field = "/scene/camera/fov_deg";
   std::vector<test::Pixel> way;
+  test::Pixel said;
   const Canvas canvas =
       in_window_like<test::SeeingRuns>(size, "parameters", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
-        for (const char* widget : {"/scene:label", "/scene/camera:label", "/scene/camera/fov_deg"})
-          way.push_back(click(workspace.panel<ui::ParametersPanel>().place_of(widget).value(), imgui, draw));
+        const auto place_of = [&](const std::string& widget) { return workspace.panel<ui::ParametersPanel>().place_of(widget).value(); };
+        for (const std::string& widget : {std::string("/scene:label"), std::string("/scene/camera:label"), field})
+          way.push_back(click(place_of(widget), imgui, draw));
+        ImGui::GetIO().AddInputCharactersUTF8(wrong.c_str());
+        draw();
+        for (const bool down : {true, false}) {
+          imgui.key(ImGuiKey_Enter, down);
+          draw();
+        }
+        for (int i = 0; i < 4; ++i) draw(); // it is brought into sight
+        said = pixel(place_of(field + ":problem"));
         return workspace.panel<ui::ViewPanel>().canvas();
       });
   test::PlayedWindow window = open(file, "parameters");
   window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });
   for (const test::Pixel& at : way) window.click(at);
-  for (const char digit : std::string("200")) window.key({digit});
+  for (const char digit : wrong) window.key({digit});
   window.key("Return");
   const std::array<int, 3> red{colour::error & 255, colour::error >> 8 & 255, colour::error >> 16 & 255};
   taken(window, "window-parameters.png", "what is wrong, at the field", [&](const image::Image& picture) {
     int found = 0;
-    for (int y = way.back()[1] + 10; y < way.back()[1] + 60; ++y)
-      for (int x = way.back()[0] - 80; x < size[0]; ++x) found += test::bytes_at(picture, x, y) == red;
+    for (int y = said[1] - 10; y < said[1] + 10; ++y)
+      for (int x = said[0] - 80; x < said[0] + 80; ++x) found += test::bytes_at(picture, x, y) == red;
     return found > 50;
   });
   EXPECT_EQ(runs_begun(window), 1) << "the run goes on";

@@ -7,8 +7,6 @@
 #include "preset/preset.h"
 #include "ui/widgets/rows.h"
 
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace nephroid::ui {

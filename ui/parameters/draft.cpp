@@ -103,17 +103,12 @@ Json Draft::with(const Edits& edits) const
   return made;
 }
 
-preset::Preset Draft::read(const Json& value) const
-{
-  preset::Preset made = preset::parse_preset(json_text(value), preset_.source);
-  check_loads(preset_, made, base_, value);
-  return made;
-}
-
 std::optional<Problem> Draft::problem_of(const Edits& edits, const std::string& pointer, preset::Preset& made) const
 {
   try {
-    made = read(with(edits));
+    const Json value = with(edits);
+    made = preset::parse_preset(json_text(value), preset_.source);
+    check_loads(preset_, made, base_, value);
   } catch (const Error& error) {
     const Place& place = error.place();
     const bool known = place.name == preset_.source && place.pointer;

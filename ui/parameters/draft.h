@@ -44,7 +44,6 @@ private:
   using Edits = std::map<std::string, Json>; ///< values by their pointers, none inside of another
   void take(preset::Preset preset);
   Json with(const Edits& edits) const;
-  preset::Preset read(const Json& value) const;
   Edits together(const std::string& pointer, int reach) const;
   std::optional<preset::Preset> settle(const std::string& pointer);
   std::optional<Problem> problem_of(const Edits& edits, const std::string& pointer, preset::Preset& made) const;

@@ -4,7 +4,6 @@
 #include "optics/spectrum.h"
 #include "preset/describe_limits.h"
 #include "ui/parameters/panel.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

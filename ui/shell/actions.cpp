@@ -5,6 +5,7 @@
 #include "measure/history_file.h"
 #include "ui/error/panel.h"
 #include "ui/state/files.h"
+#include "ui/widgets/action.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

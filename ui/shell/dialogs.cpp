@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/shell/dialogs.h"
 
-#include "base/error.h"
+#include "base/files.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/widgets.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <filesystem>
@@ -30,12 +29,6 @@ bool choose_name(const char* hint, float width, std::string& name, const char* b
   const bool pressed = ImGui::Button(button);
   ImGui::EndDisabled();
   return pressed || (entered && !name.empty());
-}
-
-bool exists(const std::string& file)
-{
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
 }
 
 } // namespace
@@ -102,7 +95,7 @@ void Dialogs::draw_open_history(Commands& commands)
 
 void Dialogs::draw_save(Commands& commands)
 {
-  const bool picture = shown_ == Question::save_picture, there = !name_.empty() && exists(name_);
+  const bool picture = shown_ == Question::save_picture, there = !name_.empty() && is_there(name_);
   if (choose_name("file", ImGui::GetFontSize() * 30, name_, there ? "Replace" : "Save"))
     commands.push_back(picture ? Command(command::SavePicture{name_}) : Command(command::SavePreset{name_}));
   if (picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");

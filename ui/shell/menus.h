@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is made of the table of actions: menus, shortcuts, and the overlay that says what the mouse and the keys do.
 #pragma once
-#include "ui/widgets/action.h"
+#include "ui/state/context.h"
 
 namespace nephroid::ui {
 

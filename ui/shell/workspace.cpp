@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/shell/workspace.h"
 
-#include "base/error.h"
 #include "ui/shell/menus.h"
 #include "ui/shell/status_line.h"
 

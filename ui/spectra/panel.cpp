@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -62,7 +61,6 @@ void SpectraPanel::draw(const Context& context)
   choose_light(*context.preset());
   draw_light(context);
   draw_switches();
-  draw_copy();
   const Spectra& spectra = maker_.spectra();
   const float line = ImGui::GetTextLineHeight(), cell = line + 2 * ImGui::GetStyle().CellPadding.y;
   const auto seen = spectra.importance.surroundings.size();
@@ -156,10 +154,6 @@ void SpectraPanel::draw_switches()
       switches_.hidden.insert(curve.material);
   }
   ImGui::PopID();
-}
-
-void SpectraPanel::draw_copy()
-{
   same_line_if_room(4 * em());
   if (ImGui::Button("Copy")) ImGui::SetClipboardText(to_csv(maker_.spectra()).c_str());
   places_.note("copy");

@@ -32,7 +32,6 @@ private:
   void draw_light_choice(const preset::Preset& preset);
   void draw_spectrum_controls(const Context& context);
   void draw_switches();
-  void draw_copy();
   void draw_plot(const Context& context, float height);
   void draw_numbers() const;
   void draw_surroundings() const;

@@ -205,9 +205,10 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
   if (shown.u && contents.spectra->why_no_u.empty())
     plot_spectrum("u", contents.spectra->importance.u, 1, line_spec(spectra_colour::u, 2.5f));
   const bool rows = shown.light && contents.edited && has_rows(*contents.edited);
-  if (rows)
-    gesture = draw_rows(contents);
-  else
+  if (rows) {
+    gesture = handles_.draw(contents.edited->table, contents.selected, {spectra_colour::light, colour::text, row_text, unit_});
+    gesture.to[1] = std::clamp(gesture.to[1], 0.0, top * unit_); // up to the top of the plot
+  } else
     handles_.leave();
   area_ = PlotArea::in_hand();
   std::optional<int> pointed;
@@ -216,14 +217,6 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
   ImPlot::EndPlot();
   if (all) axis.show_all();
   pointed_ = pointed;
-  return gesture;
-}
-
-/// A point a row, up to the top of the plot.
-RowGesture SpectraPlot::draw_rows(const SpectraPlotContents& contents)
-{
-  RowGesture gesture = handles_.draw(contents.edited->table, contents.selected, {spectra_colour::light, colour::text, row_text, unit_});
-  gesture.to[1] = std::clamp(gesture.to[1], 0.0, top * unit_);
   return gesture;
 }
 

@@ -54,7 +54,6 @@ public:
 
 private:
   RowGesture draw_curves(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
-  RowGesture draw_rows(const SpectraPlotContents& contents);
   void draw_iterations(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
   void draw_pointer(const SpectraPlotContents& contents, std::optional<int>& pointed);
 

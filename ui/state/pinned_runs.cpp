@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/pinned_runs.h"
 
-#include "base/error.h"
+#include "base/files.h"
 #include "measure/history_file.h"
 #include "measure/read_picture.h"
 #include "measure/run_files.h"
@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 namespace nephroid::ui {
@@ -26,20 +25,13 @@ std::filesystem::path history_file(const std::filesystem::path& path)
 {
   constexpr const char* expected = "expected the folder of a run, or its history.csv";
   constexpr const char* remedy = "give the folder of `nephroid run PRESET -o FOLDER`";
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) throw bad_input(path.string(), "there is no such run", expected, remedy);
-  if (!std::filesystem::is_directory(path, ignored)) {
+  if (!is_there(path)) throw bad_input(path.string(), "there is no such run", expected, remedy);
+  if (std::error_code ignored; !std::filesystem::is_directory(path, ignored)) {
     if (!is_history(path)) throw bad_input(path.string(), "is no run's history", expected, remedy);
     return path;
   }
-  if (!std::filesystem::exists(path / history_name, ignored)) throw bad_input(path.string(), "has no history.csv", expected, remedy);
+  if (!is_there(path / history_name)) throw bad_input(path.string(), "has no history.csv", expected, remedy);
   return path / history_name;
-}
-
-/// The history with what the run's folder knows of the reference: the table itself has no noise floor.
-std::shared_ptr<const job::History> history_with_floor(const std::filesystem::path& file, const std::filesystem::path& folder)
-{
-  return std::make_shared<job::History>(file.filename() == history_name ? measure::read_run_history(folder) : measure::read_history(file));
 }
 
 } // namespace
@@ -94,7 +86,7 @@ void PinnedRuns::remove(std::uint64_t id)
 bool is_history(const std::filesystem::path& path)
 {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return std::filesystem::exists(path / history_name, ignored);
+  if (std::filesystem::is_directory(path, ignored)) return is_there(path / history_name);
   return path.extension() == ".csv";
 }
 
@@ -103,11 +95,10 @@ PinnedRun read_pin(const std::filesystem::path& path)
   const std::filesystem::path file = history_file(path);
   const std::filesystem::path folder = std::filesystem::absolute(file).lexically_normal().parent_path();
   PinnedRun run;
-  run.history = history_with_floor(file, folder);
-  run.name = file.filename() == history_name ? folder.filename().string() : file.stem().string();
-  std::error_code ignored;
-  if (const std::filesystem::path image = folder / "image.exr";
-      file.filename() == history_name && std::filesystem::exists(image, ignored)) {
+  const bool is_of_folder = file.filename() == history_name; // what lies beside it belongs to it: the table itself has no noise floor
+  run.history = std::make_shared<job::History>(is_of_folder ? measure::read_run_history(folder) : measure::read_history(file));
+  run.name = is_of_folder ? folder.filename().string() : file.stem().string();
+  if (const std::filesystem::path image = folder / "image.exr"; is_of_folder && is_there(image)) {
     measure::LinearPicture read = measure::read_linear_rgb(image);
     auto picture = std::make_shared<job::Picture>();
     picture->width = read.width;

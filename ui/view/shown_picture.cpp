@@ -10,17 +10,12 @@
 namespace nephroid::ui {
 namespace {
 
-/// Whether the renderer has no texture of the size (0: it has every size).
-bool too_large(const std::array<int, 2>& size)
-{
-  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
-  const auto beyond = [](int length, int limit) { return limit > 0 && length > limit; };
-  return beyond(size[0], platform.Renderer_TextureMaxWidth) || beyond(size[1], platform.Renderer_TextureMaxHeight);
-}
-
+/// What is said where the renderer has no texture of the size (0: it has every size); else empty.
 std::string too_large_hint(const std::array<int, 2>& size)
 {
   const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
+  const auto beyond = [](int length, int limit) { return limit > 0 && length > limit; };
+  if (!beyond(size[0], platform.Renderer_TextureMaxWidth) && !beyond(size[1], platform.Renderer_TextureMaxHeight)) return {};
   return fmt::format("The picture is {} x {}; this display's OpenGL shows at most {} x {}. It is computed all the same: "
                      "save it with Ctrl+E, or lower scene.camera.resolution.",
                      size[0], size[1], platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight);
@@ -91,9 +86,8 @@ ShownPicture shown_picture(const Context& context)
   const job::Picture& picture = *snapshot->picture;
   shown.size = {picture.width, picture.height};
   const Comparison& comparison = context.comparing.comparison();
-  if (too_large(shown.size))
-    shown.hint = too_large_hint(shown.size);
-  else if (!comparison.flip && !comparison.difference) {
+  if (shown.hint = too_large_hint(shown.size); !shown.hint.empty()) return shown;
+  if (!comparison.flip && !comparison.difference) {
     shown.owner = snapshot;
     shown.rgb = picture.rgb;
   } else if (const HeldPicture other = context.comparing.other_picture(); !other.owner)
