@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear picture as the bytes a display shows: the same bytes as image::shown, by a table instead of a power a channel, because
+// A linear picture as the bytes a display shows: the same bytes as image::shown, by a table instead of a search a channel, because
 // the window does this for every snapshot and for every move of the exposure slider.
 #pragma once
 #include <span>
