@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/dispersion/figures.h"
 
-#include "spectral/clusters/clusters_theta.h"
+#include "spectral/clusters/clusters.h"
 
 #include <algorithm>
 #include <cmath>
