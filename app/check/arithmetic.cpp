@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The device's own functions against double precision. Tolerances are the full profile's of the OpenCL 1.2 specification, section
 // 7.4, table "ULP values for single precision built-in math functions": a compiler's fast mathematics shows here first.
+#include "check/check.h"
 #include "check/device_arrays.h"
-#include "check/subjects.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 #include "check/check.h"
 
 #include "base/error.h"
-#include "check/subjects.h"
 
 #include <limits>
 

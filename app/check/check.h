@@ -35,4 +35,12 @@ std::vector<Check> checks();
 /// so that one broken kernel does not hide what the others do.
 Result run_check(const Check& check, const compute::Context& context, std::uint64_t seed = 1);
 
+using Checks = std::vector<Check>;
+
+/// By subject, in the order in which they make sense: a device whose exp is wrong needs no look at its rays.
+Checks arithmetic_checks(); ///< arithmetic.cpp: the device's own functions, in units in the last place
+Checks exactness_checks();  ///< exactness.cpp: random numbers and sums, bit for bit
+Checks geometry_checks();   ///< geometry.cpp: rays and triangles
+Checks interface_checks();  ///< interfaces.cpp: Snell, Fresnel, nested media
+
 } // namespace nephroid::check

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is the same bits on every device: random numbers (kernels/tracing/random.h) and sums (kernels/tracing/film.h).
+#include "check/check.h"
 #include "check/device_arrays.h"
-#include "check/subjects.h"
 
 #include <fmt/format.h>
 

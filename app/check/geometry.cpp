@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The traversal of kernels/tracing/bvh.h against every triangle in double precision. Where a ray passes an edge within the rounding of
 // coordinates either side is right (exact_hits.h); nothing else may differ.
-#include "check/exact_hits.h"
-#include "check/subjects.h"
+#include "check/check.h"
+#include "check/tracer.h"
 #include "scene/shapes.h"
 
 #include <fmt/format.h>

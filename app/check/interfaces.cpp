@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snell's and Fresnel's laws in kernels/tracing/fresnel.h against optics/fresnel.h in double precision, and nested media
 // (kernels/tracing/media.h).
+#include "check/check.h"
 #include "check/device_arrays.h"
-#include "check/subjects.h"
 #include "optics/fresnel.h"
 
 #include <fmt/format.h>

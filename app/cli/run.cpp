@@ -7,12 +7,11 @@
 #include "cli/numbers.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
-#include "compute/compiling.h"
+#include "compute/compute.h"
 #include "measure/measured_job.h"
-#include "preset/check.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "run/pictures_at.h"
+#include "run/picture.h"
 #include "run/reference.h"
 
 #include <fmt/format.h>

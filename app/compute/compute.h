@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <map>
 #include <memory>
@@ -183,5 +184,10 @@ std::string kernel_sources(const Context& context, std::string_view folder);
 std::string kernel_source(const Context& context, const std::string& file);
 /// With DeviceOptions::kernels: true once after any file in that folder changed, so that the owner rebuilds.
 bool kernels_changed(const Context& context);
+
+/// Who waits for kernels to be compiled is told so: the first run with a new option takes seconds to begin.
+/// From here on tell() is called before the context compiles a kernel source, by the thread that uses it, and not for programs that it has
+/// already. OpenCL may go on compiling until each kernel has run once.
+void tell_of_compiling(const Context& context, std::function<void()> tell);
 
 } // namespace nephroid::compute

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choosing a device and opening it with one queue.
-#include "compute/compiling.h"
+#include "compute/compute.h"
 #include "compute/state.h"
 
 #include <fmt/format.h>

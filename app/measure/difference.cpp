@@ -5,7 +5,7 @@
 #include "measure/colour_bar.h"
 #include "measure/flip.h"
 #include "measure/lab.h"
-#include "measure/pixels.h"
+#include "measure/metrics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include "measure/flip.h"
 #include "measure/iw_ssim.h"
 #include "measure/lab.h"
-#include "measure/pixels.h"
 
 #include <algorithm>
 #include <cmath>

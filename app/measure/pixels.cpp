@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/pixels.h"
+#include "measure/metrics.h"
 
 #include "base/error.h"
 #include "base/parallel.h"

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "image/image.h"
-#include "measure/pixels.h"
+#include "measure/metrics.h"
 
 #include <utility>
 

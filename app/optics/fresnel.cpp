@@ -3,14 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace nephroid::optics {
-namespace {
-
-constexpr double degrees_per_radian = 180 / std::numbers::pi;
-
-} // namespace
 
 std::optional<double> refracted_cosine(double cos_i, double n_i, double n_t)
 {
@@ -31,13 +25,5 @@ double fresnel_reflectance(double cos_i, double n_i, double n_t)
   const double s = (n_i * cos_i - n_t * *cos_t) / s_sum, p = (n_i * *cos_t - n_t * cos_i) / p_sum;
   return std::min(1.0, (s * s + p * p) / 2);
 }
-
-std::optional<double> critical_angle_deg(double n_i, double n_t)
-{
-  if (n_i <= n_t) return std::nullopt;
-  return std::asin(n_t / n_i) * degrees_per_radian;
-}
-
-double brewster_angle_deg(double n_i, double n_t) { return std::atan2(n_t, n_i) * degrees_per_radian; }
 
 } // namespace nephroid::optics

@@ -9,8 +9,5 @@ namespace nephroid::optics {
 std::optional<double> refracted_cosine(double cos_i, double n_i, double n_t);
 /// Unpolarised reflectance 0..1; 1 at total internal reflection.
 double fresnel_reflectance(double cos_i, double n_i, double n_t);
-/// Angle in degrees beyond which light inside n_i is totally reflected; empty where n_i <= n_t.
-std::optional<double> critical_angle_deg(double n_i, double n_t);
-double brewster_angle_deg(double n_i, double n_t);
 
 } // namespace nephroid::optics

@@ -44,11 +44,20 @@ void require_no_negative_power(std::span<const Row> rows)
     if (row[1] < 0) throw bad_input({}, fmt::format("the light's power at {} nm is {}", row[0], row[1]), "expected 0 or more");
 }
 
-Error unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& known)
+/// A column by its name. Throws bad_input that lists the known names.
+LinearTable column(const Table& table, const char* kind, const std::string& name)
 {
-  const std::string near = nearest(name, known);
-  return bad_input({}, fmt::format("no {} is called \"{}\"", kind, name), fmt::format("expected one of {}", fmt::join(known, ", ")),
-                   near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
+  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+  if (found != table.columns.end()) return LinearTable(table.rows(static_cast<std::size_t>(found - table.columns.begin())));
+  const std::string near = nearest(name, table.columns);
+  throw bad_input({}, fmt::format("no {} is called \"{}\"", kind, name), fmt::format("expected one of {}", fmt::join(table.columns, ", ")),
+                  near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
+}
+
+const Table& illuminants()
+{
+  static const Table table = read_table("illuminants");
+  return table;
 }
 
 const Table& colorchecker()
@@ -59,18 +68,11 @@ const Table& colorchecker()
 
 } // namespace
 
-const std::vector<std::string>& illuminant_names()
-{
-  static const std::vector<std::string> names{"A",  "D50", "D65", "E",  "F1", "F2",  "F3",  "F4",
-                                              "F5", "F6",  "F7",  "F8", "F9", "F10", "F11", "F12"};
-  return names;
-}
+const std::vector<std::string>& illuminant_names() { return illuminants().columns; }
 
 Spectrum illuminant(const std::string& name)
 {
-  const auto& names = illuminant_names();
-  if (std::find(names.begin(), names.end(), name) == names.end()) throw unknown("illuminant", name, names);
-  return normalised(sampled(LinearTable(read_table("illuminant-" + name).rows(0)), false), "illuminant " + name);
+  return normalised(sampled(column(illuminants(), "illuminant", name), false), "illuminant " + name);
 }
 
 Spectrum blackbody(double temperature_k)
@@ -114,13 +116,7 @@ Spectrum light_lines(std::span<const std::array<double, 2>> nm_power)
 
 const std::vector<std::string>& colorchecker_names() { return colorchecker().columns; }
 
-Spectrum colorchecker_patch(const std::string& name)
-{
-  const auto& names = colorchecker_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw unknown("ColorChecker patch", name, names);
-  return sampled(LinearTable(colorchecker().rows(static_cast<std::size_t>(found - names.begin()))), true);
-}
+Spectrum colorchecker_patch(const std::string& name) { return sampled(column(colorchecker(), "ColorChecker patch", name), true); }
 
 Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance)
 {

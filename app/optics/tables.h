@@ -10,7 +10,7 @@
 namespace nephroid::optics {
 
 struct EmbeddedTable {
-  std::string_view name; ///< the file's stem, e.g. "illuminant-D65"
+  std::string_view name; ///< the file's stem, e.g. "illuminants"
   std::string_view csv;
 };
 /// Generated at build time.

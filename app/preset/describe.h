@@ -16,7 +16,6 @@
 // cubes fit single precision; scales between 1e-6 and 1e6.
 #pragma once
 #include "preset/choices.h"
-#include "preset/describe_limits.h"
 #include "preset/field.h"
 #include "preset/preset.h"
 

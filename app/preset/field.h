@@ -119,4 +119,14 @@ concept WithShorthands = Variant<S> && requires
 template <class S, class T>
 concept Is = std::same_as<std::remove_const_t<S>, T>;
 
+inline constexpr Bounds index_bounds = within(0.01, 100); ///< this and the next: shared by many fields; describe.h says why
+inline constexpr Bounds wavelength_bounds = within(1, 1e6);
+inline constexpr Bounds coefficient_bounds = within(-1e6, 1e6);
+inline constexpr Bounds position_bounds = within(-1e7, 1e7);
+inline constexpr Bounds length_bounds = within(1e-6, 1e7);
+inline constexpr Bounds power_bounds = within(0, 1e9);
+inline constexpr Count term_count{1, 16};
+inline constexpr std::size_t max_rows = 100000;
+inline constexpr std::string_view length_unit = "length units";
+
 } // namespace nephroid::preset

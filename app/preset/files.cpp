@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "preset/file_names.h"
+#include "preset/read.h"
+#include "preset/writer.h"
 
 #include <optional>
 #include <system_error>
@@ -55,5 +57,9 @@ Preset moved_to(Preset preset, const fs::path& folder)
   describe(names, preset);
   return preset;
 }
+
+std::string to_json(const Preset& preset) { return pretty(Writer::json(preset)); }
+
+std::string to_json(const Preset& preset, const std::filesystem::path& folder) { return to_json(moved_to(preset, folder)); }
 
 } // namespace nephroid::preset

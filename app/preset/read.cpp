@@ -2,11 +2,9 @@
 #include "preset/read.h"
 
 #include "base/error.h"
-#include "preset/check.h"
 #include "preset/document.h"
 #include "preset/origins.h"
 #include "preset/reader_visitor.h"
-#include "preset/sweep.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Presets in and out: strict reading with inheritance, overrides and sweeps; writing; the JSON schema.
 #pragma once
+#include "base/place.h"
 #include "preset/preset.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,5 +41,8 @@ struct ShippedPreset {
 };
 /// Every preset under presets_folder(), sorted by name.
 std::vector<ShippedPreset> shipped_presets();
+
+/// Throws bad_input at where(pointer) of the first contradiction.
+void check(const Preset& preset, const std::function<Place(const std::string& pointer)>& where);
 
 } // namespace nephroid::preset

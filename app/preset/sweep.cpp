@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preset/sweep.h"
+#include "preset/document.h"
 
 #include "base/error.h"
 

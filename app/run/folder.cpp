@@ -3,7 +3,7 @@
 #include "base/files.h"
 #include "plan/plan.h"
 #include "preset/read.h"
-#include "run/pictures_at.h"
+#include "run/picture.h"
 #include "run/run.h"
 
 #include <nlohmann/json.hpp>

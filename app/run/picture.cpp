@@ -2,7 +2,13 @@
 #include "run/picture.h"
 
 #include "base/build_info.h"
+#include "base/files.h"
+#include "base/json_output.h"
 #include "preset/read.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace nephroid::run {
 
@@ -35,6 +41,81 @@ void write_picture(const std::filesystem::path& stem, const preset::Preset& pres
                     {"nephroid:version", version()}};
   image::write_exr(stem.string() + ".exr", exr);
   image::write_png(stem.string() + ".png", picture.width, picture.height, picture.rgb);
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void write_list(const fs::path& folder, const Json& list) { write_file_whole(folder / pictures_file, json_text(list, 2) + "\n"); }
+
+/// "at-0010s", "at-0002.5s": in the order of time as a folder lists them.
+std::string stem_at(double seconds)
+{
+  std::string number = fmt::format("{:08.3f}", seconds);
+  number.erase(number.find_last_not_of('0') + 1);
+  if (number.ends_with('.')) number.pop_back();
+  return "at-" + number + "s";
+}
+
+} // namespace
+
+Json pictures_at(const fs::path& folder)
+{
+  Json list = Json::array();
+  if (!is_there(folder / pictures_file)) return list;
+  try {
+    for (const Json& made : Json::parse(read_file(folder / pictures_file)))
+      list.push_back({{"seconds", made.at("seconds").get<double>()},
+                      {"work_seconds", made.at("work_seconds").get<double>()},
+                      {"picture", fs::path(made.at("picture").get<std::string>()).filename().string()},
+                      {"errors", made.at("errors")}});
+  } catch (const Json::exception&) {
+    // Written by something else: the pictures are there all the same.
+  }
+  return list;
+}
+
+Json by_column(const std::vector<std::string>& columns, const std::vector<double>& values)
+{
+  Json all = Json::object();
+  for (std::size_t i = 0; i < columns.size() && i < values.size(); ++i) all[columns[i]] = std::isnan(values[i]) ? Json() : Json(values[i]);
+  return all;
+}
+
+Json write_picture_at(const fs::path& folder, double seconds, const Prepared& prepared, const compute::DeviceInfo& device,
+                      const job::Snapshot& snapshot)
+{
+  const std::string stem = stem_at(seconds);
+  write_picture(folder / stem, prepared.preset, device, *snapshot.picture);
+  Json errors = Json::object();
+  if (const auto& history = snapshot.history; history && !history->rows.empty() && history->rows.back().seconds >= seconds)
+    errors = by_column(history->columns, history->rows.back().errors);
+  const Json made{{"seconds", seconds}, {"work_seconds", snapshot.progress.work_seconds}, {"picture", stem + ".png"}, {"errors", errors}};
+  Json list = pictures_at(folder);
+  list.push_back(made);
+  write_list(folder, list);
+  return made;
+}
+
+void remove_pictures_after(const fs::path& folder, double work_seconds)
+{
+  Json kept = Json::array();
+  std::error_code ignored;
+  for (const Json& made : pictures_at(folder)) {
+    if (made["work_seconds"] <= work_seconds) {
+      kept.push_back(made);
+      continue;
+    }
+    const fs::path picture = folder / made["picture"].get<std::string>();
+    fs::remove(picture, ignored);
+    fs::remove(fs::path(picture).replace_extension(".exr"), ignored);
+  }
+  if (kept.empty())
+    fs::remove(folder / pictures_file, ignored);
+  else
+    write_list(folder, kept);
 }
 
 } // namespace nephroid::run

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A job's picture as files hold it.
+// A job's picture as files hold it: the last one, and those at chosen times of work, at-0010s.png and .exr, with pictures.json, which says
+// what error each has.
 #pragma once
 #include "compute/compute.h"
 #include "image/image.h"
 #include "job/job.h"
 #include "preset/preset.h"
+#include "run/run.h"
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 
 namespace nephroid::run {
 
@@ -16,5 +19,22 @@ image::Image with_layers(const job::Picture& picture);
 /// STEM.exr with its layers, and as attributes the preset, its seed, the device and the program's version; and STEM.png as shown.
 void write_picture(const std::filesystem::path& stem, const preset::Preset& preset, const compute::DeviceInfo& device,
                    const job::Picture& picture);
+
+inline constexpr const char* pictures_file = "pictures.json";
+
+/// Errors by the names of a history's columns; what is undefined is null.
+nlohmann::ordered_json by_column(const std::vector<std::string>& columns, const std::vector<double>& values);
+
+/// The list in the folder's pictures.json, of {"seconds": as asked for, "work_seconds": when it was made, "picture": its file,
+/// "errors": by column}; empty where there is none.
+nlohmann::ordered_json pictures_at(const std::filesystem::path& folder);
+
+/// Writes both pictures and adds them to the list. Returns what it added. The errors are those of the newest row of the history where
+/// that is of `seconds` or later. Throws failed as write_run does.
+nlohmann::ordered_json write_picture_at(const std::filesystem::path& folder, double seconds, const Prepared& prepared,
+                                        const compute::DeviceInfo& device, const job::Snapshot& snapshot);
+
+/// Removes those of later than work_seconds: of work that a resumed run does again, or all (-1).
+void remove_pictures_after(const std::filesystem::path& folder, double work_seconds);
 
 } // namespace nephroid::run

@@ -8,7 +8,6 @@
 #include "plan/plan.h"
 #include "report/report.h"
 #include "run/picture.h"
-#include "run/pictures_at.h"
 #include "run/run.h"
 
 #include <fmt/format.h>

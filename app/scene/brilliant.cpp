@@ -3,7 +3,7 @@
 // culet. The two angles and the table are Tolkowsky's (Diamond Design, 1919); star and lower-girdle lengths are common today
 // (Gemological Institute of America, "Estimating a round brilliant's cut grade"). The girdle is a prism of 16 flat sides, so
 // that the upper and lower girdle facets end in straight edges.
-#include "scene/facets.h"
+#include "scene/shapes.h"
 
 #include <array>
 #include <cmath>

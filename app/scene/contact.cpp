@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/contact.h"
+// Glass that stands exactly on something else.
+#include "scene/place.h"
 
 #include "scene/corners.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walks PLY elements by their declared types (Turk 1994, "The PLY polygon file format") and GLB's header (glTF 2.0, section 4.4).
-#include "scene/mesh_check.h"
+#include "scene/mesh_parts.h"
 
 #include "base/error.h"
 

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "scene/mesh.h"
-#include "scene/mesh_check.h"
 #include "scene/mesh_parts.h"
 
 #include <fmt/format.h>

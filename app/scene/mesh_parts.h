@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What checks of meshes (mesh.cpp), mesh files (mesh_file.cpp) and their reader (reader/main.cpp) share. Private to scene/.
 #pragma once
+#include "base/place.h"
 #include "scene/mesh.h"
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace nephroid::scene {
@@ -20,5 +23,13 @@ bool is_degenerate(const Mesh& mesh, const glm::uvec3& triangle);
 /// The angle-weighted mean normal of the triangles at each vertex, unit; vertices with the same entry in `same` share one mean.
 /// (0, 0, 0) where no triangle with an area meets.
 std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uint32_t>& same);
+
+/// Assimp takes what is missing from a PLY file for zeros, and reserves memory for whatever a PLY or GLB header promises, so both are
+/// counted before it sees them (mesh_check.cpp). Throws bad_input at `where` if bytes open like a PLY or GLB file and end before what their
+/// header declares, or if the header makes no sense. Other files pass.
+void check_declared_size(std::string_view bytes, const Place& where);
+
+/// Text from a file or its reader as one short line of printable ASCII, without a full stop at its end.
+std::string printable(std::string_view text);
 
 } // namespace nephroid::scene

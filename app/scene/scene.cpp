@@ -2,8 +2,6 @@
 // Puts the scene together: materials, then objects in place, then the lights and the camera, which need to know the objects.
 #include "scene/scene.h"
 
-#include "scene/contact.h"
-
 #include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"

@@ -4,7 +4,6 @@
 #include "scene/shapes.h"
 
 #include "base/error.h"
-#include "scene/facets.h"
 
 #include <fmt/format.h>
 

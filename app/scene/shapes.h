@@ -6,6 +6,7 @@
 #include "preset/preset.h"
 #include "scene/mesh.h"
 
+#include <span>
 #include <string>
 
 namespace nephroid::scene {
@@ -18,5 +19,11 @@ namespace nephroid::scene {
 /// brilliant: the round brilliant cut, table up: 57 facets and 16 of the girdle (brilliant.cpp).
 /// Throws bad_input at where for sizes that are not positive, an apex angle outside 0..180, segments below 3 or too many.
 Mesh make_shape(const preset::Shape& shape, const Place& where = "shape");
+
+/// Adds a flat convex polygon, counter-clockwise seen from outside, as a fan with vertices and one normal of its own.
+void add_facet(Mesh& mesh, std::span<const glm::dvec3> corners);
+
+/// The round brilliant of unit girdle radius.
+Mesh make_brilliant(); // brilliant.cpp
 
 } // namespace nephroid::scene

@@ -1,16 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": kernels/spectral/background.cl.
-#include "spectral/sampled_pixels.h"
-#include "spectral/stages.h"
-#include "spectral/tables/background_tables.h"
-#include "tracing/film.h"
+#include "kernels/tracing/shared_types.h"
+#include "optics/colour.h"
+#include "optics/primary_spectra.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+#include "spectral/eye_stage.h"
+#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
+#include <vector>
 
 namespace nephroid::spectral {
 namespace {
+
+using optics::Spectrum;
+using optics::wavelength_count;
+
+shared::float4 to_float4(const optics::Colour& xyz)
+{
+  return {static_cast<float>(xyz[0]), static_cast<float>(xyz[1]), static_cast<float>(xyz[2]), 0};
+}
+
+optics::Colour one_wavelength(const Spectrum& spectrum, std::size_t w)
+{
+  const optics::ColourMatching& eye = optics::cie_1931();
+  return {spectrum[w] * eye.x[w], spectrum[w] * eye.y[w], spectrum[w] * eye.z[w]};
+}
+
+struct BackgroundTables {
+  shared::DeviceBackground size{};
+  std::vector<shared::float4> primary_xyz; ///< [401, all of them at the end][primary]
+  std::vector<float> spectrum_cdf;         ///< [401]: exact_cdf of what the eye makes of a grey environment
+  double film_scale = 1;                   ///< quanta per unit of the picture's values, a power of two
+  double limit = 1;                        ///< quanta that one contribution may have
+};
+
+/// pixel_samples: that the film is to hold.
+BackgroundTables make_background_tables(const scene::Environment& environment, int pixel_samples)
+{
+  BackgroundTables tables;
+  tables.size = {environment.width, environment.height, static_cast<float>(std::fmod(environment.rotate_deg, 360.0) / 360), 0};
+  std::vector<double> weights(wavelength_count, 0.0); // of grey
+  for (std::size_t w = 0; w < weights.size(); ++w)
+    for (const Spectrum& primary : optics::primary_spectra()) {
+      const optics::Colour xyz = one_wavelength(primary, w);
+      tables.primary_xyz.push_back(to_float4(xyz));
+      weights[w] += tracing::worth((xyz[0] + xyz[1] + xyz[2]) / 3, primary[w]);
+    }
+  for (const Spectrum& primary : optics::primary_spectra()) tables.primary_xyz.push_back(to_float4(optics::to_xyz(primary)));
+  tables.spectrum_cdf = tracing::exact_cdf(weights);
+  // 2^24 quanta for a mean texel; all samples of a pixel together cannot leave 63 bits.
+  const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) / static_cast<double>(environment.rgb.size());
+  tables.film_scale = tracing::power_of_two_below(0x1p24 / mean);
+  tables.limit = 0x1p62 / pixel_samples;
+  return tables;
+}
+
+/// Whether no glass that an object is of bends one wavelength otherwise than another.
+bool goes_one_way(const scene::Scene& scene)
+{
+  return std::none_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+    const scene::Material& material = material_of(scene, object);
+    const auto same = [&](double n) { return n == material.n.front(); };
+    return material.type == scene::Material::Type::dielectric && !std::all_of(material.n.begin(), material.n.end(), same);
+  });
+}
 
 std::vector<int> all_wavelengths()
 {
@@ -19,16 +78,15 @@ std::vector<int> all_wavelengths()
   return all;
 }
 
-class BackgroundStage final : public Stage {
+class BackgroundStage final : public EyeStage {
 public:
   BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-      : world_(world), pixel_samples_(settings.pixel_samples), radiance_(scene.environment->radiance),
+      : EyeStage(world, "background", settings), radiance_(scene.environment->radiance),
         tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
         texels_(tracing::upload_vector(world.context, "environment", scene.environment->rgb)),
         primary_xyz_(tracing::upload_vector(world.context, "colours of the primaries", tables_.primary_xyz)),
         wavelengths_(tracing::upload_vector(world.context, "wavelengths", all_wavelengths())),
-        spectrum_cdf_(tracing::upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf)),
-        film_(world.zeroed("film background", world.film_size())), pixels_(world, settings.pixel_samples)
+        spectrum_cdf_(tracing::upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf))
   {
     compute::Defines defines = world.defines;
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
@@ -36,68 +94,27 @@ public:
     kernel_ = compute::Program(world.context, "spectral/background.cl", defines).kernel("background");
   }
 
-  const char* name() const override { return "background"; }
-  std::int64_t passes() const override { return pixels_.passes(); }
-  double part() const override { return pixels_.part(); }
-  double glass_work() const override
-  {
-    return paths_through_glass * work_of_a_path * static_cast<double>(pixels_.glass()) / static_cast<double>(pixels_.every());
-  }
-  void share_work(double factor) override { pixels_.sample_one_pass_in(static_cast<double>(pixels_.every()) / factor); }
-
   bool step(std::int64_t pass) override
   {
-    return pixels_.step(pass, [&](std::uint32_t first, std::uint32_t count) {
-      world_.run(
-          kernel_, count, 64,
-          {{"texels", texels_},
-           {"primary_xyz", primary_xyz_},
-           {"size", tables_.size},
-           {"wavelengths", wavelengths_},
-           {"spectrum_cdf", spectrum_cdf_},
-           {"film", film_},
-           {"energy", world_.energy},
-           {"camera", world_.tables.camera},
-           {"seed", world_.seed},
-           {"frame", static_cast<std::uint32_t>(pass)},
-           {"pixels", world_.pixels.on_device},
-           {"first", first},
-           {"count", count},
-           {"film_scale", static_cast<float>(tables_.film_scale)},
-           {"film_limit", static_cast<float>(pass < pixel_samples_ ? tables_.limit : std::min(tables_.limit, tracing::film_limit))}});
-    });
+    return sample(pass, kernel_, tables_.limit,
+                  {{"texels", texels_},
+                   {"primary_xyz", primary_xyz_},
+                   {"size", tables_.size},
+                   {"wavelengths", wavelengths_},
+                   {"spectrum_cdf", spectrum_cdf_},
+                   {"film_scale", static_cast<float>(tables_.film_scale)}});
   }
 
-  void develop(std::int64_t, bool, job::Picture& picture) override
-  {
-    const auto samples = [&](std::size_t pixel) { return pixels_.samples(pixel); };
-    const std::vector<std::int64_t> sums = film_.read();
-    tracing::add_layer("background", {sums, tables_.film_scale * world_.white / radiance_, samples}, picture);
-  }
-
-  void save(tracing::StateWriter& to) const override
-  {
-    pixels_.save(to);
-    to.buffer(film_);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    pixels_.load(from);
-    from.buffer(film_);
-  }
+  void develop(std::int64_t, bool, job::Picture& picture) override { add_to(picture, tables_.film_scale * world_.white / radiance_); }
 
 private:
-  DeviceWorld& world_;
-  std::int64_t pixel_samples_;
   double radiance_; ///< of the texel (1, 1, 1)
   BackgroundTables tables_;
   compute::Buffer<float> texels_;
   compute::Buffer<shared::float4> primary_xyz_;
   compute::Buffer<int> wavelengths_;
   compute::Buffer<float> spectrum_cdf_;
-  compute::Buffer<std::int64_t> film_;
   compute::Kernel kernel_;
-  SampledPixels pixels_;
 };
 
 } // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The settings of engine 1 described for visitors: preset/describe.h says what a visitor is.
 #pragma once
-#include "preset/describe_limits.h"
 #include "preset/field.h"
 #include "spectral/settings.h"
 

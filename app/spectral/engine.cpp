@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/engine.h"
 
-#include "spectral/checks/subjects.h"
-#include "spectral/relight/only_relit.h"
+#include "spectral/checks/render.h"
+#include "spectral/relight/layer_light.h"
 
 #include <algorithm>
 

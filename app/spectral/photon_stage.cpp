@@ -3,9 +3,9 @@
 #include "spectral/effort/emission_guide.h"
 #include "spectral/effort/variance_deal.h"
 #include "spectral/maps/photon_map.h"
-#include "spectral/stages.h"
+#include "spectral/stage.h"
 #include "tracing/film.h"
-#include "tracing/photon_slices.h"
+#include "tracing/step_size.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 1 runs for a preset and what it leaves out.
+#include "plan/plan.h"
 #include "base/counted.h"
 #include "preset/choices.h"
+#include "spectral/clusters/scene_clusters.h"
 #include "spectral/describe_settings.h"
 #include "spectral/effort/effort.h"
 #include "spectral/effort/emission_guide.h"
 #include "spectral/engine.h"
 #include "spectral/maps/map_plan.h"
-#include "spectral/maps/map_radius.h"
-#include "spectral/relight/layer_plan.h"
-#include "spectral/relight/layer_tables.h"
+#include "spectral/relight/layer_cells.h"
+#include "spectral/relight/layer_light.h"
 #include "spectral/smoothing.h"
 #include "spectral/tables/run_tables.h"
 #include "tracing/omissions.h"
@@ -21,6 +22,46 @@
 
 namespace nephroid::spectral {
 namespace {
+
+/// Why there are no photon maps.
+plan::Pass no_maps_of_layers()
+{
+  return {"photon maps", false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight", false};
+}
+
+/// What a run that keeps layers has in its plan: adds the pass "relighting", puts the layers' memory in place of the films' and takes out
+/// what only runs without layers leave out. tables: of make_run_tables.
+void plan_layers(const RunTables& tables, bool direct, bool photons, int halves, plan::Plan& plan)
+{
+  const std::size_t lights = tables.lights.size(), clusters = tables.wavelengths.clusters.size();
+  std::erase_if(plan.passes, [](const plan::Pass& p) { return p.name == "dark lights" || p.name == "unlit wavelengths"; });
+  const std::string split =
+      fmt::format("; in a cluster, what a material leaves of two wavelengths differs by at most {}", largest_loss_difference);
+  plan.passes.push_back({"relighting", true,
+                         fmt::format("{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
+                                     "half of the photons go to every cluster alike{}",
+                                     counted(lights * clusters, "layer"), counted(lights, "light"), counted(clusters, "wavelength cluster"),
+                                     tables.wavelengths.attenuator_count > 0 ? split : ""),
+                         "/spectral/relight", true});
+
+  std::erase_if(plan.buffers, [](const plan::PlannedBuffer& b) { return b.name == "film direct" || b.name == "film caustic"; });
+  const LayerBudget budget = layer_budget(tables.camera, tables.spheres);
+  const int reflectors = tables.wavelengths.reflector_count;
+  const std::size_t unbent = padded_cells(budget.unbent, reflectors), bent = padded_cells(budget.bent, reflectors);
+  const std::size_t pixels = static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
+  std::uint64_t beside = pixels * SURVEY_PLACES * (1 + SURVEY_PATHS) * sizeof(int); // the survey
+  const auto film = [&](const char* name, std::size_t layers, std::size_t cells) {
+    plan.buffers.push_back({name, sizeof(std::int64_t) * static_cast<std::uint64_t>(halves) * layers * cells});
+    // Where the cells are, and two weighed pictures by cell and by pixel.
+    beside += cells * sizeof(shared::LayerCell) + pixels * sizeof(int) + 6 * sizeof(float) * (cells + pixels);
+  };
+  if (direct) {
+    film("film direct", lights, unbent);
+    film("film direct through glass", lights * clusters, bent);
+  }
+  if (photons) film("film caustic", lights * clusters, unbent);
+  plan.buffers.push_back({"survey and weighing", beside});
+}
 
 /// A layer that the preset does not ask for.
 plan::Pass not_asked_for(const std::string& name, const std::string& field)

@@ -4,7 +4,7 @@
 #pragma once
 #include "preset/preset.h"
 #include "spectral/tables/device_world.h"
-#include "tracing/pixel_steps.h"
+#include "tracing/step_size.h"
 
 #include <algorithm>
 #include <array>

@@ -3,11 +3,10 @@
 #include "base/error.h"
 #include "spectral/engine.h"
 #include "spectral/glass_pixels.h"
-#include "spectral/relight/layer_tables.h"
-#include "spectral/relight/only_relit.h"
+#include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
 #include "spectral/smoothing.h"
-#include "spectral/stages.h"
+#include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/scales.h"
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a step of a job is.
+// The pixels, rows or photons of a pass in steps of about 50 ms.
 #pragma once
+#include "tracing/state_bytes.h"
+
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 
 namespace nephroid::tracing {
 
@@ -26,6 +30,82 @@ public:
 private:
   static constexpr double step_seconds = 0.05;
   double amount_;
+};
+
+/// The pixels of a pass, or its rows.
+class PixelSteps {
+public:
+  /// size: how many a pass has to begin with. first_step: how many the first step has.
+  PixelSteps(std::int64_t size, std::int64_t first_step) : size_(size), amount_(static_cast<double>(first_step)) {}
+
+  double part() const { return size_ > 0 ? static_cast<double>(done_) / static_cast<double>(size_) : 0; }
+  /// Of the pass in hand.
+  std::int64_t done() const { return done_; }
+
+  /// Calls work(first, count) for the next pixels (or rows) of the pass in hand, which has `size`; at most `most` at a time. True when the
+  /// pass is complete.
+  template <class Work>
+  bool step(std::int64_t size, std::int64_t most, const Work& work)
+  {
+    size_ = size;
+    const auto count = std::clamp<std::int64_t>(std::llround(amount_.amount()), 1, std::min(most, size - done_));
+    amount_.timed(static_cast<double>(count), [&] { work(static_cast<std::uint32_t>(done_), static_cast<std::uint32_t>(count)); });
+    done_ += count;
+    if (done_ < size) return false;
+    done_ = 0;
+    return true;
+  }
+
+  void save(StateWriter& to) const
+  {
+    to.value(done_);
+    to.value(size_);
+  }
+  void load(StateReader& from)
+  {
+    from.value(done_);
+    from.value(size_);
+  }
+
+private:
+  std::int64_t size_, done_ = 0;
+  StepSize amount_;
+};
+
+/// The photons of a pass: slice s of n has the photons s, s + n, s + 2 n, ..., so that each is a fair sample of all.
+class PhotonSlices {
+public:
+  double part() const { return static_cast<double>(at_.slice) / at_.slices; }
+  /// How many of the photons 0 .. photons - 1 of the pass in hand are done.
+  std::uint32_t done_of(std::uint32_t photons) const
+  {
+    return photons / at_.slices * at_.slice + std::min(photons % at_.slices, at_.slice);
+  }
+  /// Whether the next step is the first of a pass.
+  bool at_start() const { return at_.slice == 0; }
+
+  /// Calls work(offset, stride, count) for the next slice of `photons` photons. True when the pass is complete.
+  template <class Work>
+  bool step(std::uint32_t photons, const Work& work)
+  {
+    if (at_start())
+      at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons / photons_a_step_.amount()), 1, photons));
+    const std::uint32_t count = (photons - at_.slice + at_.slices - 1) / at_.slices;
+    photons_a_step_.timed(count, [&] { work(at_.slice, at_.slices, count); });
+    if (++at_.slice < at_.slices) return false;
+    at_ = {};
+    return true;
+  }
+
+  void save(StateWriter& to) const { to.value(at_); }
+  void load(StateReader& from) { from.value(at_); }
+
+private:
+  struct Position {
+    std::uint32_t slice = 0, slices = 1;
+  };
+  Position at_;
+  StepSize photons_a_step_{8192};
 };
 
 } // namespace nephroid::tracing

@@ -3,7 +3,6 @@
 
 #include "optics/colour.h"
 #include "tracing/exact_cdf.h"
-#include "tracing/worth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace nephroid::tracing {
 
@@ -27,10 +28,11 @@ struct World {
   }
 
   /// Runs a kernel that has WORLD_ARGUMENTS (kernels/tracing/world.h) beside its `own`, and waits for it.
-  void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own)
+  void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
+           std::initializer_list<compute::Argument> more = {})
   {
     const SceneBuffers& b = buffers;
-    const compute::Argument world[] = {{"nodes", b.nodes},
+    std::vector<compute::Argument> all{{"nodes", b.nodes},
                                        {"blocks", b.blocks},
                                        {"corners", b.corners},
                                        {"positions", b.positions},
@@ -53,7 +55,8 @@ struct World {
                                        {"reflectance", b.reflectance},
                                        {"reflector_count", reflector_count},
                                        {"scene", scene}};
-    kernel.run(global, local, world, own);
+    all.insert(all.end(), more);
+    kernel.run(global, local, all, own);
     context.finish();
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // compute/: devices, buffers, programs from embedded and from edited sources, and what each failure says.
 #include "base/error.h"
-#include "compute/compiling.h"
 #include "compute/compute.h"
 #include "compute/embedded.h"
 #include "tests/support/child.h"

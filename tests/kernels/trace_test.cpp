@@ -2,7 +2,7 @@
 // kernels/tracing/bvh.h against Embree on real meshes at several scales and places; every ray on which they differ is judged by a test of
 // all triangles in double precision. NEPHROID_TRACE_RAYS sets the number of rays a case (default 20000; a million for the table).
 #include "base/error.h"
-#include "check/exact_hits.h"
+#include "check/tracer.h"
 #include "compute/compute.h"
 #include "scene/bvh.h"
 #include "tests/support/meshes.h"

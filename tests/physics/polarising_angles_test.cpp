@@ -67,7 +67,7 @@ TEST(BrewstersAngle, HalfOfTheOtherPolarisationIsReflected)
     const double truth = std::pow((1 - n * n) / (1 + n * n), 2) / 2;
     expect_share(fmt::format("Brewster's angle: reflectance, n = {}", n), share_above(std::atan(n), n, -1), truth, photons);
     expect_truth(fmt::format("Brewster's angle: reflectance by optics/fresnel.h, n = {}", n),
-                 optics::fresnel_reflectance(std::cos(optics::brewster_angle_deg(1, n) * degree), 1, n), truth, 1e-15);
+                 optics::fresnel_reflectance(std::cos(std::atan(n)), 1, n), truth, 1e-15);
   }
 }
 

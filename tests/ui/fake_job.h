@@ -8,7 +8,7 @@
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "spectral/energy.h"
-#include "spectral/relight/only_relit.h"
+#include "spectral/relight/layer_light.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/state/workbench.h"

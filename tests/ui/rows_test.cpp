@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows by rising wavelength under edits: they keep apart and inside what a preset may have, drags are one entry, what cannot be is said.
 #include "optics/dispersion.h"
-#include "preset/describe_limits.h"
+#include "preset/field.h"
 #include "ui/dispersion/edits.h"
 #include "ui/spectra/light_edits.h"
 #include "ui/widgets/rows.h"

@@ -2,7 +2,6 @@
 // Wavelength clusters: the figures for N-SF66 and N-BK7, exact integrals, and what must hold for any curve.
 #include "optics/dispersion.h"
 #include "spectral/clusters/clusters.h"
-#include "spectral/clusters/clusters_theta.h"
 #include "tests/support/errors.h"
 
 #include <gmock/gmock.h>

@@ -3,7 +3,6 @@
 // in the thesis (section 4.1.1: 202 and 204 clusters sorted, 247 not sorted). Not here: clustering as such (clusters_test.cpp).
 #include "optics/dispersion.h"
 #include "spectral/clusters/clusters.h"
-#include "spectral/clusters/clusters_theta.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which edits are another light on the same scene.
-#include "spectral/relight/only_relit.h"
+#include "spectral/relight/layer_light.h"
 #include "tests/support/presets.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // No Dear ImGui here.
 #pragma once
 #include "optics/wavelength.h"
-#include "preset/describe_limits.h"
+#include "preset/field.h"
 #include "preset/preset.h"
 #include "ui/widgets/rows.h"
 

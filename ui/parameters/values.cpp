@@ -2,7 +2,7 @@
 // The widgets of single values: a number is dragged or typed, a word is chosen, a text is typed, a file is chosen.
 #include "base/files.h"
 #include "optics/spectrum.h"
-#include "preset/describe_limits.h"
+#include "preset/field.h"
 #include "ui/parameters/panel.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "optics/wavelength.h"
-#include "preset/describe_limits.h"
+#include "preset/field.h"
 #include "scene/materials.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/device_runs.h"
 
-#include "compute/compiling.h"
+#include "compute/compute.h"
 #include "measure/measured_job.h"
 #include "preset/origins.h"
 #include "run/reference.h"

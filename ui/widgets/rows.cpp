@@ -2,7 +2,7 @@
 #include "ui/widgets/rows.h"
 
 #include "optics/wavelength.h"
-#include "preset/describe_limits.h"
+#include "preset/field.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include "check/device_arrays.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
-#include "spectral/checks/subjects.h"
 #include "spectral/tables/run_tables.h"
 
 #include <fmt/format.h>

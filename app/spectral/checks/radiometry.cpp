@@ -6,7 +6,6 @@
 #include "optics/spectrum.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
-#include "spectral/checks/subjects.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include "spectral/checks/closed_forms.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
-#include "spectral/checks/subjects.h"
 
 #include <fmt/format.h>
 

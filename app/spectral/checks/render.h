@@ -2,6 +2,7 @@
 // Small pictures by the real engine and its tables, for checks, and what checks and tests read off a picture.
 #pragma once
 #include "base/error.h"
+#include "check/check.h"
 #include "compute/compute.h"
 #include "job/job.h"
 #include "optics/colour.h"
@@ -11,6 +12,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace nephroid::check {
 
@@ -35,5 +37,11 @@ inline double luminance(const job::Layer& layer, int width, int row, int column)
   const std::size_t i = 3 * static_cast<std::size_t>(row * width + column);
   return optics::linear_srgb_to_xyz({layer.rgb[i], layer.rgb[i + 1], layer.rgb[i + 2]})[1];
 }
+
+/// The checks of engine 1 by subject: its tables, its lights, and small pictures against closed forms.
+Checks spectral_checks();   ///< spectra.cpp: sums over wavelengths, absorption
+Checks emission_checks();   ///< emission.cpp: what lights send
+Checks radiometry_checks(); ///< radiometry.cpp: small pictures against closed forms of irradiance and power
+Checks refraction_checks(); ///< refraction.cpp: plates, a prism and a ball lens
 
 } // namespace nephroid::check

@@ -5,7 +5,6 @@
 #include "optics/spectrum.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
-#include "spectral/checks/subjects.h"
 #include "spectral/tables/run_tables.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 #include "spectral/clusters/clusters.h"
 
 #include "base/error.h"
-#include "spectral/clusters/clusters_theta.h"
 
 #include <fmt/format.h>
 

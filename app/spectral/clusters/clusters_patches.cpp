@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Theta by the thesis' bicubic patches (4.5)-(4.14): the surface d theta2 / d lambda over wavelength and angle of incidence is
 // cut into patches of 1 nm by 1 degree, each a bicubic polynomial, and a wavelength's Theta is the volume below its 89 patches.
-#include "spectral/clusters/clusters_theta.h"
+#include "spectral/clusters/clusters.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spectral/clusters/clusters_theta.h"
+#include "spectral/clusters/clusters.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #include "spectral/effort/effort.h"
 
 #include "spectral/effort/importance.h"
+#include "tracing/exact_cdf.h"
 #include "tracing/omissions.h"
-#include "tracing/worth.h"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,8 @@
 // its own, and the film adds them up like any other's.
 #include "spectral/maps/eye_paths.h"
 #include "spectral/maps/map_plan.h"
-#include "spectral/maps/map_radius.h"
 #include "spectral/maps/photon_map.h"
-#include "spectral/stages.h"
+#include "spectral/stage.h"
 #include "tracing/film.h"
 
 #include <algorithm>

@@ -6,12 +6,12 @@
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/importance.h"
 #include "spectral/maps/eye_paths.h"
-#include "spectral/maps/map_radius.h"
+#include "spectral/maps/map_plan.h"
 #include "spectral/maps/photon_map.h"
-#include "spectral/stages.h"
-#include "tracing/photon_slices.h"
+#include "spectral/stage.h"
+#include "tracing/exact_cdf.h"
 #include "tracing/scales.h"
-#include "tracing/worth.h"
+#include "tracing/step_size.h"
 
 #include <cmath>
 #include <numbers>

@@ -2,11 +2,16 @@
 #include "spectral/relight/layer_light.h"
 
 #include "scene/materials.h"
+#include "spectral/effort/emitters.h"
+#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace nephroid::spectral {
 namespace {
@@ -96,6 +101,111 @@ FlatLight flat_light(const tracing::WavelengthTables& tables)
     flat.mean_reflectance.push_back(static_cast<float>(sum / luminance));
   }
   return flat;
+}
+
+bool only_relit(const preset::Preset& before, const preset::Preset& now)
+{
+  if (!spectral::settings(before).relight || before.scene.lights.size() != now.scene.lights.size()) return false;
+  preset::Preset same = now;
+  same.name = before.name;
+  same.description = before.description;
+  same.white = before.white;
+  for (std::size_t i = 0; i < same.scene.lights.size(); ++i) {
+    const preset::Light& light = before.scene.lights[i];
+    same.scene.lights[i].spectrum = light.spectrum;
+    same.scene.lights[i].power_w = light.power_w;
+    same.scene.lights[i].irradiance_w_m2 = light.irradiance_w_m2;
+  }
+  return same == before;
+}
+
+namespace {
+
+/// Of each cluster of a light of 1 W.
+std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracing::WavelengthTables& tables)
+{
+  const optics::ColourMatching& eye = optics::cie_1931();
+  std::vector<double> power;
+  for (const std::vector<int>& cluster : tables.clusters) {
+    double sum = 0;
+    for (const int index : cluster) {
+      const auto w = static_cast<std::size_t>(index);
+      sum += tracing::worth(spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, spectrum[w]);
+    }
+    power.push_back(sum);
+  }
+  return power;
+}
+
+/// The parts become half of what they are of their sum, and get an equal part of the other half each; those that are `never` get nothing.
+std::vector<double> half_evenly(std::vector<double> parts, const std::vector<bool>& never)
+{
+  const double total = std::accumulate(parts.begin(), parts.end(), 0.0);
+  const auto count = static_cast<double>(std::count(never.begin(), never.end(), false));
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = never[i] ? 0 : (total > 0 ? parts[i] / total : 0) + 1 / count;
+  return parts;
+}
+
+scene::Scene with_unit_lights(const scene::Scene& scene)
+{
+  scene::Scene unit = scene;
+  for (scene::Light& light : unit.lights) (light.type == preset::Light::Type::directional ? light.irradiance_w_m2 : light.power_w) = 1;
+  return unit;
+}
+
+} // namespace
+
+std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const RunTables& tables, unsigned photons)
+{
+  const std::vector<std::vector<int>>& clusters = tables.wavelengths.clusters;
+  std::vector<PhotonSource> sources;
+  std::vector<double> parts;
+  std::vector<bool> never;
+  for (std::size_t l = 0; l < light.spectra.size(); ++l) {
+    const std::vector<double> worth = cluster_worth(light.spectra[l], tables.wavelengths);
+    for (std::size_t c = 0; c < clusters.size(); ++c) {
+      double share = 0;
+      for (const int w : clusters[c]) share += light.spectra[l][static_cast<std::size_t>(w)];
+      sources.push_back({0, static_cast<int>(l), static_cast<int>(c), share * light.power[l] / light.strongest()});
+      parts.push_back(tables.towards_targets_w[l] * light.power[l] * worth[c]);
+      never.push_back(!(tables.towards_targets_w[l] > 0));
+    }
+  }
+  parts = half_evenly(std::move(parts), never);
+  for (std::size_t i = 0; i < sources.size(); ++i) sources[i].weight = parts[i];
+  return make_emitters(sources, photons);
+}
+
+std::vector<float> layer_cluster_cdf(const LayerLight& light, const tracing::WavelengthTables& tables)
+{
+  std::vector<double> parts(tables.clusters.size(), 0);
+  for (std::size_t l = 0; l < light.spectra.size(); ++l) {
+    const std::vector<double> worth = cluster_worth(light.spectra[l], tables);
+    for (std::size_t c = 0; c < parts.size(); ++c) parts[c] += light.power[l] * worth[c];
+  }
+  parts = half_evenly(std::move(parts), std::vector<bool>(tables.clusters.size(), false));
+  return tracing::exact_cdf_from_zero(parts);
+}
+
+double layer_energy_scale(const LayerLight& light, const RunTables& tables)
+{
+  double watts = 0;
+  for (std::size_t l = 0; l < light.power.size(); ++l) watts += tables.towards_targets_w[l] * light.power[l];
+  return tracing::energy_scale(watts);
+}
+
+RunTables make_run_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, tracing::LeaveOut leave_out)
+{
+  if (!spectral::settings(preset).relight) return make_lit_tables(preset, scene, bvh, leave_out);
+  leave_out.dark_lights = leave_out.unlit_wavelengths = false;
+  RunTables tables = make_lit_tables(preset, with_unit_lights(scene), bvh, leave_out);
+  const LayerLight light = layer_light(scene, preset.white);
+  tables.emitters = layer_emitters(light, tables, static_cast<unsigned>(spectral::settings(preset).photons_per_pass));
+  tables.photons_per_pass = count_photons(tables.emitters);
+  tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
+  tables.wavelengths.cluster_cdf = layer_cluster_cdf(light, tables.wavelengths);
+  tables.energy_scale = layer_energy_scale(light, tables);
+  return tables;
 }
 
 } // namespace nephroid::spectral

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer, kept as layers: kernels/spectral/relight_direct.cl.
 #include "spectral/relight/layer_film.h"
-#include "spectral/relight/layer_tables.h"
+#include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
 #include "tracing/film.h"
-#include "tracing/pixel_steps.h"
+#include "tracing/step_size.h"
 
 #include <cmath>
 #include <utility>

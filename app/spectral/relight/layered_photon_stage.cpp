@@ -3,10 +3,10 @@
 // anew when the light changes, and what was sent before stays as good as it was.
 #include "spectral/effort/emitters.h"
 #include "spectral/relight/layer_film.h"
-#include "spectral/relight/layer_tables.h"
+#include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
 #include "tracing/film.h"
-#include "tracing/photon_slices.h"
+#include "tracing/step_size.h"
 
 #include <algorithm>
 

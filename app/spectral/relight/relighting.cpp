@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/relight/relighting.h"
 
-#include "spectral/relight/layer_tables.h"
+#include "spectral/relight/layer_light.h"
 
 #include <utility>
 

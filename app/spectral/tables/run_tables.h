@@ -20,7 +20,7 @@ struct RunTables : tracing::SceneTables {
   double energy_scale = 1;                     ///< energy quanta per watt, a power of two
 };
 
-/// For the lights as they are (relight/layer_tables.h: for lights to come). Throws bad_input as tracing::make_scene_tables does, for a
+/// For the lights as they are (relight/layer_light.h: for lights to come). Throws bad_input as tracing::make_scene_tables does, for a
 /// threshold that cluster_wavelengths refuses, and as make_effort does.
 RunTables make_lit_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
                           const tracing::LeaveOut& leave_out);
