@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-/// The values are the exit codes of the command line (contract.md).
+/// The values are the exit codes of the command line.
 enum class ErrorKind { failed = 1, bad_input = 2, no_device = 3, interrupted = 130 };
 
 /// Thrown everywhere; caught at the edge (a verb, the worker, a panel) and shown as line().

@@ -17,7 +17,7 @@ struct Window {
   std::function<int(const std::vector<std::string>& files)> open; ///< returns the exit code
 };
 
-/// Parses and runs one command. Returns the exit code of contract.md; every error is one line on standard error.
+/// Parses and runs one command. Returns the exit code; every error is one line on standard error.
 int run_command_line(int argc, const char* const* argv, const Window& window);
 
 } // namespace nephroid::cli

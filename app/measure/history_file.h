@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// history.csv: `seconds,wall_seconds,step,work,` then a column a metric (contract.md), one row a measurement. Numbers round-trip; an
+// history.csv: `seconds,wall_seconds,step,work,` then a column a metric, one row a measurement. Numbers round-trip; an
 // undefined error is an empty cell. Noise floor, error column and measuring time are in run.json, not here.
 #pragma once
 #include "job/history.h"

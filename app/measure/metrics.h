@@ -43,7 +43,7 @@ Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, 
 std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks,
                                   Effort effort = Effort::full);
 
-/// Every metric's name and value in the order of contract.md, `pixels` left out; NaN where it is none.
+/// Every metric's name and value in the order of `nephroid compare`, `pixels` left out; NaN where it is none.
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics);
 
 /// The quick metrics again and again against one reference, whose share of the work is done once. 512 x 512: about 20 ms a call.

@@ -14,7 +14,7 @@ struct ColourMatching {
 };
 const ColourMatching& cie_1931();
 
-/// Sum over wavelengths of spectrum times (xbar, ybar, zbar), times 1 nm; no factor 683 (contract.md).
+/// Sum over wavelengths of spectrum times (xbar, ybar, zbar), times 1 nm; no factor 683.
 Colour to_xyz(const Spectrum& spectrum);
 /// Inverse of the four-digit IEC matrix, no adaptation, no clipping.
 Colour xyz_to_linear_srgb(const Colour& xyz);

@@ -10,7 +10,7 @@
 
 namespace nephroid::optics {
 
-/// All spectra of lights here sum to 1 over the 401 wavelengths (contract.md); multiply by watts.
+/// All spectra of lights here sum to 1 over the 401 wavelengths; multiply by watts.
 /// name: A, D50, D65, E, F1..F12. Throws bad_input listing the known names and the nearest.
 Spectrum illuminant(const std::string& name);
 /// Planck's law. Throws bad_input where temperature_k is not above 0.

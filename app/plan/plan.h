@@ -43,7 +43,7 @@ struct Plan {
   bool estimates_error = false;            ///< films are kept in two halves, whose difference tells the error
 };
 
-/// contract.md: {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes";
+/// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes";
 /// "field" and "run_value" only where a field decides. Over several lines, as plan.json has it.
 std::string to_json(const Plan& plan);
 /// The same on one line, with the run's "name" before it: a sweep is a line a run.

@@ -45,7 +45,7 @@ Json device_json(const compute::DeviceInfo& device)
           {"driver", device.driver}, {"version", device.version}, {"compute_units", device.compute_units}};
 }
 
-/// The run's error: contract.md's "errors", with what they were measured against and what the measuring cost.
+/// The run's error, "errors", with what they were measured against and what the measuring cost.
 void add_errors(Json& run, const job::History& history, const measure::Reference* reference)
 {
   run["measuring_seconds"] = history.measuring_seconds;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan as others read it: the JSON of contract.md, and the text a person sees.
+// The plan as others read it: their JSON, and the text a person sees.
 #include "plan/plan.h"
 
 #include <gmock/gmock.h>

@@ -5,7 +5,6 @@
 #include "optics/dispersion.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
-#include "spectral/clusters/clusters_theta.h"
 #include "spectral/clusters/scene_clusters.h"
 #include "ui/state/dielectrics.h"
 
