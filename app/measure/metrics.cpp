@@ -122,11 +122,11 @@ Metrics QuickComparison::against(const Pixels& picture) const
   return metrics_of(std::accumulate(blocks.begin(), blocks.end(), Sums{}, [](Sums a, const Sums& b) { return a += b; }));
 }
 
-std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, Effort effort)
+std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, Which which)
 {
   std::vector<Metrics> results;
   for (const Mask mask : masks) results.push_back(QuickComparison(reference, mask).against(picture));
-  if (effort == Effort::quick) return results;
+  if (which == Which::quick) return results;
   const std::vector<std::optional<double>> similarities = iw_ssim_each(picture, reference, masks);
   const std::vector<float> flip = flip_map(picture, reference), hdr_flip = hdr_flip_map(picture, reference);
   for (std::size_t m = 0; m < masks.size(); ++m) {
@@ -137,9 +137,9 @@ std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference
   return results;
 }
 
-Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Effort effort)
+Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Which which)
 {
-  return compare_each(picture, reference, std::span<const Mask>(&mask, 1), effort).front();
+  return compare_each(picture, reference, std::span<const Mask>(&mask, 1), which).front();
 }
 
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics)

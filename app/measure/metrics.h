@@ -34,14 +34,13 @@ struct Metrics {
   std::size_t pixels = 0;         ///< that were counted
 };
 
-enum class Effort { quick, full };
+enum class Which { quick, full }; ///< metrics
 
 /// FLIP's maps and IW-SSIM's are made of the whole pictures and averaged over the mask.
 /// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel that counts.
-Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, Effort effort = Effort::full);
+Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, Which which = Which::full);
 /// The same for several masks, one after the other, at little more than the cost of one.
-std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks,
-                                  Effort effort = Effort::full);
+std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, Which which = Which::full);
 
 /// Every metric's name and value in the order of `nephroid compare`, `pixels` left out; NaN where it is none.
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics);

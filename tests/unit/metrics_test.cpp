@@ -22,7 +22,7 @@ using testing::Optional;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Metrics quick(const Picture& a, const Picture& b, Mask mask = {}) { return compare(a.pixels("a"), b.pixels("b"), mask, Effort::quick); }
+Metrics quick(const Picture& a, const Picture& b, Mask mask = {}) { return compare(a.pixels("a"), b.pixels("b"), mask, Which::quick); }
 
 Picture stripes(int phase)
 {

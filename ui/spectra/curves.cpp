@@ -98,7 +98,7 @@ std::vector<double> importance_of(const spectral::Settings& settings, const Spec
   using Effort = spectral::Settings::Effort;
   if (settings.effort == Effort::importance || settings.effort == Effort::radziszewski)
     return spectral::cluster_importance(u, tables.clusters, settings.importance.cluster);
-  return spectral::make_effort(settings, outline, {}, watts, tables).importance; // without rays
+  return spectral::make_cluster_shares(settings, outline, {}, watts, tables).importance; // without rays
 }
 
 } // namespace

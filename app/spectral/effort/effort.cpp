@@ -99,8 +99,8 @@ std::string work_left(const std::vector<double>& importance)
 
 } // namespace
 
-Effort make_effort(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<double>& watts,
-                   const tracing::WavelengthTables& tables)
+ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
+                                  const std::vector<double>& watts, const tracing::WavelengthTables& tables)
 {
   const std::size_t clusters = tables.clusters.size();
   const Strategy& strategy = strategy_of(settings);

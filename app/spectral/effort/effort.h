@@ -11,7 +11,8 @@
 
 namespace nephroid::spectral {
 
-struct Effort {
+/// How photons are dealt to clusters, and what share of the iterations each has.
+struct ClusterShares {
   std::vector<double> photons;    ///< [light][cluster] flat: photons of a pass are dealt in proportion; 0 only where there is no light
   std::vector<double> importance; ///< [cluster]: 0..1, the largest 1, above 0 where there is light: part of the iterations that it has
 };
@@ -21,10 +22,11 @@ struct Effort {
 /// twentieth of the share. equal: every cluster that has light the same. importance, radziszewski: by cluster_importance. random: as equal.
 /// Within a cluster lights have their part by their watts in it. Where no caustic can be (no light, nothing that throws or receives one)
 /// importance is not asked for: every cluster has 1. Throws bad_input as wavelength_importance does.
-Effort make_effort(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<double>& watts,
-                   const tracing::WavelengthTables& tables);
+ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
+                                  const std::vector<double>& watts, const tracing::WavelengthTables& tables);
 
-/// The plan's pass "importance": how photons are dealt to clusters, and what of equal work that leaves. importance: Effort::importance.
+/// The plan's pass "importance": how photons are dealt to clusters, and what of equal work that leaves. importance:
+/// ClusterShares::importance.
 plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance);
 
 } // namespace nephroid::spectral

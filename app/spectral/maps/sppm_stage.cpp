@@ -22,7 +22,7 @@ namespace nephroid::spectral {
 namespace {
 
 /// One progressive run: of a cluster, or the one that all share.
-struct Run {
+struct ClusterRun {
   compute::Buffer<shared::PixelStatistics> statistics; ///< [pixel]
   compute::Buffer<std::int64_t> energy;                ///< [OUTCOME_COUNT] quanta, over its iterations
 };
@@ -97,7 +97,7 @@ public:
     slices_.save(to);
     eye_.save(to);
     to.buffer(map_.stored());
-    for (const Run& run : runs_) {
+    for (const ClusterRun& run : runs_) {
       to.buffer(run.statistics);
       to.buffer(run.energy);
     }
@@ -108,7 +108,7 @@ public:
     slices_.load(from);
     eye_.load(from);
     from.buffer(map_.stored());
-    for (Run& run : runs_) {
+    for (ClusterRun& run : runs_) {
       from.buffer(run.statistics);
       from.buffer(run.energy);
     }
@@ -124,7 +124,7 @@ private:
 
   int cluster_count() const { return world_.tables.scene.cluster_count; }
   std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(world_.tables.camera.width * world_.tables.camera.height); }
-  Run& run_of(int cluster) { return runs_[random_ ? 0 : static_cast<std::size_t>(cluster)]; }
+  ClusterRun& run_of(int cluster) { return runs_[random_ ? 0 : static_cast<std::size_t>(cluster)]; }
 
   /// Iterations of a cluster's run in `passes` passes.
   std::int64_t iterations_of(int cluster, std::int64_t passes) const
@@ -156,9 +156,9 @@ private:
     return {world_.seed.x, world_.seed.y ^ static_cast<std::uint32_t>(cluster + 1) * 0x9E3779B9u};
   }
 
-  Run make_run()
+  ClusterRun make_run()
   {
-    Run run{{world_.context, "progressive statistics", pixel_count()}, world_.zeroed("energy", OUTCOME_COUNT)};
+    ClusterRun run{{world_.context, "progressive statistics", pixel_count()}, world_.zeroed("energy", OUTCOME_COUNT)};
     start_.run(pixel_count(), 64,
                {{"statistics", run.statistics}, {"pixels", pixel_count()}, {"radius2", static_cast<float>(first_radius_ * first_radius_)}});
     return run;
@@ -180,7 +180,7 @@ private:
   EyePaths eye_;
   compute::Kernel send_, gather_, start_, add_radiance_;
   std::vector<Sender> senders_; ///< [cluster]
-  std::vector<Run> runs_;
+  std::vector<ClusterRun> runs_;
   compute::Buffer<std::int64_t> unused_; ///< for what the photon kernel does not do here
   compute::Buffer<float> no_guide_;      ///< likewise
   tracing::PhotonSlices slices_;

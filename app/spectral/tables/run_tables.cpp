@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// weights: Effort::photons.
+/// weights: ClusterShares::photons.
 std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, const tracing::WavelengthTables& tables)
 {
   std::vector<PhotonSource> sources;
@@ -48,10 +48,10 @@ RunTables make_lit_tables(const preset::Preset& preset, const scene::Scene& scen
   RunTables tables;
   static_cast<tracing::SceneTables&>(tables) =
       tracing::make_scene_tables(scene, scene_clusters(spectral::settings(preset), scene), leave_out);
-  Effort effort = make_effort(spectral::settings(preset), scene, bvh, tables.towards_targets_w, tables.wavelengths);
+  ClusterShares shares = make_cluster_shares(spectral::settings(preset), scene, bvh, tables.towards_targets_w, tables.wavelengths);
   tables.emitters =
-      make_emitters(photon_sources(effort.photons, tables.wavelengths), static_cast<unsigned>(spectral::settings(preset).photons_per_pass));
-  tables.importance = std::move(effort.importance);
+      make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(spectral::settings(preset).photons_per_pass));
+  tables.importance = std::move(shares.importance);
   tables.photons_per_pass = count_photons(tables.emitters);
   tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass);
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
