@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The engines of the program: a line each.
+#include "inverse/engine.h"
 #include "spectral/engine.h"
 
 namespace nephroid::engine {
@@ -8,6 +9,7 @@ const std::vector<const Engine*>& engines()
 {
   static const std::vector<const Engine*> all{
       &spectral::engine,
+      &inverse::engine,
   };
   return all;
 }

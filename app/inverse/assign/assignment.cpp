@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/assign/assignment.h"
+
+#include "base/parallel.h"
+#include "inverse/assign/footprint.h"
+#include "inverse/bending.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <span>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Facets that look for their slopes at once. More leave each other's choice out; fewer keep threads waiting.
+constexpr std::size_t batch = 16;
+
+/// 0..1; the standard's own distributions differ from library to library.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// The pictures count alike: their cost is of light over its maximum, and a mean over the cells with light in them.
+std::vector<double> weights_of(const Layout& layout, const std::vector<Target>& targets)
+{
+  std::vector<double> weights;
+  for (const Target& t : targets) {
+    const double most = *std::max_element(t.begin(), t.end()) * static_cast<double>(layout.facet_count());
+    weights.push_back(1 / (most * most));
+  }
+  return weights;
+}
+
+/// f(cell, light) for every cell that a facet of power 1 lights.
+template <class F>
+void for_cells(const Layout& layout, const Footprint& print, const F& f)
+{
+  for (std::size_t k = 0; k < print.y.size(); ++k)
+    for (std::size_t i = 0; i < print.x.size(); ++i)
+      f((static_cast<std::size_t>(print.y0) + k) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(print.x0) + i,
+        print.x[i] * print.y[k]);
+}
+
+} // namespace
+
+Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
+    : layout_(layout), targets_(targets), seed_(seed), weights_(weights_of(layout, targets)), search_(layout, weights_),
+      slopes_(layout.facet_count()), light_(targets.size(), std::vector<double>(layout.cell_count()))
+{
+  std::mt19937_64 random(seed_);
+  const double limit = usable_slope(layout.n), last = layout.distances.back();
+  for (std::size_t i = 0; i < slopes_.size(); ++i) {
+    const glm::dvec2 to = (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
+    slopes_[i] = (to - layout.middle(i)) / last;
+    const double length = glm::length(slopes_[i]);
+    if (length > limit) slopes_[i] *= limit / length;
+    put(i, slopes_[i], 1);
+  }
+  begin_sweep();
+}
+
+void Assignment::begin_sweep()
+{
+  std::mt19937_64 random(seed_ * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(sweeps_) + 1);
+  order_.resize(slopes_.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  for (std::size_t i = order_.size(); i > 1; --i) std::swap(order_[i - 1], order_[random() % i]);
+  search_.aim({uniform(random), uniform(random)});
+}
+
+double Assignment::power(const glm::dvec2& slope) const { return transmitted(slope, layout_.n) / transmitted({0, 0}, layout_.n); }
+
+double Assignment::sent() const
+{
+  double sum = 0;
+  for (const glm::dvec2& slope : slopes_) sum += power(slope);
+  return sum;
+}
+
+void Assignment::put(std::size_t facet, const glm::dvec2& slope, double sign)
+{
+  const double light = sign * power(slope);
+  for (std::size_t j = 0; j < light_.size(); ++j)
+    for_cells(layout_, footprint(layout_, facet, slope, j), [&](std::size_t cell, double part) { light_[j][cell] += light * part; });
+}
+
+/// What the sum would change by with the facet there too.
+double Assignment::gain(std::size_t facet, const glm::dvec2& slope) const
+{
+  const double light = power(slope), facets = static_cast<double>(slopes_.size());
+  double change = 0;
+  for (std::size_t j = 0; j < light_.size(); ++j)
+    for_cells(layout_, footprint(layout_, facet, slope, j), [&](std::size_t cell, double part) {
+      const double a = light * part;
+      change += weights_[j] * a * (2 * (light_[j][cell] - facets * targets_[j][cell]) + a);
+    });
+  return change;
+}
+
+std::vector<Lack> Assignment::lacks() const
+{
+  std::vector<Lack> all;
+  for (std::size_t j = 0; j < light_.size(); ++j) {
+    Lack lack = search_.no_lack(j);
+    for (int y = 0; y < layout_.cells.y; ++y)
+      for (int x = 0; x < layout_.cells.x; ++x) {
+        const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(layout_.cells.x) + static_cast<std::size_t>(x);
+        const double over = light_[j][cell] - static_cast<double>(slopes_.size()) * targets_[j][cell];
+        lack.values[static_cast<std::size_t>((y + lack.rim) * lack.width + x + lack.rim)] = static_cast<float>(2 * weights_[j] * over);
+      }
+    all.push_back(std::move(lack));
+  }
+  return all;
+}
+
+std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const
+{
+  std::vector<Lack> all = lacks;
+  const glm::dvec2 slope = slopes_[facet];
+  const double light = power(slope);
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    Lack& lack = all[j];
+    const Footprint print = footprint(layout_, facet, slope, j);
+    for (std::size_t k = 0; k < print.y.size(); ++k)
+      for (std::size_t i = 0; i < print.x.size(); ++i) {
+        const int x = print.x0 + static_cast<int>(i) + lack.rim, y = print.y0 + static_cast<int>(k) + lack.rim;
+        lack.values[static_cast<std::size_t>(y * lack.width + x)] -= static_cast<float>(2 * weights_[j] * light * print.x[i] * print.y[k]);
+      }
+  }
+  return all;
+}
+
+void Assignment::advance()
+{
+  const std::size_t count = std::min(batch, slopes_.size() - next_);
+  const std::span<const std::uint32_t> facets(order_.data() + next_, count);
+  const std::vector<Lack> now = lacks();
+  std::vector<std::optional<glm::dvec2>> found(count);
+  for_blocks(count, [&](std::size_t i) { found[i] = search_.best(facets[i], lacks_without(now, facets[i])); });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!found[i]) continue;
+    const std::size_t facet = facets[i];
+    put(facet, slopes_[facet], -1);
+    if (gain(facet, *found[i]) < gain(facet, slopes_[facet])) slopes_[facet] = *found[i];
+    put(facet, slopes_[facet], 1);
+  }
+  next_ += count;
+  tried_ += count;
+  if (next_ < slopes_.size()) return;
+  next_ = 0;
+  ++sweeps_;
+  begin_sweep();
+}
+
+double Assignment::residual() const
+{
+  double sum = 0;
+  for (std::size_t j = 0; j < light_.size(); ++j)
+    for (std::size_t c = 0; c < light_[j].size(); ++c) {
+      const double over = light_[j][c] - static_cast<double>(slopes_.size()) * targets_[j][c];
+      sum += weights_[j] * over * over;
+    }
+  return sum;
+}
+
+std::vector<Cost> Assignment::costs() const
+{
+  std::vector<Cost> costs;
+  const double all = sent();
+  for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets_[j], light_[j], all));
+  return costs;
+}
+
+void Assignment::save(ByteSink& to) const
+{
+  to.value(sweeps_);
+  to.value(std::uint64_t{next_});
+  to.value(tried_);
+  to.write(std::as_bytes(std::span(slopes_)));
+  for (const auto& light : light_) to.write(std::as_bytes(std::span(light)));
+}
+
+void Assignment::load(ByteSource& from)
+{
+  std::uint64_t next = 0;
+  from.value(sweeps_);
+  from.value(next);
+  from.value(tried_);
+  next_ = next;
+  from.read(std::as_writable_bytes(std::span(slopes_)));
+  for (auto& light : light_) from.read(std::as_writable_bytes(std::span(light)));
+  begin_sweep();
+}
+
+} // namespace nephroid::inverse

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Direct assignment: facet after facet is taken away and put back where it serves the pictures most.
+#pragma once
+#include "base/bytes.h"
+#include "inverse/assign/cost.h"
+#include "inverse/assign/slope_search.h"
+#include "inverse/layout.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// Lowers sum over receivers of weight * |Z - T|^2. A sweep goes through all facets in a random order, in batches of a few: every facet
+/// of a batch looks for its slope at once, on as many threads as there are, among the light as it is before the batch; then one after
+/// the other takes what it found if that is better than what it had. So no sweep makes the sum larger, and the number of threads changes no
+/// bit.
+class Assignment {
+public:
+  /// The layout and the targets outlive it. Facets begin with random slopes.
+  Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
+
+  /// One batch.
+  void advance();
+  std::int64_t sweeps() const { return sweeps_; }                                                  ///< completed
+  double part() const { return static_cast<double>(next_) / static_cast<double>(slopes_.size()); } ///< of the sweep in hand
+  std::uint64_t tried() const { return tried_; }                                                   ///< facets, of all sweeps
+
+  const std::vector<glm::dvec2>& slopes() const { return slopes_; }
+  const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; } ///< in facets that send all of their light
+  double sent() const;                                                                      ///< in the same unit
+  double residual() const;                                                                  ///< the sum
+  std::vector<Cost> costs() const;                                                          ///< of each receiver, as believed
+
+  void save(ByteSink& to) const;
+  void load(ByteSource& from);
+
+private:
+  void begin_sweep();
+  void put(std::size_t facet, const glm::dvec2& slope, double sign);
+  double gain(std::size_t facet, const glm::dvec2& slope) const;
+  std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
+  std::vector<Lack> lacks() const;
+  double power(const glm::dvec2& slope) const;
+
+  const Layout& layout_;
+  const std::vector<Target>& targets_;
+  std::uint64_t seed_;
+  std::vector<double> weights_;
+  SlopeSearch search_;
+  std::vector<std::uint32_t> order_; ///< of the sweep in hand
+  // The state.
+  std::vector<glm::dvec2> slopes_;
+  std::vector<std::vector<double>> light_; ///< [receiver][cell]
+  std::int64_t sweeps_ = 0;
+  std::size_t next_ = 0; ///< in order_
+  std::uint64_t tried_ = 0;
+};
+
+} // namespace nephroid::inverse

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far light on a receiver is from the picture that is wanted.
+#pragma once
+#include "inverse/layout.h"
+
+#include <span>
+
+namespace nephroid::inverse {
+
+/// T wanted, Z there.
+struct Cost {
+  /// sqrt(sum (T / Tmax - Z / Zmax)^2 / cells), thesis (5.2), over the cells where T / Tmax + Z / Zmax > 0.01. By (5.3) every cell with
+  /// any light counts, so that one stray ray in a dark cell lowers the cost.
+  double cost = 0;
+  double cost_all = 0; ///< the same over all cells
+  double rel_l2 = 0;   ///< |T / sum T - Z / sum Z| / |T / sum T|
+  double missed = 0;   ///< part of the light that is beside the receiver
+};
+
+/// sent: the light that left the object, in the unit of z.
+Cost cost_of(const Target& t, std::span<const double> z, double sent);
+
+/// Each figure's mean.
+Cost mean(std::span<const Cost> costs);
+
+} // namespace nephroid::inverse

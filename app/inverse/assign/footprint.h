@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the light of one facet falls on a receiver: its true footprint, as parts of cells.
+#pragma once
+#include "inverse/layout.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// Along one axis, in cells: the beam is a box of `width` that another box of `blur` smears; a trapezoid.
+struct Beam {
+  double middle = 0, width = 1, blur = 0;
+};
+
+/// The part of a beam before t.
+double part_before(const Beam& beam, double t);
+
+/// Width of the box that smears as the sun's disc and rough surfaces do: with their variance. A disc of radius r has r^2 / 4 along an
+/// axis, a box b^2 / 12. Millimetres on a receiver at this distance.
+double blur_width(const Layout& layout, double distance);
+
+/// Light of a facet in cells of a receiver. Cell (x0 + i, y0 + k) gets x[i] * y[k]; cells beside the receiver are left out.
+struct Footprint {
+  int x0 = 0, y0 = 0;
+  std::vector<double> x, y;
+};
+
+/// The beam of a facet with this slope. A facet of gradient g, whose light starts at z = g . p, hits a plane at (1 + slope g^T) p beside
+/// its middle: a parallelogram, smaller along the slope than the facet. Its shadow along x and along y is exact; that both hang
+/// together off the axes is not kept.
+Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver);
+
+} // namespace nephroid::inverse

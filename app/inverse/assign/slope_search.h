@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scores every slope that a facet can have: how much it would bring the light towards the pictures.
+#pragma once
+#include "inverse/layout.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// Over one receiver: weight * 2 (Z - T) a cell, with a rim of zeros around that is as wide as a beam.
+struct Lack {
+  int rim = 0, width = 0; ///< cells; width: of a row, both rims included
+  std::vector<float> values;
+};
+
+class SlopeSearch {
+public:
+  /// weights: of a receiver's squares.
+  SlopeSearch(const Layout& layout, std::span<const double> weights);
+
+  /// Slopes lead to a lattice of points on the last receiver, two a cell along each axis, moved by `offset` (0..1 of their distance).
+  void aim(const glm::dvec2& offset) { offset_ = offset; }
+
+  /// A lattice without light yet.
+  Lack no_lack(std::size_t receiver) const;
+
+  /// The slope with the lowest sum over receivers and cells of lack * a + weight * a^2, a being the facet's light there, of equals the
+  /// first; a is that of a facet as large as if it lay flat. Empty: the facet can reach no point of the lattice.
+  std::optional<glm::dvec2> best(std::size_t facet, std::span<const Lack> lacks) const;
+
+private:
+  struct Columns;
+  Columns columns(std::size_t receiver, double from, int axis) const;
+  void add_scores(std::size_t receiver, const glm::dvec2& from, const Lack& lack, std::vector<float>& scores) const;
+  double point(int i, int axis) const;
+
+  const Layout& layout_;
+  std::vector<double> weights_;
+  glm::ivec2 lattice_;
+  glm::dvec2 offset_{0.5, 0.5};
+};
+
+} // namespace nephroid::inverse

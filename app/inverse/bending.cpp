@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/bending.h"
+
+#include "optics/fresnel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::inverse {
+
+glm::dvec3 direction_of(const glm::dvec2& slope) { return glm::normalize(glm::dvec3(slope, -1)); }
+
+std::optional<glm::dvec3> facet_normal(const glm::dvec3& in, const glm::dvec3& out, double n)
+{
+  glm::dvec3 normal = n * in - out;
+  if (n < 1) normal = -normal; // out of the object is the way that light goes
+  const double length = glm::length(normal);
+  if (!(length > 0 && glm::dot(normal, in) > 0 && glm::dot(normal, out) > 0)) return std::nullopt;
+  return normal / length;
+}
+
+double slope_limit(double n)
+{
+  const double cosine = std::min(n, 1 / n);
+  return std::sqrt(1 - cosine * cosine) / cosine;
+}
+
+glm::dvec2 facet_gradient(const glm::dvec2& slope, double n) { return -slope / (n * std::sqrt(1 + glm::dot(slope, slope)) - 1); }
+
+double transmitted(const glm::dvec2& slope, double n)
+{
+  const std::optional<glm::dvec3> normal = facet_normal({0, 0, -1}, direction_of(slope), n);
+  return normal ? 1 - optics::fresnel_reflectance(-normal->z, n, 1) : 0;
+}
+
+} // namespace nephroid::inverse

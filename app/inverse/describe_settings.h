@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of engine 3 described for visitors: preset/describe.h says what a visitor is.
+#pragma once
+#include "inverse/settings.h"
+#include "preset/describe.h"
+
+namespace nephroid::preset {
+
+template <>
+struct Choices<inverse::Picture::Type> {
+  using Type = inverse::Picture::Type;
+  static constexpr Choice<Type> all[] = {{Type::file, "file", "A picture file, as large as it fits into the receiver."},
+                                         {Type::disc, "disc", "A disc."},
+                                         {Type::ring, "ring", "A ring."},
+                                         {Type::cross, "cross", "Two bars across each other."},
+                                         {Type::bars, "bars", "Bars side by side."},
+                                         {Type::star, "star", "A star."},
+                                         {Type::gradient, "gradient", "From the background's brightness at the left to 1 at the right."}};
+};
+
+template <>
+struct Choices<inverse::Settings::Method> {
+  using Method = inverse::Settings::Method;
+  static constexpr Choice<Method> all[] = {
+      {Method::assign, "assign", "Facet after facet goes where the pictures lack most light, until a sweep gains nothing."}};
+};
+
+template <>
+struct About<inverse::Picture> {
+  using Type = inverse::Picture::Type;
+  static constexpr std::string_view name = "InversePicture", sentence = "A grey picture that the object casts.";
+  static constexpr Shorthand<Type> shorthands[] = {{Bare::text, Type::file, "file"}};
+};
+
+template <>
+struct About<inverse::Receiver> {
+  static constexpr std::string_view name = "InverseReceiver", sentence = "A screen across the light, and its picture.";
+};
+
+template <>
+struct About<inverse::Settings> {
+  static constexpr std::string_view name = "Inverse", sentence = "Settings of the engine \"inverse\".";
+};
+
+} // namespace nephroid::preset
+
+namespace nephroid::inverse {
+
+inline constexpr std::string_view receiver_part = "parts of the receiver's shorter side";
+
+template <class V, preset::Is<Picture> S>
+void describe(V& v, S& p)
+{
+  using Type = Picture::Type;
+  const auto part = [&](std::string_view name, std::string_view sentence, auto& value) {
+    v.field({.name = name, .sentence = sentence, .unit = receiver_part, .bounds = preset::within(0.001, 2)}, value);
+  };
+  v.type({.name = "type", .sentence = "What it shows."}, p.type);
+  const bool round = p.type == Type::disc || p.type == Type::ring || p.type == Type::star;
+  const bool straight = p.type == Type::cross || p.type == Type::bars;
+  if (p.type == Type::file) v.field({.name = "file", .sentence = "A picture file.", .text = preset::Text::file, .required = true}, p.file);
+  if (round) part("radius", "The outer radius.", p.radius);
+  if (round && p.type != Type::disc) part("inner", "The inner radius.", p.inner);
+  if (straight) part("length", "Length of a bar.", p.length);
+  if (straight) part("width", "Width of a bar, and of the gap to the next one.", p.width);
+  if (p.type == Type::bars || p.type == Type::star)
+    v.field({.name = "count", .sentence = "How many bars, or points of the star.", .bounds = preset::within(1, 100)}, p.count);
+  if (p.type != Type::file && p.type != Type::disc && p.type != Type::ring)
+    v.field({.name = "turn_deg",
+             .sentence = "How far it is turned, counterclockwise.",
+             .unit = "degrees",
+             .bounds = preset::within(-3600, 3600)},
+            p.turn_deg);
+  v.field({.name = "background", .sentence = "Brightness where nothing is drawn; the drawing has 1.", .bounds = preset::within(0, 0.99)},
+          p.background);
+}
+
+template <class V, preset::Is<Receiver> S>
+void describe(V& v, S& r)
+{
+  v.field({.name = "distance_mm",
+           .sentence = "From the object's facets, against which it is parallel and centred.",
+           .unit = "mm",
+           .bounds = preset::within(0.01, 1e6),
+           .required = true},
+          r.distance_mm);
+  v.field({.name = "picture", .sentence = "What the object casts there: a file, or an object.", .required = true}, r.picture);
+}
+
+template <class V, preset::Is<Settings> S>
+void describe(V& v, S& s)
+{
+  using preset::within;
+  v.field({.name = "method", .sentence = "How the facets' slopes are found."}, s.method);
+  v.field({.name = "size_mm", .sentence = "Width and height of the object.", .unit = "mm", .bounds = within(0.1, 1e5)}, s.size_mm);
+  v.field(
+      {.name = "thickness_mm", .sentence = "From the middles of the facets to the flat front.", .unit = "mm", .bounds = within(0.01, 1e5)},
+      s.thickness_mm);
+  v.field({.name = "facets", .sentence = "Facets across and down.", .bounds = within(1, 1024)}, s.facets);
+  v.field({.name = "index", .sentence = "Index of refraction: a number, a file or an object."}, s.index);
+  v.field({.name = "wavelength_nm", .sentence = "The wavelength that the index is taken at.", .unit = "nm", .bounds = within(380, 780)},
+          s.wavelength_nm);
+  v.field({.name = "sun_deg",
+           .sentence = "Diameter of the sun's disc, which blurs the pictures; the sun's own is 0.53.",
+           .unit = "degrees",
+           .bounds = within(0, 20)},
+          s.sun_deg);
+  v.field({.name = "scatter_deg",
+           .sentence = "How far a rough surface turns light, as a standard deviation; it blurs the pictures.",
+           .unit = "degrees",
+           .bounds = within(0, 10)},
+          s.scatter_deg);
+  v.field({.name = "receiver_mm",
+           .sentence = "Width and height of every receiver; without, the object's.",
+           .unit = "mm",
+           .bounds = within(0.1, 1e6)},
+          s.receiver_mm);
+  v.field({.name = "cells", .sentence = "Cells of every picture, across and down.", .bounds = within(2, 1024)}, s.cells);
+  v.field({.name = "receivers", .sentence = "The screens that light reaches, the nearest first.", .count = {1, 16}}, s.receivers);
+}
+
+} // namespace nephroid::inverse

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/engine.h"
+
+#include "base/counted.h"
+#include "inverse/bending.h"
+#include "inverse/pictures/target.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Bytes a facet, measured: some 14 triangles with their vertices, their tree and the two files of them.
+constexpr std::uint64_t solid_bytes = 3000;
+
+std::vector<plan::Pass> passes_of(const Layout& l)
+{
+  const bool blurred = l.sun_radius > 0 || l.scatter > 0;
+  return {{"assign", true,
+           fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y, counted(l.distances.size(), "receiver"),
+                       usable_slope(l.n))},
+          {"blur", blurred, blurred ? "the sun's disc or a rough surface, in every footprint" : "inverse.sun_deg and scatter_deg are 0"},
+          {"judge", true, "rays through the finished solid, walls and all"}};
+}
+
+} // namespace
+
+InversePlan make_plan(const preset::Preset& preset)
+{
+  InversePlan plan;
+  plan.layout = make_layout(preset);
+  plan.targets = make_targets(preset, plan.layout);
+  const Layout& l = plan.layout;
+  plan.engine = "inverse";
+  plan.layers = 1;
+  plan.passes = passes_of(l);
+  plan.buffers = {{"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
+                  {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
+  if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
+    plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
+                                     "soft; more facets or fewer cells would not",
+                                     l.facet().x, l.facet().y, l.cell().x, l.cell().y));
+  return plan;
+}
+
+constinit const engine::Engine engine{
+    .settings = settings_type,
+    .plan = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&) -> std::unique_ptr<plan::Plan> {
+      return std::make_unique<InversePlan>(make_plan(preset));
+    },
+    .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
+              const compute::Context&) { return make_job(preset, dynamic_cast<const InversePlan&>(plan)); },
+    .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
+    .checks = closed_forms};
+
+} // namespace nephroid::inverse

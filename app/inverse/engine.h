@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Engine 3, inverse caustics: one refractive object that casts several pictures at several distances (thesis chapter 5).
+#pragma once
+#include "engine/engine.h"
+#include "inverse/layout.h"
+#include "inverse/settings.h"
+#include "job/job.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+
+#include <memory>
+#include <vector>
+
+namespace nephroid::inverse {
+
+extern const engine::Engine engine;
+
+struct InversePlan : plan::Plan {
+  Layout layout;
+  std::vector<Target> targets; ///< of each receiver
+};
+
+/// Reads the index and the pictures. Throws bad_input as make_layout and make_targets do.
+InversePlan make_plan(const preset::Preset& preset);
+
+/// Sweeps over the facets until one gains less than a hundredth, or the preset's stop; then makes the solid and judges it.
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan);
+
+/// Closed forms, for `nephroid check`.
+std::vector<check::Check> closed_forms();
+
+} // namespace nephroid::inverse

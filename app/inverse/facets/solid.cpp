@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/facets/solid.h"
+
+#include "inverse/bending.h"
+#include "inverse/facets/posts.h"
+
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Heights closer than this part of a facet's shorter side are made equal. It turns a facet by 1e-4 at most.
+constexpr double joins = 1e-4;
+
+class Builder {
+public:
+  Builder(const Layout& layout, const std::vector<glm::dvec2>& slopes) : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y)
+  {
+    for (const glm::dvec2& slope : slopes) gradients_.push_back(facet_gradient(slope, layout.n));
+  }
+
+  Solid build()
+  {
+    make_posts();
+    make_walls();
+    for (int row = 0; row < ny_; ++row)
+      for (int column = 0; column < nx_; ++column) make_facet(column, row);
+    make_front();
+    return std::move(solid_);
+  }
+
+private:
+  /// Around a post: 0 at +x +y, 1 at -x +y, 2 at -x -y, 3 at +x -y.
+  static constexpr std::array<glm::ivec2, 4> around{
+      glm::ivec2{0, -1}, {-1, -1}, {-1, 0}, {0, 0}}; ///< facet's column and row over the post's
+
+  bool is_facet(int column, int row) const { return column >= 0 && row >= 0 && column < nx_ && row < ny_; }
+
+  /// Of the corner of a facet that lies at +-half from its middle; beside the object the front's height, which makes sides of walls.
+  double height(int column, int row, const glm::dvec2& half) const
+  {
+    if (!is_facet(column, row)) return layout_.thickness;
+    return glm::dot(gradients_[static_cast<std::size_t>(row * nx_ + column)], half);
+  }
+
+  glm::dvec2 place(int a, int b) const
+  {
+    const glm::dvec2 facet = layout_.facet();
+    return {a * facet.x - layout_.size.x / 2, layout_.size.y / 2 - b * facet.y};
+  }
+
+  const Post& post(int a, int b) const { return posts_[static_cast<std::size_t>(b * (nx_ + 1) + a)]; }
+
+  void make_posts()
+  {
+    const glm::dvec2 half = layout_.facet() / 2.0;
+    const double closest = joins * std::min(layout_.facet().x, layout_.facet().y);
+    const std::array<glm::dvec2, 4> corner{glm::dvec2{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
+    double lowest = 0, highest = 0;
+    for (int b = 0; b <= ny_; ++b)
+      for (int a = 0; a <= nx_; ++a) {
+        std::array<double, 4> heights{};
+        for (std::size_t f = 0; f < 4; ++f) heights[f] = height(a + around[f].x, b + around[f].y, corner[f]);
+        posts_.push_back(make_post(place(a, b), heights, closest, solid_.mesh));
+        for (std::size_t f = 0; f < 4; ++f)
+          if (is_facet(a + around[f].x, b + around[f].y)) {
+            lowest = std::min(lowest, heights[f]);
+            highest = std::max(highest, heights[f]);
+          }
+      }
+    solid_.relief = highest - lowest;
+    for (const glm::dvec2& g : gradients_) solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan(glm::length(g))));
+  }
+
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part)
+  {
+    solid_.mesh.triangles.emplace_back(a, b, c);
+    solid_.parts.push_back(part);
+  }
+
+  /// Between two vertical lines; seen from the side where `a` is at the left, it faces the viewer unless it is turned.
+  void strip(const std::vector<Vertex>& a, const std::vector<Vertex>& b, bool turned, Part part)
+  {
+    std::size_t i = 0, k = 0;
+    while (i + 1 < a.size() || k + 1 < b.size()) {
+      const bool on_a = k + 1 == b.size() || (i + 1 < a.size() && a[i + 1].z <= b[k + 1].z);
+      const std::uint32_t next = on_a ? a[++i].id : 0;
+      const std::uint32_t low_a = on_a ? a[i - 1].id : a[i].id, low_b = b[k].id;
+      const std::uint32_t third = on_a ? next : b[++k].id;
+      turned ? triangle(low_b, low_a, third, part) : triangle(low_a, low_b, third, part);
+    }
+  }
+
+  /// The wall over the line from post a to post b, at whose right hand (seen from above) facet p ends at ap and bp, and facet q at the
+  /// left at aq and bq. Its air is on the side of the higher facet. Where the facets' edges cross, it has two parts. Returns the vertex
+  /// of the crossing.
+  std::optional<Vertex> wall(const Post& a, const Post& b, std::size_t wall_a, std::size_t wall_b, std::array<Vertex, 4> ends,
+                             const glm::dvec2& at_a, const glm::dvec2& at_b, Part part)
+  {
+    const auto [ap, aq, bp, bq] = ends;
+    const double over_a = ap.z - aq.z, over_b = bp.z - bq.z;
+    const std::vector<Vertex> end_a = end_of_wall(a, wall_a), end_b = end_of_wall(b, wall_b);
+    if (over_a * over_b >= 0) {
+      strip(end_a, end_b, over_a + over_b < 0, part);
+      return std::nullopt;
+    }
+    const double t = over_a / (over_a - over_b);
+    const Vertex crossing{ap.z + t * (bp.z - ap.z), static_cast<std::uint32_t>(solid_.mesh.positions.size())};
+    solid_.mesh.positions.emplace_back(glm::vec3(glm::dvec3(at_a + t * (at_b - at_a), crossing.z)));
+    strip(end_a, {crossing}, over_a < 0, part);
+    strip({crossing}, end_b, over_b < 0, part);
+    return crossing;
+  }
+
+  Part part_between(int column, int row, int other_column, int other_row) const
+  {
+    return is_facet(column, row) && is_facet(other_column, other_row) ? Part::wall : Part::side;
+  }
+
+  void make_walls()
+  {
+    for (int b = 0; b < ny_; ++b) // down from each post: wall 2 of the upper one, wall 0 of the lower one
+      for (int a = 0; a <= nx_; ++a) {
+        const Post &up = post(a, b), &down = post(a, b + 1);
+        down_.push_back(wall(up, down, 2, 0, {up.ends[2], up.ends[3], down.ends[1], down.ends[0]}, place(a, b), place(a, b + 1),
+                             part_between(a - 1, b, a, b)));
+      }
+    for (int b = 0; b <= ny_; ++b) // across: wall 3 of the left one, wall 1 of the right one
+      for (int a = 0; a < nx_; ++a) {
+        const Post &left = post(a, b), &right = post(a + 1, b);
+        across_.push_back(wall(left, right, 3, 1, {left.ends[3], left.ends[0], right.ends[2], right.ends[1]}, place(a, b), place(a + 1, b),
+                               part_between(a, b, a, b - 1)));
+      }
+  }
+
+  /// A fan about the facet's middle, clockwise seen from above: it faces down.
+  void make_facet(int column, int row)
+  {
+    std::vector<std::uint32_t> ring;
+    const auto corner = [&](int a, int b, std::size_t f) { ring.push_back(post(a, b).ends[f].id); };
+    const auto crossing = [&](const std::optional<Vertex>& vertex) {
+      if (vertex) ring.push_back(vertex->id);
+    };
+    corner(column, row, 3);
+    crossing(across_[static_cast<std::size_t>(row * nx_ + column)]);
+    corner(column + 1, row, 2);
+    crossing(down_[static_cast<std::size_t>(row * (nx_ + 1) + column + 1)]);
+    corner(column + 1, row + 1, 1);
+    crossing(across_[static_cast<std::size_t>((row + 1) * nx_ + column)]);
+    corner(column, row + 1, 0);
+    crossing(down_[static_cast<std::size_t>(row * (nx_ + 1) + column)]);
+    fan(glm::dvec3(layout_.middle(static_cast<std::size_t>(row * nx_ + column)), 0), ring, Part::facet);
+  }
+
+  void fan(const glm::dvec3& middle, const std::vector<std::uint32_t>& ring, Part part)
+  {
+    const auto id = static_cast<std::uint32_t>(solid_.mesh.positions.size());
+    solid_.mesh.positions.emplace_back(glm::vec3(middle));
+    for (std::size_t i = 0; i < ring.size(); ++i) triangle(id, ring[i], ring[(i + 1) % ring.size()], part);
+  }
+
+  /// Counter-clockwise seen from above. Of the facets around a post on the rim one at least is beside the object, at the front's height.
+  void make_front()
+  {
+    std::vector<std::uint32_t> ring;
+    const auto add = [&](int a, int b) {
+      for (std::size_t f = 0; f < 4; ++f)
+        if (!is_facet(a + around[f].x, b + around[f].y)) {
+          ring.push_back(post(a, b).ends[f].id);
+          return;
+        }
+    };
+    for (int b = 0; b < ny_; ++b) add(0, b);
+    for (int a = 0; a < nx_; ++a) add(a, ny_);
+    for (int b = ny_; b > 0; --b) add(nx_, b);
+    for (int a = nx_; a > 0; --a) add(a, 0);
+    fan({0, 0, layout_.thickness}, ring, Part::front);
+  }
+
+  const Layout& layout_;
+  int nx_, ny_;
+  std::vector<glm::dvec2> gradients_;
+  std::vector<Post> posts_;
+  std::vector<std::optional<Vertex>> down_, across_; ///< crossings, of the lines from a post down and to the right
+  Solid solid_;
+};
+
+} // namespace
+
+Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes) { return Builder(layout, slopes).build(); }
+
+} // namespace nephroid::inverse

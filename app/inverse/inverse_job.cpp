@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run of engine 3: sweeps, then the solid, then its judgement. All on the host.
+#include "inverse/assign/assignment.h"
+#include "inverse/bending.h"
+#include "inverse/engine.h"
+#include "inverse/facets/solid.h"
+#include "inverse/judge.h"
+#include "inverse/sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <span>
+
+namespace nephroid::inverse {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// A sweep that lowers the sum of squares by less than this part of it is the last.
+constexpr double worth_a_sweep = 0.01;
+constexpr double step_seconds = 0.05;
+/// Of a run's work that the judge is, for its progress only.
+constexpr double judge_part = 0.1;
+
+struct CostRow {
+  double sweep = 0, seconds = 0;
+  Cost cost;
+};
+
+class InverseJob final : public job::Job {
+public:
+  InverseJob(const preset::Preset& preset, const InversePlan& plan)
+      : layout_(plan.layout), targets_(plan.targets), seed_(preset.seed), resolution_(preset.scene.camera.resolution),
+        seconds_(preset.stop.seconds), assignment_(layout_, targets_, preset.seed)
+  {
+    if (preset.stop.passes || !seconds_) sweeps_ = preset.stop.passes.value_or(preset::default_passes);
+    note_sweep();
+  }
+
+  void step() override
+  {
+    const Clock::time_point begin = Clock::now();
+    while (!finished() && since(begin) < step_seconds) advance();
+    (judge_ ? judge_seconds_ : assign_seconds_) += since(begin);
+  }
+
+  bool finished() const override { return judge_ && judge_->finished(); }
+  bool estimates_error() const override { return false; }
+
+  job::Progress progress() const override
+  {
+    job::Progress p;
+    p.step = assignment_.sweeps();
+    p.steps = judge_ ? p.step : sweeps_;
+    p.work = assignment_.tried();
+    p.work_seconds = assign_seconds_ + judge_seconds_;
+    const double sweeps = static_cast<double>(p.step) + assignment_.part();
+    const double assigned = std::max(sweeps_ > 0 ? sweeps / static_cast<double>(sweeps_) : 0, seconds_ ? assign_seconds_ / *seconds_ : 0);
+    p.fraction = judge_ ? 1 - judge_part + judge_part * judge_->part() : std::min(1.0, assigned) * (1 - judge_part);
+    p.units = {.step = "sweep", .steps = "sweeps", .work = "facet", .works = "facets"};
+    return p;
+  }
+
+  job::Snapshot snapshot() override
+  {
+    job::Snapshot made;
+    add_pictures(made);
+    made.progress = progress();
+    add_scalars(made);
+    made.curves.push_back({"cost", {"sweep", "seconds", "cost", "cost_all", "rel_l2", "missed"}, {}});
+    for (const CostRow& r : history_)
+      made.curves.back().rows.push_back({r.sweep, r.seconds, r.cost.cost, r.cost.cost_all, r.cost.rel_l2, r.cost.missed});
+    made.phases = {{"assign", assign_seconds_}, {"judge", judge_seconds_}};
+    if (finished()) add_files(made);
+    return made;
+  }
+
+  void save(ByteSink& to) override
+  {
+    assignment_.save(to);
+    to.value(assign_seconds_);
+    to.value(judge_seconds_);
+    to.value(converged_);
+    to.value(std::uint64_t{history_.size()});
+    to.write(std::as_bytes(std::span(history_)));
+    to.value(residual_);
+    to.value(judge_.has_value());
+    if (judge_) judge_->save(to);
+  }
+
+  /// A run that ended at its stop goes on where it is given more sweeps or time; what it had judged then counts no more.
+  void load(ByteSource& from) override
+  {
+    bool judged = false;
+    std::uint64_t rows = 0;
+    assignment_.load(from);
+    from.value(assign_seconds_);
+    from.value(judge_seconds_);
+    from.value(converged_);
+    from.value(rows);
+    if (rows > from.left() / sizeof(CostRow)) throw bad_input("checkpoint.bin", "is of another run");
+    history_.resize(rows);
+    from.read(std::as_writable_bytes(std::span(history_)));
+    from.value(residual_);
+    from.value(judged);
+    if (!judged) return;
+    begin_judging();
+    judge_->load(from);
+    if (!assigned()) {
+      judge_.reset();
+      solid_.reset();
+    }
+  }
+
+private:
+  bool assigned() const
+  {
+    if (seconds_ && assign_seconds_ >= *seconds_) return true;
+    return converged_ || (sweeps_ >= 0 && assignment_.sweeps() >= sweeps_);
+  }
+
+  void advance()
+  {
+    if (judge_)
+      judge_->advance();
+    else if (assigned())
+      begin_judging();
+    else {
+      const std::int64_t before = assignment_.sweeps();
+      assignment_.advance();
+      if (assignment_.sweeps() == before) return;
+      note_sweep();
+    }
+  }
+
+  void note_sweep()
+  {
+    const double residual = assignment_.residual();
+    if (assignment_.sweeps() > 0) converged_ = residual > (1 - worth_a_sweep) * residual_;
+    residual_ = residual;
+    history_.push_back({static_cast<double>(assignment_.sweeps()), assign_seconds_, mean(assignment_.costs())});
+  }
+
+  void begin_judging()
+  {
+    solid_.emplace(make_solid(layout_, assignment_.slopes()));
+    judge_.emplace(layout_, *solid_, seed_);
+  }
+
+  /// As judged where that is done, else as believed.
+  const std::vector<double>& light(std::size_t receiver) const
+  {
+    return finished() ? judge_->light(receiver) : assignment_.light(receiver);
+  }
+
+  void add_pictures(job::Snapshot& made) const
+  {
+    std::vector<std::vector<std::shared_ptr<const job::Picture>>> columns;
+    for (std::size_t j = 0; j < targets_.size(); ++j) {
+      const auto wanted = wanted_picture(targets_[j], layout_), received = received_picture(targets_[j], light(j), layout_);
+      columns.push_back({wanted, received, difference_picture(*wanted, *received)});
+      const char* const names[] = {"target", "receiver", "difference"};
+      for (std::size_t i = 0; i < 3; ++i) made.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i]});
+    }
+    made.picture = sheet(columns, resolution_[0], resolution_[1]);
+  }
+
+  static void add_costs(job::Snapshot& made, const std::string& group, const std::vector<Cost>& costs)
+  {
+    const Cost all = mean(costs);
+    made.scalars.insert(
+        made.scalars.end(),
+        {{group, "cost", all.cost}, {group, "cost_all", all.cost_all}, {group, "rel_l2", all.rel_l2}, {group, "missed", all.missed}});
+    for (std::size_t j = 0; j < costs.size(); ++j) {
+      made.scalars.push_back({group, fmt::format("cost_{}", j + 1), costs[j].cost});
+      made.scalars.push_back({group, fmt::format("rel_l2_{}", j + 1), costs[j].rel_l2});
+    }
+  }
+
+  void add_scalars(job::Snapshot& made) const
+  {
+    add_costs(made, "believed", assignment_.costs());
+    if (!finished()) return;
+    add_costs(made, "judged", judge_->costs(targets_));
+    const Fates f = judge_->fates();
+    made.scalars.insert(
+        made.scalars.end(),
+        {{"light", "sent", f.sent}, {"light", "reflected", f.reflected}, {"light", "lost", f.lost}, {"light", "by_walls", f.by_walls}});
+    made.scalars.insert(made.scalars.end(), {{"object", "index", layout_.n},
+                                             {"object", "slope_limit", slope_limit(layout_.n)},
+                                             {"object", "relief_mm", solid_->relief},
+                                             {"object", "steepest_deg", solid_->steepest_deg},
+                                             {"object", "triangles", static_cast<double>(solid_->mesh.triangles.size())}});
+  }
+
+  void add_files(job::Snapshot& made)
+  {
+    if (!obj_) {
+      obj_ = std::make_shared<const std::string>(to_obj(solid_->mesh));
+      stl_ = std::make_shared<const std::string>(to_stl(solid_->mesh));
+    }
+    made.files = {{"object.obj", obj_}, {"object.stl", stl_}};
+  }
+
+  Layout layout_;
+  std::vector<Target> targets_;
+  std::uint64_t seed_;
+  std::array<int, 2> resolution_;
+  std::optional<double> seconds_;
+  std::int64_t sweeps_ = -1; ///< at most; -1: until the seconds are over
+  Assignment assignment_;
+  double residual_ = 0; ///< after the last sweep
+  bool converged_ = false;
+  std::vector<CostRow> history_;
+  double assign_seconds_ = 0, judge_seconds_ = 0;
+  std::optional<Solid> solid_;
+  std::optional<Judge> judge_;                   ///< from when the facets are assigned
+  std::shared_ptr<const std::string> obj_, stl_; ///< once asked for
+};
+
+} // namespace
+
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan)
+{
+  return std::make_unique<InverseJob>(preset, plan);
+}
+
+} // namespace nephroid::inverse

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/judge.h"
+
+#include "base/parallel.h"
+#include "inverse/bending.h"
+#include "optics/fresnel.h"
+#include "scene/ray.h"
+
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
+
+namespace nephroid::inverse {
+namespace {
+
+constexpr int max_surfaces = 16;
+constexpr int rows_at_a_time = 2;
+
+/// Rays along one side of a facet: about a million in all, where a facet gets 2 x 2 at least.
+int rays_along(const Layout& layout) { return std::clamp(1024 / std::max(layout.facets.x, layout.facets.y), 2, 64); }
+
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+/// Two independent normal numbers (Box and Muller 1958).
+glm::dvec2 normal_pair(std::mt19937_64& random)
+{
+  const double r = std::sqrt(-2 * std::log(1 - uniform(random))), phi = 2 * glm::pi<double>() * uniform(random);
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+glm::dvec2 in_disc(std::mt19937_64& random)
+{
+  const double r = std::sqrt(uniform(random)), phi = 2 * glm::pi<double>() * uniform(random);
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+glm::dvec3 outward_normal(const scene::Mesh& mesh, std::uint32_t triangle)
+{
+  const glm::uvec3& t = mesh.triangles[triangle];
+  const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+  return glm::normalize(glm::cross(b - a, c - a));
+}
+
+/// The direction behind a surface whose normal is against the ray; ratio: of the indices before and behind. cos_t: behind.
+glm::dvec3 refracted(const glm::dvec3& d, const glm::dvec3& normal, double ratio, double cos_i, double cos_t)
+{
+  return ratio * d + (ratio * cos_i - cos_t) * normal;
+}
+
+} // namespace
+
+WayOut follow(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 from, glm::dvec3 direction)
+{
+  WayOut way{from, glm::normalize(direction), 1, 0, false};
+  std::uint32_t leaves = scene::no_primitive;
+  for (int surfaces = 0; surfaces < max_surfaces; ++surfaces) {
+    const auto hit = scene::closest_hit(bvh, way.from, way.direction, {}, std::numeric_limits<double>::infinity(), leaves);
+    if (!hit) {
+      if (way.direction.z >= 0) way.part = 0;
+      return way;
+    }
+    way.from += hit->t * way.direction;
+    leaves = hit->primitive;
+    way.met_wall = way.met_wall || solid.parts[leaves] == Part::wall;
+    glm::dvec3 normal = outward_normal(solid.mesh, leaves);
+    const bool enters = glm::dot(normal, way.direction) < 0;
+    if (!enters) normal = -normal;
+    const double before = enters ? 1 : n, behind = enters ? n : 1, cos_i = std::min(1.0, -glm::dot(normal, way.direction));
+    if (const auto cos_t = optics::refracted_cosine(cos_i, before, behind)) {
+      const double reflected = way.part * optics::fresnel_reflectance(cos_i, before, behind);
+      way.reflected += reflected;
+      way.part -= reflected;
+      way.direction = glm::normalize(refracted(way.direction, normal, before / behind, cos_i, *cos_t));
+    } else
+      way.direction = glm::normalize(way.direction + 2 * cos_i * normal);
+  }
+  way.part = 0;
+  return way;
+}
+
+/// What a row of facets sends.
+struct Judge::Row {
+  std::vector<std::vector<double>> light; ///< [receiver][cell], in facets
+  Fates fates;
+};
+
+Judge::Judge(const Layout& layout, const Solid& solid, std::uint64_t seed)
+    : layout_(layout), solid_(solid), bvh_(scene::build_bvh(solid.mesh)), seed_(seed),
+      light_(layout.distances.size(), std::vector<double>(layout.cell_count()))
+{
+}
+
+Judge::Row Judge::trace_row(int row) const
+{
+  std::mt19937_64 random(seed_ * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(row) + 0x5eed);
+  Row made{std::vector<std::vector<double>>(light_.size(), std::vector<double>(layout_.cell_count())), {}};
+  const int along = rays_along(layout_);
+  const double ray = 1.0 / (along * along); // of a facet's light
+  for (int column = 0; column < layout_.facets.x; ++column)
+    for (int i = 0; i < along * along; ++i) {
+      const glm::dvec2 at = glm::dvec2(column + (i % along + uniform(random)) / along, row + (i / along + uniform(random)) / along);
+      const glm::dvec2 sun = layout_.sun_radius > 0 ? layout_.sun_radius * in_disc(random) : glm::dvec2(0);
+      const glm::dvec3 from(at.x * layout_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - at.y * layout_.facet().y,
+                            layout_.thickness);
+      const glm::dvec3 towards(sun, -1);
+      WayOut way = follow(solid_, bvh_, layout_.n, from - 1e-3 * layout_.thickness * towards, towards);
+      made.fates.reflected += ray * way.reflected;
+      made.fates.lost += ray * (way.part > 0 ? 0 : 1 - way.reflected);
+      if (!(way.part > 0)) continue;
+      made.fates.sent += ray * way.part;
+      if (way.met_wall) made.fates.by_walls += ray * way.part;
+      glm::dvec2 slope = glm::dvec2(way.direction) / -way.direction.z;
+      if (layout_.scatter > 0) slope += layout_.scatter * normal_pair(random);
+      for (std::size_t j = 0; j < light_.size(); ++j) {
+        const glm::dvec2 cell = glm::floor(layout_.in_cells(glm::dvec2(way.from) + slope * (layout_.distances[j] + way.from.z)));
+        if (cell.x < 0 || cell.y < 0 || cell.x >= layout_.cells.x || cell.y >= layout_.cells.y) continue;
+        made.light[j][static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(layout_.cells.x) + static_cast<std::size_t>(cell.x)] +=
+            ray * way.part;
+      }
+    }
+  return made;
+}
+
+void Judge::advance()
+{
+  const int count = std::min(rows_at_a_time, layout_.facets.y - row_);
+  std::vector<Row> rows(static_cast<std::size_t>(count));
+  for_blocks(rows.size(), [&](std::size_t i) { rows[i] = trace_row(row_ + static_cast<int>(i)); });
+  for (const Row& row : rows) {
+    for (std::size_t j = 0; j < light_.size(); ++j)
+      for (std::size_t c = 0; c < light_[j].size(); ++c) light_[j][c] += row.light[j][c];
+    sum_.reflected += row.fates.reflected;
+    sum_.lost += row.fates.lost;
+    sum_.sent += row.fates.sent;
+    sum_.by_walls += row.fates.by_walls;
+  }
+  row_ += count;
+}
+
+Fates Judge::fates() const
+{
+  const double all = std::max(1.0, static_cast<double>(row_) * layout_.facets.x);
+  return {sum_.reflected / all, sum_.lost / all, sum_.sent / all, sum_.by_walls / all};
+}
+
+std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const
+{
+  std::vector<Cost> costs;
+  for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets[j], light_[j], sum_.sent));
+  return costs;
+}
+
+void Judge::save(ByteSink& to) const
+{
+  to.value(row_);
+  to.value(sum_);
+  for (const auto& light : light_) to.write(std::as_bytes(std::span(light)));
+}
+
+void Judge::load(ByteSource& from)
+{
+  from.value(row_);
+  from.value(sum_);
+  for (auto& light : light_) from.read(std::as_writable_bytes(std::span(light)));
+}
+
+} // namespace nephroid::inverse

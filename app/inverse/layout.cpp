@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/layout.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "inverse/bending.h"
+#include "inverse/settings.h"
+#include "scene/materials.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace nephroid::inverse {
+namespace {
+
+double read_index(const preset::Preset& preset)
+{
+  const Settings& s = settings(preset);
+  const Place where = Place(preset.source) / "inverse" / "index";
+  const FileFinder finder(std::filesystem::path(preset.source).parent_path());
+  const optics::IndexSample sample =
+      scene::make_curve(s.index, finder, where).sample(s.wavelength_nm, scene::outside_policy(s.index.outside));
+  if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", s.wavelength_nm), "expected another wavelength_nm");
+  if (std::abs(*sample.n - 1) < 1e-3)
+    throw bad_input(where, fmt::format("is {:.5f} at {} nm, which bends hardly any light", *sample.n, s.wavelength_nm),
+                    "expected one that differs from 1 by at least 0.001");
+  return *sample.n;
+}
+
+/// The most that a facet can reach from z = 0 at its corners.
+double most_relief(const Layout& layout)
+{
+  const double slope = usable_slope(layout.n);
+  return glm::length(facet_gradient({slope, 0}, layout.n)) * glm::length(layout.facet()) / 2;
+}
+
+} // namespace
+
+Layout make_layout(const preset::Preset& preset)
+{
+  const Settings& s = settings(preset);
+  const Place own = Place(preset.source) / "inverse";
+  Layout l;
+  l.size = {s.size_mm[0], s.size_mm[1]};
+  l.thickness = s.thickness_mm;
+  l.facets = {s.facets[0], s.facets[1]};
+  l.n = read_index(preset);
+  l.receiver = s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : l.size;
+  l.cells = {s.cells[0], s.cells[1]};
+  for (const Receiver& r : s.receivers) l.distances.push_back(r.distance_mm);
+  l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
+  l.scatter = std::tan(glm::radians(s.scatter_deg));
+
+  const double relief = most_relief(l);
+  const auto refuse = [&](const Place& where, double value, const char* what) {
+    if (value > relief) return;
+    throw bad_input(where,
+                    fmt::format("is {} mm, and facets of {:.4g} x {:.4g} mm can reach {:.4g} mm from their middle", value, l.facet().x,
+                                l.facet().y, relief),
+                    fmt::format("expected more than that, so that {}", what), "choose more facets, or a larger value");
+  };
+  refuse(own / "thickness_mm", l.thickness, "the object holds together");
+  refuse(own / "receivers" / 0 / "distance_mm", l.distances.front(), "the receiver is free of the object");
+  return l;
+}
+
+void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset)
+{
+  const double limit = usable_slope(layout.n);
+  const glm::dvec2 last = layout.size / 2.0 - layout.facet() / 2.0;
+  for (std::size_t j = 0; j < targets.size(); ++j) {
+    double farthest = 0; // from a lit cell to its nearest facet
+    for (std::size_t c = 0; c < targets[j].size(); ++c) {
+      if (targets[j][c] <= 0) continue;
+      const auto columns = static_cast<std::size_t>(layout.cells.x);
+      const glm::dvec2 at{(static_cast<double>(c % columns) + 0.5) * layout.cell().x - layout.receiver.x / 2,
+                          layout.receiver.y / 2 - (static_cast<double>(c / columns) + 0.5) * layout.cell().y};
+      farthest = std::max(farthest, glm::length(glm::max(glm::abs(at) - last, glm::dvec2(0))));
+    }
+    const double distance = layout.distances[j];
+    if (farthest <= limit * distance) continue;
+    throw bad_input(
+        Place(preset.source) / "inverse" / "receivers" / j / "distance_mm",
+        fmt::format("light must reach {:.4g} mm beside the object over {} mm, a slope of {:.3g}", farthest, distance, farthest / distance),
+        fmt::format("an index of {:.4g} bends it by a slope of {:.3g} at most", layout.n, limit),
+        fmt::format("choose a distance of at least {:.4g} mm, a larger object or a smaller receiver_mm", farthest / limit));
+  }
+}
+
+} // namespace nephroid::inverse

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands where, in millimetres: facets about z = 0, light along -z through the flat front at z = thickness, receivers at
+// z = -distance, all of them centred on the z axis. y is up, and row 0 of facets and cells is at the top: a person who looks along the
+// light sees the pictures as they are.
+#pragma once
+#include "preset/preset.h"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace nephroid::inverse {
+
+struct Layout {
+  glm::dvec2 size{100, 100}; ///< of the object
+  double thickness = 10;
+  glm::ivec2 facets{128, 128};
+  double n = 1.5;                ///< index of the object over that of what is around it
+  glm::dvec2 receiver{100, 100}; ///< size of every receiver
+  glm::ivec2 cells{64, 64};      ///< of every receiver
+  std::vector<double> distances; ///< ascending
+  double sun_radius = 0;         ///< of the sun's disc: tangent of its half angle
+  double scatter = 0;            ///< standard deviation of a slope, along x and along y
+
+  glm::dvec2 facet() const { return size / glm::dvec2(facets); }
+  glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
+  std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }
+  std::size_t cell_count() const { return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y); }
+  /// Middle of facet i, row by row from the top.
+  glm::dvec2 middle(std::size_t i) const
+  {
+    const auto columns = static_cast<std::size_t>(facets.x);
+    const double x = static_cast<double>(i % columns) + 0.5, y = static_cast<double>(i / columns) + 0.5;
+    return {x * facet().x - size.x / 2, size.y / 2 - y * facet().y};
+  }
+  /// Of a point of a receiver, in cells from its top left corner.
+  glm::dvec2 in_cells(const glm::dvec2& p) const { return {(p.x + receiver.x / 2) / cell().x, (receiver.y / 2 - p.y) / cell().y}; }
+};
+
+/// A receiver's wanted light: a value a cell, row 0 at the top, which sum to 1.
+using Target = std::vector<double>;
+
+/// Reads the index. Throws bad_input where that cannot be read or is 1, and where facets would reach the front or the nearest receiver.
+Layout make_layout(const preset::Preset& preset);
+
+/// Throws bad_input where no facet can bend light far enough to reach a lit cell.
+void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset);
+
+} // namespace nephroid::inverse

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of engine 3 as the preset knows them, and what one of their fields cannot say alone. What needs a file read is refused by
+// the plan (layout.cpp, pictures/target.cpp).
+#include "inverse/describe_settings.h"
+
+#include "base/error.h"
+#include "preset/settings_type.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::inverse {
+namespace {
+
+using preset::Where;
+
+void check_picture(const Picture& p, const std::string& pointer, const Where& where)
+{
+  const bool hollow = p.type == Picture::Type::ring || p.type == Picture::Type::star;
+  if (hollow && p.inner >= p.radius)
+    throw bad_input(where(preset::child(pointer, "inner")), fmt::format("is {}, and the outer radius {}", p.inner, p.radius),
+                    "expected less than the outer radius");
+  if (p.type == Picture::Type::star && p.count < 2)
+    throw bad_input(where(preset::child(pointer, "count")), fmt::format("is {}", p.count), "expected a star of at least 2 points");
+}
+
+void check_receivers(const Settings& s, const std::string& pointer, const Where& where)
+{
+  for (std::size_t j = 0; j < s.receivers.size(); ++j) {
+    const std::string at = preset::child(pointer, j);
+    check_picture(s.receivers[j].picture, preset::child(at, "picture"), where);
+    if (j == 0) continue;
+    const double before = s.receivers[j - 1].distance_mm, now = s.receivers[j].distance_mm;
+    if (now <= before)
+      throw bad_input(where(preset::child(at, "distance_mm")),
+                      fmt::format("is {} mm, and the receiver before stands at {} mm", now, before),
+                      "expected receivers in the order of their distance, each at its own", "sort them, the nearest first");
+  }
+}
+
+/// The camera gives the size of the sheet of pictures; whatever else a scene has, this engine has none of it.
+void check_scene(const preset::Preset& preset, const Where& where)
+{
+  const auto refuse = [&](const char* key) {
+    throw bad_input(where(preset::child("/scene", key)), "has no meaning for the engine 'inverse', which makes its own object and light",
+                    "expected none", "remove it");
+  };
+  if (!preset.scene.objects.empty()) refuse("objects");
+  if (!preset.scene.lights.empty()) refuse("lights");
+  if (preset.scene.environment) refuse("environment");
+}
+
+void check(const preset::Preset& preset, const Where& where)
+{
+  const Settings& s = settings(preset);
+  const std::string own = "/inverse";
+  check_scene(preset, where);
+  check_receivers(s, preset::child(own, "receivers"), where);
+  if (s.index.type == preset::Dispersion::Type::constant && s.index.n == 1)
+    throw bad_input(where(preset::child(own, "index")), "is 1, which bends no light", "expected another index, such as 1.5");
+  if (preset.stop.error && !preset.reference)
+    throw bad_input(where("/stop/error"), "the engine 'inverse' makes no estimate of its error",
+                    "expected 'stop.passes' or 'stop.seconds'");
+}
+
+} // namespace
+
+const preset::SettingsType& settings_type()
+{
+  static const preset::SettingsType type =
+      preset::settings_type<Settings>("inverse", "One refractive object that casts several pictures at several distances.", check);
+  return type;
+}
+
+} // namespace nephroid::inverse

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of engine 3: the section "inverse" of a preset. Lengths are in millimetres, whatever the preset's unit is, because a
+// workshop works in them.
+#pragma once
+#include "preset/preset.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// A grey picture that fills a receiver. Sizes are in parts of the receiver's shorter side, places are about its middle. JSON: a string
+/// (a picture file) or an object with "type".
+struct Picture {
+  enum class Type { file, disc, ring, cross, bars, star, gradient };
+  Type type = Type::disc;
+  std::string file;      ///< file: its luminance, fitted into the receiver
+  double radius = 0.3;   ///< disc; ring and star: the outer one
+  double inner = 0.15;   ///< ring and star: the inner radius
+  double length = 0.7;   ///< cross and bars
+  double width = 0.15;   ///< cross and bars; bars are as far from each other as they are wide
+  int count = 1;         ///< bars; star: of its points
+  double turn_deg = 0;   ///< counterclockwise
+  double background = 0; ///< brightness where nothing is drawn; the drawing has 1
+  bool operator==(const Picture&) const = default;
+};
+
+struct Receiver {
+  double distance_mm = 100; ///< from the facets
+  Picture picture;
+  bool operator==(const Receiver&) const = default;
+};
+
+struct Settings {
+  enum class Method { assign };
+  Method method = Method::assign;
+  std::array<double, 2> size_mm{100, 100};            ///< of the object
+  double thickness_mm = 10;                           ///< from the facets' middles to the flat front
+  std::array<int, 2> facets{128, 128};                ///< across and down
+  preset::Dispersion index{};                         ///< of the object, in air
+  double wavelength_nm = 550;                         ///< at which the index is taken
+  double sun_deg = 0;                                 ///< diameter of the sun's disc
+  double scatter_deg = 0;                             ///< standard deviation of the directions that a rough surface gives one ray
+  std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
+  std::array<int, 2> cells{64, 64};                   ///< of every receiver, across and down
+  std::vector<Receiver> receivers{{100, Picture{}}};  ///< the nearest first
+  bool operator==(const Settings&) const = default;
+};
+
+/// The settings of this engine, as a preset knows them.
+const preset::SettingsType& settings_type();
+
+/// Of a preset of this engine.
+inline Settings& settings(preset::Preset& preset) { return preset.settings.as<Settings>(); }
+inline const Settings& settings(const preset::Preset& preset) { return preset.settings.as<Settings>(); }
+
+} // namespace nephroid::inverse

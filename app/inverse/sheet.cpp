@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/sheet.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace nephroid::inverse {
+namespace {
+
+std::shared_ptr<const job::Picture> grey(std::span<const double> values, double scale, const Layout& layout)
+{
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = layout.cells.x;
+  picture->height = layout.cells.y;
+  for (const double value : values) picture->rgb.insert(picture->rgb.end(), 3, static_cast<float>(scale * value));
+  return picture;
+}
+
+/// The pixels from `first` that show `count` cells on `pixels`, by the nearest cell.
+void paste(const job::Picture& from, job::Picture& into, int left, int top, int width, int height)
+{
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int u = x * from.width / width, v = y * from.height / height;
+      const float* const pixel = from.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(v) * from.width + u);
+      std::copy_n(pixel, 3, into.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(top + y) * into.width + left + x));
+    }
+}
+
+} // namespace
+
+std::shared_ptr<const job::Picture> wanted_picture(const Target& target, const Layout& layout)
+{
+  return grey(target, 1 / *std::max_element(target.begin(), target.end()), layout);
+}
+
+std::shared_ptr<const job::Picture> received_picture(const Target& target, std::span<const double> light, const Layout& layout)
+{
+  const double sum = std::accumulate(light.begin(), light.end(), 0.0), most = *std::max_element(target.begin(), target.end());
+  return grey(light, sum > 0 ? 1 / (sum * most) : 0, layout);
+}
+
+std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received)
+{
+  auto picture = std::make_shared<job::Picture>(wanted);
+  for (std::size_t i = 0; i < wanted.rgb.size(); i += 3) {
+    const float over = received.rgb[i] - wanted.rgb[i];
+    picture->rgb[i] = std::max(over, 0.0f);
+    picture->rgb[i + 1] = 0;
+    picture->rgb[i + 2] = std::max(-over, 0.0f);
+  }
+  return picture;
+}
+
+std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<std::shared_ptr<const job::Picture>>>& columns, int width,
+                                          int height)
+{
+  auto made = std::make_shared<job::Picture>();
+  made->width = width;
+  made->height = height;
+  made->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.02f); // a grey that parts black pictures
+  const int across = static_cast<int>(columns.size()), down = static_cast<int>(columns.front().size());
+  const job::Picture& one = *columns.front().front();
+  const int gap = std::max(1, std::min(width / across, height / down) / 32);
+  const double fits =
+      std::min((static_cast<double>(width) / across - gap) / one.width, (static_cast<double>(height) / down - gap) / one.height);
+  const double scale = fits >= 1 ? static_cast<int>(fits) : std::max(fits, 0.0);
+  const int w = static_cast<int>(scale * one.width), h = static_cast<int>(scale * one.height);
+  for (int column = 0; column < across; ++column)
+    for (int row = 0; row < down; ++row) {
+      const int left = (2 * column + 1) * width / (2 * across) - w / 2, top = (2 * row + 1) * height / (2 * down) - h / 2;
+      paste(*columns[static_cast<std::size_t>(column)][static_cast<std::size_t>(row)], *made, std::max(left, 0), std::max(top, 0), w, h);
+    }
+  return made;
+}
+
+} // namespace nephroid::inverse

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pictures look like: light a cell as pixels.
+#pragma once
+#include "inverse/layout.h"
+#include "job/job.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// Grey: 1 is the brightest that is wanted, where both have the same energy.
+std::shared_ptr<const job::Picture> wanted_picture(const Target& target, const Layout& layout);
+std::shared_ptr<const job::Picture> received_picture(const Target& target, std::span<const double> light, const Layout& layout);
+/// Red: too much light, blue: too little, on the same scale.
+std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received);
+
+/// All in one picture of this size: a column for each receiver; what is wanted, what is there, the difference below each other. Cells are
+/// squares of pixels where they fit.
+std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<std::shared_ptr<const job::Picture>>>& columns, int width,
+                                          int height);
+
+} // namespace nephroid::inverse
