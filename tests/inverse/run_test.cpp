@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole runs of engine 3 through the program: its files, its figures, and that a run that was cut goes on with the same bits.
+#include "base/files.h"
+#include "image/image.h"
+#include "tests/support/program_test.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+using namespace nephroid::test;
+using nlohmann::json;
+using testing::HasSubstr;
+
+namespace {
+
+class InverseRun : public ProgramTest {
+protected:
+  /// The shipped shapes, small enough for a test: facets are half a cell, as shipped.
+  Ended run_to(const std::string& name, std::vector<std::string> more = {}) const
+  {
+    more.insert(more.begin(), {"run", "inverse/shapes", "-o", name, "--set", "inverse.facets=[64, 64]", "--set", "inverse.cells=[32, 32]",
+                               "--set", "scene.camera.resolution=[200, 200]"});
+    return run(more);
+  }
+  std::string bytes(const std::string& file) const { return nephroid::read_file(folder / file); }
+  json of(const std::string& file) const { return json::parse(bytes(file)); }
+};
+
+TEST_F(InverseRun, CastsTheShapes)
+{
+  const Ended ended = run_to("out");
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("sweeps"));
+  const json all = of("out/run.json");
+  const double judged = all.at("judged").at("cost").get<double>(), believed = all.at("believed").at("cost").get<double>();
+  EXPECT_LT(judged, 0.15); // the aim for this set
+  EXPECT_NEAR(judged, believed, 0.02);
+  EXPECT_GT(judged, 0.03); // three pictures of one surface are never all right
+  const json light = all.at("light");
+  EXPECT_NEAR(light.at("sent").get<double>() + light.at("reflected").get<double>() + light.at("lost").get<double>(), 1, 1e-9);
+  EXPECT_THAT(bytes("out/cost.csv"), testing::StartsWith("sweep,seconds,cost,cost_all,rel_l2,missed\n0,"));
+  for (const char* file : {"receiver_3.exr", "target_1.png", "difference_2.png", "object.obj", "object.stl"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
+  const nephroid::image::Image receiver = nephroid::image::read_image(folder / "out/receiver_1.exr");
+  EXPECT_EQ(receiver.width, 32);
+  const double triangles = all.at("object").at("triangles").get<double>();
+  EXPECT_EQ(static_cast<double>(bytes("out/object.stl").size()), 84 + 50 * triangles);
+}
+
+TEST_F(InverseRun, GoesOnWithTheSameBits)
+{
+  ASSERT_EQ(run_to("whole", {"--passes", "3"}).exit_code, 0);
+  ASSERT_EQ(run_to("parts", {"--passes", "1"}).exit_code, 0);
+  EXPECT_EQ(of("parts/run.json").at("sweeps"), 1);
+  const Ended resumed = run_to("parts", {"--passes", "3", "--resume"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("going on in"));
+  EXPECT_EQ(of("parts/run.json").at("sweeps"), 3);
+  EXPECT_EQ(of("whole/run.json").at("judged"), of("parts/run.json").at("judged"));
+  for (const char* file : {"object.stl", "object.obj"}) EXPECT_EQ(bytes(std::string("whole/") + file), bytes(std::string("parts/") + file));
+  for (const char* picture : {"image.exr", "receiver_2.exr"})
+    EXPECT_EQ(nephroid::image::read_image(folder / "whole" / picture).data, nephroid::image::read_image(folder / "parts" / picture).data);
+}
+
+TEST_F(InverseRun, IsPlannedWithItsReasons)
+{
+  const Ended planned = run({"plan", "inverse/shapes", "--json", "--set", "inverse.facets=[64, 64]"});
+  ASSERT_EQ(planned.exit_code, 0) << planned.err;
+  const json plan = json::parse(planned.out);
+  EXPECT_EQ(plan.at("passes").at(0).at("reason"), "64 x 64 facets, 3 receivers, slopes up to 1.06");
+  EXPECT_EQ(plan.at("passes").at(1).at("runs"), false);
+  EXPECT_THAT(plan.at("notes").at(0), HasSubstr("are larger than half a cell"));
+}
+
+} // namespace

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad input of engine 3: each a line that says what would work.
+#include "base/files.h"
+#include "image/image.h"
+#include "inverse/engine.h"
+#include "preset/read.h"
+#include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace nephroid;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class InverseSettings : public testing::Test {
+protected:
+  test::TemporaryFolder folder;
+
+  preset::Preset read(const preset::Overrides& overrides = {}) const
+  {
+    return preset::parse_preset(R"({"engine": "inverse", "inverse": {"receivers": [{"distance_mm": 100, "picture": {"type": "ring"}}]}})",
+                                "own.json", overrides);
+  }
+  /// Of reading, else of planning.
+  std::string refusal(const preset::Overrides& overrides) const
+  {
+    return test::refusal_of([&] { inverse::make_plan(read(overrides)); });
+  }
+  /// Of a picture file of these greys.
+  std::string refusal_of_picture(int width, int height, const std::vector<float>& greys)
+  {
+    image::Image picture{width, height, {"Y"}, greys, {}, false};
+    image::write_exr(folder.path() / "p.exr", picture);
+    return refusal({"inverse.receivers.0.picture=" + (folder.path() / "p.exr").string()});
+  }
+};
+
+TEST_F(InverseSettings, TakesADefault) { EXPECT_EQ(inverse::make_plan(read()).targets.size(), 1u); }
+
+TEST_F(InverseSettings, Distances)
+{
+  EXPECT_THAT(refusal({"inverse.receivers.0.distance_mm=0"}), HasSubstr("expected a number from 0.01 to 1000000 mm"));
+  EXPECT_THAT(refusal({"inverse.receivers.0.distance_mm=-5"}), HasSubstr("expected a number from 0.01"));
+  const std::string two =
+      R"(inverse.receivers=[{"distance_mm": 90, "picture": {"type": "disc"}}, {"distance_mm": %, "picture": {"type": "disc"}}])";
+  for (const std::string second : {"90", "50"}) {
+    std::string text = two;
+    text.replace(text.find('%'), 1, second);
+    EXPECT_THAT(refusal({text}), AllOf(HasSubstr("is " + second + " mm, and the receiver before stands at 90 mm"), HasSubstr("sort them")));
+  }
+  EXPECT_THAT(refusal({"inverse.receivers=[]"}), HasSubstr("expected a list of 1 to 16 items"));
+  EXPECT_THAT(refusal({"inverse.receivers.0.distance_mm=0.2"}), AllOf(HasSubstr("can reach"), HasSubstr("free of the object")));
+  EXPECT_THAT(refusal({"inverse.thickness_mm=0.2"}), AllOf(HasSubstr("can reach"), HasSubstr("choose more facets")));
+}
+
+TEST_F(InverseSettings, Index)
+{
+  EXPECT_THAT(refusal({"inverse.index=1"}), HasSubstr("is 1, which bends no light; expected another index, such as 1.5"));
+  EXPECT_THAT(refusal({R"(inverse.index={"type": "cauchy", "coefficients": [1.0005]})"}), HasSubstr("bends hardly any light"));
+  EXPECT_THAT(refusal({"inverse.index=materials/no-such.yml"}), HasSubstr("no-such.yml"));
+  EXPECT_NEAR(inverse::make_plan(read({"inverse.index=PMMA-Szczurowski"})).layout.n, 1.49, 0.01);
+}
+
+// A receiver of 600 mm over 50 mm: the corners of its ring are 0.3 * 600 - 50 mm beside an object of 100 mm.
+TEST_F(InverseSettings, SlopesThatNoRefractionReaches)
+{
+  const std::string line = refusal({"inverse.receiver_mm=[600, 600]", "inverse.receivers.0.distance_mm=50"});
+  EXPECT_THAT(line, AllOf(HasSubstr("own.json#/inverse/receivers/0/distance_mm: light must reach"),
+                          HasSubstr("an index of 1.5 bends it by a slope of 1.06 at most"), HasSubstr("choose a distance of at least")));
+  EXPECT_NO_THROW(inverse::make_plan(read({"inverse.receiver_mm=[600, 600]", "inverse.receivers.0.distance_mm=200"})));
+}
+
+TEST_F(InverseSettings, Drawings)
+{
+  EXPECT_THAT(refusal({"inverse.receivers.0.picture.inner=0.4"}), HasSubstr("is 0.4, and the outer radius 0.3"));
+  EXPECT_THAT(refusal({R"(inverse.receivers.0.picture={"type": "star", "count": 1})"}), HasSubstr("a star of at least 2 points"));
+  EXPECT_THAT(refusal({R"(inverse.receivers.0.picture={"type": "square"})"}), HasSubstr("square"));
+  EXPECT_THAT(refusal({R"(inverse.receivers.0.picture={"type": "ring", "inner": 1.5, "radius": 1.9})"}),
+              HasSubstr("leaves every cell of the receiver dark"));
+}
+
+TEST_F(InverseSettings, PictureFiles)
+{
+  EXPECT_THAT(refusal({"inverse.receivers.0.picture=no-such.png"}), HasSubstr("no-such.png"));
+  EXPECT_THAT(refusal_of_picture(4, 4, std::vector<float>(16, 0.0f)), HasSubstr("p.exr: is black all over"));
+  EXPECT_THAT(refusal_of_picture(4, 4, std::vector<float>(16, 1.0f)), HasSubstr("p.exr: is one grey all over"));
+  EXPECT_THAT(refusal_of_picture(1, 1, {1.0f}), HasSubstr("is one grey all over"));
+  EXPECT_THAT(refusal_of_picture(2, 1, {1.0f, -1.0f}), HasSubstr("negative or not a number"));
+  EXPECT_THAT(refusal_of_picture(2, 1, {1.0f, std::numeric_limits<float>::quiet_NaN()}), HasSubstr("negative or not a number"));
+}
+
+TEST_F(InverseSettings, WhatThisEngineHasNot)
+{
+  EXPECT_THAT(refusal({R"(scene.lights=[{"type": "point"}])"}), HasSubstr("has no meaning for the engine 'inverse'"));
+  EXPECT_THAT(refusal({"stop.error=0.1"}), HasSubstr("makes no estimate of its error"));
+  EXPECT_THAT(refusal({"inverse.facets=[2000, 10]"}), HasSubstr("from 1 to 1024"));
+}
+
+// A file's pixels fall into cells by their parts, and keep their aspect: 2 x 1 pixels on a square receiver of 4 x 4 cells fill its
+// two middle rows.
+TEST_F(InverseSettings, APictureFileFitsTheReceiver)
+{
+  image::Image picture{2, 1, {"Y"}, {0.5f, 1.5f}, {}, false};
+  image::write_exr(folder.path() / "p.exr", picture);
+  const auto plan = inverse::make_plan(read({"inverse.receivers.0.picture=" + (folder.path() / "p.exr").string(), "inverse.cells=[4, 4]"}));
+  const double low = 0.5 / 8, high = 1.5 / 8;
+  const std::vector<double> rows{0, 0, 0, 0, low, low, high, high, low, low, high, high, 0, 0, 0, 0};
+  ASSERT_EQ(plan.targets[0].size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(plan.targets[0][i], rows[i], 1e-6) << i;
+}
+
+// A disc of radius r covers pi r^2 of a receiver, and a gradient's mean is half its end.
+TEST_F(InverseSettings, DrawingsCoverWhatTheyShould)
+{
+  const auto lit = [&](const std::string& picture) {
+    const auto target = inverse::make_plan(read({"inverse.receivers.0.picture=" + picture})).targets[0];
+    double most = 0;
+    for (const double t : target) most = std::max(most, t);
+    return 1 / (most * 4096); // the mean where the brightest cell is 1
+  };
+  EXPECT_NEAR(lit(R"({"type": "disc", "radius": 0.25})"), 3.14159 / 16, 1e-3);
+  EXPECT_NEAR(lit(R"({"type": "ring", "radius": 0.4, "inner": 0.2})"), 3.14159 * 0.12, 1e-3);
+  EXPECT_NEAR(lit(R"({"type": "cross", "length": 0.7, "width": 0.15})"), 2 * 0.7 * 0.15 - 0.15 * 0.15, 3e-3);
+  EXPECT_NEAR(lit(R"({"type": "bars", "length": 0.5, "width": 0.1, "count": 3, "turn_deg": 90})"), 0.15, 3e-3);
+  EXPECT_NEAR(lit(R"({"type": "gradient"})"), 0.5 / (127.0 / 128), 1e-3);
+  EXPECT_NEAR(lit(R"({"type": "star", "count": 4, "radius": 0.4, "inner": 0.2})"), 8 * 0.5 * 0.4 * 0.2 * std::sin(3.14159 / 4), 1e-3);
+  EXPECT_NEAR(lit(R"({"type": "disc", "radius": 0.25, "background": 0.5})"), 0.5 + 0.5 * 3.14159 / 16, 1e-3);
+}
+
+} // namespace
