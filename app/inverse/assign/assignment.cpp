@@ -68,18 +68,16 @@ void Assignment::begin_sweep()
   search_.aim({uniform(random), uniform(random)});
 }
 
-double Assignment::power(const glm::dvec2& slope) const { return transmitted(slope, layout_.n) / transmitted({0, 0}, layout_.n); }
-
 double Assignment::sent() const
 {
   double sum = 0;
-  for (const glm::dvec2& slope : slopes_) sum += power(slope);
+  for (const glm::dvec2& slope : slopes_) sum += facet_power(slope, layout_.n);
   return sum;
 }
 
 void Assignment::put(std::size_t facet, const glm::dvec2& slope, double sign)
 {
-  const double light = sign * power(slope);
+  const double light = sign * facet_power(slope, layout_.n);
   for (std::size_t j = 0; j < light_.size(); ++j)
     for_cells(layout_, footprint(layout_, facet, slope, j), [&](std::size_t cell, double part) { light_[j][cell] += light * part; });
 }
@@ -87,7 +85,7 @@ void Assignment::put(std::size_t facet, const glm::dvec2& slope, double sign)
 /// What the sum would change by with the facet there too.
 double Assignment::gain(std::size_t facet, const glm::dvec2& slope) const
 {
-  const double light = power(slope), facets = static_cast<double>(slopes_.size());
+  const double light = facet_power(slope, layout_.n), facets = static_cast<double>(slopes_.size());
   double change = 0;
   for (std::size_t j = 0; j < light_.size(); ++j)
     for_cells(layout_, footprint(layout_, facet, slope, j), [&](std::size_t cell, double part) {
@@ -117,7 +115,7 @@ std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std:
 {
   std::vector<Lack> all = lacks;
   const glm::dvec2 slope = slopes_[facet];
-  const double light = power(slope);
+  const double light = facet_power(slope, layout_.n);
   for (std::size_t j = 0; j < all.size(); ++j) {
     Lack& lack = all[j];
     const Footprint print = footprint(layout_, facet, slope, j);
@@ -130,18 +128,26 @@ std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std:
   return all;
 }
 
+/// Where a facet would go among the light of the others: to the best of all places, or on from where it is if that is better.
+glm::dvec2 Assignment::look(std::size_t facet, const std::vector<Lack>& lacks) const
+{
+  glm::dvec2 from = slopes_[facet];
+  const std::optional<glm::dvec2> found = search_.best(facet, lacks);
+  if (found && search_.score(facet, *found, lacks) < search_.score(facet, from, lacks)) from = *found;
+  return search_.refined(facet, from, lacks);
+}
+
 void Assignment::advance()
 {
   const std::size_t count = std::min(batch, slopes_.size() - next_);
   const std::span<const std::uint32_t> facets(order_.data() + next_, count);
   const std::vector<Lack> now = lacks();
-  std::vector<std::optional<glm::dvec2>> found(count);
-  for_blocks(count, [&](std::size_t i) { found[i] = search_.best(facets[i], lacks_without(now, facets[i])); });
+  std::vector<glm::dvec2> found(count);
+  for_blocks(count, [&](std::size_t i) { found[i] = look(facets[i], lacks_without(now, facets[i])); });
   for (std::size_t i = 0; i < count; ++i) {
-    if (!found[i]) continue;
     const std::size_t facet = facets[i];
     put(facet, slopes_[facet], -1);
-    if (gain(facet, *found[i]) < gain(facet, slopes_[facet])) slopes_[facet] = *found[i];
+    if (gain(facet, found[i]) < gain(facet, slopes_[facet])) slopes_[facet] = found[i];
     put(facet, slopes_[facet], 1);
   }
   next_ += count;

@@ -43,7 +43,7 @@ private:
   double gain(std::size_t facet, const glm::dvec2& slope) const;
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
   std::vector<Lack> lacks() const;
-  double power(const glm::dvec2& slope) const;
+  glm::dvec2 look(std::size_t facet, const std::vector<Lack>& lacks) const;
 
   const Layout& layout_;
   const std::vector<Target>& targets_;

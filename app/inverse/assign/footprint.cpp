@@ -57,4 +57,6 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
   return made;
 }
 
+double facet_power(const glm::dvec2& slope, double n) { return transmitted(slope, n) / transmitted({0, 0}, n); }
+
 } // namespace nephroid::inverse

@@ -32,4 +32,7 @@ struct Footprint {
 /// together off the axes is not kept.
 Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver);
 
+/// How much light a facet sends, over what it would send straight on.
+double facet_power(const glm::dvec2& slope, double n);
+
 } // namespace nephroid::inverse

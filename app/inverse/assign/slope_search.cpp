@@ -13,7 +13,8 @@
 namespace nephroid::inverse {
 namespace {
 
-constexpr int points_per_cell = 2;
+/// Refining halves the lattice's steps so often, and takes so many steps of one length at most.
+constexpr int halvings = 3, steps = 2;
 
 /// How many cells a beam can touch.
 int taps(const Layout& layout, std::size_t receiver, int axis)
@@ -31,7 +32,7 @@ struct SlopeSearch::Columns {
 };
 
 SlopeSearch::SlopeSearch(const Layout& layout, std::span<const double> weights)
-    : layout_(layout), weights_(weights.begin(), weights.end()), lattice_(points_per_cell * layout.cells)
+    : layout_(layout), weights_(weights.begin(), weights.end()), lattice_(layout.cells)
 {
 }
 
@@ -115,6 +116,48 @@ std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const L
     }
   }
   return found;
+}
+
+double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks) const
+{
+  const double power = facet_power(slope, layout_.n);
+  double sum = 0;
+  for (std::size_t j = 0; j < lacks.size(); ++j) {
+    const Footprint print = footprint(layout_, facet, slope, j);
+    const Lack& lack = lacks[j];
+    for (std::size_t k = 0; k < print.y.size(); ++k) {
+      const float* const row =
+          lack.values.data() + static_cast<std::ptrdiff_t>(print.y0 + static_cast<int>(k) + lack.rim) * lack.width + print.x0 + lack.rim;
+      for (std::size_t i = 0; i < print.x.size(); ++i) {
+        const double a = power * print.x[i] * print.y[k];
+        sum += a * (row[i] + weights_[j] * a);
+      }
+    }
+  }
+  return sum;
+}
+
+glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks) const
+{
+  const double limit = usable_slope(layout_.n);
+  glm::dvec2 step = layout_.receiver / glm::dvec2(lattice_) / layout_.distances.back();
+  double lowest = score(facet, from, lacks);
+  for (int halving = 0; halving < halvings; ++halving) {
+    step /= 2.0;
+    for (int i = 0; i < steps; ++i) {
+      const glm::dvec2 middle = from;
+      for (const glm::dvec2& side : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+        const glm::dvec2 slope = middle + side * step;
+        if (glm::dot(slope, slope) > limit * limit) continue;
+        if (const double there = score(facet, slope, lacks); there < lowest) {
+          lowest = there;
+          from = slope;
+        }
+      }
+      if (from == middle) break;
+    }
+  }
+  return from;
 }
 
 } // namespace nephroid::inverse

@@ -22,7 +22,7 @@ public:
   /// weights: of a receiver's squares.
   SlopeSearch(const Layout& layout, std::span<const double> weights);
 
-  /// Slopes lead to a lattice of points on the last receiver, two a cell along each axis, moved by `offset` (0..1 of their distance).
+  /// Slopes lead to a lattice of points on the last receiver, one a cell, moved by `offset` (0..1 of their distance).
   void aim(const glm::dvec2& offset) { offset_ = offset; }
 
   /// A lattice without light yet.
@@ -31,6 +31,12 @@ public:
   /// The slope with the lowest sum over receivers and cells of lack * a + weight * a^2, a being the facet's light there, of equals the
   /// first; a is that of a facet as large as if it lay flat. Empty: the facet can reach no point of the lattice.
   std::optional<glm::dvec2> best(std::size_t facet, std::span<const Lack> lacks) const;
+
+  /// The same sum for one slope, of the facet's true footprint and power.
+  double score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks) const;
+
+  /// A slope near `from` that scores no worse: steps of half the lattice's and less, to four sides, as long as they gain.
+  glm::dvec2 refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks) const;
 
 private:
   struct Columns;
