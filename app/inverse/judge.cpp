@@ -19,8 +19,9 @@ namespace {
 constexpr int max_surfaces = 16;
 constexpr int rows_at_a_time = 2;
 
-/// Rays along one side of a facet: about a million in all, where a facet gets 2 x 2 at least.
-int rays_along(const Layout& layout) { return std::clamp(1024 / std::max(layout.facets.x, layout.facets.y), 2, 64); }
+/// Rays along one side of a facet: about a million in all, and so many a facet that a cell's light is known to a few percent, since the
+/// brightest cell scales the cost.
+int rays_along(const Layout& layout) { return std::clamp(1024 / std::max(layout.facets.x, layout.facets.y), 6, 64); }
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 

@@ -13,8 +13,11 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Refining halves the lattice's steps so often, and takes so many steps of one length at most.
-constexpr int halvings = 3, steps = 2;
+/// At most so many points across: more cost time in every sweep and gain little, since each sweep has its lattice elsewhere.
+constexpr int most_points = 64;
+/// Refining takes so many steps of one length at most, and halves them until they are this part of a cell.
+constexpr int steps = 2;
+constexpr double finest = 0.125;
 
 /// How many cells a beam can touch.
 int taps(const Layout& layout, std::size_t receiver, int axis)
@@ -32,7 +35,7 @@ struct SlopeSearch::Columns {
 };
 
 SlopeSearch::SlopeSearch(const Layout& layout, std::span<const double> weights)
-    : layout_(layout), weights_(weights.begin(), weights.end()), lattice_(layout.cells)
+    : layout_(layout), weights_(weights.begin(), weights.end()), lattice_(glm::min(layout.cells, glm::ivec2(most_points)))
 {
 }
 
@@ -142,7 +145,7 @@ glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<co
   const double limit = usable_slope(layout_.n);
   glm::dvec2 step = layout_.receiver / glm::dvec2(lattice_) / layout_.distances.back();
   double lowest = score(facet, from, lacks);
-  for (int halving = 0; halving < halvings; ++halving) {
+  while (step.x > finest * layout_.cell().x / layout_.distances.back()) {
     step /= 2.0;
     for (int i = 0; i < steps; ++i) {
       const glm::dvec2 middle = from;

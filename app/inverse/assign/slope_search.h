@@ -22,7 +22,8 @@ public:
   /// weights: of a receiver's squares.
   SlopeSearch(const Layout& layout, std::span<const double> weights);
 
-  /// Slopes lead to a lattice of points on the last receiver, one a cell, moved by `offset` (0..1 of their distance).
+  /// Slopes lead to a lattice of points on the last receiver, one a cell where that has no more than 64 a side, moved by `offset` (0..1 of
+  /// their distance).
   void aim(const glm::dvec2& offset) { offset_ = offset; }
 
   /// A lattice without light yet.
@@ -35,7 +36,7 @@ public:
   /// The same sum for one slope, of the facet's true footprint and power.
   double score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks) const;
 
-  /// A slope near `from` that scores no worse: steps of half the lattice's and less, to four sides, as long as they gain.
+  /// A slope near `from` that scores no worse: steps to four sides, from half the lattice's to an eighth of a cell, as long as they gain.
   glm::dvec2 refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks) const;
 
 private:

@@ -164,22 +164,23 @@ private:
     for (std::size_t i = 0; i < ring.size(); ++i) triangle(id, ring[i], ring[(i + 1) % ring.size()], part);
   }
 
-  /// Counter-clockwise seen from above. Of the facets around a post on the rim one at least is beside the object, at the front's height.
+  /// Of a post on the rim, whose facets beside the object end at the front's height.
+  std::uint32_t at_front(int a, int b) const
+  {
+    for (std::size_t f = 0;; ++f)
+      if (!is_facet(a + around[f].x, b + around[f].y)) return post(a, b).ends[f].id;
+  }
+
+  /// Strips along y, one a column, so that rays find their triangle soon; the first and the last have the vertices of their sides.
   void make_front()
   {
-    std::vector<std::uint32_t> ring;
-    const auto add = [&](int a, int b) {
-      for (std::size_t f = 0; f < 4; ++f)
-        if (!is_facet(a + around[f].x, b + around[f].y)) {
-          ring.push_back(post(a, b).ends[f].id);
-          return;
-        }
+    const auto side = [&](int a) {
+      std::vector<Vertex> ascending; // along y, which stands for the height here
+      const int step = a == 0 || a == nx_ ? 1 : ny_;
+      for (int b = ny_; b >= 0; b -= step) ascending.push_back({place(a, b).y, at_front(a, b)});
+      return ascending;
     };
-    for (int b = 0; b < ny_; ++b) add(0, b);
-    for (int a = 0; a < nx_; ++a) add(a, ny_);
-    for (int b = ny_; b > 0; --b) add(nx_, b);
-    for (int a = nx_; a > 0; --a) add(a, 0);
-    fan({0, 0, layout_.thickness}, ring, Part::front);
+    for (int a = 0; a < nx_; ++a) strip(side(a), side(a + 1), false, Part::front);
   }
 
   const Layout& layout_;
