@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of engine 3: sweeps, then the solid, then its judgement. All on the host.
-#include "inverse/assign/assignment.h"
+// A run of engine 3: slopes, then the solid, then its judgement. All on the host.
 #include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "inverse/facets/solid.h"
 #include "inverse/judge.h"
+#include "inverse/method.h"
 #include "inverse/sheet.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -21,14 +22,12 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// A sweep that lowers the sum of squares by less than this part of it is the last.
-constexpr double worth_a_sweep = 0.01;
 constexpr double step_seconds = 0.05;
 /// Of a run's work that the judge is, for its progress only.
 constexpr double judge_part = 0.1;
 
 struct CostRow {
-  double sweep = 0, seconds = 0;
+  double step = 0, seconds = 0;
   Cost cost;
 };
 
@@ -36,17 +35,17 @@ class InverseJob final : public job::Job {
 public:
   InverseJob(const preset::Preset& preset, const InversePlan& plan)
       : layout_(plan.layout), targets_(plan.targets), seed_(preset.seed), resolution_(preset.scene.camera.resolution),
-        seconds_(preset.stop.seconds), assignment_(layout_, targets_, preset.seed)
+        seconds_(preset.stop.seconds), method_(make_method(settings(preset), layout_, targets_, preset.seed))
   {
-    if (preset.stop.passes || !seconds_) sweeps_ = preset.stop.passes.value_or(preset::default_passes);
-    note_sweep();
+    if (preset.stop.passes || !seconds_) steps_ = preset.stop.passes.value_or(method_->most());
+    note_step();
   }
 
   void step() override
   {
     const Clock::time_point begin = Clock::now();
     while (!finished() && since(begin) < step_seconds) advance();
-    (judge_ ? judge_seconds_ : assign_seconds_) += since(begin);
+    (judge_ ? judge_seconds_ : method_seconds_) += since(begin);
   }
 
   bool finished() const override { return judge_ && judge_->finished(); }
@@ -55,14 +54,14 @@ public:
   job::Progress progress() const override
   {
     job::Progress p;
-    p.step = assignment_.sweeps();
-    p.steps = judge_ ? p.step : sweeps_;
-    p.work = assignment_.tried();
-    p.work_seconds = assign_seconds_ + judge_seconds_;
-    const double sweeps = static_cast<double>(p.step) + assignment_.part();
-    const double assigned = std::max(sweeps_ > 0 ? sweeps / static_cast<double>(sweeps_) : 0, seconds_ ? assign_seconds_ / *seconds_ : 0);
-    p.fraction = judge_ ? 1 - judge_part + judge_part * judge_->part() : std::min(1.0, assigned) * (1 - judge_part);
-    p.units = {.step = "sweep", .steps = "sweeps", .work = "facet", .works = "facets"};
+    p.step = method_->steps();
+    p.steps = judge_ ? p.step : steps_;
+    p.work = method_->tried();
+    p.work_seconds = method_seconds_ + judge_seconds_;
+    const double steps = static_cast<double>(p.step) + method_->part();
+    const double found = std::max(steps_ > 0 ? steps / static_cast<double>(steps_) : 0, seconds_ ? method_seconds_ / *seconds_ : 0);
+    p.fraction = judge_ ? 1 - judge_part + judge_part * judge_->part() : std::min(1.0, found) * (1 - judge_part);
+    p.units = method_->units();
     return p;
   }
 
@@ -72,91 +71,79 @@ public:
     add_pictures(made);
     made.progress = progress();
     add_scalars(made);
-    made.curves.push_back({"cost", {"sweep", "seconds", "cost", "cost_all", "rel_l2", "missed"}, {}});
+    made.curves.push_back({"cost", {std::string(method_->units().step), "seconds", "cost", "cost_all", "rel_l2", "missed"}, {}});
     for (const CostRow& r : history_)
-      made.curves.back().rows.push_back({r.sweep, r.seconds, r.cost.cost, r.cost.cost_all, r.cost.rel_l2, r.cost.missed});
-    made.phases = {{"assign", assign_seconds_}, {"judge", judge_seconds_}};
+      made.curves.back().rows.push_back({r.step, r.seconds, r.cost.cost, r.cost.cost_all, r.cost.rel_l2, r.cost.missed});
+    method_->show(made);
+    made.phases = {{"slopes", method_seconds_}, {"judge", judge_seconds_}};
     if (finished()) add_files(made);
     return made;
   }
 
   void save(ByteSink& to) override
   {
-    assignment_.save(to);
-    to.value(assign_seconds_);
+    method_->save(to);
+    to.value(method_seconds_);
     to.value(judge_seconds_);
-    to.value(converged_);
     to.value(std::uint64_t{history_.size()});
     to.write(std::as_bytes(std::span(history_)));
-    to.value(residual_);
     to.value(judge_.has_value());
     if (judge_) judge_->save(to);
   }
 
-  /// A run that ended at its stop goes on where it is given more sweeps or time; what it had judged then counts no more.
+  /// A run that ended at its stop goes on where it is given more steps or time; what it had judged then counts no more.
   void load(ByteSource& from) override
   {
     bool judged = false;
     std::uint64_t rows = 0;
-    assignment_.load(from);
-    from.value(assign_seconds_);
+    method_->load(from);
+    from.value(method_seconds_);
     from.value(judge_seconds_);
-    from.value(converged_);
     from.value(rows);
     if (rows > from.left() / sizeof(CostRow)) throw bad_input("checkpoint.bin", "is of another run");
     history_.resize(rows);
     from.read(std::as_writable_bytes(std::span(history_)));
-    from.value(residual_);
     from.value(judged);
     if (!judged) return;
     begin_judging();
     judge_->load(from);
-    if (!assigned()) {
+    if (!found()) {
       judge_.reset();
       solid_.reset();
     }
   }
 
 private:
-  bool assigned() const
+  bool found() const
   {
-    if (seconds_ && assign_seconds_ >= *seconds_) return true;
-    return converged_ || (sweeps_ >= 0 && assignment_.sweeps() >= sweeps_);
+    if (seconds_ && method_seconds_ >= *seconds_) return true;
+    return method_->finished() || (steps_ >= 0 && method_->steps() >= steps_);
   }
 
   void advance()
   {
     if (judge_)
       judge_->advance();
-    else if (assigned())
+    else if (found())
       begin_judging();
     else {
-      const std::int64_t before = assignment_.sweeps();
-      assignment_.advance();
-      if (assignment_.sweeps() == before) return;
-      note_sweep();
+      const std::int64_t before = method_->steps();
+      method_->advance();
+      if (method_->steps() == before) return;
+      note_step();
     }
   }
 
-  void note_sweep()
-  {
-    const double residual = assignment_.residual();
-    if (assignment_.sweeps() > 0) converged_ = residual > (1 - worth_a_sweep) * residual_;
-    residual_ = residual;
-    history_.push_back({static_cast<double>(assignment_.sweeps()), assign_seconds_, mean(assignment_.costs())});
-  }
+  void note_step() { history_.push_back({static_cast<double>(method_->steps()), method_seconds_, mean(method_->costs())}); }
 
   void begin_judging()
   {
-    solid_.emplace(make_solid(layout_, assignment_.slopes()));
+    solid_.emplace(make_solid(layout_, method_->slopes()));
     judge_.emplace(layout_, *solid_, seed_);
   }
 
   /// As judged where that is done, else as believed.
-  const std::vector<double>& light(std::size_t receiver) const
-  {
-    return finished() ? judge_->light(receiver) : assignment_.light(receiver);
-  }
+  const std::vector<double>& light(std::size_t receiver) const { return finished() ? judge_->light(receiver) : method_->light(receiver); }
 
   void add_pictures(job::Snapshot& made) const
   {
@@ -184,7 +171,7 @@ private:
 
   void add_scalars(job::Snapshot& made) const
   {
-    add_costs(made, "believed", assignment_.costs());
+    add_costs(made, "believed", method_->costs());
     if (!finished()) return;
     add_costs(made, "judged", judge_->costs(targets_));
     const Fates f = judge_->fates();
@@ -212,14 +199,12 @@ private:
   std::uint64_t seed_;
   std::array<int, 2> resolution_;
   std::optional<double> seconds_;
-  std::int64_t sweeps_ = -1; ///< at most; -1: until the seconds are over
-  Assignment assignment_;
-  double residual_ = 0; ///< after the last sweep
-  bool converged_ = false;
+  std::int64_t steps_ = -1; ///< at most; -1: until the seconds are over
+  std::unique_ptr<Method> method_;
   std::vector<CostRow> history_;
-  double assign_seconds_ = 0, judge_seconds_ = 0;
+  double method_seconds_ = 0, judge_seconds_ = 0;
   std::optional<Solid> solid_;
-  std::optional<Judge> judge_;                   ///< from when the facets are assigned
+  std::optional<Judge> judge_;                   ///< from when the slopes are found
   std::shared_ptr<const std::string> obj_, stl_; ///< once asked for
 };
 

@@ -39,7 +39,7 @@ std::vector<Target> ring_and_disc(const Layout& layout)
 
 void sweep(Assignment& a, int sweeps)
 {
-  while (a.sweeps() < sweeps) a.advance();
+  while (a.steps() < sweeps) a.advance();
 }
 
 TEST(Assignment, NeverLosesAndSoonHasThePictures)
@@ -49,7 +49,7 @@ TEST(Assignment, NeverLosesAndSoonHasThePictures)
   Assignment a(layout, targets, 1);
   double before = a.residual();
   const double begin = mean(a.costs()).cost;
-  while (a.sweeps() < 3) {
+  while (a.steps() < 3) {
     a.advance();
     EXPECT_LE(a.residual(), before * (1 + 1e-12));
     before = a.residual();

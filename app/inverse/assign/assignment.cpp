@@ -10,12 +10,15 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <utility>
 
 namespace nephroid::inverse {
 namespace {
 
 /// Facets that look for their slopes at once. More leave each other's choice out; fewer keep threads waiting.
 constexpr std::size_t batch = 16;
+/// A sweep that lowers the sum of squares by less than this part of it is the last.
+constexpr double worth_a_sweep = 0.01;
 
 /// 0..1; the standard's own distributions differ from library to library.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
@@ -56,6 +59,7 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
     if (length > limit) slopes_[i] *= limit / length;
     put(i, slopes_[i], 1);
   }
+  residual_ = residual();
   begin_sweep();
 }
 
@@ -155,6 +159,8 @@ void Assignment::advance()
   if (next_ < slopes_.size()) return;
   next_ = 0;
   ++sweeps_;
+  const double before = std::exchange(residual_, residual());
+  converged_ = residual_ > (1 - worth_a_sweep) * before;
   begin_sweep();
 }
 
@@ -182,6 +188,8 @@ void Assignment::save(ByteSink& to) const
   to.value(sweeps_);
   to.value(std::uint64_t{next_});
   to.value(tried_);
+  to.value(residual_);
+  to.value(converged_);
   to.write(std::as_bytes(std::span(slopes_)));
   for (const auto& light : light_) to.write(std::as_bytes(std::span(light)));
 }
@@ -192,6 +200,8 @@ void Assignment::load(ByteSource& from)
   from.value(sweeps_);
   from.value(next);
   from.value(tried_);
+  from.value(residual_);
+  from.value(converged_);
   next_ = next;
   from.read(std::as_writable_bytes(std::span(slopes_)));
   for (auto& light : light_) from.read(std::as_writable_bytes(std::span(light)));

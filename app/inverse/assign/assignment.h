@@ -2,9 +2,8 @@
 // Direct assignment: facet after facet is taken away and put back where it serves the pictures most.
 #pragma once
 #include "base/bytes.h"
-#include "inverse/assign/cost.h"
 #include "inverse/assign/slope_search.h"
-#include "inverse/layout.h"
+#include "inverse/method.h"
 
 #include <glm/glm.hpp>
 
@@ -17,25 +16,30 @@ namespace nephroid::inverse {
 /// of a batch looks for its slope at once, on as many threads as there are, among the light as it is before the batch; then one after
 /// the other takes what it found if that is better than what it had. So no sweep makes the sum larger, and the number of threads changes no
 /// bit.
-class Assignment {
+class Assignment final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin with random slopes.
   Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
 
   /// One batch.
-  void advance();
-  std::int64_t sweeps() const { return sweeps_; }                                                  ///< completed
-  double part() const { return static_cast<double>(next_) / static_cast<double>(slopes_.size()); } ///< of the sweep in hand
-  std::uint64_t tried() const { return tried_; }                                                   ///< facets, of all sweeps
+  void advance() override;
+  /// The last sweep gained less than a hundredth of the sum.
+  bool finished() const override { return converged_; }
+  std::int64_t steps() const override { return sweeps_; }
+  std::int64_t most() const override { return preset::default_passes; }
+  double part() const override { return static_cast<double>(next_) / static_cast<double>(slopes_.size()); }
+  std::uint64_t tried() const override { return tried_; }
+  job::Units units() const override { return {.step = "sweep", .steps = "sweeps", .work = "facet", .works = "facets"}; }
 
-  const std::vector<glm::dvec2>& slopes() const { return slopes_; }
-  const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; } ///< in facets that send all of their light
-  double sent() const;                                                                      ///< in the same unit
-  double residual() const;                                                                  ///< the sum
-  std::vector<Cost> costs() const;                                                          ///< of each receiver, as believed
+  const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
+  /// In facets that send all of their light.
+  const std::vector<double>& light(std::size_t receiver) const override { return light_[receiver]; }
+  double sent() const;     ///< in the same unit
+  double residual() const; ///< the sum
+  std::vector<Cost> costs() const override;
 
-  void save(ByteSink& to) const;
-  void load(ByteSource& from);
+  void save(ByteSink& to) const override;
+  void load(ByteSource& from) override;
 
 private:
   void begin_sweep();
@@ -57,6 +61,8 @@ private:
   std::int64_t sweeps_ = 0;
   std::size_t next_ = 0; ///< in order_
   std::uint64_t tried_ = 0;
+  double residual_ = 0; ///< before the sweep in hand
+  bool converged_ = false;
 };
 
 } // namespace nephroid::inverse

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A way to find the facets' slopes: what a run needs of it, whichever it is.
+#pragma once
+#include "base/bytes.h"
+#include "inverse/assign/cost.h"
+#include "inverse/layout.h"
+#include "inverse/settings.h"
+#include "job/job.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace nephroid::inverse {
+
+class Method {
+public:
+  virtual ~Method() = default;
+  /// A short piece of work, some milliseconds. Never called once finished() is true.
+  virtual void advance() = 0;
+  /// More steps would gain nothing.
+  virtual bool finished() const = 0;
+  virtual std::int64_t steps() const = 0;  ///< completed: sweeps, moves
+  virtual std::int64_t most() const = 0;   ///< steps that it takes where the preset has no other stop
+  virtual double part() const = 0;         ///< of the step in hand
+  virtual std::uint64_t tried() const = 0; ///< facets, of all steps
+  virtual job::Units units() const = 0;
+
+  virtual const std::vector<glm::dvec2>& slopes() const = 0;                ///< as good as they are so far
+  virtual const std::vector<double>& light(std::size_t receiver) const = 0; ///< of these slopes, by their footprints
+  virtual std::vector<Cost> costs() const = 0;                              ///< of that light
+  /// Adds what this method alone has to tell. The job has the cost over steps and seconds.
+  virtual void show(job::Snapshot&) const {}
+
+  /// All that it needs to go on with the same bits.
+  virtual void save(ByteSink& to) const = 0;
+  virtual void load(ByteSource& from) = 0;
+};
+
+/// As the settings say. The layout and the targets outlive it.
+std::unique_ptr<Method> make_method(const Settings& settings, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
+
+} // namespace nephroid::inverse
