@@ -14,8 +14,9 @@ program_packages=(
   glmark2-data libjs-chart.js)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
-# The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets.
-test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema)
+# The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets,
+# admesh checks meshes that are to be milled.
+test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema admesh)
 # What .ci/run checks the sources with.
 check_packages=(clang-format clang-tidy shellcheck)
 

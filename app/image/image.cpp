@@ -14,6 +14,7 @@
 #include <dlfcn.h>
 #include <exception>
 #include <functional>
+#include <span>
 #include <string_view>
 
 namespace nephroid::image {
@@ -72,6 +73,18 @@ std::vector<const char*> pointers(const std::vector<std::string>& names)
   std::vector<const char*> result;
   for (const std::string& name : names) result.push_back(name.c_str());
   return result;
+}
+
+void encode_exr(const std::string& name, const Image& image, const std::function<void(std::string_view)>& use)
+{
+  check_size(name, image.width, image.height, image.channels.size(), image.data.size());
+  const std::vector<const char*> channels = pointers(image.channels);
+  std::vector<NephroidAttribute> attributes;
+  for (const auto& [key, value] : image.attributes) attributes.push_back({key.c_str(), value.c_str()});
+  encode(name,
+         {image.width, image.height, static_cast<int>(channels.size()), channels.data(), image.data.data(), nullptr, attributes.data(),
+          attributes.size()},
+         use);
 }
 
 /// Entry i is the linear value halfway between the codes i and i + 1: the code of a value is the number of entries not above it.
@@ -162,14 +175,21 @@ Rgb rgb_of(const Image& picture, const std::string& name)
 
 void write_exr(const fs::path& file, const Image& image)
 {
-  check_size(file.string(), image.width, image.height, image.channels.size(), image.data.size());
-  const std::vector<const char*> channels = pointers(image.channels);
-  std::vector<NephroidAttribute> attributes;
-  for (const auto& [name, value] : image.attributes) attributes.push_back({name.c_str(), value.c_str()});
-  encode(file.string(),
-         {image.width, image.height, static_cast<int>(channels.size()), channels.data(), image.data.data(), nullptr, attributes.data(),
-          attributes.size()},
-         [&](std::string_view encoded) { write_file_whole(file, encoded); });
+  encode_exr(file.string(), image, [&](std::string_view encoded) { write_file_whole(file, encoded); });
+}
+
+void write_exr(ByteSink& to, const Image& image)
+{
+  encode_exr("EXR", image, [&](std::string_view encoded) { to.write(std::as_bytes(std::span(encoded))); });
+}
+
+void write_png16(ByteSink& to, int width, int height, const std::vector<std::uint16_t>& grey, const std::string& description)
+{
+  check_size("PNG", width, height, 1, grey.size());
+  const char* const channel = "Y";
+  const NephroidAttribute attribute{"ImageDescription", description.c_str()};
+  encode("PNG", {width, height, 1, &channel, nullptr, nullptr, &attribute, 1, true, grey.data()},
+         [&](std::string_view encoded) { to.write(std::as_bytes(std::span(encoded))); });
 }
 
 void write_png(const fs::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops)

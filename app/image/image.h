@@ -2,6 +2,9 @@
 // Pictures in and out, and how a linear picture is shown. OpenImageIO is behind a library that is loaded at the first call
 // (it costs 0.24 s and 130 MB at start), so including this costs nothing.
 #pragma once
+#include "base/bytes.h"
+
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -33,6 +36,9 @@ Rgb rgb_of(const Image& picture, const std::string& name);
 /// 32-bit float EXR with every channel and attribute. The same image gives the same bytes:
 /// no date goes in. NaN and infinities are kept.
 void write_exr(const std::filesystem::path& file, const Image& image);
+void write_exr(ByteSink& to, const Image& image);
+/// Values as they are, row 0 at the top, and what they mean.
+void write_png16(ByteSink& to, int width, int height, const std::vector<std::uint16_t>& grey, const std::string& description);
 /// rgb: linear sRGB, 3 a pixel, row 0 at the top; an 8-bit PNG of what shown() gives at exposure 2^stops.
 /// All writers write whole (write_file_whole) and throw failed: a size that does not fit, OpenImageIO's or the system's reason.
 void write_png(const std::filesystem::path& file, int width, int height, const std::vector<float>& rgb, double exposure_stops = 0);

@@ -11,7 +11,7 @@ struct NephroidAttribute {
   const char* value;
 };
 
-/// A picture lent for the time of a call. Interleaved channels, row 0 at the top; exactly one of floats and bytes is set.
+/// A picture lent for the time of a call. Interleaved channels, row 0 at the top; exactly one of floats, bytes and words is set.
 struct NephroidPicture {
   int width, height, channel_count;
   const char* const* channels;
@@ -20,11 +20,12 @@ struct NephroidPicture {
   const NephroidAttribute* attributes;
   std::size_t attribute_count;
   bool integers = false; ///< read: the file's samples are integers
+  const unsigned short* words = nullptr;
 };
 
 /// Calls take(context, picture) once and returns null, or returns the reason in words (valid until the thread's next call).
 using NephroidRead = const char* (*)(const char* file, void (*take)(void* context, const NephroidPicture* picture), void* context);
-/// Encodes floats as 32-bit EXR (zip), bytes as PNG, and calls take(context, data, size) once. Null or the reason, as above.
+/// Encodes floats as 32-bit EXR (zip), bytes and words as PNG, and calls take(context, data, size) once. Null or the reason, as above.
 using NephroidEncode = const char* (*)(const NephroidPicture* picture, void (*take)(void* context, const void* data, std::size_t size),
                                        void* context);
 }

@@ -2,7 +2,9 @@
 // A run of engine 3: slopes, then the solid, then its judgement. All on the host.
 #include "inverse/bending.h"
 #include "inverse/engine.h"
+#include "inverse/facets/mesh_files.h"
 #include "inverse/facets/solid.h"
+#include "inverse/facets/workshop.h"
 #include "inverse/judge.h"
 #include "inverse/method.h"
 #include "inverse/sheet.h"
@@ -26,6 +28,13 @@ constexpr double step_seconds = 0.05;
 /// Of a run's work that the judge is, for its progress only.
 constexpr double judge_part = 0.1;
 
+/// What the object is made of, in words.
+std::string material_of(const Settings& s, double n)
+{
+  const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
+  return fmt::format("{}index of refraction {:.6g} at {} nm", name, n, s.wavelength_nm);
+}
+
 struct CostRow {
   double step = 0, seconds = 0;
   Cost cost;
@@ -35,7 +44,8 @@ class InverseJob final : public job::Job {
 public:
   InverseJob(const preset::Preset& preset, const InversePlan& plan)
       : layout_(plan.layout), targets_(plan.targets), seed_(preset.seed), resolution_(preset.scene.camera.resolution),
-        seconds_(preset.stop.seconds), method_(make_method(settings(preset), layout_, targets_, preset.seed))
+        seconds_(preset.stop.seconds), method_(make_method(settings(preset), layout_, targets_, preset.seed)),
+        material_(material_of(settings(preset), plan.layout.n))
   {
     if (preset.stop.passes || !seconds_) steps_ = preset.stop.passes.value_or(method_->most());
     note_step();
@@ -138,7 +148,7 @@ private:
 
   void begin_judging()
   {
-    solid_.emplace(make_solid(layout_, method_->slopes()));
+    solid_ = std::make_shared<const Solid>(make_solid(layout_, method_->slopes()));
     judge_.emplace(layout_, *solid_, seed_);
   }
 
@@ -180,18 +190,29 @@ private:
         {{"light", "sent", f.sent}, {"light", "reflected", f.reflected}, {"light", "lost", f.lost}, {"light", "by_walls", f.by_walls}});
     made.scalars.insert(made.scalars.end(), {{"object", "index", layout_.n},
                                              {"object", "slope_limit", slope_limit(layout_.n)},
-                                             {"object", "relief_mm", solid_->relief},
+                                             {"object", "relief_mm", solid_->relief()},
+                                             {"object", "thinnest_mm", layout_.thickness - solid_->highest},
+                                             {"object", "highest_wall_mm", solid_->highest_wall},
+                                             {"object", "wall_area_mm2", solid_->wall_area},
                                              {"object", "steepest_deg", solid_->steepest_deg},
                                              {"object", "triangles", static_cast<double>(solid_->mesh.triangles.size())}});
   }
 
-  void add_files(job::Snapshot& made)
+  void add_files(job::Snapshot& made) const
   {
-    if (!obj_) {
-      obj_ = std::make_shared<const std::string>(to_obj(solid_->mesh));
-      stl_ = std::make_shared<const std::string>(to_stl(solid_->mesh));
-    }
-    made.files = {{"object.obj", obj_}, {"object.stl", stl_}};
+    const auto add = [&](const char* name, auto write) {
+      made.files.push_back({name, [write, solid = solid_, layout = layout_](ByteSink& to) { write(layout, *solid, to); }});
+    };
+    add("object.obj", [](const Layout&, const Solid& solid, ByteSink& to) { write_obj(solid.mesh, to); });
+    add("object.stl", [](const Layout&, const Solid& solid, ByteSink& to) { write_stl(solid.mesh, to); });
+    add("object.ply", [](const Layout&, const Solid& solid, ByteSink& to) { write_ply(solid.mesh, to); });
+    add("facets.json", write_facets);
+    add("heights.exr", write_height_exr);
+    add("heights.png", write_height_png);
+    add("workshop.md", [material = material_](const Layout& layout, const Solid& solid, ByteSink& to) {
+      const std::string page = workshop_page(layout, solid, material);
+      to.write(std::as_bytes(std::span(page)));
+    });
   }
 
   Layout layout_;
@@ -203,9 +224,9 @@ private:
   std::unique_ptr<Method> method_;
   std::vector<CostRow> history_;
   double method_seconds_ = 0, judge_seconds_ = 0;
-  std::optional<Solid> solid_;
-  std::optional<Judge> judge_;                   ///< from when the slopes are found
-  std::shared_ptr<const std::string> obj_, stl_; ///< once asked for
+  std::string material_;
+  std::shared_ptr<const Solid> solid_; ///< from when the slopes are found
+  std::optional<Judge> judge_;
 };
 
 } // namespace

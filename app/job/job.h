@@ -6,6 +6,7 @@
 #include "preset/preset.h"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -64,10 +65,11 @@ struct Curve {
   std::vector<std::vector<double>> rows; ///< a value a column
 };
 
-/// A file that an engine adds to a run's folder: a mesh, a list.
+/// A file that an engine adds to a run's folder: a mesh, a list. It is made while it is written, since a mesh's file can be as large as
+/// the memory.
 struct ExtraFile {
   std::string name;
-  std::shared_ptr<const std::string> bytes;
+  std::function<void(ByteSink&)> write; ///< the same bytes whenever it is called; holds what it needs
 };
 
 struct Snapshot {

@@ -109,7 +109,7 @@ void write_run(const std::filesystem::path& folder, const Prepared& prepared, co
   for (const job::NamedPicture& further : snapshot.pictures)
     write_picture(folder / further.name, prepared.preset, device, *further.picture);
   for (const job::Curve& curve : snapshot.curves) write_file_whole(folder / (curve.name + ".csv"), to_csv(curve));
-  for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / file.name, *file.bytes);
+  for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / file.name, file.write);
   if (snapshot.history) write_history(folder, *snapshot.history);
   write_settings(folder, prepared);
   write_file_whole(folder / "run.json",

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <span>
 
 namespace nephroid::preset {
 
@@ -98,7 +99,8 @@ public:
     snapshot.curves.push_back({"settling",
                                {"sweep", "standard_deviation"},
                                {{1, settings_.noise}, {static_cast<double>(done_), settings_.noise / std::sqrt(a + b)}}});
-    snapshot.files.push_back({"gradient.txt", std::make_shared<const std::string>(fmt::format("{} {}\n", width_, height_))});
+    const std::string size = fmt::format("{} {}\n", width_, height_);
+    snapshot.files.push_back({"gradient.txt", [size](ByteSink& to) { to.write(std::as_bytes(std::span(size))); }});
     return snapshot;
   }
 

@@ -39,7 +39,8 @@ TEST_F(InverseRun, CastsTheShapes)
   const json light = all.at("light");
   EXPECT_NEAR(light.at("sent").get<double>() + light.at("reflected").get<double>() + light.at("lost").get<double>(), 1, 1e-9);
   EXPECT_THAT(bytes("out/cost.csv"), testing::StartsWith("sweep,seconds,cost,cost_all,rel_l2,missed\n0,"));
-  for (const char* file : {"receiver_3.exr", "target_1.png", "difference_2.png", "object.obj", "object.stl"})
+  for (const char* file : {"receiver_3.exr", "target_1.png", "difference_2.png", "object.obj", "object.stl", "object.ply", "facets.json",
+                           "heights.exr", "heights.png", "workshop.md"})
     EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
   const nephroid::image::Image receiver = nephroid::image::read_image(folder / "out/receiver_1.exr");
   EXPECT_EQ(receiver.width, 32);

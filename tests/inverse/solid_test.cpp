@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object is one closed solid, whatever its facets are, and its files say so to an independent reader (Assimp, behind load_mesh).
-#include "base/files.h"
+// The object is one closed solid, whatever its facets are.
 #include "inverse/bending.h"
 #include "inverse/facets/solid.h"
-#include "scene/mesh.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/inverse/sound.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <map>
-#include <numeric>
+#include <cmath>
 #include <random>
 
 namespace {
@@ -21,60 +16,7 @@ using inverse::Layout;
 using inverse::Part;
 using inverse::Solid;
 
-Layout small(int columns, int rows)
-{
-  Layout layout;
-  layout.size = {7, 5};
-  layout.thickness = 3;
-  layout.facets = {columns, rows};
-  return layout;
-}
-
-std::vector<glm::dvec2> random_slopes(const Layout& layout, double most, int seed)
-{
-  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-  std::uniform_real_distribution<double> uniform(-most, most);
-  std::vector<glm::dvec2> slopes(layout.facet_count());
-  for (glm::dvec2& s : slopes) s = {uniform(random), uniform(random)};
-  return slopes;
-}
-
-using Vertices = std::array<float, 3>;
-Vertices at(const scene::Mesh& mesh, std::uint32_t id) { return {mesh.positions[id].x, mesh.positions[id].y, mesh.positions[id].z}; }
-
-/// Pieces that hang together by edges; vertices at one place are one.
-std::size_t bodies(const scene::Mesh& mesh)
-{
-  std::map<std::pair<Vertices, Vertices>, std::size_t> edges;
-  std::vector<std::size_t> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      auto edge = std::minmax(at(mesh, mesh.triangles[t][i]), at(mesh, mesh.triangles[t][(i + 1) % 3]));
-      const auto [known, added] = edges.try_emplace({edge.first, edge.second}, t);
-      if (!added) parent[root(t)] = root(known->second);
-    }
-  std::size_t count = 0;
-  for (std::size_t t = 0; t < parent.size(); ++t) count += root(t) == t;
-  return count;
-}
-
-/// Facets are planes through their middles at z = 0, so every prism under them has the slab's volume.
-void expect_sound(const Layout& layout, const scene::Mesh& mesh)
-{
-  const scene::MeshReport report = scene::inspect(mesh);
-  EXPECT_EQ(report.open_edges, 0u);
-  EXPECT_EQ(report.crowded_edges, 0u);
-  EXPECT_EQ(report.degenerate, 0u);
-  EXPECT_EQ(report.duplicated, 0u);
-  const double slab = layout.size.x * layout.size.y * layout.thickness;
-  EXPECT_NEAR(report.signed_volume / slab, 1, 1e-5); // outwards, too
-  EXPECT_EQ(bodies(mesh), 1u);
-}
+using test::expect_sound, test::random_slopes, test::small;
 
 TEST(Solid, IsClosedWithAnySlopes)
 {
@@ -139,20 +81,6 @@ TEST(Solid, FacetsHaveTheirNormals)
     EXPECT_GT(glm::dot(glm::normalize(cross), normal), 1 - 1e-6) << t;
   }
   EXPECT_GE(facets, 4u * 63);
-}
-
-TEST(Solid, FilesAreReadByOthers)
-{
-  const test::TemporaryFolder folder;
-  const Layout layout = small(15, 11);
-  const Solid solid = make_solid(layout, random_slopes(layout, 0.5, 2));
-  write_file_whole(folder.path() / "object.obj", inverse::to_obj(solid.mesh));
-  write_file_whole(folder.path() / "object.stl", inverse::to_stl(solid.mesh));
-  for (const char* file : {"object.obj", "object.stl"}) {
-    const scene::Mesh mesh = scene::load_mesh(folder.path() / file);
-    EXPECT_EQ(mesh.triangles.size(), solid.mesh.triangles.size());
-    expect_sound(layout, mesh);
-  }
 }
 
 } // namespace

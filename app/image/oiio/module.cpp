@@ -70,9 +70,11 @@ const char* read(const char* file, void (*take)(void*, const NephroidPicture*), 
   return nullptr;
 }
 
+TypeDesc type_of(const NephroidPicture& picture) { return picture.floats ? TypeFloat : picture.words ? TypeUInt16 : TypeUInt8; }
+
 ImageSpec spec_of(const NephroidPicture& picture)
 {
-  ImageSpec spec(picture.width, picture.height, picture.channel_count, picture.floats ? TypeFloat : TypeUInt8);
+  ImageSpec spec(picture.width, picture.height, picture.channel_count, type_of(picture));
   spec.channelnames.assign(picture.channels, picture.channels + picture.channel_count);
   if (picture.floats) {
     spec.attribute("compression", "zip");
@@ -90,12 +92,14 @@ const char* encode(const NephroidPicture& picture, std::vector<unsigned char>& b
   // Seldom more than as many bytes as the picture has: growing would copy them, and hold both for a while.
   const std::size_t values =
       static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * static_cast<std::size_t>(picture.channel_count);
-  bytes.reserve(values * (picture.floats ? sizeof(float) : 1) + 65536);
+  bytes.reserve(values * type_of(picture).size() + 65536);
   Filesystem::IOVecOutput memory(bytes);
   if (!output->set_ioproxy(&memory)) return "this OpenImageIO cannot write to memory";
-  const TypeDesc type = picture.floats ? TypeFloat : TypeUInt8;
-  const void* const pixels = picture.floats ? static_cast<const void*>(picture.floats) : picture.bytes;
-  if (!output->open(std::string("picture.") + format, spec_of(picture)) || !output->write_image(type, pixels) || !output->close())
+  const void* const pixels = picture.floats  ? static_cast<const void*>(picture.floats)
+                             : picture.words ? static_cast<const void*>(picture.words)
+                                             : picture.bytes;
+  if (!output->open(std::string("picture.") + format, spec_of(picture)) || !output->write_image(type_of(picture), pixels) ||
+      !output->close())
     return reason(output->geterror());
   return nullptr;
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace nephroid::inverse {
@@ -21,7 +22,7 @@ class Builder {
 public:
   Builder(const Layout& layout, const std::vector<glm::dvec2>& slopes) : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y)
   {
-    for (const glm::dvec2& slope : slopes) gradients_.push_back(facet_gradient(slope, layout.n));
+    for (const glm::dvec2& slope : slopes) solid_.facets.push_back({slope, facet_gradient(slope, layout.n), 0});
   }
 
   Solid build()
@@ -45,7 +46,8 @@ private:
   double height(int column, int row, const glm::dvec2& half) const
   {
     if (!is_facet(column, row)) return layout_.thickness;
-    return glm::dot(gradients_[static_cast<std::size_t>(row * nx_ + column)], half);
+    const Facet& facet = solid_.facets[static_cast<std::size_t>(row * nx_ + column)];
+    return facet.height + glm::dot(facet.gradient, half);
   }
 
   glm::dvec2 place(int a, int b) const
@@ -61,7 +63,8 @@ private:
     const glm::dvec2 half = layout_.facet() / 2.0;
     const double closest = joins * std::min(layout_.facet().x, layout_.facet().y);
     const std::array<glm::dvec2, 4> corner{glm::dvec2{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
-    double lowest = 0, highest = 0;
+    solid_.lowest = std::numeric_limits<double>::infinity();
+    solid_.highest = -solid_.lowest;
     for (int b = 0; b <= ny_; ++b)
       for (int a = 0; a <= nx_; ++a) {
         std::array<double, 4> heights{};
@@ -69,12 +72,12 @@ private:
         posts_.push_back(make_post(place(a, b), heights, closest, solid_.mesh));
         for (std::size_t f = 0; f < 4; ++f)
           if (is_facet(a + around[f].x, b + around[f].y)) {
-            lowest = std::min(lowest, heights[f]);
-            highest = std::max(highest, heights[f]);
+            solid_.lowest = std::min(solid_.lowest, heights[f]);
+            solid_.highest = std::max(solid_.highest, heights[f]);
           }
       }
-    solid_.relief = highest - lowest;
-    for (const glm::dvec2& g : gradients_) solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan(glm::length(g))));
+    for (const Facet& f : solid_.facets)
+      solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan(glm::length(f.gradient))));
   }
 
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part)
@@ -104,6 +107,7 @@ private:
   {
     const auto [ap, aq, bp, bq] = ends;
     const double over_a = ap.z - aq.z, over_b = bp.z - bq.z;
+    if (part == Part::wall) measure(over_a, over_b, glm::length(at_b - at_a));
     const std::vector<Vertex> end_a = end_of_wall(a, wall_a), end_b = end_of_wall(b, wall_b);
     if (over_a * over_b >= 0) {
       strip(end_a, end_b, over_a + over_b < 0, part);
@@ -115,6 +119,14 @@ private:
     strip(end_a, {crossing}, over_a < 0, part);
     strip({crossing}, end_b, over_b < 0, part);
     return crossing;
+  }
+
+  /// A wall that is over_a high at one end and over_b at the other; of different signs where the facets' edges cross.
+  void measure(double over_a, double over_b, double length)
+  {
+    const double a = std::abs(over_a), b = std::abs(over_b);
+    solid_.highest_wall = std::max({solid_.highest_wall, a, b});
+    if (a + b > 0) solid_.wall_area += length / 2 * (over_a * over_b >= 0 ? a + b : (a * a + b * b) / (a + b));
   }
 
   Part part_between(int column, int row, int other_column, int other_row) const
@@ -154,7 +166,8 @@ private:
     crossing(across_[static_cast<std::size_t>((row + 1) * nx_ + column)]);
     corner(column, row + 1, 0);
     crossing(down_[static_cast<std::size_t>(row * (nx_ + 1) + column)]);
-    fan(glm::dvec3(layout_.middle(static_cast<std::size_t>(row * nx_ + column)), 0), ring, Part::facet);
+    const auto facet = static_cast<std::size_t>(row * nx_ + column);
+    fan(glm::dvec3(layout_.middle(facet), solid_.facets[facet].height), ring, Part::facet);
   }
 
   void fan(const glm::dvec3& middle, const std::vector<std::uint32_t>& ring, Part part)
@@ -185,7 +198,6 @@ private:
 
   const Layout& layout_;
   int nx_, ny_;
-  std::vector<glm::dvec2> gradients_;
   std::vector<Post> posts_;
   std::vector<std::optional<Vertex>> down_, across_; ///< crossings, of the lines from a post down and to the right
   Solid solid_;

@@ -6,25 +6,30 @@
 #include "scene/mesh.h"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace nephroid::inverse {
 
 enum class Part : std::uint8_t { facet, wall, side, front };
 
+/// The plane z = height + gradient . (p - its middle).
+struct Facet {
+  glm::dvec2 slope{0}, gradient{0};
+  double height = 0;
+};
+
 struct Solid {
-  scene::Mesh mesh;        ///< counter-clockwise seen from outside
-  std::vector<Part> parts; ///< of each triangle
-  double relief = 0;       ///< from the lowest corner of a facet to the highest
-  double steepest_deg = 0; ///< between a facet and the front
+  scene::Mesh mesh;               ///< counter-clockwise seen from outside
+  std::vector<Part> parts;        ///< of each triangle
+  std::vector<Facet> facets;      ///< as the layout counts them
+  double lowest = 0, highest = 0; ///< z of the facets' corners
+  double steepest_deg = 0;        ///< between a facet and the front
+  double highest_wall = 0;        ///< between two facets
+  double wall_area = 0;           ///< mm^2, between facets
+  double relief() const { return highest - lowest; }
 };
 
 /// Every edge has two triangles, which pass it in opposite directions, and every triangle has an area: see posts.h.
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
-
-/// Wavefront OBJ, and binary STL.
-std::string to_obj(const scene::Mesh& mesh);
-std::string to_stl(const scene::Mesh& mesh);
 
 } // namespace nephroid::inverse

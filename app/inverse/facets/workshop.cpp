@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/facets/workshop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Pixels of the height map across a facet.
+int pixels_across(const Layout& layout) { return std::max(4, 1024 / std::max(layout.facets.x, layout.facets.y)); }
+
+std::string scale_of(const Layout& layout)
+{
+  const glm::dvec2 pixel = layout.facet() / static_cast<double>(pixels_across(layout));
+  return fmt::format("a pixel is {:.6g} x {:.6g} mm; seen from the facets' side, +x is at the left", pixel.x, pixel.y);
+}
+
+/// What one step of the 16-bit map is.
+double step_mm(const Solid& solid) { return solid.relief() / std::numeric_limits<std::uint16_t>::max(); }
+
+std::string png_scale(const Layout& layout, const Solid& solid)
+{
+  return fmt::format("thickness in mm = {:.9g} + {:.9g} * value (0..65535); {}", layout.thickness - solid.highest, step_mm(solid),
+                     scale_of(layout));
+}
+
+void write_text(std::string_view text, ByteSink& to) { to.write(std::as_bytes(std::span(text))); }
+
+} // namespace
+
+std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material)
+{
+  std::string page = "# For the workshop\n\n| what | figure |\n|---|---|\n";
+  const auto row = [&](const char* what, const std::string& figure) {
+    fmt::format_to(std::back_inserter(page), "| {} | {} |\n", what, figure);
+  };
+  const auto mm = [](double length) { return fmt::format("{:.4g} mm", length); };
+  row("width x height", fmt::format("{:.6g} x {:.6g} mm", layout.size.x, layout.size.y));
+  row("greatest thickness", mm(layout.thickness - solid.lowest));
+  row("smallest thickness", mm(layout.thickness - solid.highest));
+  row("depth of the relief", mm(solid.relief()));
+  row("volume",
+      fmt::format("{:.6g} cm3", scene::signed_volume(solid.mesh, 0, static_cast<std::uint32_t>(solid.mesh.triangles.size())) / 1000));
+  row("material", material);
+  row("facets", fmt::format("{} x {}", layout.facets.x, layout.facets.y));
+  row("smallest facet", fmt::format("{:.4g} x {:.4g} mm, as all of them", layout.facet().x, layout.facet().y));
+  row("steepest facet", fmt::format("{:.4g} degrees from the front", solid.steepest_deg));
+  row("steepest wall", solid.wall_area > 0 ? "90 degrees, as all of them" : "none");
+  row("highest wall", mm(solid.highest_wall));
+  row("area of the walls between facets", fmt::format("{:.4g} mm2", solid.wall_area));
+  page += "\nThe front is flat and the light's way in. The facets are on the other side; walls between them stand straight up.\n\n"
+          "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the front at the top (+z).\n"
+          "- `facets.json`: a line a facet.\n";
+  fmt::format_to(std::back_inserter(page), "- `heights.exr`: thickness in mm; {}.\n- `heights.png`: {}.\n", scale_of(layout),
+                 png_scale(layout, solid));
+  return page;
+}
+
+void write_facets(const Layout& layout, const Solid& solid, ByteSink& to)
+{
+  const glm::dvec2 facet = layout.facet();
+  write_text(fmt::format("{{\"columns\": {}, \"rows\": {}, \"facet_mm\": [{}, {}],\n"
+                         " \"order\": \"row by row from the top, from -x to +x\",\n"
+                         " \"normal\": \"(dz_dx, dz_dy, -1), not of unit length: out of the object\",\n"
+                         " \"numbers\": [\"slope_x\", \"slope_y\", \"dz_dx\", \"dz_dy\", \"middle_z_mm\"],\n \"facets\": [",
+                         layout.facets.x, layout.facets.y, facet.x, facet.y),
+             to);
+  fmt::memory_buffer line;
+  for (const Facet& f : solid.facets) {
+    fmt::format_to(std::back_inserter(line), "{}[{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}]", &f == solid.facets.data() ? "\n" : ",\n", f.slope.x,
+                   f.slope.y, f.gradient.x, f.gradient.y, f.height);
+    write_text({line.data(), line.size()}, to);
+    line.clear();
+  }
+  write_text("\n ]}\n", to);
+}
+
+image::Image height_map(const Layout& layout, const Solid& solid)
+{
+  const int across = pixels_across(layout);
+  image::Image map{layout.facets.x * across, layout.facets.y * across, {"Y"}, {}, {}, false};
+  map.data.reserve(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
+  const glm::dvec2 pixel = layout.facet() / static_cast<double>(across);
+  const auto from_middle = [&](int i) { return i % across + 0.5 - across / 2.0; };
+  for (int y = 0; y < map.height; ++y)
+    for (int x = map.width - 1; x >= 0; --x) {
+      const Facet& f = solid.facets[static_cast<std::size_t>(y / across) * static_cast<std::size_t>(layout.facets.x) +
+                                    static_cast<std::size_t>(x / across)];
+      const double z = f.height + glm::dot(f.gradient, glm::dvec2(from_middle(x), -from_middle(y)) * pixel);
+      map.data.push_back(static_cast<float>(layout.thickness - z));
+    }
+  map.attributes["ImageDescription"] = "thickness in mm; " + scale_of(layout);
+  return map;
+}
+
+void write_height_exr(const Layout& layout, const Solid& solid, ByteSink& to) { image::write_exr(to, height_map(layout, solid)); }
+
+void write_height_png(const Layout& layout, const Solid& solid, ByteSink& to)
+{
+  const image::Image map = height_map(layout, solid);
+  const double deepest = layout.thickness - solid.highest, step = step_mm(solid);
+  std::vector<std::uint16_t> grey;
+  grey.reserve(map.data.size());
+  for (const float thickness : map.data)
+    grey.push_back(static_cast<std::uint16_t>(step > 0 ? std::clamp(std::round((thickness - deepest) / step), 0.0, 65535.0) : 0));
+  image::write_png16(to, map.width, map.height, grey, png_scale(layout, solid));
+}
+
+} // namespace nephroid::inverse
