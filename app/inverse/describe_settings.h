@@ -2,6 +2,7 @@
 // The settings of engine 3 described for visitors: preset/describe.h says what a visitor is.
 #pragma once
 #include "inverse/settings.h"
+#include "inverse/thesis/describe_thesis.h"
 #include "preset/describe.h"
 
 namespace nephroid::preset {
@@ -22,7 +23,8 @@ template <>
 struct Choices<inverse::Settings::Method> {
   using Method = inverse::Settings::Method;
   static constexpr Choice<Method> all[] = {
-      {Method::assign, "assign", "Facet after facet goes where the pictures lack most light, until a sweep gains nothing."}};
+      {Method::assign, "assign", "Facet after facet goes where the pictures lack most light, until a sweep gains nothing."},
+      {Method::thesis, "thesis", "Draws from the pictures' joint probability, which two annealings and a correction adjust."}};
 };
 
 template <>
@@ -117,6 +119,7 @@ void describe(V& v, S& s)
           s.receiver_mm);
   v.field({.name = "cells", .sentence = "Cells of every picture, across and down.", .bounds = within(2, 1024)}, s.cells);
   v.field({.name = "receivers", .sentence = "The screens that light reaches, the nearest first.", .count = {1, 16}}, s.receivers);
+  v.field({.name = "thesis", .sentence = "Constants of the method \"thesis\"."}, s.thesis);
 }
 
 } // namespace nephroid::inverse

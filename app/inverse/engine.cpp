@@ -4,8 +4,11 @@
 #include "base/counted.h"
 #include "inverse/bending.h"
 #include "inverse/pictures/target.h"
+#include "inverse/thesis/pipeline.h"
 
 #include <fmt/format.h>
+
+#include <string>
 
 namespace nephroid::inverse {
 namespace {
@@ -13,12 +16,24 @@ namespace {
 /// Bytes a facet, measured: some 14 triangles with their vertices, their tree and the two files of them.
 constexpr std::uint64_t solid_bytes = 3000;
 
-std::vector<plan::Pass> passes_of(const Layout& l)
+std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
 {
   const bool blurred = l.sun_radius > 0 || l.scatter > 0;
-  return {{"assign", true,
-           fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y, counted(l.distances.size(), "receiver"),
-                       usable_slope(l.n))},
+  const bool assign = s.method == Settings::Method::assign;
+  const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
+                                       counted(l.distances.size(), "receiver"), usable_slope(l.n));
+  const std::string not_asked = "inverse.method is 'assign'";
+  const bool anneals = !assign && s.thesis.cycles > 0, corrects = !assign && s.thesis.corrections > 0;
+  return {{"assign", assign, assign ? what : "inverse.method is 'thesis'"},
+          {"sampling", !assign, assign ? not_asked : what},
+          {"annealing", anneals,
+           anneals  ? "sizes, then extension and overshoot"
+           : assign ? not_asked
+                    : "inverse.thesis.cycles is 0"},
+          {"correction", corrects,
+           corrects ? "of intensities, cell by cell"
+           : assign ? not_asked
+                    : "inverse.thesis.corrections is 0"},
           {"blur", blurred, blurred ? "the sun's disc or a rough surface, in every footprint" : "inverse.sun_deg and scatter_deg are 0"},
           {"judge", true, "rays through the finished solid, walls and all"}};
 }
@@ -33,13 +48,17 @@ InversePlan make_plan(const preset::Preset& preset)
   const Layout& l = plan.layout;
   plan.engine = "inverse";
   plan.layers = 1;
-  plan.passes = passes_of(l);
+  plan.passes = passes_of(settings(preset), l);
   plan.buffers = {{"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
                   {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
                                      "soft; more facets or fewer cells would not",
                                      l.facet().x, l.facet().y, l.cell().x, l.cell().y));
+  const std::int64_t trials = Pipeline::trials_of(settings(preset).thesis);
+  if (settings(preset).method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
+    plan.notes.push_back(fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end",
+                                     trials, *preset.stop.passes, trials));
   return plan;
 }
 

@@ -23,7 +23,7 @@ struct InversePlan : plan::Plan {
 /// Reads the index and the pictures. Throws bad_input as make_layout and make_targets do.
 InversePlan make_plan(const preset::Preset& preset);
 
-/// Sweeps over the facets until one gains less than a hundredth, or the preset's stop; then makes the solid and judges it.
+/// Looks for slopes until the method gains no more, or the preset's stop; then makes the solid and judges it.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan);
 
 /// Closed forms, for `nephroid check`.

@@ -2,15 +2,13 @@
 #include "inverse/method.h"
 
 #include "inverse/assign/assignment.h"
+#include "inverse/thesis/pipeline.h"
 
 namespace nephroid::inverse {
 
 std::unique_ptr<Method> make_method(const Settings& settings, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
 {
-  switch (settings.method) {
-  case Settings::Method::assign:
-    break;
-  }
+  if (settings.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, settings.thesis, seed);
   return std::make_unique<Assignment>(layout, targets, seed);
 }
 

@@ -2,6 +2,7 @@
 // The settings of engine 3: the section "inverse" of a preset. Lengths are in millimetres, whatever the preset's unit is, because a
 // workshop works in them.
 #pragma once
+#include "inverse/thesis/thesis_settings.h"
 #include "preset/preset.h"
 
 #include <array>
@@ -34,7 +35,7 @@ struct Receiver {
 };
 
 struct Settings {
-  enum class Method { assign };
+  enum class Method { assign, thesis };
   Method method = Method::assign;
   std::array<double, 2> size_mm{100, 100};            ///< of the object
   double thickness_mm = 10;                           ///< from the facets' middles to the flat front
@@ -46,6 +47,7 @@ struct Settings {
   std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
   std::array<int, 2> cells{64, 64};                   ///< of every receiver, across and down
   std::vector<Receiver> receivers{{100, Picture{}}};  ///< the nearest first
+  Thesis thesis{};                                    ///< of the method thesis
   bool operator==(const Settings&) const = default;
 };
 

@@ -63,14 +63,38 @@ TEST_F(InverseRun, GoesOnWithTheSameBits)
     EXPECT_EQ(nephroid::image::read_image(folder / "whole" / picture).data, nephroid::image::read_image(folder / "parts" / picture).data);
 }
 
+// Cut in the first annealing, in the second and in the correction; from a trial to the next.
+TEST_F(InverseRun, GoesOnWithTheSameBitsByTheThesis)
+{
+  const auto thesis = [&](const std::string& name, const std::string& trials, bool resume) {
+    std::vector<std::string> more{"--set", "inverse.method=thesis",  "--set",    "inverse.thesis.cycles=2",
+                                  "--set", "inverse.thesis.moves=3", "--passes", trials};
+    if (resume) more.push_back("--resume");
+    const Ended ended = run_to(name, more);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("trials"));
+  };
+  thesis("whole", "17", false);
+  for (const char* trials : {"4", "9", "15", "17"}) thesis("parts", trials, trials != std::string("4"));
+  for (const char* group : {"thesis", "believed", "judged"}) EXPECT_EQ(of("whole/run.json").at(group), of("parts/run.json").at(group));
+  EXPECT_EQ(bytes("whole/annealing.csv"), bytes("parts/annealing.csv"));
+  EXPECT_EQ(bytes("whole/object.stl"), bytes("parts/object.stl"));
+  EXPECT_GT(of("whole/run.json").at("thesis").at("gain_annealing_2").get<double>(), 0);
+}
+
 TEST_F(InverseRun, IsPlannedWithItsReasons)
 {
   const Ended planned = run({"plan", "inverse/shapes", "--json", "--set", "inverse.facets=[64, 64]"});
   ASSERT_EQ(planned.exit_code, 0) << planned.err;
   const json plan = json::parse(planned.out);
   EXPECT_EQ(plan.at("passes").at(0).at("reason"), "64 x 64 facets, 3 receivers, slopes up to 1.06");
-  EXPECT_EQ(plan.at("passes").at(1).at("runs"), false);
+  for (const std::size_t i : {1u, 2u, 3u, 4u}) EXPECT_EQ(plan.at("passes").at(i).at("runs"), false);
+  EXPECT_EQ(plan.at("passes").at(2).at("reason"), "inverse.method is 'assign'");
   EXPECT_THAT(plan.at("notes").at(0), HasSubstr("are larger than half a cell"));
+  const json thesis = json::parse(run({"plan", "inverse/shapes", "--json", "--set", "inverse.method=thesis"}).out);
+  EXPECT_EQ(thesis.at("passes").at(0).at("reason"), "inverse.method is 'thesis'");
+  for (const std::size_t i : {1u, 2u, 3u}) EXPECT_EQ(thesis.at("passes").at(i).at("runs"), true);
+  EXPECT_EQ(thesis.at("notes").at(0), "the thesis' pipeline takes up to 251 trials and stops after 12: a 'stop.passes' of 251 lets it end");
 }
 
 } // namespace

@@ -92,6 +92,18 @@ TEST_F(InverseSettings, PictureFiles)
   EXPECT_THAT(refusal_of_picture(2, 1, {1.0f, std::numeric_limits<float>::quiet_NaN()}), HasSubstr("negative or not a number"));
 }
 
+TEST_F(InverseSettings, ConstantsOfTheThesis)
+{
+  EXPECT_THAT(refusal({"inverse.thesis.draws=0"}), HasSubstr("expected a whole number from 1 to 1024"));
+  EXPECT_THAT(refusal({"inverse.thesis.cooling=1.5"}), HasSubstr("expected a number from 0 to 1"));
+  EXPECT_THAT(refusal({"inverse.thesis.temperature=-1"}), HasSubstr("expected a number from 0 to 1"));
+  EXPECT_THAT(refusal({"inverse.thesis.size_limit=1"}), HasSubstr("expected a number from 0 to 0.9"));
+  EXPECT_THAT(refusal({"inverse.thesis.ratio_limit=0.5"}), HasSubstr("expected a number from 1 to 1000"));
+  EXPECT_THAT(refusal({"inverse.thesis.adjust=all"}), AllOf(HasSubstr("convergence"), HasSubstr("each")));
+  EXPECT_THAT(refusal({"inverse.thesis.coling=0.5"}), HasSubstr("cooling"));
+  EXPECT_THAT(refusal({"inverse.method=theses"}), HasSubstr("thesis"));
+}
+
 TEST_F(InverseSettings, WhatThisEngineHasNot)
 {
   EXPECT_THAT(refusal({R"(scene.lights=[{"type": "point"}])"}), HasSubstr("has no meaning for the engine 'inverse'"));

@@ -4,11 +4,11 @@
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
+#include "inverse/uniform.h"
 
 #include <algorithm>
 #include <numeric>
 #include <optional>
-#include <random>
 #include <span>
 #include <utility>
 
@@ -20,9 +20,6 @@ constexpr std::size_t batch = 16;
 /// A sweep that lowers the sum of squares by less than this part of it is the last.
 constexpr double worth_a_sweep = 0.01;
 
-/// 0..1; the standard's own distributions differ from library to library.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
 /// The pictures count alike: their cost is of light over its maximum, and a mean over the cells with light in them.
 std::vector<double> weights_of(const Layout& layout, const std::vector<Target>& targets)
 {
@@ -32,16 +29,6 @@ std::vector<double> weights_of(const Layout& layout, const std::vector<Target>& 
     weights.push_back(1 / (most * most));
   }
   return weights;
-}
-
-/// f(cell, light) for every cell that a facet of power 1 lights.
-template <class F>
-void for_cells(const Layout& layout, const Footprint& print, const F& f)
-{
-  for (std::size_t k = 0; k < print.y.size(); ++k)
-    for (std::size_t i = 0; i < print.x.size(); ++i)
-      f((static_cast<std::size_t>(print.y0) + k) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(print.x0) + i,
-        print.x[i] * print.y[k]);
 }
 
 } // namespace
@@ -57,7 +44,7 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
     slopes_[i] = (to - layout.middle(i)) / last;
     const double length = glm::length(slopes_[i]);
     if (length > limit) slopes_[i] *= limit / length;
-    put(i, slopes_[i], 1);
+    add_light(layout_, i, slopes_[i], 1, light_);
   }
   residual_ = residual();
   begin_sweep();
@@ -65,25 +52,11 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
 
 void Assignment::begin_sweep()
 {
-  std::mt19937_64 random(seed_ * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(sweeps_) + 1);
+  std::mt19937_64 random = numbers_of(seed_, static_cast<std::uint64_t>(sweeps_));
   order_.resize(slopes_.size());
   std::iota(order_.begin(), order_.end(), 0u);
   for (std::size_t i = order_.size(); i > 1; --i) std::swap(order_[i - 1], order_[random() % i]);
   search_.aim({uniform(random), uniform(random)});
-}
-
-double Assignment::sent() const
-{
-  double sum = 0;
-  for (const glm::dvec2& slope : slopes_) sum += facet_power(slope, layout_.n);
-  return sum;
-}
-
-void Assignment::put(std::size_t facet, const glm::dvec2& slope, double sign)
-{
-  const double light = sign * facet_power(slope, layout_.n);
-  for (std::size_t j = 0; j < light_.size(); ++j)
-    for_cells(layout_, footprint(layout_, facet, slope, j), [&](std::size_t cell, double part) { light_[j][cell] += light * part; });
 }
 
 /// What the sum would change by with the facet there too.
@@ -150,9 +123,9 @@ void Assignment::advance()
   for_blocks(count, [&](std::size_t i) { found[i] = look(facets[i], lacks_without(now, facets[i])); });
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t facet = facets[i];
-    put(facet, slopes_[facet], -1);
+    add_light(layout_, facet, slopes_[facet], -1, light_);
     if (gain(facet, found[i]) < gain(facet, slopes_[facet])) slopes_[facet] = found[i];
-    put(facet, slopes_[facet], 1);
+    add_light(layout_, facet, slopes_[facet], 1, light_);
   }
   next_ += count;
   tried_ += count;
@@ -178,7 +151,7 @@ double Assignment::residual() const
 std::vector<Cost> Assignment::costs() const
 {
   std::vector<Cost> costs;
-  const double all = sent();
+  const double all = light_sent(slopes_, layout_.n);
   for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets_[j], light_[j], all));
   return costs;
 }

@@ -34,7 +34,6 @@ public:
   const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
   /// In facets that send all of their light.
   const std::vector<double>& light(std::size_t receiver) const override { return light_[receiver]; }
-  double sent() const;     ///< in the same unit
   double residual() const; ///< the sum
   std::vector<Cost> costs() const override;
 
@@ -43,7 +42,6 @@ public:
 
 private:
   void begin_sweep();
-  void put(std::size_t facet, const glm::dvec2& slope, double sign);
   double gain(std::size_t facet, const glm::dvec2& slope) const;
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
   std::vector<Lack> lacks() const;

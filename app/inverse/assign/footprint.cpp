@@ -59,4 +59,18 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
 
 double facet_power(const glm::dvec2& slope, double n) { return transmitted(slope, n) / transmitted({0, 0}, n); }
 
+void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign, std::vector<std::vector<double>>& light)
+{
+  const double power = sign * facet_power(slope, layout.n);
+  for (std::size_t j = 0; j < light.size(); ++j)
+    for_cells(layout, footprint(layout, facet, slope, j), [&](std::size_t cell, double part) { light[j][cell] += power * part; });
+}
+
+double light_sent(const std::vector<glm::dvec2>& slopes, double n)
+{
+  double sum = 0;
+  for (const glm::dvec2& slope : slopes) sum += facet_power(slope, n);
+  return sum;
+}
+
 } // namespace nephroid::inverse

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <vector>
 
 namespace nephroid::inverse {
@@ -34,5 +35,21 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
 
 /// How much light a facet sends, over what it would send straight on.
 double facet_power(const glm::dvec2& slope, double n);
+
+/// Calls f(cell, part of the facet's light) for every cell of the receiver that gets some.
+template <class F>
+void for_cells(const Layout& layout, const Footprint& print, const F& f)
+{
+  for (std::size_t k = 0; k < print.y.size(); ++k)
+    for (std::size_t i = 0; i < print.x.size(); ++i)
+      f((static_cast<std::size_t>(print.y0) + k) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(print.x0) + i,
+        print.x[i] * print.y[k]);
+}
+
+/// Adds the facet's light, `sign` times, to every receiver's: [receiver][cell], in facets that send all of theirs.
+void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign, std::vector<std::vector<double>>& light);
+
+/// Light that all facets send, wherever to.
+double light_sent(const std::vector<glm::dvec2>& slopes, double n);
 
 } // namespace nephroid::inverse

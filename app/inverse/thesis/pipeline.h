@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The thesis' pipeline (chapter 5): draws from the joint probability of the pictures, two annealings that adjust these, and the
+// correction of their intensity.
+#pragma once
+#include "inverse/method.h"
+#include "inverse/thesis/adjust.h"
+#include "inverse/thesis/annealer.h"
+#include "inverse/thesis/trial.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// A step is a trial: all facets drawn, and their cost (5.2) against the adjusted pictures. The first has the pictures as they are. A
+/// stage ends with what had its lowest cost; the object gets the first draw of that. Trials share their random numbers, so that a cost
+/// depends on what is tried alone. Facets send light from their middles and all alike, as the thesis has it.
+class Pipeline final : public Method {
+public:
+  /// The layout and the targets outlive it. Facets begin flat.
+  Pipeline(const Layout& layout, const std::vector<Target>& targets, const Thesis& settings, std::uint64_t seed);
+
+  void advance() override;
+  bool finished() const override { return stage_ == Stage::done; }
+  std::int64_t steps() const override { return trials_; }
+  std::int64_t most() const override { return trials_of(settings_); }
+  double part() const override { return trial_ ? trial_->part() : 0; }
+  std::uint64_t tried() const override;
+  job::Units units() const override { return {.step = "trial", .steps = "trials", .work = "facet", .works = "facets"}; }
+
+  const std::vector<glm::dvec2>& slopes() const override { return best_.slopes; }
+  const std::vector<double>& light(std::size_t receiver) const override { return light_[receiver]; }
+  std::vector<Cost> costs() const override;
+  void show(job::Snapshot& snapshot) const override;
+
+  void save(ByteSink& to) const override;
+  void load(ByteSource& from) override;
+
+  /// Of all stages, at most.
+  static std::int64_t trials_of(const Thesis& settings);
+
+private:
+  enum class Stage : std::int32_t { sampling, annealing_1, annealing_2, correction, done };
+  static constexpr std::size_t stages = 4;
+  /// A trial in the history.
+  struct Row {
+    double stage = 0, temperature = 0, cost = 0, lowest = 0, accepted = 0, refused = 0;
+  };
+
+  void begin_trial();
+  void end_trial();
+  void begin_next_stage();
+  bool stage_ended() const;
+  std::optional<Annealer> annealer() const;
+  void adjust(const std::vector<double>& values);
+  void find_needs();
+  void correct(const std::vector<std::vector<double>>& received);
+  std::vector<Aim> aims() const;
+  double cost_of_drawn(const Drawn& drawn) const;
+  void keep(Drawn drawn, double cost);
+
+  const Layout& layout_;
+  const std::vector<Target>& targets_;
+  Thesis settings_;
+  std::uint64_t seed_;
+  // What is tried.
+  std::vector<Aim> wanted_;     ///< D: in the first annealing the proposal, later what that found
+  std::vector<Margin> margins_; ///< of wanted_, from the second annealing on
+  std::vector<Need> needs_;     ///< the same
+  std::optional<Trial> trial_;
+  // The state.
+  Stage stage_ = Stage::sampling;
+  std::int64_t trials_ = 0;
+  std::optional<Annealer> annealer_;
+  std::vector<double> sizes_;                 ///< what the first annealing found
+  std::vector<double> reach_;                 ///< k and o of all pictures: the proposal, later what the second annealing found
+  std::vector<std::vector<double>> pictures_; ///< what light is aimed at, before it is extended: wanted_, later corrected
+  std::int64_t rounds_ = 0, idle_ = 0;        ///< of the correction: done, and without a gain
+  Drawn best_;
+  double lowest_ = 1;                  ///< its cost
+  std::array<double, stages> costs_{}; ///< each stage's lowest
+  std::vector<Row> history_;
+  std::vector<std::vector<double>> light_; ///< of best_'s slopes, by their footprints
+};
+
+} // namespace nephroid::inverse

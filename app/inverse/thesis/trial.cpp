@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/thesis/trial.h"
+
+#include "base/parallel.h"
+#include "inverse/uniform.h"
+
+#include <algorithm>
+#include <span>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Facets of one advance(), and of one thread's turn.
+constexpr std::size_t piece = 512, turn = 16;
+
+} // namespace
+
+Trial::Trial(const Layout& layout, const std::vector<Aim>& aims, const Thesis& settings, std::uint64_t seed)
+    : layout_(layout), settings_(settings), seed_(seed), sampler_(layout, aims, settings),
+      counts_(aims.size(), std::vector<std::uint32_t>(layout.cell_count())), slopes_(layout.facet_count())
+{
+}
+
+void Trial::advance()
+{
+  const std::size_t count = std::min(piece, layout_.facet_count() - next_), receivers = counts_.size();
+  std::vector<Draws> found(count);
+  for_ranges(count, turn, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      std::mt19937_64 random = numbers_of(seed_, next_ + i);
+      found[i] = sampler_.draw(next_ + i, settings_.draws, random);
+    }
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (found[i].slopes.empty())
+      ++dark_;
+    else
+      slopes_[next_ + i] = found[i].slopes.front();
+    for (std::size_t k = 0; k < found[i].cells.size(); ++k)
+      if (const int cell = found[i].cells[k]; cell >= 0) ++counts_[k % receivers][static_cast<std::size_t>(cell)];
+  }
+  next_ += count;
+}
+
+Drawn Trial::drawn() const
+{
+  Drawn drawn{{}, slopes_, dark_};
+  for (const auto& counts : counts_) {
+    drawn.light.emplace_back(counts.begin(), counts.end());
+    for (double& light : drawn.light.back()) light /= settings_.draws;
+  }
+  return drawn;
+}
+
+void Trial::save(ByteSink& to) const
+{
+  to.value(std::uint64_t{next_});
+  for (const auto& counts : counts_) to.write(std::as_bytes(std::span(counts)));
+  to.write(std::as_bytes(std::span(slopes_)));
+  to.value(dark_);
+}
+
+void Trial::load(ByteSource& from)
+{
+  std::uint64_t next = 0;
+  from.value(next);
+  next_ = next;
+  for (auto& counts : counts_) from.read(std::as_writable_bytes(std::span(counts)));
+  from.read(std::as_writable_bytes(std::span(slopes_)));
+  from.value(dark_);
+}
+
+} // namespace nephroid::inverse
