@@ -154,6 +154,7 @@ private:
       const char* const names[] = {"target", "receiver", "difference"};
       for (std::size_t i = 0; i < 3; ++i) made.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i]});
     }
+    made.pictures.push_back({"slopes", slopes_picture(method_->slopes(), layout_)});
     made.picture = sheet(columns, resolution_[0], resolution_[1]);
   }
 
