@@ -139,10 +139,12 @@ void AnnealingPanel::draw_receivers(const Context& context)
   if (!ImGui::BeginTable("receivers", static_cast<int>(count), ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedSame, {0, height}))
     return;
   for (std::size_t j = 0; j < count; ++j) ImGui::TableSetupColumn(fmt::format("{}", j).c_str(), ImGuiTableColumnFlags_WidthFixed, column);
-  ImGui::TableNextRow();
-  for (std::size_t j = 0; j < count; ++j) {
-    ImGui::TableNextColumn();
-    draw_receiver_fields(context, j);
+  for (const auto field : {&AnnealingPanel::draw_distance, &AnnealingPanel::draw_weight}) {
+    ImGui::TableNextRow();
+    for (std::size_t j = 0; j < count; ++j) {
+      ImGui::TableNextColumn();
+      (this->*field)(context, j);
+    }
   }
   for (const char* kind : kinds) {
     ImGui::TableNextRow();
@@ -155,24 +157,41 @@ void AnnealingPanel::draw_receivers(const Context& context)
   ImGui::EndTable();
 }
 
-void AnnealingPanel::draw_receiver_fields(const Context& context, std::size_t receiver)
+/// Between its neighbours.
+void AnnealingPanel::draw_distance(const Context& context, std::size_t receiver)
 {
   const auto& all = settings_.receivers;
-  const double apart = 0.1; // millimetres, at least
-  double distance = all[receiver].distance_mm;
+  constexpr double apart = 0.1; // millimetres
   const double low = receiver > 0 ? all[receiver - 1].distance_mm + apart : apart;
   const double high = receiver + 1 < all.size() ? all[receiver + 1].distance_mm - apart : 1e6;
-  const std::string widget = name_of("distance", receiver);
+  draw_dragged(context, receiver, name_of("distance", receiver),
+               {fmt::format("distance of receiver {}", receiver + 1), all[receiver].distance_mm, low, high, "%.4g mm",
+                "Distance from the facets: drag it, or type with Ctrl and a click. The search goes on from where it is."},
+               [](inverse::Receiver& r, double value) { r.distance_mm = value; });
+}
+
+void AnnealingPanel::draw_weight(const Context& context, std::size_t receiver)
+{
+  draw_dragged(context, receiver, name_of("weight", receiver),
+               {fmt::format("weight of receiver {}", receiver + 1), settings_.receivers[receiver].weight, 0.01, 100, "weight %.3g",
+                "How much this picture counts beside the others: drag it, or type with Ctrl and a click."},
+               [](inverse::Receiver& r, double value) { r.weight = value; });
+}
+
+void AnnealingPanel::draw_dragged(const Context& context, std::size_t receiver, const std::string& widget, const Dragged& dragged,
+                                  void (*set)(inverse::Receiver&, double))
+{
+  double value = dragged.value;
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::DragScalar(("##" + widget).c_str(), ImGuiDataType_Double, &distance, static_cast<float>(0.002 * distance), &low, &high,
-                        "%.4g mm", ImGuiSliderFlags_AlwaysClamp))
-    context.edit(
-        fmt::format("distance of receiver {}", receiver + 1),
-        [&](preset::Preset& p) { inverse::settings(p).receivers.at(receiver).distance_mm = distance; }, gestures_.number(), true);
+  const bool changed = ImGui::DragScalar(("##" + widget).c_str(), ImGuiDataType_Double, &value, static_cast<float>(0.005 * dragged.value),
+                                         &dragged.low, &dragged.high, dragged.format, ImGuiSliderFlags_AlwaysClamp);
   places_.note(widget);
   if (ImGui::IsItemActivated()) gestures_.begin();
+  if (changed)
+    context.edit(
+        dragged.name, [&](preset::Preset& p) { set(inverse::settings(p).receivers.at(receiver), value); }, gestures_.number(), true);
   if (ImGui::IsItemDeactivated()) context.push(command::EndGesture{});
-  ImGui::SetItemTooltip("Distance of receiver %d: drag it, or type with Ctrl and a click", static_cast<int>(receiver) + 1);
+  ImGui::SetItemTooltip("%s", dragged.help);
 }
 
 void AnnealingPanel::draw_receiver_picture(const std::string& kind, std::size_t receiver, const ImVec2& size)

@@ -37,6 +37,8 @@ public:
   double sent() const;     ///< in the same unit
   double residual() const; ///< the sum
   std::vector<Cost> costs() const override;
+  /// The sweep in hand begins again.
+  bool relight() override;
 
   void save(ByteSink& to) const override;
   void load(ByteSource& from) override;
