@@ -141,6 +141,40 @@ TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
   EXPECT_GT(std::accumulate(wanted.rgb.begin(), wanted.rgb.end(), 0.0), 0);
 }
 
+TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
+{
+  open(test::inverse_text(2));
+  finish();
+  const auto settings = [&]() -> const inverse::Settings& { return inverse::settings(*workbench.preset()); };
+  const auto steps = [&] { return workbench.run().snapshot()->progress.step; };
+  const auto done = [&] {
+    return workbench.run().snapshot_is_current() && workbench.run().status().state == job::State::finished &&
+           std::isfinite(job::scalar(*workbench.run().snapshot(), "judged", "cost"));
+  };
+  const auto drag = [&](const std::string& widget, double by) {
+    const auto at = panel().place_of(widget);
+    ASSERT_TRUE(at) << widget;
+    drag_between(*at, {(*at)[0] + by, (*at)[1]});
+    ASSERT_TRUE(test::eventually([&] { frame(); }, done));
+  };
+  const std::int64_t before = steps();
+  drag("distance_2", 30);
+  EXPECT_GT(settings().receivers[1].distance_mm, 215);
+  EXPECT_GT(steps(), before);
+  const std::int64_t between = steps();
+  drag("weight_1", 60);
+  EXPECT_GT(settings().receivers[0].weight, 1.1);
+  EXPECT_GT(steps(), between);
+  drag("distance_1", 4000); // no farther than the next
+  EXPECT_LT(settings().receivers[0].distance_mm, settings().receivers[1].distance_mm);
+  EXPECT_EQ(runs.made, 1) << "it is the same run";
+  EXPECT_TRUE(workbench.messages().empty());
+  for (int i = 0; i < 3; ++i) workbench.apply({command::Undo{}}); // a gesture is one entry
+  EXPECT_EQ(settings().receivers[1].distance_mm, 200);
+  EXPECT_EQ(settings().receivers[0].weight, 1);
+  EXPECT_EQ(runs.made, 1);
+}
+
 TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)
 {
   inverse::Layout layout;
