@@ -87,6 +87,10 @@ void describe(V& v, S& r)
            .required = true},
           r.distance_mm);
   v.field({.name = "picture", .sentence = "What the object casts there: a file, or an object.", .required = true}, r.picture);
+  v.field({.name = "weight",
+           .sentence = "How much its picture counts beside the others'; the costs that are reported are of all pictures alike.",
+           .bounds = preset::within(0.01, 100)},
+          r.weight);
 }
 
 template <class V, preset::Is<Settings> S>

@@ -62,6 +62,18 @@ InversePlan make_plan(const preset::Preset& preset)
   return plan;
 }
 
+bool may_go_on(const preset::Preset& before, const preset::Preset& now)
+{
+  if (settings(before).receivers.size() != settings(now).receivers.size()) return false;
+  preset::Preset same = now;
+  same.name = before.name;
+  same.description = before.description;
+  same.scene.camera = before.scene.camera;
+  same.stop = before.stop;
+  settings(same).receivers = settings(before).receivers;
+  return same == before;
+}
+
 constinit const engine::Engine engine{
     .settings = settings_type,
     .plan = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&) -> std::unique_ptr<plan::Plan> {
@@ -70,6 +82,7 @@ constinit const engine::Engine engine{
     .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
               const compute::Context&) { return make_job(preset, dynamic_cast<const InversePlan&>(plan)); },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
-    .checks = closed_forms};
+    .checks = closed_forms,
+    .adoptable = may_go_on};
 
 } // namespace nephroid::inverse

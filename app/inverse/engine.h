@@ -26,6 +26,10 @@ InversePlan make_plan(const preset::Preset& preset);
 /// Looks for slopes until the method gains no more, or the preset's stop; then makes the solid and judges it.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan);
 
+/// Whether a run of `before` may go on as one of `now` and keep its facets' slopes: only distances, weights and pictures of as many
+/// receivers differ, or the camera, the stop or a name.
+bool may_go_on(const preset::Preset& before, const preset::Preset& now);
+
 /// Closed forms, for `nephroid check`.
 std::vector<check::Check> closed_forms();
 

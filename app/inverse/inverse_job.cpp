@@ -43,11 +43,9 @@ struct CostRow {
 class InverseJob final : public job::Job {
 public:
   InverseJob(const preset::Preset& preset, const InversePlan& plan)
-      : layout_(plan.layout), targets_(plan.targets), seed_(preset.seed), resolution_(preset.scene.camera.resolution),
-        seconds_(preset.stop.seconds), method_(make_method(settings(preset), layout_, targets_, preset.seed)),
-        material_(material_of(settings(preset), plan.layout.n))
+      : preset_(preset), layout_(plan.layout), targets_(plan.targets),
+        method_(make_method(settings(preset), layout_, targets_, preset.seed))
   {
-    if (preset.stop.passes || !seconds_) steps_ = preset.stop.passes.value_or(method_->most());
     note_step();
   }
 
@@ -65,11 +63,12 @@ public:
   {
     job::Progress p;
     p.step = method_->steps();
-    p.steps = judge_ ? p.step : steps_;
+    p.steps = judge_ ? p.step : most_steps() ? began_.steps + *most_steps() : -1;
     p.work = method_->tried();
     p.work_seconds = method_seconds_ + judge_seconds_;
-    const double steps = static_cast<double>(p.step) + method_->part();
-    const double found = std::max(steps_ > 0 ? steps / static_cast<double>(steps_) : 0, seconds_ ? method_seconds_ / *seconds_ : 0);
+    const double steps = static_cast<double>(p.step - began_.steps) + method_->part();
+    const double found = std::max(most_steps() ? steps / static_cast<double>(*most_steps()) : 0,
+                                  preset_.stop.seconds ? (method_seconds_ - began_.seconds) / *preset_.stop.seconds : 0);
     p.fraction = judge_ ? 1 - judge_part + judge_part * judge_->part() : std::min(1.0, found) * (1 - judge_part);
     p.units = method_->units();
     return p;
@@ -90,11 +89,36 @@ public:
     return made;
   }
 
+  /// The stop counts from here.
+  bool adopt(const preset::Preset& preset) override
+  {
+    if (!may_go_on(preset_, preset)) return false;
+    if (settings(preset) != settings(preset_) || preset.stop != preset_.stop) {
+      InversePlan plan = make_plan(preset);
+      std::swap(layout_, plan.layout);
+      std::swap(targets_, plan.targets);
+      if (!method_->relight()) {
+        std::swap(layout_, plan.layout);
+        std::swap(targets_, plan.targets);
+        return false;
+      }
+      judge_.reset();
+      solid_.reset();
+      obj_.reset();
+      stl_.reset();
+      began_ = {method_->steps(), method_seconds_};
+      note_step();
+    }
+    preset_ = preset;
+    return true;
+  }
+
   void save(ByteSink& to) override
   {
     method_->save(to);
     to.value(method_seconds_);
     to.value(judge_seconds_);
+    to.value(began_);
     to.value(std::uint64_t{history_.size()});
     to.write(std::as_bytes(std::span(history_)));
     to.value(judge_.has_value());
@@ -109,6 +133,7 @@ public:
     method_->load(from);
     from.value(method_seconds_);
     from.value(judge_seconds_);
+    from.value(began_);
     from.value(rows);
     if (rows > from.left() / sizeof(CostRow)) throw bad_input("checkpoint.bin", "is of another run");
     history_.resize(rows);
@@ -126,8 +151,15 @@ public:
 private:
   bool found() const
   {
-    if (seconds_ && method_seconds_ >= *seconds_) return true;
-    return method_->finished() || (steps_ >= 0 && method_->steps() >= steps_);
+    if (preset_.stop.seconds && method_seconds_ - began_.seconds >= *preset_.stop.seconds) return true;
+    return method_->finished() || (most_steps() && method_->steps() - began_.steps >= *most_steps());
+  }
+
+  /// Empty: until the seconds are over.
+  std::optional<std::int64_t> most_steps() const
+  {
+    if (preset_.stop.passes) return *preset_.stop.passes;
+    return preset_.stop.seconds ? std::nullopt : std::optional(method_->most());
   }
 
   void advance()
@@ -149,7 +181,7 @@ private:
   void begin_judging()
   {
     solid_ = std::make_shared<const Solid>(make_solid(layout_, method_->slopes()));
-    judge_.emplace(layout_, *solid_, seed_);
+    judge_.emplace(layout_, *solid_, preset_.seed);
   }
 
   /// As judged where that is done, else as believed.
@@ -164,7 +196,8 @@ private:
       const char* const names[] = {"target", "receiver", "difference"};
       for (std::size_t i = 0; i < 3; ++i) made.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i]});
     }
-    made.picture = sheet(columns, resolution_[0], resolution_[1]);
+    made.pictures.push_back({"slopes", slopes_picture(method_->slopes(), layout_)});
+    made.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
   }
 
   static void add_costs(job::Snapshot& made, const std::string& group, const std::vector<Cost>& costs)
@@ -209,22 +242,25 @@ private:
     add("facets.json", write_facets);
     add("heights.exr", write_height_exr);
     add("heights.png", write_height_png);
-    add("workshop.md", [material = material_](const Layout& layout, const Solid& solid, ByteSink& to) {
+    add("workshop.md", [material = material_of(settings(preset_), layout_.n)](const Layout& layout, const Solid& solid, ByteSink& to) {
       const std::string page = workshop_page(layout, solid, material);
       to.write(std::as_bytes(std::span(page)));
     });
   }
 
+  /// Where the stop counts from: the run's begin, or the newest preset that it took on.
+  struct Began {
+    std::int64_t steps = 0;
+    double seconds = 0;
+  };
+
+  preset::Preset preset_;
   Layout layout_;
   std::vector<Target> targets_;
-  std::uint64_t seed_;
-  std::array<int, 2> resolution_;
-  std::optional<double> seconds_;
-  std::int64_t steps_ = -1; ///< at most; -1: until the seconds are over
   std::unique_ptr<Method> method_;
+  Began began_;
   std::vector<CostRow> history_;
   double method_seconds_ = 0, judge_seconds_ = 0;
-  std::string material_;
   std::shared_ptr<const Solid> solid_; ///< from when the slopes are found
   std::optional<Judge> judge_;
 };

@@ -51,7 +51,10 @@ Layout make_layout(const preset::Preset& preset)
   l.n = read_index(preset);
   l.receiver = s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : l.size;
   l.cells = {s.cells[0], s.cells[1]};
-  for (const Receiver& r : s.receivers) l.distances.push_back(r.distance_mm);
+  for (const Receiver& r : s.receivers) {
+    l.distances.push_back(r.distance_mm);
+    l.weights.push_back(r.weight);
+  }
   l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
   l.scatter = std::tan(glm::radians(s.scatter_deg));
 

@@ -31,6 +31,9 @@ public:
   virtual const std::vector<glm::dvec2>& slopes() const = 0;                ///< as good as they are so far
   virtual const std::vector<double>& light(std::size_t receiver) const = 0; ///< of these slopes, by their footprints
   virtual std::vector<Cost> costs() const = 0;                              ///< of that light
+  /// The layout's distances or weights, or the targets, are other ones: facets keep their slopes, and the search goes on from them. False:
+  /// it cannot, and nothing has changed.
+  virtual bool relight() { return false; }
   /// Adds what this method alone has to tell. The job has the cost over steps and seconds.
   virtual void show(job::Snapshot&) const {}
 

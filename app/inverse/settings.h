@@ -31,6 +31,7 @@ struct Picture {
 struct Receiver {
   double distance_mm = 100; ///< from the facets
   Picture picture;
+  double weight = 1; ///< of its squared differences beside the other receivers'
   bool operator==(const Receiver&) const = default;
 };
 

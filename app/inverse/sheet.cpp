@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/sheet.h"
 
+#include "inverse/assign/footprint.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -49,6 +51,16 @@ std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wante
     picture->rgb[i + 1] = 0;
     picture->rgb[i + 2] = std::max(-over, 0.0f);
   }
+  return picture;
+}
+
+std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, const Layout& layout)
+{
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = layout.facets.x;
+  picture->height = layout.facets.y;
+  for (const glm::dvec2& slope : slopes)
+    for (const double value : {slope.x, slope.y, facet_power(slope, layout.n)}) picture->rgb.push_back(static_cast<float>(value));
   return picture;
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "preset/settings_type.h"
+#include "ui/annealing/panel.h"
 #include "ui/dispersion/panel.h"
 #include "ui/error/panel.h"
 #include "ui/parameters/panel.h"
@@ -33,6 +34,7 @@ const PanelEntry table[] = {
     {"error", ErrorPanel::title, "", make<ErrorPanel>},
     {"dispersion", DispersionPanel::title, "spectral", make<DispersionPanel>},
     {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>, SeenByGlass::look},
+    {"annealing", AnnealingPanel::title, "inverse", make<AnnealingPanel>},
     {"plan", PlanPanel::title, "", make<PlanPanel>},
     {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
 };

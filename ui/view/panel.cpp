@@ -3,8 +3,8 @@
 
 #include "ui/view/camera_moves.h"
 #include "ui/view/comparison_bar.h"
-#include "ui/view/shown_pixels.h"
 #include "ui/widgets/action.h"
+#include "ui/widgets/shown_pixels.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 

@@ -20,13 +20,13 @@ constexpr std::size_t batch = 16;
 /// A sweep that lowers the sum of squares by less than this part of it is the last.
 constexpr double worth_a_sweep = 0.01;
 
-/// The pictures count alike: their cost is of light over its maximum, and a mean over the cells with light in them.
+/// The pictures count by the layout's weights: their cost is of light over its maximum, and a mean over the cells with light in them.
 std::vector<double> weights_of(const Layout& layout, const std::vector<Target>& targets)
 {
   std::vector<double> weights;
-  for (const Target& t : targets) {
-    const double most = *std::max_element(t.begin(), t.end()) * static_cast<double>(layout.facet_count());
-    weights.push_back(1 / (most * most));
+  for (std::size_t j = 0; j < targets.size(); ++j) {
+    const double most = *std::max_element(targets[j].begin(), targets[j].end()) * static_cast<double>(layout.facet_count());
+    weights.push_back((layout.weights.empty() ? 1 : layout.weights[j]) / (most * most));
   }
   return weights;
 }
@@ -48,6 +48,19 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
   }
   residual_ = residual();
   begin_sweep();
+}
+
+bool Assignment::relight()
+{
+  weights_ = weights_of(layout_, targets_);
+  search_.weigh(weights_);
+  for (auto& light : light_) std::fill(light.begin(), light.end(), 0.0);
+  for (std::size_t i = 0; i < slopes_.size(); ++i) put(i, slopes_[i], 1);
+  residual_ = residual();
+  converged_ = false;
+  next_ = 0;
+  begin_sweep();
+  return true;
 }
 
 void Assignment::begin_sweep()

@@ -36,6 +36,8 @@ public:
   const std::vector<double>& light(std::size_t receiver) const override { return light_[receiver]; }
   double residual() const; ///< the sum
   std::vector<Cost> costs() const override;
+  /// The sweep in hand begins again.
+  bool relight() override;
 
   void save(ByteSink& to) const override;
   void load(ByteSource& from) override;

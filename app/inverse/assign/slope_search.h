@@ -22,6 +22,9 @@ public:
   /// weights: of a receiver's squares.
   SlopeSearch(const Layout& layout, std::span<const double> weights);
 
+  /// Other weights, as many.
+  void weigh(std::span<const double> weights) { weights_.assign(weights.begin(), weights.end()); }
+
   /// Slopes lead to a lattice of points on the last receiver, one a cell where that has no more than 64 a side, moved by `offset` (0..1 of
   /// their distance).
   void aim(const glm::dvec2& offset) { offset_ = offset; }

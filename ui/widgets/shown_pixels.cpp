@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/view/shown_pixels.h"
+#include "ui/widgets/shown_pixels.h"
 
 #include "image/image.h"
 

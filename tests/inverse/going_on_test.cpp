@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run takes on other distances, weights and pictures and goes on from the slopes that it has.
+#include "base/error.h"
+#include "inverse/assign/assignment.h"
+#include "inverse/assign/footprint.h"
+#include "inverse/engine.h"
+#include "inverse/pictures/target.h"
+#include "preset/read.h"
+#include "tests/support/saved_jobs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace {
+
+using namespace nephroid;
+using inverse::Assignment;
+using inverse::Layout;
+using inverse::Picture;
+using inverse::Target;
+
+Layout small()
+{
+  Layout layout;
+  layout.facets = {32, 32};
+  layout.cells = {16, 16};
+  layout.distances = {100, 200};
+  return layout;
+}
+
+std::vector<Target> ring_and_disc(const Layout& layout)
+{
+  Picture ring, disc;
+  ring.type = Picture::Type::ring;
+  const FileFinder finder;
+  return {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
+}
+
+void sweep(Assignment& a, int sweeps)
+{
+  while (a.steps() < sweeps) a.advance();
+}
+
+/// The light of all facets, added up beside the search.
+std::vector<double> light_of(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t receiver)
+{
+  std::vector<double> light(layout.cell_count());
+  for (std::size_t f = 0; f < slopes.size(); ++f) {
+    const inverse::Footprint print = inverse::footprint(layout, f, slopes[f], receiver);
+    for (std::size_t k = 0; k < print.y.size(); ++k)
+      for (std::size_t i = 0; i < print.x.size(); ++i)
+        light[(static_cast<std::size_t>(print.y0) + k) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(print.x0) +
+              i] += inverse::facet_power(slopes[f], layout.n) * print.x[i] * print.y[k];
+  }
+  return light;
+}
+
+// As if the sweeps had begun from those slopes: their light is that of the new distances, and a search that never knew the old ones goes on
+// with the same bits.
+TEST(GoingOn, IsAsBeginningFromThoseSlopes)
+{
+  Layout layout = small();
+  const std::vector<Target> targets = ring_and_disc(layout);
+  Assignment a(layout, targets, 1);
+  sweep(a, 2);
+  for (int i = 0; i < 5; ++i) a.advance(); // in the middle of a sweep
+  const std::vector<glm::dvec2> slopes = a.slopes();
+  layout.distances = {90, 230};
+  layout.weights = {1, 3};
+  ASSERT_TRUE(a.relight());
+  EXPECT_EQ(a.slopes(), slopes);
+  EXPECT_EQ(a.part(), 0);
+  EXPECT_FALSE(a.finished());
+  double residual = 0;
+  for (const std::size_t j : {0u, 1u}) {
+    const std::vector<double> light = light_of(layout, slopes, j);
+    const double facets = 32 * 32, most = *std::max_element(targets[j].begin(), targets[j].end()) * facets;
+    for (std::size_t c = 0; c < light.size(); ++c) {
+      EXPECT_NEAR(a.light(j)[c], light[c], 1e-9);
+      residual += layout.weights[j] / (most * most) * std::pow(light[c] - facets * targets[j][c], 2);
+    }
+  }
+  EXPECT_NEAR(a.residual(), residual, 1e-9 * residual);
+  Assignment b(layout, targets, 1);
+  ASSERT_TRUE(test::load(b, test::saved(a)));
+  sweep(a, 4);
+  sweep(b, 4);
+  EXPECT_EQ(a.slopes(), b.slopes());
+}
+
+TEST(GoingOn, AWeightBringsItsPictureForward)
+{
+  Layout layout = small(), heavy = small();
+  heavy.weights = {20, 1};
+  const std::vector<Target> targets = ring_and_disc(layout);
+  Assignment a(layout, targets, 1), b(heavy, targets, 1);
+  sweep(a, 4);
+  sweep(b, 4);
+  EXPECT_LT(b.costs()[0].rel_l2, 0.8 * a.costs()[0].rel_l2);
+  EXPECT_GT(b.costs()[1].rel_l2, a.costs()[1].rel_l2);
+}
+
+/// The shipped shapes with a quarter of their facets and cells.
+preset::Preset shapes(std::vector<std::string> overrides = {})
+{
+  overrides.insert(overrides.end(), {"inverse.facets=[64, 64]", "inverse.cells=[32, 32]", "scene.camera.resolution=[64, 64]"});
+  return preset::read_preset("inverse/shapes", overrides);
+}
+
+std::unique_ptr<job::Job> job_of(const preset::Preset& preset) { return inverse::make_job(preset, inverse::make_plan(preset)); }
+
+void finish(job::Job& job)
+{
+  while (!job.finished()) job.step();
+}
+
+double cost(job::Job& job, const char* group) { return job::scalar(job.snapshot(), group, "cost"); }
+
+/// Steps after step `from` until the search believes a cost.
+std::int64_t steps_until(job::Job& job, std::int64_t from, double cost)
+{
+  const job::Snapshot snapshot = job.snapshot();
+  for (const std::vector<double>& row : snapshot.curves.at(0).rows)
+    if (row[0] > static_cast<double>(from) && row[2] <= cost) return static_cast<std::int64_t>(row[0]) - from;
+  return std::numeric_limits<std::int64_t>::max();
+}
+
+TEST(GoingOn, ADraggedDistanceComesNearAFreshRunInFewerSweeps)
+{
+  const preset::Preset before = shapes();
+  preset::Preset now = before;
+  inverse::settings(now).receivers[1].distance_mm = 158;
+  ASSERT_TRUE(inverse::may_go_on(before, now));
+  const auto run = job_of(before), fresh = job_of(now);
+  finish(*run);
+  const std::int64_t sweeps = run->progress().step;
+  ASSERT_TRUE(run->adopt(now));
+  EXPECT_FALSE(run->finished());
+  EXPECT_EQ(run->progress().step, sweeps);
+  EXPECT_TRUE(std::isnan(cost(*run, "judged"))) << "what was judged was of the other distance";
+  EXPECT_TRUE(run->snapshot().files.empty());
+  const double at_once = cost(*run, "believed");
+  finish(*run);
+  finish(*fresh);
+  const double last = cost(*fresh, "believed");
+  const std::int64_t more = steps_until(*run, sweeps, 1.05 * last), afresh = steps_until(*fresh, 0, 1.05 * last);
+  RecordProperty("sweeps_more", static_cast<int>(more));
+  RecordProperty("sweeps_afresh", static_cast<int>(afresh));
+  RecordProperty("cost_at_once", std::to_string(at_once));
+  RecordProperty("judged_gone_on", std::to_string(cost(*run, "judged")));
+  RecordProperty("judged_afresh", std::to_string(cost(*fresh, "judged")));
+  EXPECT_LT(more, afresh);
+  EXPECT_LT(cost(*run, "judged"), 1.05 * cost(*fresh, "judged"));
+}
+
+TEST(GoingOn, TheStopCountsFromThere)
+{
+  const preset::Preset before = shapes({"stop.passes=1"});
+  preset::Preset now = before;
+  inverse::settings(now).receivers[2].weight = 2;
+  const auto run = job_of(before);
+  finish(*run);
+  ASSERT_TRUE(run->adopt(now));
+  EXPECT_EQ(run->progress().steps, 2);
+  finish(*run);
+  EXPECT_EQ(run->progress().step, 2);
+  now.stop.passes = 2; // more sweeps are asked for: it goes on
+  ASSERT_TRUE(run->adopt(now));
+  EXPECT_EQ(run->progress().steps, 4);
+}
+
+TEST(GoingOn, IsRefusedWhereFacetsOrReceiversAreOthers)
+{
+  const preset::Preset before = shapes({"stop.passes=1"});
+  const auto run = job_of(before);
+  finish(*run);
+  const auto refused = [&](const auto& change) {
+    preset::Preset now = before;
+    change(now, inverse::settings(now));
+    EXPECT_FALSE(inverse::may_go_on(before, now));
+    EXPECT_FALSE(run->adopt(now));
+  };
+  refused([](auto&, inverse::Settings& s) { s.facets = {32, 32}; });
+  refused([](auto&, inverse::Settings& s) { s.receivers.pop_back(); });
+  refused([](auto&, inverse::Settings& s) { s.index.n = 1.6; });
+  refused([](preset::Preset& p, auto&) { p.seed = 2; });
+  preset::Preset turned = before;
+  turned.scene.camera.position = {1, 2, 3};
+  EXPECT_TRUE(run->adopt(turned));
+  EXPECT_TRUE(run->finished()) << "another camera changes nothing";
+  preset::Preset missing = before;
+  inverse::settings(missing).receivers[0].picture.type = Picture::Type::file;
+  inverse::settings(missing).receivers[0].picture.file = "there-is-none.png";
+  EXPECT_THROW(run->adopt(missing), Error);
+  EXPECT_TRUE(run->finished()) << "nothing has changed";
+}
+
+} // namespace

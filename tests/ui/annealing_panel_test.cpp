@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
+#include "inverse_runs.h"
+#include "ui/annealing/panel.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace nephroid::ui {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
+
+class AnnealingPanelTest : public test::WindowFixtureOf<test::InverseRuns> {
+protected:
+  AnnealingPanelTest() : WindowFixtureOf("annealing") { ImGui::GetIO().DisplaySize = {1200, 1000}; }
+  const AnnealingPanel& panel() const { return workspace.panel<AnnealingPanel>(); }
+  void click_widget(const std::string& widget)
+  {
+    const auto at = panel().place_of(widget);
+    ASSERT_TRUE(at) << widget;
+    click({(*at)[0], (*at)[1]});
+  }
+  /// On a facet of the map "slopes".
+  void click_facet(int x, int y, int facets)
+  {
+    const auto& [left, top, width, height] = panel().area_of("slopes");
+    ASSERT_GT(width, 0);
+    click({left + (x + 0.5) * width / facets, top + (y + 0.5) * height / facets});
+  }
+  /// Where the light of a facet of 100 mm / facets hits a receiver, in mm about its middle.
+  glm::dvec2 spot(int x, int y, int facets, double distance) const
+  {
+    const float* const slope = picture("slopes").rgb.data() + 3 * (static_cast<std::ptrdiff_t>(y) * facets + x);
+    return {(x + 0.5) * 100 / facets - 50 + slope[0] * distance, 50 - (y + 0.5) * 100 / facets + slope[1] * distance};
+  }
+  const job::Picture& picture(const std::string& name) const
+  {
+    for (const job::NamedPicture& named : workbench.run().snapshot()->pictures)
+      if (named.name == name) return *named.picture;
+    throw std::out_of_range(name);
+  }
+};
+
+TEST_F(AnnealingPanelTest, EveryCurveOfTheRunIsPlottedLogOrLinear)
+{
+  frames(3); // nothing is open
+  open(test::inverse_text(3));
+  finish();
+  ASSERT_THAT(panel().histories(), SizeIs(1));
+  const HistoryLines& cost = panel().histories()[0];
+  EXPECT_EQ(cost.x, "sweep");
+  std::vector<std::string> names;
+  for (const HistoryLine& line : cost.lines) names.push_back(line.name);
+  EXPECT_THAT(names, ElementsAre("cost", "cost_all", "rel_l2", "missed"));
+  EXPECT_THAT(cost.lines[0].x, ElementsAre(0, 1, 2, 3));
+  EXPECT_LT(cost.lines[0].y.back(), 0.5 * cost.lines[0].y.front());
+  click_widget("over seconds");
+  EXPECT_EQ(panel().histories()[0].x, "seconds");
+  EXPECT_TRUE(std::is_sorted(panel().histories()[0].lines[0].x.begin(), panel().histories()[0].lines[0].x.end()));
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+// A log axis has no 0 and nothing has a place that is not a number; a curve without seconds stays over its own count.
+TEST(HistoryLines, LeaveOutWhatHasNoPlace)
+{
+  const job::Curve curve{"annealing_1", {"move", "temperature", "refused"}, {{0, 8, 0}, {10, 4, 3}, {20, std::nan(""), 7}}};
+  const HistoryLines log = history_lines(curve, {true, true}), linear = history_lines(curve, {false, false});
+  EXPECT_EQ(log.x, "move");
+  EXPECT_THAT(log.lines[0].y, ElementsAre(8, 4));
+  EXPECT_THAT(log.lines[1].x, ElementsAre(10, 20));
+  EXPECT_THAT(linear.lines[1].y, ElementsAre(0, 3, 7));
+}
+
+TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures)
+{
+  open(test::inverse_text(2));
+  finish();
+  for (const char* name : {"target_1", "receiver_1", "difference_1", "target_2", "receiver_2", "difference_2", "slopes"})
+    EXPECT_GT(panel().area_of(name)[2], 50) << name;
+  EXPECT_EQ(panel().area_of("conflict")[2], 0) << "the run has no such picture";
+  EXPECT_LT(panel().area_of("target_1")[1], panel().area_of("receiver_1")[1]);
+  EXPECT_LT(panel().area_of("target_1")[0], panel().area_of("target_2")[0]);
+}
+
+// By hand: the light of a facet at p with slope s is at p + s d, in cells from the receiver's top left corner.
+TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
+{
+  constexpr int facets = 24;
+  open(test::inverse_text(3, facets));
+  finish();
+  EXPECT_FALSE(panel().beam());
+  int x = 0, y = 0; // a facet whose light is on both receivers: it goes to the middle of the last
+  while (std::abs(spot(x, y, facets, 200).x) + std::abs(spot(x, y, facets, 200).y) > 40) {
+    x = (x + 7) % facets;
+    y += x == 0;
+  }
+  click_facet(x, y, facets);
+  frames(2);
+  ASSERT_TRUE(panel().beam());
+  const FacetBeam& beam = *panel().beam();
+  EXPECT_EQ(beam.facet, glm::ivec2(x, y));
+  const job::Picture& slopes = picture("slopes");
+  ASSERT_THAT(beam.prints, SizeIs(2));
+  for (const std::size_t j : {0u, 1u}) {
+    const double distance = 100 * static_cast<double>(j + 1);
+    const glm::dvec2 at = spot(x, y, facets, distance);
+    const inverse::Footprint& print = beam.prints[j];
+    double middle_x = 0, middle_y = 0;
+    for (std::size_t i = 0; i < print.x.size(); ++i) middle_x += print.x[i] * (print.x0 + static_cast<double>(i) + 0.5);
+    for (std::size_t k = 0; k < print.y.size(); ++k) middle_y += print.y[k] * (print.y0 + static_cast<double>(k) + 0.5);
+    EXPECT_NEAR(part_on(print), 1, 1e-9) << "it is on the receiver";
+    EXPECT_NEAR(middle_x, (at.x + 50) / 100 * 12, 0.5);
+    EXPECT_NEAR(middle_y, (50 - at.y) / 100 * 12, 0.5);
+  }
+  // All facets' beams are the light that the run believes to be there: receiver_J is scaled to the wanted energy.
+  const inverse::Layout layout = inverse::make_layout(*workbench.preset());
+  std::vector<double> light(12 * 12);
+  for (int v = 0; v < facets; ++v)
+    for (int u = 0; u < facets; ++u) {
+      const auto one = facet_beam(slopes, layout, {u, v});
+      ASSERT_TRUE(one);
+      const inverse::Footprint& print = one->prints[1];
+      for (std::size_t k = 0; k < print.y.size(); ++k)
+        for (std::size_t i = 0; i < print.x.size(); ++i)
+          light[(static_cast<std::size_t>(print.y0) + k) * 12 + static_cast<std::size_t>(print.x0) + i] +=
+              one->power * print.x[i] * print.y[k];
+    }
+  const job::Picture &shown = picture("receiver_2"), &wanted = picture("target_2");
+  double sum = 0, shown_sum = 0, apart = 0;
+  for (std::size_t c = 0; c < light.size(); ++c) {
+    sum += light[c];
+    shown_sum += shown.rgb[3 * c];
+  }
+  for (std::size_t c = 0; c < light.size(); ++c) apart += std::abs(light[c] / sum - shown.rgb[3 * c] / shown_sum);
+  EXPECT_LT(apart, 0.05) << "the finished solid is judged by rays";
+  EXPECT_GT(std::accumulate(wanted.rgb.begin(), wanted.rgb.end(), 0.0), 0);
+}
+
+TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
+{
+  open(test::inverse_text(2));
+  finish();
+  const auto settings = [&]() -> const inverse::Settings& { return inverse::settings(*workbench.preset()); };
+  const auto steps = [&] { return workbench.run().snapshot()->progress.step; };
+  const auto done = [&] {
+    return workbench.run().snapshot_is_current() && workbench.run().status().state == job::State::finished &&
+           std::isfinite(job::scalar(*workbench.run().snapshot(), "judged", "cost"));
+  };
+  const auto drag = [&](const std::string& widget, double by) {
+    const auto at = panel().place_of(widget);
+    ASSERT_TRUE(at) << widget;
+    drag_between(*at, {(*at)[0] + by, (*at)[1]});
+    ASSERT_TRUE(test::eventually([&] { frame(); }, done));
+  };
+  const std::int64_t before = steps();
+  drag("distance_2", 30);
+  EXPECT_GT(settings().receivers[1].distance_mm, 215);
+  EXPECT_GT(steps(), before);
+  const std::int64_t between = steps();
+  drag("weight_1", 60);
+  EXPECT_GT(settings().receivers[0].weight, 1.1);
+  EXPECT_GT(steps(), between);
+  drag("distance_1", 4000); // no farther than the next
+  EXPECT_LT(settings().receivers[0].distance_mm, settings().receivers[1].distance_mm);
+  EXPECT_EQ(runs.made, 1) << "it is the same run";
+  EXPECT_TRUE(workbench.messages().empty());
+  for (int i = 0; i < 3; ++i) workbench.apply({command::Undo{}}); // a gesture is one entry
+  EXPECT_EQ(settings().receivers[1].distance_mm, 200);
+  EXPECT_EQ(settings().receivers[0].weight, 1);
+  EXPECT_EQ(runs.made, 1);
+}
+
+TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)
+{
+  inverse::Layout layout;
+  layout.facets = {2, 1};
+  layout.distances = {100};
+  job::Picture slopes{2, 1, {0, 0, 1, 5, 0, 0.5f}, {}, {}};
+  EXPECT_FALSE(facet_beam(slopes, layout, {2, 0}));
+  EXPECT_FALSE(box_of(facet_beam(slopes, layout, {1, 0})->prints[0])) << "a slope of 5 misses it";
+  slopes.width = 1;
+  EXPECT_FALSE(facet_beam(slopes, layout, {0, 0})) << "of another run";
+}
+
+} // namespace
+} // namespace nephroid::ui
