@@ -13,6 +13,7 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
 # OpenImageIO's own CMake package fails on Debian 12 without openimageio-tools; pkg-config works.
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(qrencode REQUIRED IMPORTED_TARGET libqrencode)
 # What draws the charts of a report: a script that becomes part of every page.
 find_file(NEPHROID_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js REQUIRED)
 if(NEPHROID_TESTS)

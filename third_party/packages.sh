@@ -5,18 +5,19 @@
 
 # Configuring and compiling. python3-pip downloads two source archives (pip_fetch.cmake).
 build_packages=(g++ cmake ninja-build pkg-config python3-pip)
-# Libraries of the program itself, the bunny that the first-light preset shows, and the chart library that reports hold.
+# Libraries of the program itself, the bunny that the first-light preset shows, the font that words are drawn with, and the chart library
+# that reports hold.
 # zlib1g-dev: Assimp's CMake package names zlib.
 program_packages=(
   opencl-clhpp-headers ocl-icd-opencl-dev pocl-opencl-icd
   libfmt-dev nlohmann-json3-dev libyaml-cpp-dev libcli11-dev
-  libglm-dev libassimp-dev zlib1g-dev libembree-dev libopenimageio-dev libeigen3-dev
-  glmark2-data libjs-chart.js)
+  libglm-dev libassimp-dev zlib1g-dev libembree-dev libopenimageio-dev libeigen3-dev libqrencode-dev
+  glmark2-data fonts-dejavu-core libjs-chart.js)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
 # The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets,
-# admesh checks meshes that are to be milled.
-test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema admesh)
+# admesh checks meshes that are to be milled, zbar-tools reads QR codes.
+test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema admesh zbar-tools)
 # What .ci/run checks the sources with.
 check_packages=(clang-format clang-tidy shellcheck)
 

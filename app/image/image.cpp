@@ -24,6 +24,7 @@ namespace {
 struct Module {
   NephroidRead read = nullptr;
   NephroidEncode encode = nullptr;
+  NephroidText text = nullptr;
 };
 
 Module load_module()
@@ -31,7 +32,8 @@ Module load_module()
   const fs::path file = library_file(module_name);
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install OpenImageIO");
-  return {reinterpret_cast<NephroidRead>(::dlsym(library, read_symbol)), reinterpret_cast<NephroidEncode>(::dlsym(library, encode_symbol))};
+  return {reinterpret_cast<NephroidRead>(::dlsym(library, read_symbol)), reinterpret_cast<NephroidEncode>(::dlsym(library, encode_symbol)),
+          reinterpret_cast<NephroidText>(::dlsym(library, text_symbol))};
 }
 
 /// Loaded at the first call, from whatever thread, and kept.
@@ -139,6 +141,23 @@ Layout layout_of(const Image& picture, const std::string& name)
 
 } // namespace
 
+namespace {
+
+/// What the module hands over, as a copy of our own; to: an Image.
+void take_picture(void* to, const NephroidPicture* picture)
+{
+  Image& result = *static_cast<Image*>(to);
+  result.width = picture->width;
+  result.height = picture->height;
+  result.channels.assign(picture->channels, picture->channels + picture->channel_count);
+  const auto pixels = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height);
+  result.data.assign(picture->floats, picture->floats + pixels * result.channels.size());
+  result.integers = picture->integers;
+  for (std::size_t i = 0; i < picture->attribute_count; ++i) result.attributes[picture->attributes[i].name] = picture->attributes[i].value;
+}
+
+} // namespace
+
 Image read_image(const fs::path& file)
 {
   // Reading it says what is wrong with the file itself, OpenImageIO what is wrong with the picture.
@@ -148,18 +167,17 @@ Image read_image(const fs::path& file)
   };
   if (is_cut_png(read_file(file))) refuse("its end is missing");
   Image image;
-  const auto take = [](void* to, const NephroidPicture* picture) {
-    Image& result = *static_cast<Image*>(to);
-    result.width = picture->width;
-    result.height = picture->height;
-    result.channels.assign(picture->channels, picture->channels + picture->channel_count);
-    const auto pixels = static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height);
-    result.data.assign(picture->floats, picture->floats + pixels * result.channels.size());
-    result.integers = picture->integers;
-    for (std::size_t i = 0; i < picture->attribute_count; ++i)
-      result.attributes[picture->attributes[i].name] = picture->attributes[i].value;
-  };
-  if (const char* reason = module().read(file.c_str(), take, &image)) refuse(reason);
+  if (const char* reason = module().read(file.c_str(), take_picture, &image)) refuse(reason);
+  return image;
+}
+
+Image text_picture(const std::string& text, int height, const Place& where)
+{
+  constexpr const char* font = "DejaVuSans-Bold";
+  Image image;
+  if (const char* reason = module().text(text.c_str(), height, font, take_picture, &image))
+    throw bad_input(where, fmt::format("\"{}\" cannot be drawn with the font {}: {}", text, font, reason),
+                    "expected words, and the fonts of Debian's fonts-dejavu-core", "install them, or draw a picture file");
   return image;
 }
 

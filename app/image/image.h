@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures in and out, and how a linear picture is shown. OpenImageIO is behind a library that is loaded at the first call
-// (it costs 0.24 s and 130 MB at start), so including this costs nothing.
+// Pictures in and out, words as pictures, and how a linear picture is shown. OpenImageIO is behind a library that is loaded at the first
+// call (it costs 0.24 s and 130 MB at start), so including this costs nothing.
 #pragma once
 #include "base/bytes.h"
+#include "base/error.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +24,10 @@ struct Image {
 
 /// Colours are as the file has them, not multiplied by its alpha. Throws bad_input naming the file and OpenImageIO's reason.
 Image read_image(const std::filesystem::path& file);
+
+/// The words in a bold font, white on black: one channel, 0..1, cut to the words; height: of a letter, about, in pixels. Throws
+/// bad_input at `where` if the font is missing or there is nothing to draw.
+Image text_picture(const std::string& text, int height, const Place& where);
 
 struct Rgb {
   std::vector<float> values; ///< 3 a pixel, row 0 at the top, as the file has them

@@ -28,10 +28,14 @@ using NephroidRead = const char* (*)(const char* file, void (*take)(void* contex
 /// Encodes floats as 32-bit EXR (zip), bytes and words as PNG, and calls take(context, data, size) once. Null or the reason, as above.
 using NephroidEncode = const char* (*)(const NephroidPicture* picture, void (*take)(void* context, const void* data, std::size_t size),
                                        void* context);
+/// Draws text, letters so many pixels high, with the named font: one channel, 0..1, no wider and higher than the text. Null or the reason.
+using NephroidText = const char* (*)(const char* text, int height, const char* font,
+                                     void (*take)(void* context, const NephroidPicture* picture), void* context);
 }
 
 namespace nephroid::image {
 inline constexpr const char* module_name = "libnephroid_image_io.so";
 inline constexpr const char* read_symbol = "nephroid_image_read";
 inline constexpr const char* encode_symbol = "nephroid_image_encode";
+inline constexpr const char* text_symbol = "nephroid_image_text";
 } // namespace nephroid::image

@@ -16,7 +16,10 @@ struct Choices<inverse::Picture::Type> {
                                          {Type::cross, "cross", "Two bars across each other."},
                                          {Type::bars, "bars", "Bars side by side."},
                                          {Type::star, "star", "A star."},
-                                         {Type::gradient, "gradient", "From the background's brightness at the left to 1 at the right."}};
+                                         {Type::gradient, "gradient", "From the background's brightness at the left to 1 at the right."},
+                                         {Type::face, "face", "A shaded ball with eyes and a mouth, in grey levels."},
+                                         {Type::text, "text", "Words."},
+                                         {Type::qr, "qr", "A QR code, in whole cells, as large as fits."}};
 };
 
 template <>
@@ -58,16 +61,24 @@ void describe(V& v, S& p)
     v.field({.name = name, .sentence = sentence, .unit = receiver_part, .bounds = preset::within(0.001, 2)}, value);
   };
   v.type({.name = "type", .sentence = "What it shows."}, p.type);
-  const bool round = p.type == Type::disc || p.type == Type::ring || p.type == Type::star;
+  const bool round = p.type == Type::disc || p.type == Type::ring || p.type == Type::star || p.type == Type::face;
+  const bool words = p.type == Type::text || p.type == Type::qr;
   const bool straight = p.type == Type::cross || p.type == Type::bars;
   if (p.type == Type::file) v.field({.name = "file", .sentence = "A picture file.", .text = preset::Text::file, .required = true}, p.file);
+  if (p.type == Type::file)
+    v.field({.name = "tone",
+             .sentence = "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.",
+             .bounds = preset::within(0.1, 10)},
+            p.tone);
+  if (words) v.field({.name = "text", .sentence = "What it says.", .required = true}, p.text);
   if (round) part("radius", "The outer radius.", p.radius);
-  if (round && p.type != Type::disc) part("inner", "The inner radius.", p.inner);
+  if (p.type == Type::ring || p.type == Type::star) part("inner", "The inner radius.", p.inner);
   if (straight) part("length", "Length of a bar.", p.length);
+  if (p.type == Type::text) part("length", "Width of the words.", p.length);
   if (straight) part("width", "Width of a bar, and of the gap to the next one.", p.width);
   if (p.type == Type::bars || p.type == Type::star)
     v.field({.name = "count", .sentence = "How many bars, or points of the star.", .bounds = preset::within(1, 100)}, p.count);
-  if (p.type != Type::file && p.type != Type::disc && p.type != Type::ring)
+  if (p.type != Type::file && p.type != Type::qr && p.type != Type::disc && p.type != Type::ring)
     v.field({.name = "turn_deg",
              .sentence = "How far it is turned, counterclockwise.",
              .unit = "degrees",

@@ -13,12 +13,19 @@ namespace {
 
 using preset::Where;
 
+/// Bytes of a text that is drawn. A QR code says itself what it holds.
+constexpr std::size_t most_text = 100;
+
 void check_picture(const Picture& p, const std::string& pointer, const Where& where)
 {
   const bool hollow = p.type == Picture::Type::ring || p.type == Picture::Type::star;
   if (hollow && p.inner >= p.radius)
     throw bad_input(where(preset::child(pointer, "inner")), fmt::format("is {}, and the outer radius {}", p.inner, p.radius),
                     "expected less than the outer radius");
+  const bool words = p.type == Picture::Type::text, code = p.type == Picture::Type::qr;
+  if (((words || code) && p.text.empty()) || (words && p.text.size() > most_text))
+    throw bad_input(where(preset::child(pointer, "text")), fmt::format("has {} bytes", p.text.size()),
+                    words ? fmt::format("expected a text of 1 to {}", most_text) : "expected a text");
   if (p.type == Picture::Type::star && p.count < 2)
     throw bad_input(where(preset::child(pointer, "count")), fmt::format("is {}", p.count), "expected a star of at least 2 points");
 }

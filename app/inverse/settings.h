@@ -15,12 +15,14 @@ namespace nephroid::inverse {
 /// A grey picture that fills a receiver. Sizes are in parts of the receiver's shorter side, places are about its middle. JSON: a string
 /// (a picture file) or an object with "type".
 struct Picture {
-  enum class Type { file, disc, ring, cross, bars, star, gradient };
+  enum class Type { file, disc, ring, cross, bars, star, gradient, face, text, qr };
   Type type = Type::disc;
   std::string file;      ///< file: its luminance, fitted into the receiver
-  double radius = 0.3;   ///< disc; ring and star: the outer one
+  double tone = 1;       ///< file: exponent on its luminance, whose maximum is 1
+  std::string text;      ///< text and qr
+  double radius = 0.3;   ///< disc and face; ring and star: the outer one
   double inner = 0.15;   ///< ring and star: the inner radius
-  double length = 0.7;   ///< cross and bars
+  double length = 0.7;   ///< cross and bars; text: its width
   double width = 0.15;   ///< cross and bars; bars are as far from each other as they are wide
   int count = 1;         ///< bars; star: of its points
   double turn_deg = 0;   ///< counterclockwise

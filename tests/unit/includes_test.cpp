@@ -64,9 +64,9 @@ struct LibraryRule {
 };
 
 const std::vector<LibraryRule> library_rules{
-    {"CL/", "compute"}, {"OpenImageIO/", "image"}, {"assimp/", "scene"},  {"embree", "scene"},
-    {"CLI/", "cli"},    {"yaml-cpp/", "optics"},   {"GLFW/", "ui"},       {"GL/", "ui"},
-    {"imgui", "ui"},    {"implot", "ui"},          {"FLIP.h", "measure"}, {"Eigen/", "measure"},
+    {"CL/", "compute"},      {"OpenImageIO/", "image"}, {"assimp/", "scene"},    {"embree", "scene"}, {"CLI/", "cli"},
+    {"yaml-cpp/", "optics"}, {"GLFW/", "ui"},           {"GL/", "ui"},           {"imgui", "ui"},     {"implot", "ui"},
+    {"FLIP.h", "measure"},   {"Eigen/", "measure"},     {"qrencode", "inverse"},
 };
 
 /// What is wrong with one include of a file of `folder`; empty where nothing is.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only file that includes OpenImageIO: decodes any picture it knows, encodes EXR and PNG in
-// memory, with the same bytes for the same input. Nothing is written to disk here.
+// memory, with the same bytes for the same input, draws text. Nothing is written to disk here.
 #include "image/seam.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <exception>
@@ -48,6 +50,10 @@ std::vector<std::pair<std::string, std::string>> texts_of(const ImageSpec& spec)
   return texts;
 }
 
+/// Of a picture that is read: 2 GiB of floats, such as 16384 x 8192 pixels of four channels. A file can say that it has more than any
+/// memory.
+constexpr std::size_t most_values = std::size_t{1} << 29;
+
 const char* read(const char* file, void (*take)(void*, const NephroidPicture*), void* context)
 {
   ImageSpec wishes;
@@ -56,7 +62,11 @@ const char* read(const char* file, void (*take)(void*, const NephroidPicture*), 
   if (!input) return reason(geterror());
   const ImageSpec& spec = input->spec();
   if (spec.depth > 1) return "it is a volume, not a picture";
-  std::vector<float> floats(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+  const std::size_t values = spec.image_pixels() * static_cast<std::size_t>(spec.nchannels);
+  if (values > most_values)
+    return reason("it has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels of " +
+                  std::to_string(spec.nchannels) + " channels, and at most 2^29 values are read");
+  std::vector<float> floats(values);
   if (!input->read_image(0, 0, 0, spec.nchannels, TypeFloat, floats.data())) return reason(input->geterror());
   std::vector<const char*> channels;
   for (const std::string& name : spec.channelnames) channels.push_back(name.c_str());
@@ -104,6 +114,22 @@ const char* encode(const NephroidPicture& picture, std::vector<unsigned char>& b
   return nullptr;
 }
 
+const char* text(const char* words, int height, const char* font, void (*take)(void*, const NephroidPicture*), void* context)
+{
+  const ROI box = ImageBufAlgo::text_size(words, height, font);
+  if (!box.defined()) return "no font of this name is found";
+  if (box.width() < 1 || box.height() < 1) return "it has no letters";
+  ImageBuf drawn(ImageSpec(box.width(), box.height(), 1, TypeFloat));
+  ImageBufAlgo::zero(drawn);
+  if (!ImageBufAlgo::render_text(drawn, -box.xbegin, -box.ybegin, words, height, font)) return reason(drawn.geterror());
+  std::vector<float> floats(drawn.spec().image_pixels());
+  if (!drawn.get_pixels(drawn.roi(), TypeFloat, floats.data())) return reason(drawn.geterror());
+  const char* const channel = "Y";
+  const NephroidPicture picture{box.width(), box.height(), 1, &channel, floats.data(), nullptr, nullptr, 0};
+  take(context, &picture);
+  return nullptr;
+}
+
 } // namespace
 
 extern "C" {
@@ -122,5 +148,11 @@ extern "C" {
     if (!why) take(context, bytes.data(), bytes.size());
     return why;
   });
+}
+
+[[gnu::visibility("default")]] const char* nephroid_image_text(const char* words, int height, const char* font,
+                                                               void (*take)(void*, const NephroidPicture*), void* context)
+{
+  return guarded([&] { return text(words, height, font, take, context); });
 }
 }

@@ -31,13 +31,38 @@ bool in_star(const Picture& picture, const glm::dvec2& p)
   return along.x * to.y - along.y * to.x > 0;
 }
 
+/// How much of a spot of this radius is left at p: 1 in its middle, falling as a bell.
+double spot(const glm::dvec2& p, const glm::dvec2& middle, const glm::dvec2& radius)
+{
+  const glm::dvec2 d = (p - middle) / radius;
+  return std::exp(-glm::dot(d, d));
+}
+
+/// A ball of radius 1 in grey levels, lit from the left above as Lambert's law has it, with two eyes and a mouth.
+double face(const glm::dvec2& p)
+{
+  const double r2 = glm::dot(p, p);
+  if (r2 >= 1) return 0;
+  const glm::dvec3 light = glm::normalize(glm::dvec3(-0.5, 0.6, 0.9));
+  const double lit = 0.15 + 0.85 * std::max(0.0, glm::dot(light, glm::dvec3(p, std::sqrt(1 - r2))));
+  const double eyes = spot(p, {-0.35, 0.25}, {0.16, 0.2}) + spot(p, {0.35, 0.25}, {0.16, 0.2});
+  const double mouth = spot({p.x, p.y + 0.55 - 0.5 * p.x * p.x}, {0, 0}, {0.4, 0.1}); // along a parabola: it smiles
+  return lit * (1 - 0.9 * std::min(1.0, eyes + mouth));
+}
+
 } // namespace
+
+glm::dvec2 turned_back(const Picture& picture, const glm::dvec2& p)
+{
+  const double turn = glm::radians(picture.turn_deg), c = std::cos(turn), s = std::sin(turn);
+  return {c * p.x + s * p.y, c * p.y - s * p.x};
+}
 
 double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2& half)
 {
   using Type = Picture::Type;
-  const double turn = glm::radians(picture.turn_deg), c = std::cos(turn), s = std::sin(turn), r = glm::length(p);
-  const glm::dvec2 turned{c * p.x + s * p.y, c * p.y - s * p.x};
+  const double r = glm::length(p);
+  const glm::dvec2 turned = turned_back(picture, p);
   switch (picture.type) {
   case Type::disc:
     return r < picture.radius ? 1 : 0;
@@ -50,10 +75,15 @@ double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2&
   case Type::star:
     return in_star(picture, turned) ? 1 : 0;
   case Type::gradient: {
-    const double reach = half.x * std::abs(c) + half.y * std::abs(s); // of the receiver along the gradient
+    const double turn = glm::radians(picture.turn_deg);
+    const double reach = half.x * std::abs(std::cos(turn)) + half.y * std::abs(std::sin(turn)); // of the receiver along the gradient
     return std::clamp((turned.x / reach + 1) / 2, 0.0, 1.0);
   }
+  case Type::face:
+    return face(turned / picture.radius);
   case Type::file:
+  case Type::text:
+  case Type::qr:
     break;
   }
   return 0;

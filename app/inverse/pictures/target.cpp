@@ -2,8 +2,9 @@
 #include "inverse/pictures/target.h"
 
 #include "base/error.h"
-#include "image/image.h"
 #include "inverse/pictures/drawing.h"
+#include "inverse/pictures/grey.h"
+#include "inverse/pictures/qr.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,50 +17,37 @@ namespace {
 /// A drawing's edges are as sharp as this many samples along a cell's side.
 constexpr int samples = 8;
 
-Target draw(const Picture& picture, const Layout& layout)
+double shorter_side(const Layout& layout) { return std::min(layout.receiver.x, layout.receiver.y); }
+glm::dvec2 half_receiver(const Layout& layout) { return layout.receiver / shorter_side(layout) / 2.0; }
+
+/// brightness(p): 0..1, p in parts of the receiver's shorter side from its middle, y up.
+template <class F>
+Target draw(const Layout& layout, const F& brightness_at)
 {
   Target target;
-  const double unit = std::min(layout.receiver.x, layout.receiver.y);
-  const glm::dvec2 cell = layout.cell() / unit, half = layout.receiver / unit / 2.0;
+  const glm::dvec2 cell = layout.cell() / shorter_side(layout), half = half_receiver(layout);
   for (int y = 0; y < layout.cells.y; ++y)
     for (int x = 0; x < layout.cells.x; ++x) {
       double sum = 0;
       for (int i = 0; i < samples * samples; ++i) {
         const double across = x + (i % samples + 0.5) / samples, down = y + (i / samples + 0.5) / samples;
-        sum += brightness(picture, {across * cell.x - half.x, half.y - down * cell.y}, half);
+        sum += brightness_at(glm::dvec2(across * cell.x - half.x, half.y - down * cell.y));
       }
       target.push_back(sum / (samples * samples));
     }
   return target;
 }
 
-struct Grey {
-  int width = 0, height = 0;
-  std::vector<double> values;
-};
-
-/// Luminance of linear sRGB.
-Grey read_grey(const std::filesystem::path& file)
+Target draw_words(const Picture& picture, const Layout& layout, const Place& where)
 {
-  const image::Image picture = image::read_image(file);
-  const image::Rgb rgb = image::rgb_of(picture, file.string());
-  Grey grey{picture.width, picture.height, {}};
-  for (std::size_t i = 0; i < rgb.values.size(); i += 3) {
-    const auto linear = [&](std::size_t channel) {
-      const double value = rgb.values[i + channel];
-      return picture.integers ? image::decoded_srgb(value) : value;
-    };
-    const double y = 0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2);
-    if (!std::isfinite(y) || y < 0)
-      throw bad_input(file.string(), "has a pixel that is negative or not a number", "expected a picture of light");
-    grey.values.push_back(y);
-  }
-  const auto [low, high] = std::minmax_element(grey.values.begin(), grey.values.end());
-  if (*high == 0) throw bad_input(file.string(), "is black all over", "expected a picture with some light in it");
-  if (*low == *high)
-    throw bad_input(file.string(), "is one grey all over", "expected a picture with an outline", "for a disc of light use a drawing");
-  for (double& value : grey.values) value /= *high;
-  return grey;
+  const Grey words = grey_of_words(picture.text, where / "text");
+  const double pixels = words.width / picture.length; // in the receiver's shorter side
+  return draw(layout, [&](const glm::dvec2& p) {
+    const glm::dvec2 turned = turned_back(picture, p);
+    const double x = std::floor(turned.x * pixels + words.width / 2.0), y = std::floor(words.height / 2.0 - turned.y * pixels);
+    const bool inside = x >= 0 && y >= 0 && x < words.width && y < words.height;
+    return inside ? words.at(static_cast<int>(x), static_cast<int>(y)) : 0.0;
+  });
 }
 
 /// A cell's mean over the pixels that it covers, with their parts. Dark where the file does not reach.
@@ -76,19 +64,34 @@ Target fit(const Grey& grey, const Layout& layout)
       double sum = 0;
       for (int v = std::max(0, static_cast<int>(low.y)); v < grey.height && v < high.y; ++v)
         for (int u = std::max(0, static_cast<int>(low.x)); u < grey.width && u < high.x; ++u)
-          sum += overlap(low.x, high.x, u) * overlap(low.y, high.y, v) *
-                 grey.values[static_cast<std::size_t>(v) * static_cast<std::size_t>(grey.width) + static_cast<std::size_t>(u)];
+          sum += overlap(low.x, high.x, u) * overlap(low.y, high.y, v) * grey.at(u, v);
       target.push_back(sum / (cell.x * cell.y));
     }
   return target;
+}
+
+Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where)
+{
+  switch (picture.type) {
+  case Picture::Type::file: {
+    Grey grey = read_grey(finder.find(picture.file, where));
+    for (double& value : grey.values) value = std::pow(value, picture.tone);
+    return fit(grey, layout);
+  }
+  case Picture::Type::text:
+    return draw_words(picture, layout, where);
+  case Picture::Type::qr:
+    return qr_cells(picture.text, layout.cells, where / "text");
+  default:
+    return draw(layout, [&, half = half_receiver(layout)](const glm::dvec2& p) { return brightness(picture, p, half); });
+  }
 }
 
 } // namespace
 
 Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where)
 {
-  const bool file = picture.type == Picture::Type::file;
-  Target target = file ? fit(read_grey(finder.find(picture.file, where)), layout) : draw(picture, layout);
+  Target target = brightness_of(picture, layout, finder, where);
   if (std::all_of(target.begin(), target.end(), [](double t) { return t == 0; }))
     throw bad_input(where, "leaves every cell of the receiver dark", "expected a drawing that lies on the receiver");
   for (double& t : target) t = picture.background + (1 - picture.background) * t;
