@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nephroid::inverse {
 
@@ -23,6 +24,12 @@ double slope_limit(double n)
 {
   const double cosine = std::min(n, 1 / n);
   return std::sqrt(1 - cosine * cosine) / cosine;
+}
+
+double slope_behind(double tilt_radians, double n)
+{
+  const double sine = n * std::sin(tilt_radians);
+  return sine < 1 ? std::tan(std::abs(std::asin(sine) - tilt_radians)) : std::numeric_limits<double>::infinity();
 }
 
 glm::dvec2 facet_gradient(const glm::dvec2& slope, double n) { return -slope / (n * std::sqrt(1 + glm::dot(slope, slope)) - 1); }

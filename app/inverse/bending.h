@@ -24,6 +24,9 @@ double slope_limit(double n);
 inline constexpr double usable_part = 0.95;
 inline double usable_slope(double n) { return usable_part * slope_limit(n); }
 
+/// The slope of light along -z behind a facet that is tilted so far against the front; infinite where the light is reflected totally.
+double slope_behind(double tilt_radians, double n);
+
 /// dz/dx and dz/dy of the facet that gives light along -z this slope, which is below the limit. Where z rises by (g . p) over p, that is
 /// g = -slope / (n sqrt(1 + slope^2) - 1).
 glm::dvec2 facet_gradient(const glm::dvec2& slope, double n);

@@ -31,6 +31,14 @@ struct Choices<inverse::Settings::Method> {
 };
 
 template <>
+struct Choices<inverse::Settings::Heights> {
+  using Heights = inverse::Settings::Heights;
+  static constexpr Choice<Heights> all[] = {
+      {Heights::flat, "flat", "All in one plane: the relief is as shallow as it can be."},
+      {Heights::free, "free", "Where the walls between facets are lowest; the relief becomes deeper, as far as the constraints let it."}};
+};
+
+template <>
 struct About<inverse::Picture> {
   using Type = inverse::Picture::Type;
   static constexpr std::string_view name = "InversePicture", sentence = "A grey picture that the object casts.";
@@ -111,8 +119,21 @@ void describe(V& v, S& s)
   v.field({.name = "method", .sentence = "How the facets' slopes are found."}, s.method);
   v.field({.name = "size_mm", .sentence = "Width and height of the object.", .unit = "mm", .bounds = within(0.1, 1e5)}, s.size_mm);
   v.field(
-      {.name = "thickness_mm", .sentence = "From the middles of the facets to the flat front.", .unit = "mm", .bounds = within(0.01, 1e5)},
+      {.name = "thickness_mm", .sentence = "From the middle of the relief to the flat front.", .unit = "mm", .bounds = within(0.01, 1e5)},
       s.thickness_mm);
+  v.field({.name = "heights", .sentence = "Where the middles of the facets are."}, s.heights);
+  v.field({.name = "min_thickness_mm", .sentence = "No part of the object may be thinner.", .unit = "mm", .bounds = within(0.001, 1e5)},
+          s.min_thickness_mm);
+  v.field({.name = "max_relief_mm",
+           .sentence = "From the lowest corner of a facet to the highest, at most.",
+           .unit = "mm",
+           .bounds = within(0.001, 1e5)},
+          s.max_relief_mm);
+  v.field({.name = "max_slope_deg",
+           .sentence = "How far a facet may be tilted against the front.",
+           .unit = "degrees",
+           .bounds = within(0.01, 90)},
+          s.max_slope_deg);
   v.field({.name = "facets", .sentence = "Facets across and down.", .bounds = within(1, 1024)}, s.facets);
   v.field({.name = "index", .sentence = "Index of refraction: a number, a file or an object."}, s.index);
   v.field({.name = "wavelength_nm", .sentence = "The wavelength that the index is taken at.", .unit = "nm", .bounds = within(380, 780)},

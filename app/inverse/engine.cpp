@@ -21,7 +21,7 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
   const bool blurred = l.sun_radius > 0 || l.scatter > 0;
   const bool assign = s.method == Settings::Method::assign;
   const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
-                                       counted(l.distances.size(), "receiver"), usable_slope(l.n));
+                                       counted(l.distances.size(), "receiver"), usable_slope(l));
   const std::string not_asked = "inverse.method is 'assign'";
   const bool anneals = !assign && s.thesis.cycles > 0, corrects = !assign && s.thesis.corrections > 0;
   return {{"assign", assign, assign ? what : "inverse.method is 'thesis'"},
@@ -35,6 +35,8 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
            : assign ? not_asked
                     : "inverse.thesis.corrections is 0"},
           {"blur", blurred, blurred ? "the sun's disc or a rough surface, in every footprint" : "inverse.sun_deg and scatter_deg are 0"},
+          {"heights", l.free_heights,
+           l.free_heights ? "facets move along z to where their walls are lowest" : "inverse.heights is flat: nothing is solved"},
           {"judge", true, "rays through the finished solid, walls and all"}};
 }
 

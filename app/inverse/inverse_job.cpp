@@ -220,7 +220,7 @@ private:
         made.scalars.end(),
         {{"light", "sent", f.sent}, {"light", "reflected", f.reflected}, {"light", "lost", f.lost}, {"light", "by_walls", f.by_walls}});
     made.scalars.insert(made.scalars.end(), {{"object", "index", layout_.n},
-                                             {"object", "slope_limit", slope_limit(layout_.n)},
+                                             {"object", "slope_limit", usable_slope(layout_)},
                                              {"object", "relief_mm", solid_->relief()},
                                              {"object", "thinnest_mm", layout_.thickness - solid_->highest},
                                              {"object", "highest_wall_mm", solid_->highest_wall},

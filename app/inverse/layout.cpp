@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <string>
 
 namespace nephroid::inverse {
 namespace {
@@ -31,11 +33,47 @@ double read_index(const preset::Preset& preset)
   return *sample.n;
 }
 
-/// The most that a facet can reach from z = 0 at its corners.
-double most_relief(const Layout& layout)
+/// The most that a facet with this slope can reach from its middle at its corners.
+double reach(const Layout& layout, double slope)
 {
-  const double slope = usable_slope(layout.n);
   return glm::length(facet_gradient({slope, 0}, layout.n)) * glm::length(layout.facet()) / 2;
+}
+
+/// Free heights leave this part of the thickness, and of the way to the nearest receiver, where no constraint says more.
+constexpr double spared = 0.1;
+
+double band_of(const Settings& s, const Place& own)
+{
+  double band = std::numeric_limits<double>::infinity();
+  if (s.heights == Settings::Heights::free) band = (1 - spared) * std::min(s.thickness_mm, s.receivers.front().distance_mm);
+  if (s.max_relief_mm) band = std::min(band, *s.max_relief_mm / 2);
+  if (!s.min_thickness_mm) return band;
+  if (*s.min_thickness_mm >= s.thickness_mm)
+    throw bad_input(own / "min_thickness_mm",
+                    fmt::format("is {} mm, and the object is {} mm thick in the middle of its relief", *s.min_thickness_mm, s.thickness_mm),
+                    "expected less than 'thickness_mm', of which half the relief is taken away",
+                    fmt::format("choose a thickness_mm above {}", *s.min_thickness_mm));
+  return std::min(band, s.thickness_mm - *s.min_thickness_mm);
+}
+
+/// Constraints that keep light within the cell that it would reach straight on leave no picture.
+void check_constraints(const Layout& l, const Settings& s, const Place& own)
+{
+  const double slope = std::min(l.cell().x, l.cell().y) / l.distances.back();
+  if (usable_slope(l) >= slope || usable_slope(l.n) < slope) return;
+  const double needed = reach(l, slope);
+  const bool too_shallow = l.band < needed;
+  const char* const field = !too_shallow                                        ? "max_slope_deg"
+                            : s.max_relief_mm && *s.max_relief_mm / 2 <= l.band ? "max_relief_mm"
+                                                                                : "min_thickness_mm";
+  const double least = glm::degrees(std::atan(glm::length(facet_gradient({slope, 0}, l.n))));
+  throw bad_input(own / field,
+                  fmt::format("lets facets of {:.4g} x {:.4g} mm move light by {:.3g} mm over {} mm, less than a cell of {:.3g} mm",
+                              l.facet().x, l.facet().y, usable_slope(l) * l.distances.back(), l.distances.back(),
+                              std::min(l.cell().x, l.cell().y)),
+                  too_shallow ? fmt::format("expected room for a relief of at least {:.3g} mm", 2 * needed)
+                              : fmt::format("expected at least {:.3g} degrees", least),
+                  too_shallow ? "choose a deeper relief or more facets" : "choose a larger angle or a receiver further away");
 }
 
 } // namespace
@@ -58,7 +96,13 @@ Layout make_layout(const preset::Preset& preset)
   l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
   l.scatter = std::tan(glm::radians(s.scatter_deg));
 
-  const double relief = most_relief(l);
+  l.free_heights = s.heights == Settings::Heights::free;
+  l.band = band_of(s, own);
+  l.steepest = 2 * l.band / glm::length(l.facet());
+  if (s.max_slope_deg) l.steepest = std::min(l.steepest, std::tan(glm::radians(*s.max_slope_deg)));
+  check_constraints(l, s, own);
+
+  const double relief = reach(l, usable_slope(l));
   const auto refuse = [&](const Place& where, double value, const char* what) {
     if (value > relief) return;
     throw bad_input(where,
@@ -71,9 +115,13 @@ Layout make_layout(const preset::Preset& preset)
   return l;
 }
 
+double usable_slope(const Layout& layout) { return std::min(usable_slope(layout.n), slope_behind(std::atan(layout.steepest), layout.n)); }
+
 void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset)
 {
-  const double limit = usable_slope(layout.n);
+  const double limit = usable_slope(layout);
+  const std::string limits = limit < usable_slope(layout.n) ? "the constraints on the facets let it have a slope of"
+                                                            : fmt::format("an index of {:.4g} bends it by a slope of", layout.n);
   const glm::dvec2 last = layout.size / 2.0 - layout.facet() / 2.0;
   for (std::size_t j = 0; j < targets.size(); ++j) {
     double farthest = 0; // from a lit cell to its nearest facet
@@ -89,7 +137,7 @@ void check_reach(const Layout& layout, const std::vector<Target>& targets, const
     throw bad_input(
         Place(preset.source) / "inverse" / "receivers" / j / "distance_mm",
         fmt::format("light must reach {:.4g} mm beside the object over {} mm, a slope of {:.3g}", farthest, distance, farthest / distance),
-        fmt::format("an index of {:.4g} bends it by a slope of {:.3g} at most", layout.n, limit),
+        fmt::format("{} {:.3g} at most", limits, limit),
         fmt::format("choose a distance of at least {:.4g} mm, a larger object or a smaller receiver_mm", farthest / limit));
   }
 }

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace nephroid::inverse {
@@ -23,6 +24,10 @@ struct Layout {
   std::vector<double> weights;   ///< of each receiver's picture; empty: they count alike
   double sun_radius = 0;         ///< of the sun's disc: tangent of its half angle
   double scatter = 0;            ///< standard deviation of a slope, along x and along y
+
+  bool free_heights = false;                                 ///< else every facet's middle is at z = 0
+  double band = std::numeric_limits<double>::infinity();     ///< no corner of a facet is further from z = 0
+  double steepest = std::numeric_limits<double>::infinity(); ///< of a facet's gradient, at most
 
   glm::dvec2 facet() const { return size / glm::dvec2(facets); }
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
@@ -44,6 +49,9 @@ using Target = std::vector<double>;
 
 /// Reads the index. Throws bad_input where that cannot be read or is 1, and where facets would reach the front or the nearest receiver.
 Layout make_layout(const preset::Preset& preset);
+
+/// The largest slope that facets give the light: what their index lets them, or less where they may not be steeper.
+double usable_slope(const Layout& layout);
 
 /// Throws bad_input where no facet can bend light far enough to reach a lit cell.
 void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset);

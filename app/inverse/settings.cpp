@@ -64,6 +64,9 @@ void check(const preset::Preset& preset, const Where& where)
   check_receivers(s, preset::child(own, "receivers"), where);
   if (s.index.type == preset::Dispersion::Type::constant && s.index.n == 1)
     throw bad_input(where(preset::child(own, "index")), "is 1, which bends no light", "expected another index, such as 1.5");
+  if (s.heights == Settings::Heights::free && s.method == Settings::Method::thesis)
+    throw bad_input(where(preset::child(own, "heights")), "is free, and the method 'thesis' aims from facets in one plane",
+                    "expected 'flat'", "or choose the method 'assign'");
   if (preset.stop.error && !preset.reference)
     throw bad_input(where("/stop/error"), "the engine 'inverse' makes no estimate of its error",
                     "expected 'stop.passes' or 'stop.seconds'");

@@ -39,9 +39,14 @@ struct Receiver {
 
 struct Settings {
   enum class Method { assign, thesis };
+  enum class Heights { flat, free };
   Method method = Method::assign;
   std::array<double, 2> size_mm{100, 100};            ///< of the object
-  double thickness_mm = 10;                           ///< from the facets' middles to the flat front
+  double thickness_mm = 10;                           ///< from the middle of the relief to the flat front
+  Heights heights = Heights::flat;                    ///< where the facets' middles are
+  std::optional<double> min_thickness_mm{};           ///< nowhere is the object thinner
+  std::optional<double> max_relief_mm{};              ///< from the lowest corner of a facet to the highest
+  std::optional<double> max_slope_deg{};              ///< between a facet and the front
   std::array<int, 2> facets{128, 128};                ///< across and down
   preset::Dispersion index{};                         ///< of the object, in air
   double wavelength_nm = 550;                         ///< at which the index is taken

@@ -52,7 +52,7 @@ TEST_F(InverseFiles, MeshesAreReadByOthers)
   for (const auto& file : {obj, stl, ply}) {
     const scene::Mesh mesh = scene::load_mesh(file);
     EXPECT_EQ(mesh.triangles.size(), solid.mesh.triangles.size()) << file;
-    test::expect_sound(layout, mesh);
+    test::expect_sound(mesh, test::volume_of(layout, solid));
   }
 }
 

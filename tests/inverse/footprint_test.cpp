@@ -31,7 +31,8 @@ std::vector<double> sums(const std::vector<double>& cells, int columns, bool alo
 }
 
 /// Points of the facet, each sent on its way from its own height; blurred as the sun's disc and a rough surface do.
-std::vector<double> drawn(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, int count)
+std::vector<double> drawn(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, int count,
+                          double height = 0)
 {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -44,16 +45,16 @@ std::vector<double> drawn(const Layout& layout, std::size_t facet, const glm::dv
     const glm::dvec2 turned =
         layout.sun_radius * r * glm::dvec2(std::cos(phi), std::sin(phi)) + layout.scatter * glm::dvec2(normal(random), normal(random));
     const glm::dvec2 at =
-        layout.in_cells(layout.middle(facet) + p + slope * glm::dot(g, p) + (slope + turned) * layout.distances[receiver]);
+        layout.in_cells(layout.middle(facet) + p + slope * glm::dot(g, p) + (slope + turned) * (layout.distances[receiver] + height));
     if (at.x < 0 || at.y < 0 || at.x >= layout.cells.x || at.y >= layout.cells.y) continue;
     cells[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(at.x)] += 1.0 / count;
   }
   return cells;
 }
 
-std::vector<double> computed(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver)
+std::vector<double> computed(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0)
 {
-  const inverse::Footprint print = inverse::footprint(layout, facet, slope, receiver);
+  const inverse::Footprint print = inverse::footprint(layout, facet, slope, receiver, height);
   std::vector<double> cells(layout.cell_count());
   for (std::size_t k = 0; k < print.y.size(); ++k)
     for (std::size_t i = 0; i < print.x.size(); ++i)
@@ -86,6 +87,15 @@ TEST(Footprint, IsThatOfPointsOnTheFacet)
       for (std::size_t c = 0; c < is.size(); ++c)
         ASSERT_NEAR(is[c], truth[c], 5 * std::sqrt((is[c] + 1e-6) / count) + 1e-9) << c << " slope " << slope.x << " " << slope.y;
     }
+}
+
+// From a facet that stands higher, light has further to go: at a slope of 0.35, 8 mm are almost two cells.
+TEST(Footprint, IsThatOfAFacetThatStandsHigher)
+{
+  const Layout layout = coarse();
+  const int count = 400000;
+  const std::vector<double> is = computed(layout, 27, {0.35, 0}, 0, 8), truth = drawn(layout, 27, {0.35, 0}, 0, count, 8);
+  for (std::size_t c = 0; c < is.size(); ++c) ASSERT_NEAR(is[c], truth[c], 5 * std::sqrt((is[c] + 1e-6) / count) + 1e-9) << c;
 }
 
 // Across the axes both shadows are exact.

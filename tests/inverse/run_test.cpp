@@ -82,14 +82,42 @@ TEST_F(InverseRun, GoesOnWithTheSameBitsByTheThesis)
   EXPECT_GT(of("whole/run.json").at("thesis").at("gain_annealing_2").get<double>(), 0);
 }
 
+// Free heights within a workshop's constraints: kept by the mesh, with walls that are smaller than flat ones, as believed, and resumed
+// with the same bits.
+TEST_F(InverseRun, KeepsAWorkshopsConstraints)
+{
+  const std::vector<std::string> free{"--set", "inverse.heights=free",       "--set", "inverse.max_relief_mm=5",
+                                      "--set", "inverse.min_thickness_mm=8", "--set", "inverse.max_slope_deg=33"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), free.begin(), free.end());
+    return more;
+  };
+  ASSERT_EQ(run_to("free", with({"--passes", "4"})).exit_code, 0);
+  ASSERT_EQ(run_to("parts", with({"--passes", "2"})).exit_code, 0);
+  ASSERT_EQ(run_to("parts", with({"--passes", "4", "--resume"})).exit_code, 0);
+  EXPECT_EQ(bytes("free/object.stl"), bytes("parts/object.stl"));
+  ASSERT_EQ(run_to("flat", {"--passes", "4", "--set", "inverse.max_slope_deg=33"}).exit_code, 0);
+  const json all = of("free/run.json"), flat = of("flat/run.json");
+  EXPECT_EQ(all.at("judged"), of("parts/run.json").at("judged"));
+  const auto figure = [](const json& run, const char* group, const char* name) { return run.at(group).at(name).get<double>(); };
+  EXPECT_LE(figure(all, "object", "relief_mm"), 4 * (1 + 1e-9)); // twice the 2 mm between the middle's 10 and 8
+  EXPECT_GT(figure(all, "object", "relief_mm"), 3.9);
+  EXPECT_GE(figure(all, "object", "thinnest_mm"), 8 - 1e-9);
+  EXPECT_LE(figure(all, "object", "steepest_deg"), 33 + 1e-9);
+  EXPECT_LT(figure(all, "object", "wall_area_mm2"), 0.9 * figure(flat, "object", "wall_area_mm2"));
+  EXPECT_NEAR(figure(all, "judged", "cost"), figure(all, "believed", "cost"), 0.02);
+  EXPECT_NEAR(figure(all, "judged", "cost"), figure(flat, "judged", "cost"), 0.02);
+}
+
 TEST_F(InverseRun, IsPlannedWithItsReasons)
 {
   const Ended planned = run({"plan", "inverse/shapes", "--json", "--set", "inverse.facets=[64, 64]"});
   ASSERT_EQ(planned.exit_code, 0) << planned.err;
   const json plan = json::parse(planned.out);
   EXPECT_EQ(plan.at("passes").at(0).at("reason"), "64 x 64 facets, 3 receivers, slopes up to 1.06");
-  for (const std::size_t i : {1u, 2u, 3u, 4u}) EXPECT_EQ(plan.at("passes").at(i).at("runs"), false);
+  for (const std::size_t i : {1u, 2u, 3u, 4u, 5u}) EXPECT_EQ(plan.at("passes").at(i).at("runs"), false);
   EXPECT_EQ(plan.at("passes").at(2).at("reason"), "inverse.method is 'assign'");
+  EXPECT_EQ(plan.at("passes").at(5).at("reason"), "inverse.heights is flat: nothing is solved");
   EXPECT_THAT(plan.at("notes").at(0), HasSubstr("are larger than half a cell"));
   const json thesis = json::parse(run({"plan", "inverse/shapes", "--json", "--set", "inverse.method=thesis"}).out);
   EXPECT_EQ(thesis.at("passes").at(0).at("reason"), "inverse.method is 'thesis'");

@@ -2,12 +2,15 @@
 // Bad input of engine 3: each a line that says what would work.
 #include "base/files.h"
 #include "image/image.h"
+#include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "preset/read.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
+
+#include <cmath>
 
 namespace {
 
@@ -102,6 +105,36 @@ TEST_F(InverseSettings, ConstantsOfTheThesis)
   EXPECT_THAT(refusal({"inverse.thesis.adjust=all"}), AllOf(HasSubstr("convergence"), HasSubstr("each")));
   EXPECT_THAT(refusal({"inverse.thesis.coling=0.5"}), HasSubstr("cooling"));
   EXPECT_THAT(refusal({"inverse.method=theses"}), HasSubstr("thesis"));
+}
+
+// Facets of 0.78 mm; a cell of 1.56 mm over 100 mm is a slope of 0.0156, which takes a gradient of 0.0312 and 0.0345 mm of relief.
+TEST_F(InverseSettings, ConstraintsOfAWorkshop)
+{
+  EXPECT_THAT(refusal({"inverse.min_thickness_mm=10"}),
+              AllOf(HasSubstr("/inverse/min_thickness_mm: is 10 mm, and the object is 10 mm thick"), HasSubstr("a thickness_mm above 10")));
+  EXPECT_THAT(refusal({"inverse.max_relief_mm=0.03"}),
+              AllOf(HasSubstr("/inverse/max_relief_mm: lets facets of 0.7812 x 0.7812 mm move light by 1.36 mm over 100 mm"),
+                    HasSubstr("less than a cell of 1.56 mm"), HasSubstr("a relief of at least 0.0345 mm")));
+  EXPECT_NO_THROW(inverse::make_plan(read({"inverse.max_relief_mm=0.0346"})));
+  EXPECT_THAT(refusal({"inverse.min_thickness_mm=9.99"}), HasSubstr("/inverse/min_thickness_mm: lets facets"));
+  EXPECT_THAT(refusal({"inverse.max_slope_deg=1.7"}),
+              AllOf(HasSubstr("/inverse/max_slope_deg: lets facets"), HasSubstr("expected at least 1.79 degrees")));
+  EXPECT_NO_THROW(inverse::make_plan(read({"inverse.max_slope_deg=1.8"})));
+  EXPECT_THAT(refusal({"inverse.receiver_mm=[200, 200]", "inverse.receivers.0.picture.radius=0.49", "inverse.max_slope_deg=10"}),
+              AllOf(HasSubstr("light must reach"), HasSubstr("the constraints on the facets let it have a slope of 0.08")));
+  EXPECT_THAT(refusal({"inverse.heights=high"}), HasSubstr("flat"));
+  EXPECT_THAT(refusal({"inverse.heights=free", "inverse.method=thesis"}), HasSubstr("choose the method 'assign'"));
+}
+
+// A tilt of 20 degrees bends light by asin(1.5 sin 20) - 20 = 10.87 degrees; half a relief of 0.4 mm over half a diagonal of 0.552 mm.
+TEST_F(InverseSettings, ConstraintsLimitTheSlopes)
+{
+  const auto limit = [&](const preset::Overrides& set) { return usable_slope(inverse::make_plan(read(set)).layout); };
+  EXPECT_NEAR(limit({"inverse.max_slope_deg=20"}), std::tan(10.866 * 3.14159265 / 180), 1e-5);
+  const double tilt = std::atan(0.2 / (0.78125 * std::sqrt(0.5)));
+  EXPECT_NEAR(limit({"inverse.max_relief_mm=0.4"}), std::tan(std::asin(1.5 * std::sin(tilt)) - tilt), 1e-9);
+  EXPECT_NEAR(limit({"inverse.min_thickness_mm=9.8"}), limit({"inverse.max_relief_mm=0.4"}), 1e-9);
+  EXPECT_NEAR(limit({}), inverse::usable_slope(1.5), 1e-12);
 }
 
 TEST_F(InverseSettings, WhatThisEngineHasNot)

@@ -59,17 +59,26 @@ inline std::size_t bodies(const scene::Mesh& mesh)
   return count;
 }
 
-/// Facets are planes through their middles at z = 0, so every prism under them has the slab's volume.
-inline void expect_sound(const Layout& layout, const scene::Mesh& mesh)
+/// volume: what the mesh encloses.
+inline void expect_sound(const scene::Mesh& mesh, double volume)
 {
   const scene::MeshReport report = scene::inspect(mesh);
   EXPECT_EQ(report.open_edges, 0u);
   EXPECT_EQ(report.crowded_edges, 0u);
   EXPECT_EQ(report.degenerate, 0u);
   EXPECT_EQ(report.duplicated, 0u);
-  const double slab = layout.size.x * layout.size.y * layout.thickness;
-  EXPECT_NEAR(report.signed_volume / slab, 1, 1e-5); // outwards, too
+  EXPECT_NEAR(report.signed_volume / volume, 1, 1e-5); // outwards, too
   EXPECT_EQ(bodies(mesh), 1u);
 }
+
+/// Facets are planes, so that the prism over each has the volume that its middle's height gives.
+inline double volume_of(const Layout& layout, const inverse::Solid& solid)
+{
+  double sum = 0;
+  for (const inverse::Facet& f : solid.facets) sum += layout.facet().x * layout.facet().y * (layout.thickness - f.height);
+  return sum;
+}
+
+inline void expect_sound(const Layout& layout, const inverse::Solid& solid) { expect_sound(solid.mesh, volume_of(layout, solid)); }
 
 } // namespace nephroid::test

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
+#include "inverse/facets/heights.h"
 #include "inverse/uniform.h"
 
 #include <algorithm>
@@ -34,18 +35,19 @@ std::vector<double> weights_of(const Layout& layout, const std::vector<Target>& 
 } // namespace
 
 Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
-    : layout_(layout), targets_(targets), seed_(seed), weights_(weights_of(layout, targets)), search_(layout, weights_),
-      slopes_(layout.facet_count()), light_(targets.size(), std::vector<double>(layout.cell_count()))
+    : layout_(layout), targets_(targets), seed_(seed), weights_(weights_of(layout, targets)), heights_(layout.facet_count()),
+      search_(layout, weights_, heights_), slopes_(layout.facet_count()), light_(targets.size(), std::vector<double>(layout.cell_count()))
 {
   std::mt19937_64 random(seed_);
-  const double limit = usable_slope(layout.n), last = layout.distances.back();
+  const double limit = usable_slope(layout), last = layout.distances.back();
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
     const glm::dvec2 to = (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
     slopes_[i] = (to - layout.middle(i)) / last;
     const double length = glm::length(slopes_[i]);
     if (length > limit) slopes_[i] *= limit / length;
-    add_light(layout_, i, slopes_[i], 1, light_);
+    put(i, 1);
   }
+  if (layout_.free_heights) raise();
   residual_ = residual();
   begin_sweep();
 }
@@ -54,8 +56,7 @@ bool Assignment::relight()
 {
   weights_ = weights_of(layout_, targets_);
   search_.weigh(weights_);
-  for (auto& light : light_) std::fill(light.begin(), light.end(), 0.0);
-  for (std::size_t i = 0; i < slopes_.size(); ++i) add_light(layout_, i, slopes_[i], 1, light_);
+  put_all();
   residual_ = residual();
   converged_ = false;
   next_ = 0;
@@ -72,13 +73,28 @@ void Assignment::begin_sweep()
   search_.aim({uniform(random), uniform(random)});
 }
 
+/// Facets stand where their walls are lowest for the slopes that they have; their light falls from there.
+void Assignment::raise()
+{
+  heights_ = heights_of(layout_, slopes_);
+  put_all();
+}
+
+void Assignment::put(std::size_t facet, double sign) { add_light(layout_, facet, slopes_[facet], sign, light_, heights_[facet]); }
+
+void Assignment::put_all()
+{
+  for (auto& light : light_) std::fill(light.begin(), light.end(), 0.0);
+  for (std::size_t i = 0; i < slopes_.size(); ++i) put(i, 1);
+}
+
 /// What the sum would change by with the facet there too.
 double Assignment::gain(std::size_t facet, const glm::dvec2& slope) const
 {
   const double light = facet_power(slope, layout_.n), facets = static_cast<double>(slopes_.size());
   double change = 0;
   for (std::size_t j = 0; j < light_.size(); ++j)
-    for_cells(layout_, footprint(layout_, facet, slope, j), [&](std::size_t cell, double part) {
+    for_cells(layout_, footprint(layout_, facet, slope, j, heights_[facet]), [&](std::size_t cell, double part) {
       const double a = light * part;
       change += weights_[j] * a * (2 * (light_[j][cell] - facets * targets_[j][cell]) + a);
     });
@@ -108,7 +124,7 @@ std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std:
   const double light = facet_power(slope, layout_.n);
   for (std::size_t j = 0; j < all.size(); ++j) {
     Lack& lack = all[j];
-    const Footprint print = footprint(layout_, facet, slope, j);
+    const Footprint print = footprint(layout_, facet, slope, j, heights_[facet]);
     for (std::size_t k = 0; k < print.y.size(); ++k)
       for (std::size_t i = 0; i < print.x.size(); ++i) {
         const int x = print.x0 + static_cast<int>(i) + lack.rim, y = print.y0 + static_cast<int>(k) + lack.rim;
@@ -136,15 +152,16 @@ void Assignment::advance()
   for_blocks(count, [&](std::size_t i) { found[i] = look(facets[i], lacks_without(now, facets[i])); });
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t facet = facets[i];
-    add_light(layout_, facet, slopes_[facet], -1, light_);
+    put(facet, -1);
     if (gain(facet, found[i]) < gain(facet, slopes_[facet])) slopes_[facet] = found[i];
-    add_light(layout_, facet, slopes_[facet], 1, light_);
+    put(facet, 1);
   }
   next_ += count;
   tried_ += count;
   if (next_ < slopes_.size()) return;
   next_ = 0;
   ++sweeps_;
+  if (layout_.free_heights) raise();
   const double before = std::exchange(residual_, residual());
   converged_ = residual_ > (1 - worth_a_sweep) * before;
   begin_sweep();
@@ -177,6 +194,7 @@ void Assignment::save(ByteSink& to) const
   to.value(residual_);
   to.value(converged_);
   to.write(std::as_bytes(std::span(slopes_)));
+  if (layout_.free_heights) to.write(std::as_bytes(std::span(heights_)));
   for (const auto& light : light_) to.write(std::as_bytes(std::span(light)));
 }
 
@@ -190,6 +208,7 @@ void Assignment::load(ByteSource& from)
   from.value(converged_);
   next_ = next;
   from.read(std::as_writable_bytes(std::span(slopes_)));
+  if (layout_.free_heights) from.read(std::as_writable_bytes(std::span(heights_)));
   for (auto& light : light_) from.read(std::as_writable_bytes(std::span(light)));
   begin_sweep();
 }

@@ -15,7 +15,7 @@ namespace nephroid::inverse {
 /// Lowers sum over receivers of weight * |Z - T|^2. A sweep goes through all facets in a random order, in batches of a few: every facet
 /// of a batch looks for its slope at once, on as many threads as there are, among the light as it is before the batch; then one after
 /// the other takes what it found if that is better than what it had. So no sweep makes the sum larger, and the number of threads changes no
-/// bit.
+/// bit. Free heights follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin with random slopes.
@@ -44,6 +44,9 @@ public:
 
 private:
   void begin_sweep();
+  void raise();
+  void put(std::size_t facet, double sign);
+  void put_all();
   double gain(std::size_t facet, const glm::dvec2& slope) const;
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
   std::vector<Lack> lacks() const;
@@ -53,6 +56,7 @@ private:
   const std::vector<Target>& targets_;
   std::uint64_t seed_;
   std::vector<double> weights_;
+  std::vector<double> heights_; ///< of the facets' middles; a state, too
   SlopeSearch search_;
   std::vector<std::uint32_t> order_; ///< of the sweep in hand
   // The state.

@@ -44,10 +44,10 @@ double blur_width(const Layout& layout, double distance)
   return std::sqrt(12 * (sun * sun + rough * rough));
 }
 
-Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver)
+Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height)
 {
   const glm::dvec2 g = facet_gradient(slope, layout.n), size = layout.facet(), cell = layout.cell();
-  const double distance = layout.distances[receiver], blur = blur_width(layout, distance);
+  const double distance = layout.distances[receiver] + height, blur = blur_width(layout, distance);
   const glm::dvec2 at = layout.in_cells(layout.middle(facet) + slope * distance);
   const Beam along_x{at.x, std::abs(1 + slope.x * g.x) * size.x / cell.x, std::hypot(slope.x * g.y * size.y, blur) / cell.x};
   const Beam along_y{at.y, std::abs(1 + slope.y * g.y) * size.y / cell.y, std::hypot(slope.y * g.x * size.x, blur) / cell.y};
@@ -59,11 +59,12 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
 
 double facet_power(const glm::dvec2& slope, double n) { return transmitted(slope, n) / transmitted({0, 0}, n); }
 
-void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign, std::vector<std::vector<double>>& light)
+void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign, std::vector<std::vector<double>>& light,
+               double height)
 {
   const double power = sign * facet_power(slope, layout.n);
   for (std::size_t j = 0; j < light.size(); ++j)
-    for_cells(layout, footprint(layout, facet, slope, j), [&](std::size_t cell, double part) { light[j][cell] += power * part; });
+    for_cells(layout, footprint(layout, facet, slope, j, height), [&](std::size_t cell, double part) { light[j][cell] += power * part; });
 }
 
 double light_sent(const std::vector<glm::dvec2>& slopes, double n)

@@ -30,8 +30,8 @@ struct Footprint {
 
 /// The beam of a facet with this slope. A facet of gradient g, whose light starts at z = g . p, hits a plane at (1 + slope g^T) p beside
 /// its middle: a parallelogram, smaller along the slope than the facet. Its shadow along x and along y is exact; that both hang
-/// together off the axes is not kept.
-Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver);
+/// together off the axes is not kept. height: z of the facet's middle, from where its light has further to go.
+Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0);
 
 /// How much light a facet sends, over what it would send straight on.
 double facet_power(const glm::dvec2& slope, double n);
@@ -47,7 +47,8 @@ void for_cells(const Layout& layout, const Footprint& print, const F& f)
 }
 
 /// Adds the facet's light, `sign` times, to every receiver's: [receiver][cell], in facets that send all of theirs.
-void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign, std::vector<std::vector<double>>& light);
+void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign, std::vector<std::vector<double>>& light,
+               double height = 0);
 
 /// Light that all facets send, wherever to.
 double light_sent(const std::vector<glm::dvec2>& slopes, double n);

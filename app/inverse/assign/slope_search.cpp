@@ -34,8 +34,9 @@ struct SlopeSearch::Columns {
   std::vector<float> square; ///< sum of the parts' squares
 };
 
-SlopeSearch::SlopeSearch(const Layout& layout, std::span<const double> weights)
-    : layout_(layout), weights_(weights.begin(), weights.end()), lattice_(glm::min(layout.cells, glm::ivec2(most_points)))
+SlopeSearch::SlopeSearch(const Layout& layout, std::span<const double> weights, const std::vector<double>& heights)
+    : layout_(layout), weights_(weights.begin(), weights.end()), heights_(heights),
+      lattice_(glm::min(layout.cells, glm::ivec2(most_points)))
 {
 }
 
@@ -51,11 +52,11 @@ double SlopeSearch::point(int i, int axis) const
   return (i + offset_[axis]) * step - layout_.receiver[axis] / 2;
 }
 
-SlopeSearch::Columns SlopeSearch::columns(std::size_t receiver, double from, int axis) const
+SlopeSearch::Columns SlopeSearch::columns(std::size_t receiver, double from, double height, int axis) const
 {
   const int count = taps(layout_, receiver, axis), points = lattice_[axis], cells = layout_.cells[axis],
             rim = std::max(taps(layout_, receiver, 0), taps(layout_, receiver, 1));
-  const double cell = layout_.cell()[axis], way = layout_.distances[receiver] / layout_.distances.back();
+  const double cell = layout_.cell()[axis], way = (layout_.distances[receiver] + height) / (layout_.distances.back() + height);
   Columns made{std::vector<int>(static_cast<std::size_t>(points)), std::vector<float>(static_cast<std::size_t>(points * count)),
                std::vector<float>(static_cast<std::size_t>(points))};
   Beam beam{0, layout_.facet()[axis] / cell, blur_width(layout_, layout_.distances[receiver]) / cell};
@@ -75,9 +76,11 @@ SlopeSearch::Columns SlopeSearch::columns(std::size_t receiver, double from, int
   return made;
 }
 
-void SlopeSearch::add_scores(std::size_t receiver, const glm::dvec2& from, const Lack& lack, std::vector<float>& scores) const
+void SlopeSearch::add_scores(std::size_t receiver, std::size_t facet, const Lack& lack, std::vector<float>& scores) const
 {
-  const Columns x = columns(receiver, from.x, 0), y = columns(receiver, from.y, 1);
+  const glm::dvec2 from = layout_.middle(facet);
+  const double height = heights_[facet];
+  const Columns x = columns(receiver, from.x, height, 0), y = columns(receiver, from.y, height, 1);
   const auto width = static_cast<std::size_t>(lack.width), across = x.first.size(), down = y.first.size();
   const std::size_t taps_x = x.parts.size() / across, taps_y = y.parts.size() / down;
   const auto weight = static_cast<float>(weights_[receiver]);
@@ -104,8 +107,8 @@ std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const L
   const auto across = static_cast<std::size_t>(lattice_.x), down = static_cast<std::size_t>(lattice_.y);
   const glm::dvec2 from = layout_.middle(facet);
   std::vector<float> scores(across * down);
-  for (std::size_t j = 0; j < lacks.size(); ++j) add_scores(j, from, lacks[j], scores);
-  const double last = layout_.distances.back(), limit = usable_slope(layout_.n);
+  for (std::size_t j = 0; j < lacks.size(); ++j) add_scores(j, facet, lacks[j], scores);
+  const double last = layout_.distances.back() + heights_[facet], limit = usable_slope(layout_);
   float lowest = std::numeric_limits<float>::infinity();
   std::optional<glm::dvec2> found;
   for (std::size_t k = 0; k < down; ++k) {
@@ -126,7 +129,7 @@ double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<
   const double power = facet_power(slope, layout_.n);
   double sum = 0;
   for (std::size_t j = 0; j < lacks.size(); ++j) {
-    const Footprint print = footprint(layout_, facet, slope, j);
+    const Footprint print = footprint(layout_, facet, slope, j, heights_[facet]);
     const Lack& lack = lacks[j];
     for (std::size_t k = 0; k < print.y.size(); ++k) {
       const float* const row =
@@ -142,7 +145,7 @@ double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<
 
 glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks) const
 {
-  const double limit = usable_slope(layout_.n);
+  const double limit = usable_slope(layout_);
   glm::dvec2 step = layout_.receiver / glm::dvec2(lattice_) / layout_.distances.back();
   double lowest = score(facet, from, lacks);
   while (step.x > finest * layout_.cell().x / layout_.distances.back()) {

@@ -19,8 +19,8 @@ struct Lack {
 
 class SlopeSearch {
 public:
-  /// weights: of a receiver's squares.
-  SlopeSearch(const Layout& layout, std::span<const double> weights);
+  /// weights: of a receiver's squares; heights: of the facets' middles. The layout and the heights outlive it.
+  SlopeSearch(const Layout& layout, std::span<const double> weights, const std::vector<double>& heights);
 
   /// Other weights, as many.
   void weigh(std::span<const double> weights) { weights_.assign(weights.begin(), weights.end()); }
@@ -44,12 +44,13 @@ public:
 
 private:
   struct Columns;
-  Columns columns(std::size_t receiver, double from, int axis) const;
-  void add_scores(std::size_t receiver, const glm::dvec2& from, const Lack& lack, std::vector<float>& scores) const;
+  Columns columns(std::size_t receiver, double from, double height, int axis) const;
+  void add_scores(std::size_t receiver, std::size_t facet, const Lack& lack, std::vector<float>& scores) const;
   double point(int i, int axis) const;
 
   const Layout& layout_;
   std::vector<double> weights_;
+  const std::vector<double>& heights_;
   glm::ivec2 lattice_;
   glm::dvec2 offset_{0.5, 0.5};
 };

@@ -2,6 +2,7 @@
 #include "inverse/facets/solid.h"
 
 #include "inverse/bending.h"
+#include "inverse/facets/heights.h"
 #include "inverse/facets/posts.h"
 
 #include <glm/gtc/constants.hpp>
@@ -17,12 +18,15 @@ namespace {
 
 /// Heights closer than this part of a facet's shorter side are made equal. It turns a facet by 1e-4 at most.
 constexpr double joins = 1e-4;
+/// Also those closer than this part of the height: a post cuts a stretch into four, and each must be some steps of single precision long.
+constexpr double tells_apart = 0x1p-19;
 
 class Builder {
 public:
-  Builder(const Layout& layout, const std::vector<glm::dvec2>& slopes) : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y)
+  Builder(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
+      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y)
   {
-    for (const glm::dvec2& slope : slopes) solid_.facets.push_back({slope, facet_gradient(slope, layout.n), 0});
+    for (std::size_t i = 0; i < slopes.size(); ++i) solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n), heights[i]});
   }
 
   Solid build()
@@ -61,7 +65,9 @@ private:
   void make_posts()
   {
     const glm::dvec2 half = layout_.facet() / 2.0;
-    const double closest = joins * std::min(layout_.facet().x, layout_.facet().y);
+    double farthest = 0;
+    for (const Facet& f : solid_.facets) farthest = std::max(farthest, std::abs(f.height) + glm::dot(glm::abs(f.gradient), half));
+    const double closest = std::max(joins * std::min(layout_.facet().x, layout_.facet().y), tells_apart * farthest);
     const std::array<glm::dvec2, 4> corner{glm::dvec2{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
     solid_.lowest = std::numeric_limits<double>::infinity();
     solid_.highest = -solid_.lowest;
@@ -205,6 +211,14 @@ private:
 
 } // namespace
 
-Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes) { return Builder(layout, slopes).build(); }
+Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
+{
+  return Builder(layout, slopes, heights).build();
+}
+
+Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes)
+{
+  return make_solid(layout, slopes, heights_of(layout, slopes));
+}
 
 } // namespace nephroid::inverse

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object as one closed solid in millimetres (thesis section 5.4.2): planar facets with their middles at z = 0, vertical walls between
+// The object as one closed solid in millimetres (thesis section 5.4.2): planar facets about z = 0, vertical walls between
 // them, flat sides, and the flat front at z = thickness.
 #pragma once
 #include "inverse/layout.h"
@@ -30,6 +30,8 @@ struct Solid {
 };
 
 /// Every edge has two triangles, which pass it in opposite directions, and every triangle has an area: see posts.h.
+/// heights: z of the facets' middles; as the layout says where they are left out.
+Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
 } // namespace nephroid::inverse

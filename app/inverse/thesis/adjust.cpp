@@ -76,7 +76,7 @@ public:
   std::vector<Met> through(std::size_t a, std::size_t cell) const
   {
     const glm::dvec2 to = middle_of_cell(layout_, cell);
-    const double limit = usable_slope(layout_.n);
+    const double limit = usable_slope(layout_);
     std::vector<Met> met(aims_.size());
     for (const glm::dvec2& from : facets_) {
       const glm::dvec2 slope = (to - from) / aims_[a].distance;

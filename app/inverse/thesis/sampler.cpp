@@ -50,7 +50,7 @@ Sampler::Sampler(const Layout& layout, const std::vector<Aim>& aims, const Thesi
 
 Sampler::Axis Sampler::axis(std::size_t facet, int along) const
 {
-  const double from = layout_.middle(facet)[along], half = layout_.receiver[along] / 2, limit = usable_slope(layout_.n);
+  const double from = layout_.middle(facet)[along], half = layout_.receiver[along] / 2, limit = usable_slope(layout_);
   double low = limit, high = -limit;
   for (const double distance : distances_) {
     low = std::min(low, (-half - from) / distance);
@@ -81,7 +81,7 @@ Sampler::Axis Sampler::axis(std::size_t facet, int along) const
 
 double Sampler::product(const Lattice& lattice, std::size_t column, std::size_t row) const
 {
-  const double x = lattice.x.slopes[column], y = lattice.y.slopes[row], limit = usable_slope(layout_.n);
+  const double x = lattice.x.slopes[column], y = lattice.y.slopes[row], limit = usable_slope(layout_);
   if ((lattice.x.hits[column] & lattice.y.hits[row]) == 0 || x * x + y * y > limit * limit) return 0;
   double product = 1;
   for (std::size_t j = 0; j < padded_.size(); ++j)
@@ -93,7 +93,7 @@ double Sampler::product(const Lattice& lattice, std::size_t column, std::size_t 
 void Sampler::multiply_row(const Lattice& lattice, std::size_t row, std::vector<double>& products) const
 {
   const std::size_t across = lattice.x.slopes.size();
-  const double y = lattice.y.slopes[row], limit = usable_slope(layout_.n);
+  const double y = lattice.y.slopes[row], limit = usable_slope(layout_);
   const std::uint32_t hits = lattice.y.hits[row];
   products.resize(across);
   for (std::size_t i = 0; i < across; ++i) {
