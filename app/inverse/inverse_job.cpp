@@ -104,8 +104,6 @@ public:
       }
       judge_.reset();
       solid_.reset();
-      obj_.reset();
-      stl_.reset();
       began_ = {method_->steps(), method_seconds_};
       note_step();
     }
