@@ -55,7 +55,7 @@ bool Assignment::relight()
   weights_ = weights_of(layout_, targets_);
   search_.weigh(weights_);
   for (auto& light : light_) std::fill(light.begin(), light.end(), 0.0);
-  for (std::size_t i = 0; i < slopes_.size(); ++i) put(i, slopes_[i], 1);
+  for (std::size_t i = 0; i < slopes_.size(); ++i) add_light(layout_, i, slopes_[i], 1, light_);
   residual_ = residual();
   converged_ = false;
   next_ = 0;
