@@ -5,6 +5,7 @@
 #include "inverse/facets/mesh_files.h"
 #include "inverse/facets/solid.h"
 #include "inverse/facets/workshop.h"
+#include "inverse/glass_view.h"
 #include "inverse/judge.h"
 #include "inverse/method.h"
 #include "inverse/sheet.h"
@@ -240,6 +241,8 @@ private:
     add("facets.json", write_facets);
     add("heights.exr", write_height_exr);
     add("heights.png", write_height_png);
+    made.files.push_back({"view.json", [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
+                                           ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
     add("workshop.md", [material = material_of(settings(preset_), layout_.n)](const Layout& layout, const Solid& solid, ByteSink& to) {
       const std::string page = workshop_page(layout, solid, material);
       to.write(std::as_bytes(std::span(page)));

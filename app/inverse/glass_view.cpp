@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/glass_view.h"
+
+#include "preset/read.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::inverse {
+namespace {
+
+constexpr double irradiance = 1000; ///< of the sun
+constexpr double reflectance = 0.8, ground_reflectance = 0.25;
+/// Of D65's power of 380..780 nm that is luminance without its factor: the mean of y over the wavelengths, weighted by it.
+constexpr double luminous_part = 0.27;
+constexpr double fov_deg = 30;
+constexpr int height = 600, least_width = 600, most_width = 1800;
+
+preset::Vec3 vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// From one object's middle to the next: the light beside a receiver falls beside the others, too.
+double spacing(const Layout& layout) { return 1.4 * std::max(layout.size.x, layout.receiver.x); }
+
+double column(const Layout& layout, std::size_t receiver)
+{
+  return (static_cast<double>(receiver) - (static_cast<double>(layout.distances.size()) - 1) / 2) * spacing(layout);
+}
+
+preset::Object object_over(const Layout& layout, std::size_t receiver)
+{
+  preset::Object object;
+  object.name = fmt::format("object over receiver {}", receiver + 1);
+  object.mesh = "object.obj";
+  object.material = "glass";
+  object.transform.translate = {column(layout, receiver), 0, 0};
+  return object;
+}
+
+/// A rectangle that faces the light.
+preset::Object screen(const std::string& name, const glm::dvec2& size, const glm::dvec3& at)
+{
+  preset::Object quad;
+  quad.name = quad.material = name;
+  quad.shape.emplace();
+  quad.shape->type = preset::Shape::Type::quad;
+  quad.shape->size = {size.x, 1, size.y};
+  quad.transform.rotate_deg = {90, 0, 0};
+  quad.transform.translate = vec(at);
+  return quad;
+}
+
+preset::Object receiver_at(const Layout& layout, std::size_t receiver)
+{
+  preset::Object quad = screen("receiver", layout.receiver, {column(layout, receiver), 0, -layout.distances[receiver]});
+  quad.name = fmt::format("receiver {}", receiver + 1);
+  return quad;
+}
+
+/// Dark, and much larger than what stands over it: what glass is seen against.
+preset::Object ground(const Layout& layout)
+{
+  const double side = 4 * (spacing(layout) * static_cast<double>(layout.distances.size()) + layout.distances.back());
+  return screen("ground", {side, side}, {0, 0, -layout.distances.back() - 0.2 * std::max(layout.size.x, layout.size.y)});
+}
+
+/// The line from a receiver's far edge to the camera passes the object's near edge where it rises by the distance over half of both.
+double elevation(const Layout& layout)
+{
+  const double free = std::atan(2 * layout.distances.front() / (layout.size.y + layout.receiver.y));
+  return std::clamp(0.85 * free, glm::radians(20.0), glm::radians(50.0));
+}
+
+preset::Camera camera(const Layout& layout)
+{
+  const double up = elevation(layout), last = layout.distances.back(), count = static_cast<double>(layout.distances.size());
+  const double wide = (count - 1) * spacing(layout) + std::max(layout.size.x, layout.receiver.x);
+  const double high = (last + layout.thickness) * std::cos(up) + std::max(layout.size.y, layout.receiver.y) * std::sin(up);
+  const double deep = (last + layout.thickness) * std::sin(up) + std::max(layout.size.y, layout.receiver.y) * std::cos(up);
+  preset::Camera camera;
+  camera.fov_deg = fov_deg;
+  camera.resolution = {std::clamp(static_cast<int>(height * wide / high), least_width, most_width), height};
+  const double aspect = static_cast<double>(camera.resolution[0]) / height;
+  const double away = 1.05 * std::max(high, wide / aspect) / 2 / std::tan(glm::radians(fov_deg / 2)) + deep / 2;
+  const glm::dvec3 target{0, 0, (layout.thickness - last) / 2};
+  camera.target = vec(target);
+  camera.position = vec(target + away * glm::dvec3(0, -std::cos(up), std::sin(up)));
+  camera.up = {0, 0, 1};
+  return camera;
+}
+
+} // namespace
+
+std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const std::string& name)
+{
+  double brightest = 0; // over light that is spread evenly
+  for (const Target& target : targets) brightest = std::max(brightest, *std::max_element(target.begin(), target.end()));
+  brightest *= static_cast<double>(layout.cell_count());
+  preset::Preset view; // of the engine that renders: the first
+  view.description = name + " as glass over its receivers";
+  view.unit = preset::Preset::Unit::mm;
+  view.white = irradiance * luminous_part * reflectance / glm::pi<double>() * brightest;
+  view.stop.seconds = 60;
+  preset::Scene& scene = view.scene;
+  scene.camera = camera(layout);
+  scene.materials["glass"].type = preset::Material::Type::dielectric;
+  scene.materials["glass"].dispersion.n = layout.n;
+  scene.materials["receiver"].reflectance.value = reflectance;
+  scene.materials["ground"].reflectance.value = ground_reflectance;
+  scene.objects.push_back(ground(layout));
+  for (std::size_t j = 0; j < layout.distances.size(); ++j) {
+    scene.objects.push_back(receiver_at(layout, j));
+    scene.objects.push_back(object_over(layout, j));
+  }
+  preset::Light sun;
+  sun.type = preset::Light::Type::directional;
+  sun.irradiance_w_m2 = irradiance;
+  sun.direction = {0, 0, -1};
+  scene.lights.push_back(sun);
+  scene.environment.emplace(); // what glass reflects
+  scene.environment->type = preset::Environment::Type::constant;
+  scene.environment->radiance = 0.3 * view.white;
+  return preset::to_json(view) + "\n";
+}
+
+} // namespace nephroid::inverse

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The finished object as lit glass over its receivers: a preset for engine 1.
+#pragma once
+#include "inverse/layout.h"
+
+#include <string>
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// JSON of a preset that stands beside object.obj. Light falls straight down on as many copies of the object as there are receivers, side
+/// by side, each over one receiver at its distance. The camera looks at them from the front and above, where no object hides its
+/// receiver, as far as the distances allow. The glass has the index that the design was made with, at all wavelengths.
+std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const std::string& name);
+
+} // namespace nephroid::inverse
