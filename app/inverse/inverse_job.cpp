@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 3: slopes, then the solid, then its judgement. All on the host.
+#include "inverse/assign/conflicts.h"
 #include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "inverse/facets/mesh_files.h"
@@ -17,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace nephroid::inverse {
 namespace {
@@ -142,6 +144,7 @@ public:
     begin_judging();
     judge_->load(from);
     if (!found()) {
+      conflict_known_ = false;
       judge_.reset();
       solid_.reset();
     }
@@ -175,18 +178,23 @@ private:
     }
   }
 
-  void note_step() { history_.push_back({static_cast<double>(method_->steps()), method_seconds_, mean(method_->costs())}); }
+  void note_step()
+  {
+    conflict_known_ = false;
+    history_.push_back({static_cast<double>(method_->steps()), method_seconds_, mean(method_->costs())});
+  }
 
   void begin_judging()
   {
     solid_ = std::make_shared<const Solid>(make_solid(layout_, method_->slopes()));
     judge_.emplace(layout_, *solid_, preset_.seed);
+    conflict_known_ = false;
   }
 
   /// As judged where that is done, else as believed.
   const std::vector<double>& light(std::size_t receiver) const { return finished() ? judge_->light(receiver) : method_->light(receiver); }
 
-  void add_pictures(job::Snapshot& made) const
+  void add_pictures(job::Snapshot& made)
   {
     std::vector<std::vector<std::shared_ptr<const job::Picture>>> columns;
     for (std::size_t j = 0; j < targets_.size(); ++j) {
@@ -197,6 +205,28 @@ private:
     }
     made.pictures.push_back({"slopes", slopes_picture(method_->slopes(), layout_)});
     made.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
+    if (!std::exchange(conflict_known_, true)) find_conflicts();
+    made.pictures.push_back({"conflict", conflict_});
+  }
+
+  /// Once for every step, where somebody looks; which pictures fight once the slopes are found.
+  void find_conflicts()
+  {
+    std::vector<std::vector<double>> light;
+    for (std::size_t j = 0; j < targets_.size(); ++j) light.push_back(method_->light(j));
+    const ConflictSearch search(layout_, targets_, method_->slopes(), light);
+    conflict_ = facets_picture(search.of_facets(), layout_);
+    conflicts_.reset();
+    if (judge_) conflicts_ = search.of_pictures();
+  }
+
+  void add_conflicts(job::Snapshot& made) const
+  {
+    for (std::size_t j = 0; j < targets_.size(); ++j) {
+      made.scalars.push_back({"conflicts", fmt::format("floor_{}", j + 1), conflicts_->misplaced[j]});
+      for (std::size_t k = j + 1; k < targets_.size(); ++k)
+        made.scalars.push_back({"conflicts", fmt::format("{}_{}", j + 1, k + 1), conflicts_->between[j][k] + conflicts_->between[k][j]});
+    }
   }
 
   static void add_costs(job::Snapshot& made, const std::string& group, const std::vector<Cost>& costs)
@@ -214,6 +244,7 @@ private:
   void add_scalars(job::Snapshot& made) const
   {
     add_costs(made, "believed", method_->costs());
+    if (conflicts_) add_conflicts(made);
     if (!finished()) return;
     add_costs(made, "judged", judge_->costs(targets_));
     const Fates f = judge_->fates();
@@ -264,6 +295,9 @@ private:
   double method_seconds_ = 0, judge_seconds_ = 0;
   std::shared_ptr<const Solid> solid_; ///< from when the slopes are found
   std::optional<Judge> judge_;
+  bool conflict_known_ = false;
+  std::shared_ptr<const job::Picture> conflict_; ///< where known
+  std::optional<Conflicts> conflicts_;           ///< the same, once the slopes are found
 };
 
 } // namespace

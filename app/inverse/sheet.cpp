@@ -9,11 +9,11 @@
 namespace nephroid::inverse {
 namespace {
 
-std::shared_ptr<const job::Picture> grey(std::span<const double> values, double scale, const Layout& layout)
+std::shared_ptr<const job::Picture> grey(std::span<const double> values, double scale, const glm::ivec2& size)
 {
   auto picture = std::make_shared<job::Picture>();
-  picture->width = layout.cells.x;
-  picture->height = layout.cells.y;
+  picture->width = size.x;
+  picture->height = size.y;
   for (const double value : values) picture->rgb.insert(picture->rgb.end(), 3, static_cast<float>(scale * value));
   return picture;
 }
@@ -33,13 +33,13 @@ void paste(const job::Picture& from, job::Picture& into, int left, int top, int 
 
 std::shared_ptr<const job::Picture> wanted_picture(const Target& target, const Layout& layout)
 {
-  return grey(target, 1 / *std::max_element(target.begin(), target.end()), layout);
+  return grey(target, 1 / *std::max_element(target.begin(), target.end()), layout.cells);
 }
 
 std::shared_ptr<const job::Picture> received_picture(const Target& target, std::span<const double> light, const Layout& layout)
 {
   const double sum = std::accumulate(light.begin(), light.end(), 0.0), most = *std::max_element(target.begin(), target.end());
-  return grey(light, sum > 0 ? 1 / (sum * most) : 0, layout);
+  return grey(light, sum > 0 ? 1 / (sum * most) : 0, layout.cells);
 }
 
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received)
@@ -62,6 +62,11 @@ std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> s
   for (const glm::dvec2& slope : slopes)
     for (const double value : {slope.x, slope.y, facet_power(slope, layout.n)}) picture->rgb.push_back(static_cast<float>(value));
   return picture;
+}
+
+std::shared_ptr<const job::Picture> facets_picture(const std::vector<double>& values, const Layout& layout)
+{
+  return grey(values, 1, layout.facets);
 }
 
 std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<std::shared_ptr<const job::Picture>>>& columns, int width,

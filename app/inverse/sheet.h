@@ -17,6 +17,8 @@ std::shared_ptr<const job::Picture> received_picture(const Target& target, std::
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received);
 /// A pixel a facet: slope along x, slope along y, and its light over that of a facet that lies flat.
 std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, const Layout& layout);
+/// A pixel a facet: grey.
+std::shared_ptr<const job::Picture> facets_picture(const std::vector<double>& values, const Layout& layout);
 
 /// All in one picture of this size: a column for each receiver; what is wanted, what is there, the difference below each other. Cells are
 /// squares of pixels where they fit.

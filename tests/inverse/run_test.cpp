@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 using namespace nephroid::test;
 using nlohmann::json;
 using testing::HasSubstr;
@@ -36,6 +38,19 @@ TEST_F(InverseRun, CastsTheShapes)
   EXPECT_LT(judged, 0.15); // the aim for this set
   EXPECT_NEAR(judged, believed, 0.02);
   EXPECT_GT(judged, 0.03); // three pictures of one surface are never all right
+  // What a picture keeps is there for the sake of the others: three shapes, all in conflict, none much.
+  for (const char* name : {"1_2", "1_3", "2_3", "floor_1", "floor_2", "floor_3"}) {
+    EXPECT_GT(all.at("conflicts").at(name).get<double>(), 0.001) << name;
+    EXPECT_LT(all.at("conflicts").at(name).get<double>(), 0.2) << name;
+  }
+  const nephroid::image::Image slopes = nephroid::image::read_image(folder / "out/slopes.exr");
+  EXPECT_EQ(slopes.width, 64);
+  EXPECT_LE(*std::max_element(slopes.data.begin(), slopes.data.end()), 1.07); // the limit; light straight on is 1
+  const nephroid::image::Image conflict = nephroid::image::read_image(folder / "out/conflict.exr");
+  EXPECT_EQ(conflict.height, 64);
+  const auto [least, most] = std::minmax_element(conflict.data.begin(), conflict.data.end());
+  EXPECT_GE(*least, 0);
+  EXPECT_LE(*most, 1);
   const json light = all.at("light");
   EXPECT_NEAR(light.at("sent").get<double>() + light.at("reflected").get<double>() + light.at("lost").get<double>(), 1, 1e-9);
   EXPECT_THAT(bytes("out/cost.csv"), testing::StartsWith("sweep,seconds,cost,cost_all,rel_l2,missed\n0,"));

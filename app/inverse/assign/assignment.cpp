@@ -21,21 +21,10 @@ constexpr std::size_t batch = 16;
 /// A sweep that lowers the sum of squares by less than this part of it is the last.
 constexpr double worth_a_sweep = 0.01;
 
-/// The pictures count by the layout's weights: their cost is of light over its maximum, and a mean over the cells with light in them.
-std::vector<double> weights_of(const Layout& layout, const std::vector<Target>& targets)
-{
-  std::vector<double> weights;
-  for (std::size_t j = 0; j < targets.size(); ++j) {
-    const double most = *std::max_element(targets[j].begin(), targets[j].end()) * static_cast<double>(layout.facet_count());
-    weights.push_back((layout.weights.empty() ? 1 : layout.weights[j]) / (most * most));
-  }
-  return weights;
-}
-
 } // namespace
 
 Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
-    : layout_(layout), targets_(targets), seed_(seed), weights_(weights_of(layout, targets)), heights_(layout.facet_count()),
+    : layout_(layout), targets_(targets), seed_(seed), weights_(picture_weights(layout, targets)), heights_(layout.facet_count()),
       search_(layout, weights_, heights_), slopes_(layout.facet_count()), light_(targets.size(), std::vector<double>(layout.cell_count()))
 {
   std::mt19937_64 random(seed_);
@@ -54,7 +43,7 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
 
 bool Assignment::relight()
 {
-  weights_ = weights_of(layout_, targets_);
+  weights_ = picture_weights(layout_, targets_);
   search_.weigh(weights_);
   put_all();
   residual_ = residual();
@@ -101,22 +90,6 @@ double Assignment::gain(std::size_t facet, const glm::dvec2& slope) const
   return change;
 }
 
-std::vector<Lack> Assignment::lacks() const
-{
-  std::vector<Lack> all;
-  for (std::size_t j = 0; j < light_.size(); ++j) {
-    Lack lack = search_.no_lack(j);
-    for (int y = 0; y < layout_.cells.y; ++y)
-      for (int x = 0; x < layout_.cells.x; ++x) {
-        const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(layout_.cells.x) + static_cast<std::size_t>(x);
-        const double over = light_[j][cell] - static_cast<double>(slopes_.size()) * targets_[j][cell];
-        lack.values[static_cast<std::size_t>((y + lack.rim) * lack.width + x + lack.rim)] = static_cast<float>(2 * weights_[j] * over);
-      }
-    all.push_back(std::move(lack));
-  }
-  return all;
-}
-
 std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const
 {
   std::vector<Lack> all = lacks;
@@ -147,7 +120,7 @@ void Assignment::advance()
 {
   const std::size_t count = std::min(batch, slopes_.size() - next_);
   const std::span<const std::uint32_t> facets(order_.data() + next_, count);
-  const std::vector<Lack> now = lacks();
+  const std::vector<Lack> now = search_.lacks(targets_, light_);
   std::vector<glm::dvec2> found(count);
   for_blocks(count, [&](std::size_t i) { found[i] = look(facets[i], lacks_without(now, facets[i])); });
   for (std::size_t i = 0; i < count; ++i) {

@@ -49,7 +49,6 @@ private:
   void put_all();
   double gain(std::size_t facet, const glm::dvec2& slope) const;
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
-  std::vector<Lack> lacks() const;
   glm::dvec2 look(std::size_t facet, const std::vector<Lack>& lacks) const;
 
   const Layout& layout_;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace nephroid::inverse {
 namespace {
@@ -34,16 +35,38 @@ struct SlopeSearch::Columns {
   std::vector<float> square; ///< sum of the parts' squares
 };
 
+std::vector<double> picture_weights(const Layout& layout, const std::vector<Target>& targets)
+{
+  std::vector<double> weights;
+  for (std::size_t j = 0; j < targets.size(); ++j) {
+    const double most = *std::max_element(targets[j].begin(), targets[j].end()) * static_cast<double>(layout.facet_count());
+    weights.push_back((layout.weights.empty() ? 1 : layout.weights[j]) / (most * most));
+  }
+  return weights;
+}
+
 SlopeSearch::SlopeSearch(const Layout& layout, std::span<const double> weights, const std::vector<double>& heights)
     : layout_(layout), weights_(weights.begin(), weights.end()), heights_(heights),
       lattice_(glm::min(layout.cells, glm::ivec2(most_points)))
 {
 }
 
-Lack SlopeSearch::no_lack(std::size_t receiver) const
+std::vector<Lack> SlopeSearch::lacks(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light) const
 {
-  const int rim = std::max(taps(layout_, receiver, 0), taps(layout_, receiver, 1)), width = layout_.cells.x + 2 * rim;
-  return {rim, width, std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(layout_.cells.y + 2 * rim))};
+  std::vector<Lack> all;
+  const glm::ivec2 cells = layout_.cells;
+  for (std::size_t j = 0; j < light.size(); ++j) {
+    const int rim = std::max(taps(layout_, j, 0), taps(layout_, j, 1)), width = cells.x + 2 * rim;
+    Lack lack{rim, width, std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(cells.y + 2 * rim))};
+    for (int y = 0; y < cells.y; ++y)
+      for (int x = 0; x < cells.x; ++x) {
+        const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(x);
+        const double over = light[j][cell] - static_cast<double>(layout_.facet_count()) * targets[j][cell];
+        lack.values[static_cast<std::size_t>((y + rim) * width + x + rim)] = static_cast<float>(2 * weights_[j] * over);
+      }
+    all.push_back(std::move(lack));
+  }
+  return all;
 }
 
 double SlopeSearch::point(int i, int axis) const

@@ -17,6 +17,10 @@ struct Lack {
   std::vector<float> values;
 };
 
+/// Of each picture's squares: the layout's weights, so that pictures of one weight count alike. Their cost is of light over its maximum,
+/// and a mean over the cells with light in them.
+std::vector<double> picture_weights(const Layout& layout, const std::vector<Target>& targets);
+
 class SlopeSearch {
 public:
   /// weights: of a receiver's squares; heights: of the facets' middles. The layout and the heights outlive it.
@@ -29,8 +33,8 @@ public:
   /// their distance).
   void aim(const glm::dvec2& offset) { offset_ = offset; }
 
-  /// A lattice without light yet.
-  Lack no_lack(std::size_t receiver) const;
+  /// Of every receiver. light: [receiver][cell], in facets that send all of theirs.
+  std::vector<Lack> lacks(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light) const;
 
   /// The slope with the lowest sum over receivers and cells of lack * a + weight * a^2, a being the facet's light there, of equals the
   /// first; a is that of a facet as large as if it lay flat. Empty: the facet can reach no point of the lattice.
