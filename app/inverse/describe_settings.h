@@ -26,7 +26,8 @@ template <>
 struct Choices<inverse::Settings::Method> {
   using Method = inverse::Settings::Method;
   static constexpr Choice<Method> all[] = {
-      {Method::assign, "assign", "Facet after facet goes where the pictures lack most light, until a sweep gains nothing."},
+      {Method::assign, "assign",
+       "Facet after facet goes where the pictures lack most light, until a sweep gains little; then all move together."},
       {Method::thesis, "thesis", "Draws from the pictures' joint probability, which two annealings and a correction adjust."}};
 };
 

@@ -96,6 +96,54 @@ TEST(Assignment, GoesOnWithTheSameBits)
   EXPECT_NE(whole.slopes(), other.slopes());
 }
 
+// All facets together find more than one after the other: as much as several further sweeps.
+TEST(Assignment, IsRefinedInItsLastSweep)
+{
+  Layout layout = small();
+  layout.facets = {64, 64};
+  layout.cells = {32, 32};
+  const std::vector<Target> targets = ring_and_disc(layout);
+  Assignment a(layout, targets, 1);
+  double before = a.residual();
+  std::vector<double> sums{before};
+  while (!a.finished()) {
+    const std::int64_t sweeps = a.steps();
+    a.advance();
+    EXPECT_LE(a.residual(), before * (1 + 1e-12));
+    before = a.residual();
+    if (a.steps() > sweeps) sums.push_back(before);
+  }
+  ASSERT_GE(sums.size(), 4u);
+  const double last_sweep = sums[sums.size() - 3] - sums[sums.size() - 2];
+  EXPECT_GT(sums[sums.size() - 2] - before, 3 * last_sweep);
+  // The light is that of the slopes, and these are below the limit.
+  std::vector<std::vector<double>> light(2, std::vector<double>(layout.cell_count()));
+  for (std::size_t i = 0; i < a.slopes().size(); ++i) add_light(layout, i, a.slopes()[i], 1, light);
+  for (std::size_t c = 0; c < light[1].size(); ++c) EXPECT_NEAR(a.light(1)[c], light[1][c], 1e-9);
+}
+
+// Cut before the refinement, after some steps of it, and at its end.
+TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
+{
+  const Layout layout = small();
+  const std::vector<Target> targets = ring_and_disc(layout);
+  Assignment whole(layout, targets, 5);
+  std::vector<std::vector<std::byte>> cuts;
+  for (std::uint64_t tried = 0; !whole.finished(); tried = whole.tried()) {
+    whole.advance();
+    if (whole.tried() - tried == layout.facet_count()) cuts.push_back(test::saved(whole)); // a step moves all facets
+  }
+  ASSERT_GT(cuts.size(), 8u);
+  for (const std::size_t cut : {std::size_t{0}, std::size_t{7}, cuts.size() - 1}) {
+    Assignment other(layout, targets, 5);
+    ASSERT_TRUE(test::load(other, cuts[cut]));
+    while (!other.finished()) other.advance();
+    EXPECT_EQ(other.slopes(), whole.slopes());
+    EXPECT_EQ(other.light(0), whole.light(0));
+    EXPECT_EQ(other.steps(), whole.steps());
+  }
+}
+
 TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare)
 {
   Layout layout;

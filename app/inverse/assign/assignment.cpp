@@ -47,7 +47,7 @@ bool Assignment::relight()
   search_.weigh(weights_);
   put_all();
   residual_ = residual();
-  converged_ = false;
+  refinement_.reset();
   next_ = 0;
   begin_sweep();
   return true;
@@ -116,8 +116,18 @@ glm::dvec2 Assignment::look(std::size_t facet, const std::vector<Lack>& lacks) c
   return search_.refined(facet, from, lacks);
 }
 
+void Assignment::refine()
+{
+  refinement_->advance(slopes_, light_);
+  tried_ += slopes_.size();
+  if (!refinement_->finished()) return;
+  ++sweeps_;
+  if (layout_.free_heights) raise();
+}
+
 void Assignment::advance()
 {
+  if (refinement_) return refine();
   const std::size_t count = std::min(batch, slopes_.size() - next_);
   const std::span<const std::uint32_t> facets(order_.data() + next_, count);
   const std::vector<Lack> now = search_.lacks(targets_, light_);
@@ -136,19 +146,15 @@ void Assignment::advance()
   ++sweeps_;
   if (layout_.free_heights) raise();
   const double before = std::exchange(residual_, residual());
-  converged_ = residual_ > (1 - worth_a_sweep) * before;
+  if (residual_ > (1 - worth_a_sweep) * before) refinement_.emplace(layout_, targets_, weights_, heights_);
   begin_sweep();
 }
 
-double Assignment::residual() const
+double Assignment::residual() const { return weighted_squares(targets_, weights_, light_, slopes_.size()); }
+
+double Assignment::part() const
 {
-  double sum = 0;
-  for (std::size_t j = 0; j < light_.size(); ++j)
-    for (std::size_t c = 0; c < light_[j].size(); ++c) {
-      const double over = light_[j][c] - static_cast<double>(slopes_.size()) * targets_[j][c];
-      sum += weights_[j] * over * over;
-    }
-  return sum;
+  return refinement_ ? refinement_->part() : static_cast<double>(next_) / static_cast<double>(slopes_.size());
 }
 
 std::vector<Cost> Assignment::costs() const
@@ -165,10 +171,11 @@ void Assignment::save(ByteSink& to) const
   to.value(std::uint64_t{next_});
   to.value(tried_);
   to.value(residual_);
-  to.value(converged_);
   to.write(std::as_bytes(std::span(slopes_)));
   if (layout_.free_heights) to.write(std::as_bytes(std::span(heights_)));
   for (const auto& light : light_) to.write(std::as_bytes(std::span(light)));
+  to.value(refinement_.has_value());
+  if (refinement_) refinement_->save(to);
 }
 
 void Assignment::load(ByteSource& from)
@@ -178,11 +185,14 @@ void Assignment::load(ByteSource& from)
   from.value(next);
   from.value(tried_);
   from.value(residual_);
-  from.value(converged_);
   next_ = next;
   from.read(std::as_writable_bytes(std::span(slopes_)));
   if (layout_.free_heights) from.read(std::as_writable_bytes(std::span(heights_)));
   for (auto& light : light_) from.read(std::as_writable_bytes(std::span(light)));
+  bool refines = false;
+  from.value(refines);
+  refinement_.reset();
+  if (refines) refinement_.emplace(layout_, targets_, weights_, heights_).load(from);
   begin_sweep();
 }
 

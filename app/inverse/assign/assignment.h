@@ -2,32 +2,34 @@
 // Direct assignment: facet after facet is taken away and put back where it serves the pictures most.
 #pragma once
 #include "base/bytes.h"
+#include "inverse/assign/refinement.h"
 #include "inverse/assign/slope_search.h"
 #include "inverse/method.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace nephroid::inverse {
 
-/// Lowers sum over receivers of weight * |Z - T|^2. A sweep goes through all facets in a random order, in batches of a few: every facet
-/// of a batch looks for its slope at once, on as many threads as there are, among the light as it is before the batch; then one after
-/// the other takes what it found if that is better than what it had. So no sweep makes the sum larger, and the number of threads changes no
-/// bit. Free heights follow the slopes after each sweep.
+/// Lowers weighted_squares(). A sweep goes through all facets in a random order, in batches of a few: every facet of a batch looks for
+/// its slope at once, on as many threads as there are, among the light as it is before the batch; then one after the other takes what it
+/// found if that is better than what it had. So no sweep makes the sum larger, and the number of threads changes no bit. When a sweep
+/// gains less than a hundredth of the sum, the last one moves all facets together: see Refinement. Free heights follow the
+/// slopes after each sweep.
 class Assignment final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin with random slopes.
   Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
 
-  /// One batch.
+  /// One batch, or one step of the refinement.
   void advance() override;
-  /// The last sweep gained less than a hundredth of the sum.
-  bool finished() const override { return converged_; }
+  bool finished() const override { return refinement_ && refinement_->finished(); }
   std::int64_t steps() const override { return sweeps_; }
   std::int64_t most() const override { return preset::default_passes; }
-  double part() const override { return static_cast<double>(next_) / static_cast<double>(slopes_.size()); }
+  double part() const override;
   std::uint64_t tried() const override { return tried_; }
   job::Units units() const override { return {.step = "sweep", .steps = "sweeps", .work = "facet", .works = "facets"}; }
 
@@ -47,6 +49,7 @@ private:
   void raise();
   void put(std::size_t facet, double sign);
   void put_all();
+  void refine();
   double gain(std::size_t facet, const glm::dvec2& slope) const;
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
   glm::dvec2 look(std::size_t facet, const std::vector<Lack>& lacks) const;
@@ -64,8 +67,8 @@ private:
   std::int64_t sweeps_ = 0;
   std::size_t next_ = 0; ///< in order_
   std::uint64_t tried_ = 0;
-  double residual_ = 0; ///< before the sweep in hand
-  bool converged_ = false;
+  double residual_ = 0;                  ///< before the sweep in hand
+  std::optional<Refinement> refinement_; ///< from when a sweep gained too little
 };
 
 } // namespace nephroid::inverse

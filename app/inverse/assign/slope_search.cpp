@@ -45,6 +45,18 @@ std::vector<double> picture_weights(const Layout& layout, const std::vector<Targ
   return weights;
 }
 
+double weighted_squares(const std::vector<Target>& targets, std::span<const double> weights, const std::vector<std::vector<double>>& light,
+                        std::size_t facets)
+{
+  double sum = 0;
+  for (std::size_t j = 0; j < light.size(); ++j)
+    for (std::size_t c = 0; c < light[j].size(); ++c) {
+      const double over = light[j][c] - static_cast<double>(facets) * targets[j][c];
+      sum += weights[j] * over * over;
+    }
+  return sum;
+}
+
 SlopeSearch::SlopeSearch(const Layout& layout, std::span<const double> weights, const std::vector<double>& heights)
     : layout_(layout), weights_(weights.begin(), weights.end()), heights_(heights),
       lattice_(glm::min(layout.cells, glm::ivec2(most_points)))

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/assign/refinement.h"
+
+#include "base/parallel.h"
+#include "inverse/assign/footprint.h"
+#include "inverse/assign/slope_search.h"
+#include "inverse/bending.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Steps. Thirty take as long as two sweeps and gain three to four hundredths of the cost; the next thirty one.
+constexpr std::size_t most_steps = 30;
+/// Lengths tried along a line.
+constexpr int most_tries = 6;
+/// The first step moves facets by so many cells of the last receiver, as a root mean square.
+constexpr double first_step = 0.05;
+/// A line's step is good where the sum falls by this part of what the gradient promises.
+constexpr double promise = 0.1;
+/// Over which the gradient is a difference, in cells.
+constexpr double difference = 1e-3;
+
+double dot(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b)
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i], b[i]);
+  return sum;
+}
+
+} // namespace
+
+Refinement::Refinement(const Layout& layout, const std::vector<Target>& targets, std::vector<double> weights,
+                       const std::vector<double>& heights)
+    : layout_(layout), targets_(targets), weights_(std::move(weights)), heights_(heights), gradient_(layout.facet_count()),
+      before_(layout.facet_count()), direction_(layout.facet_count())
+{
+}
+
+bool Refinement::finished() const { return stuck_ || done_ >= most_steps; }
+
+double Refinement::part() const { return static_cast<double>(done_) / static_cast<double>(most_steps); }
+
+void Refinement::find_gradient(const std::vector<glm::dvec2>& slopes, const std::vector<std::vector<double>>& light)
+{
+  const auto facets = static_cast<double>(slopes.size());
+  for_ranges(slopes.size(), 256, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      for (int axis = 0; axis < 2; ++axis) {
+        double sum = 0;
+        for (std::size_t j = 0; j < light.size(); ++j) {
+          const double h = difference * layout_.cell()[axis] / layout_.distances[j];
+          for (const double side : {-h, h}) {
+            glm::dvec2 slope = slopes[i];
+            slope[axis] += side;
+            double over = 0;
+            for_cells(layout_, footprint(layout_, i, slope, j, heights_[i]),
+                      [&](std::size_t cell, double part) { over += part * (light[j][cell] - facets * targets_[j][cell]); });
+            sum += weights_[j] * facet_power(slope, layout_.n) * over / side;
+          }
+        }
+        gradient_[i][axis] = sum;
+      }
+  });
+}
+
+void Refinement::find_light(const std::vector<glm::dvec2>& slopes, std::vector<std::vector<double>>& light) const
+{
+  for_blocks(light.size(), [&](std::size_t j) {
+    std::fill(light[j].begin(), light[j].end(), 0.0);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      const double power = facet_power(slopes[i], layout_.n);
+      for_cells(layout_, footprint(layout_, i, slopes[i], j, heights_[i]),
+                [&](std::size_t cell, double part) { light[j][cell] += power * part; });
+    }
+  });
+}
+
+/// The new direction, and how the sum changes along it.
+double Refinement::turn()
+{
+  const double before = dot(before_, before_), now = dot(gradient_, gradient_);
+  const double keep = before > 0 ? std::max(0.0, (now - dot(gradient_, before_)) / before) : 0;
+  for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = keep * direction_[i] - gradient_[i];
+  if (const double change = dot(gradient_, direction_); change < 0) return change;
+  for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = -gradient_[i];
+  return -now;
+}
+
+void Refinement::advance(std::vector<glm::dvec2>& slopes, std::vector<std::vector<double>>& light)
+{
+  ++done_;
+  find_gradient(slopes, light);
+  const double change = turn(), from = weighted_squares(targets_, weights_, light, slopes.size()), limit = usable_slope(layout_);
+  if (step_ == 0) {
+    const double length = std::sqrt(-change / static_cast<double>(slopes.size()));
+    step_ = length > 0 ? first_step * layout_.cell().x / layout_.distances.back() / length : 0;
+  }
+  before_ = gradient_;
+  std::vector<glm::dvec2> moved(slopes.size());
+  std::vector<std::vector<double>> there = light;
+  for (int i = 0; i < most_tries; ++i) {
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+      moved[k] = slopes[k] + step_ * direction_[k];
+      const double length = glm::length(moved[k]);
+      if (length > limit) moved[k] *= limit / length;
+    }
+    find_light(moved, there);
+    // The parabola through both sums with the slope at the first: its lowest point is the next length.
+    const double to = weighted_squares(targets_, weights_, there, slopes.size()), bend = (to - from - step_ * change) / (step_ * step_);
+    const double lowest = bend > 0 ? -change / (2 * bend) : 4 * step_;
+    if (to < from + promise * step_ * change) {
+      step_ = std::clamp(lowest, step_ / 4, 4 * step_);
+      slopes = std::move(moved);
+      light = std::move(there);
+      return;
+    }
+    step_ = std::clamp(lowest, step_ / 10, step_ / 2);
+  }
+  stuck_ = true;
+}
+
+void Refinement::save(ByteSink& to) const
+{
+  for (const auto* values : {&before_, &direction_}) to.write(std::as_bytes(std::span(*values)));
+  to.value(step_);
+  to.value(std::uint64_t{done_});
+  to.value(stuck_);
+}
+
+void Refinement::load(ByteSource& from)
+{
+  std::uint64_t done = 0;
+  for (auto* values : {&before_, &direction_}) from.read(std::as_writable_bytes(std::span(*values)));
+  from.value(step_);
+  from.value(done);
+  from.value(stuck_);
+  done_ = done;
+}
+
+} // namespace nephroid::inverse
