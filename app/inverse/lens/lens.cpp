@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/lens/lens.h"
+
+#include "inverse/assign/footprint.h"
+#include "inverse/bending.h"
+#include "inverse/facets/smooth_solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Cells of the grid along its longer side: several a cell of the picture, and no more than a step can do in half a second.
+int grid_cells(const Layout& layout) { return std::clamp(4 * std::max(layout.cells.x, layout.cells.y), 128, 512); }
+/// How often heights are made anew: light starts from them, so that they change where it has to be sent.
+constexpr int rounds = 4;
+
+glm::dvec2 domain_of(const Layout& layout) { return glm::max(layout.size, layout.receiver); }
+
+/// Part of a cell of the grid that a centred rectangle covers, times what `value` has at its middle.
+template <class Value>
+Grid on_grid(const Layout& layout, const glm::dvec2& rectangle, const Value& value)
+{
+  const glm::dvec2 domain = domain_of(layout);
+  const double cell = std::max(domain.x, domain.y) / grid_cells(layout);
+  Grid grid(static_cast<Eigen::Index>(std::lround(domain.y / cell)), static_cast<Eigen::Index>(std::lround(domain.x / cell)));
+  const glm::dvec2 step = domain / glm::dvec2(grid.cols(), grid.rows());
+  const auto covered = [&](Eigen::Index i, int axis) {
+    const double low = static_cast<double>(i) * step[axis] - domain[axis] / 2, high = low + step[axis], half = rectangle[axis] / 2;
+    return std::max(0.0, std::min(high, half) - std::max(low, -half)) / step[axis];
+  };
+  for (Eigen::Index y = 0; y < grid.rows(); ++y)
+    for (Eigen::Index x = 0; x < grid.cols(); ++x) {
+      const double part = covered(x, 0) * covered(y, 1);
+      const glm::dvec2 middle{(static_cast<double>(x) + 0.5) * step.x - domain.x / 2, domain.y / 2 - (static_cast<double>(y) + 0.5) * step.y};
+      grid(y, x) = part > 0 ? part * value(middle) : 0;
+    }
+  return grid;
+}
+
+Grid object_grid(const Layout& layout)
+{
+  return on_grid(layout, layout.size, [](const glm::dvec2&) { return 1.0; });
+}
+
+Grid target_grid(const Layout& layout, const Target& target)
+{
+  return on_grid(layout, layout.receiver, [&](const glm::dvec2& p) {
+    const glm::ivec2 cell = glm::clamp(glm::ivec2(glm::floor(layout.in_cells(p))), glm::ivec2(0), layout.cells - 1);
+    return target[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(cell.x)];
+  });
+}
+
+} // namespace
+
+Lens::Lens(const Layout& layout, const Target& target)
+    : layout_(layout), target_(target), domain_(domain_of(layout)), transport_(object_grid(layout), target_grid(layout, target)),
+      heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()),
+      heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)), slopes_(layout.facet_count())
+{
+  make_surface();
+}
+
+/// Where the light has to go that leaves at p, on the receiver.
+glm::dvec2 Lens::goal(const glm::dvec2& p) const
+{
+  const double cell = std::max(domain_.x, domain_.y) / grid_cells(layout_);
+  const glm::dvec2 to = cell * transport_.map({(p.x + domain_.x / 2) / cell, (domain_.y / 2 - p.y) / cell});
+  return {to.x - domain_.x / 2, domain_.y / 2 - to.y};
+}
+
+/// Of all surfaces the one whose rises along the facets' edges are closest to those that would send the light of the edges' middles where
+/// it has to go, in the sense of least squares.
+void Lens::make_surface()
+{
+  const double distance = layout_.distances.front(), limit = usable_slope(layout_.n);
+  const glm::dvec2 facet = layout_.facet();
+  const auto rise = [&](const glm::dvec2& p, double height) {
+    glm::dvec2 slope = (goal(p) - p) / (distance + height);
+    slope *= std::min(1.0, limit / std::max(glm::length(slope), 1e-300));
+    return facet_gradient(slope, layout_.n);
+  };
+  const Eigen::Index rows = heights_.rows(), columns = heights_.cols();
+  const auto corner = [&](double x, double y) { return glm::dvec2(x * facet.x - layout_.size.x / 2, layout_.size.y / 2 - y * facet.y); };
+  for (int round = 0; round < rounds; ++round) {
+    Grid source = Grid::Zero(rows, columns); // minus the divergence of the rises
+    for (Eigen::Index y = 0; y < rows; ++y)
+      for (Eigen::Index x = 0; x < columns; ++x) {
+        const auto u = static_cast<double>(x), v = static_cast<double>(y);
+        if (x + 1 < columns) {
+          const double along = rise(corner(u + 0.5, v), (heights_(y, x) + heights_(y, x + 1)) / 2).x / facet.x;
+          source(y, x) -= along;
+          source(y, x + 1) += along;
+        }
+        if (y + 1 < rows) { // rows go down, y goes up
+          const double along = rise(corner(u, v + 0.5), (heights_(y, x) + heights_(y + 1, x)) / 2).y / facet.y;
+          source(y, x) += along;
+          source(y + 1, x) -= along;
+        }
+      }
+    heights_ = heights_of_.solve(source);
+  }
+
+  light_.assign(layout_.cell_count(), 0);
+  for (std::size_t i = 0; i < slopes_.size(); ++i) {
+    const auto columns_of = static_cast<std::size_t>(layout_.facets.x);
+    const auto x = static_cast<Eigen::Index>(i % columns_of), y = static_cast<Eigen::Index>(i / columns_of);
+    const double a = heights_(y, x), b = heights_(y, x + 1), c = heights_(y + 1, x), d = heights_(y + 1, x + 1);
+    slopes_[i] = slope_of({(b + d - a - c) / (2 * facet.x), (a + b - c - d) / (2 * facet.y)}, layout_.n);
+    const Footprint print = footprint(layout_, i, slopes_[i], 0);
+    const double power = facet_power(slopes_[i], layout_.n);
+    for (std::size_t k = 0; k < print.y.size(); ++k)
+      for (std::size_t j = 0; j < print.x.size(); ++j)
+        light_[static_cast<std::size_t>(print.y0 + static_cast<int>(k)) * static_cast<std::size_t>(layout_.cells.x) +
+               static_cast<std::size_t>(print.x0) + j] += power * print.x[j] * print.y[k];
+  }
+}
+
+void Lens::advance()
+{
+  transport_.advance();
+  ++steps_;
+  if (transport_.astray() < best_ * 0.99) {
+    best_ = transport_.astray();
+    best_step_ = steps_;
+  }
+  make_surface();
+}
+
+std::vector<Cost> Lens::costs() const
+{
+  double sent = 0;
+  for (const glm::dvec2& slope : slopes_) sent += facet_power(slope, layout_.n);
+  return {cost_of(target_, light_, sent)};
+}
+
+Solid Lens::solid() const { return make_smooth_solid(layout_, heights_); }
+
+void Lens::show(job::Snapshot& made) const { made.scalars.push_back({"lens", "astray", transport_.astray()}); }
+
+void Lens::save(ByteSink& to) const
+{
+  transport_.save(to);
+  to.value(steps_);
+  to.value(best_step_);
+  to.value(best_);
+  to.write(std::as_bytes(std::span(heights_.data(), static_cast<std::size_t>(heights_.size()))));
+}
+
+void Lens::load(ByteSource& from)
+{
+  transport_.load(from);
+  from.value(steps_);
+  from.value(best_step_);
+  from.value(best_);
+  from.read(std::as_writable_bytes(std::span(heights_.data(), static_cast<std::size_t>(heights_.size()))));
+  make_surface();
+}
+
+} // namespace nephroid::inverse
