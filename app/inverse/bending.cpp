@@ -34,6 +34,14 @@ double slope_behind(double tilt_radians, double n)
 
 glm::dvec2 facet_gradient(const glm::dvec2& slope, double n) { return -slope / (n * std::sqrt(1 + glm::dot(slope, slope)) - 1); }
 
+glm::dvec2 facet_slope(const glm::dvec2& gradient, double n)
+{
+  const double steepness = glm::length(gradient);
+  if (steepness == 0) return {0, 0};
+  const double slope = std::min(slope_behind(std::atan(steepness), n), slope_limit(n));
+  return gradient / steepness * (n > 1 ? -slope : slope);
+}
+
 double transmitted(const glm::dvec2& slope, double n)
 {
   const std::optional<glm::dvec3> normal = facet_normal({0, 0, -1}, direction_of(slope), n);

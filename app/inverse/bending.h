@@ -31,6 +31,9 @@ double slope_behind(double tilt_radians, double n);
 /// g = -slope / (n sqrt(1 + slope^2) - 1).
 glm::dvec2 facet_gradient(const glm::dvec2& slope, double n);
 
+/// The other way round: the slope that light along -z gets behind such a facet; the limit where it is totally reflected.
+glm::dvec2 facet_slope(const glm::dvec2& gradient, double n);
+
 /// How much of the light inside leaves through such a facet: 1 minus Fresnel's reflectance.
 double transmitted(const glm::dvec2& slope, double n);
 

@@ -28,7 +28,8 @@ struct Choices<inverse::Settings::Method> {
   static constexpr Choice<Method> all[] = {
       {Method::assign, "assign",
        "Facet after facet goes where the pictures lack most light, until a sweep gains little; then all move together."},
-      {Method::thesis, "thesis", "Draws from the pictures' joint probability, which two annealings and a correction adjust."}};
+      {Method::thesis, "thesis", "Draws from the pictures' joint probability, which two annealings and a correction adjust."},
+      {Method::lens, "lens", "One picture by a smooth surface, whose light takes the shortest ways there."}};
 };
 
 template <>

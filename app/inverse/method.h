@@ -3,6 +3,7 @@
 #pragma once
 #include "base/bytes.h"
 #include "inverse/assign/cost.h"
+#include "inverse/facets/solid.h"
 #include "inverse/layout.h"
 #include "inverse/settings.h"
 #include "job/job.h"
@@ -31,6 +32,7 @@ public:
   virtual const std::vector<glm::dvec2>& slopes() const = 0;                ///< as good as they are so far
   virtual const std::vector<double>& light(std::size_t receiver) const = 0; ///< of these slopes, by their footprints
   virtual std::vector<Cost> costs() const = 0;                              ///< of that light
+  virtual Solid solid() const = 0;                                          ///< whose facets have these slopes
   /// The layout's distances or weights, or the targets, are other ones: facets keep their slopes, and the search goes on from them. False:
   /// it cannot, and nothing has changed.
   virtual bool relight() { return false; }

@@ -67,6 +67,12 @@ void check(const preset::Preset& preset, const Where& where)
   if (s.heights == Settings::Heights::free && s.method == Settings::Method::thesis)
     throw bad_input(where(preset::child(own, "heights")), "is free, and the method 'thesis' aims from facets in one plane",
                     "expected 'flat'", "or choose the method 'assign'");
+  if (s.method == Settings::Method::lens && s.receivers.size() > 1)
+    throw bad_input(where(preset::child(own, "method")), fmt::format("is \"lens\", and there are {} receivers", s.receivers.size()),
+                    "expected one, because a smooth surface casts one picture", "choose \"assign\", or keep one receiver");
+  if (s.method == Settings::Method::lens && s.heights == Settings::Heights::free)
+    throw bad_input(where(preset::child(own, "heights")), "is \"free\", and the method \"lens\" makes a surface without steps",
+                    "expected none", "remove it");
   if (preset.stop.error && !preset.reference)
     throw bad_input(where("/stop/error"), "the engine 'inverse' makes no estimate of its error",
                     "expected 'stop.passes' or 'stop.seconds'");

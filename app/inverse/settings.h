@@ -38,7 +38,7 @@ struct Receiver {
 };
 
 struct Settings {
-  enum class Method { assign, thesis };
+  enum class Method { assign, thesis, lens };
   enum class Heights { flat, free };
   Method method = Method::assign;
   std::array<double, 2> size_mm{100, 100};            ///< of the object

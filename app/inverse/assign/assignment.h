@@ -38,6 +38,7 @@ public:
   const std::vector<double>& light(std::size_t receiver) const override { return light_[receiver]; }
   double residual() const; ///< the sum
   std::vector<Cost> costs() const override;
+  Solid solid() const override { return make_solid(layout_, slopes()); }
   /// The sweep in hand begins again.
   bool relight() override;
 

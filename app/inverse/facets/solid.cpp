@@ -29,6 +29,18 @@ public:
     for (std::size_t i = 0; i < slopes.size(); ++i) solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n), heights[i]});
   }
 
+  /// corners: z where facets meet, row by row, one more across and down than facets.
+  Builder(const Layout& layout, const std::vector<double>& corners)
+      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y), corners_(corners)
+  {
+    for (int row = 0; row < ny_; ++row)
+      for (int column = 0; column < nx_; ++column) {
+        const double a = corner(column, row), b = corner(column + 1, row), c = corner(column, row + 1), d = corner(column + 1, row + 1);
+        const glm::dvec2 gradient{(b + d - a - c) / (2 * layout.facet().x), (a + b - c - d) / (2 * layout.facet().y)};
+        solid_.facets.push_back({facet_slope(gradient, layout.n), gradient, (a + b + c + d) / 4});
+      }
+  }
+
   Solid build()
   {
     make_posts();
@@ -50,9 +62,12 @@ private:
   double height(int column, int row, const glm::dvec2& half) const
   {
     if (!is_facet(column, row)) return layout_.thickness;
+    if (!corners_.empty()) return corner(half.x < 0 ? column : column + 1, half.y < 0 ? row + 1 : row);
     const Facet& facet = solid_.facets[static_cast<std::size_t>(row * nx_ + column)];
     return facet.height + glm::dot(facet.gradient, half);
   }
+
+  double corner(int a, int b) const { return corners_[static_cast<std::size_t>(b * (nx_ + 1) + a)]; }
 
   glm::dvec2 place(int a, int b) const
   {
@@ -204,6 +219,7 @@ private:
 
   const Layout& layout_;
   int nx_, ny_;
+  std::vector<double> corners_; ///< of a surface without walls; else empty
   std::vector<Post> posts_;
   std::vector<std::optional<Vertex>> down_, across_; ///< crossings, of the lines from a post down and to the right
   Solid solid_;
@@ -220,5 +236,7 @@ Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes)
 {
   return make_solid(layout, slopes, heights_of(layout, slopes));
 }
+
+Solid make_smooth_solid(const Layout& layout, const std::vector<double>& corners) { return Builder(layout, corners).build(); }
 
 } // namespace nephroid::inverse

@@ -34,4 +34,8 @@ struct Solid {
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
+/// Without walls: neighbours share their corners. A facet is four triangles about its middle. corners: z, row by row from the top, one more
+/// across and down than facets.
+Solid make_smooth_solid(const Layout& layout, const std::vector<double>& corners);
+
 } // namespace nephroid::inverse

@@ -3,7 +3,6 @@
 
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-#include "inverse/facets/smooth_solid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +32,8 @@ Grid on_grid(const Layout& layout, const glm::dvec2& rectangle, const Value& val
   for (Eigen::Index y = 0; y < grid.rows(); ++y)
     for (Eigen::Index x = 0; x < grid.cols(); ++x) {
       const double part = covered(x, 0) * covered(y, 1);
-      const glm::dvec2 middle{(static_cast<double>(x) + 0.5) * step.x - domain.x / 2, domain.y / 2 - (static_cast<double>(y) + 0.5) * step.y};
+      const glm::dvec2 middle{(static_cast<double>(x) + 0.5) * step.x - domain.x / 2,
+                              domain.y / 2 - (static_cast<double>(y) + 0.5) * step.y};
       grid(y, x) = part > 0 ? part * value(middle) : 0;
     }
   return grid;
@@ -56,8 +56,8 @@ Grid target_grid(const Layout& layout, const Target& target)
 
 Lens::Lens(const Layout& layout, const Target& target)
     : layout_(layout), target_(target), domain_(domain_of(layout)), transport_(object_grid(layout), target_grid(layout, target)),
-      heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()),
-      heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)), slopes_(layout.facet_count())
+      heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()), heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)),
+      slopes_(layout.facet_count())
 {
   make_surface();
 }
@@ -65,8 +65,8 @@ Lens::Lens(const Layout& layout, const Target& target)
 /// Where the light has to go that leaves at p, on the receiver.
 glm::dvec2 Lens::goal(const glm::dvec2& p) const
 {
-  const double cell = std::max(domain_.x, domain_.y) / grid_cells(layout_);
-  const glm::dvec2 to = cell * transport_.map({(p.x + domain_.x / 2) / cell, (domain_.y / 2 - p.y) / cell});
+  const glm::dvec2 cell = domain_ / transport_.cells();
+  const glm::dvec2 to = cell * transport_.map(glm::dvec2(p.x + domain_.x / 2, domain_.y / 2 - p.y) / cell);
   return {to.x - domain_.x / 2, domain_.y / 2 - to.y};
 }
 
@@ -74,7 +74,7 @@ glm::dvec2 Lens::goal(const glm::dvec2& p) const
 /// it has to go, in the sense of least squares.
 void Lens::make_surface()
 {
-  const double distance = layout_.distances.front(), limit = usable_slope(layout_.n);
+  const double distance = layout_.distances.front(), limit = usable_slope(layout_);
   const glm::dvec2 facet = layout_.facet();
   const auto rise = [&](const glm::dvec2& p, double height) {
     glm::dvec2 slope = (goal(p) - p) / (distance + height);
@@ -82,6 +82,7 @@ void Lens::make_surface()
     return facet_gradient(slope, layout_.n);
   };
   const Eigen::Index rows = heights_.rows(), columns = heights_.cols();
+  heights_.setZero();
   const auto corner = [&](double x, double y) { return glm::dvec2(x * facet.x - layout_.size.x / 2, layout_.size.y / 2 - y * facet.y); };
   for (int round = 0; round < rounds; ++round) {
     Grid source = Grid::Zero(rows, columns); // minus the divergence of the rises
@@ -102,18 +103,13 @@ void Lens::make_surface()
     heights_ = heights_of_.solve(source);
   }
 
-  light_.assign(layout_.cell_count(), 0);
+  light_.assign(1, std::vector<double>(layout_.cell_count()));
+  const auto columns_of = static_cast<std::size_t>(layout_.facets.x);
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
-    const auto columns_of = static_cast<std::size_t>(layout_.facets.x);
     const auto x = static_cast<Eigen::Index>(i % columns_of), y = static_cast<Eigen::Index>(i / columns_of);
     const double a = heights_(y, x), b = heights_(y, x + 1), c = heights_(y + 1, x), d = heights_(y + 1, x + 1);
-    slopes_[i] = slope_of({(b + d - a - c) / (2 * facet.x), (a + b - c - d) / (2 * facet.y)}, layout_.n);
-    const Footprint print = footprint(layout_, i, slopes_[i], 0);
-    const double power = facet_power(slopes_[i], layout_.n);
-    for (std::size_t k = 0; k < print.y.size(); ++k)
-      for (std::size_t j = 0; j < print.x.size(); ++j)
-        light_[static_cast<std::size_t>(print.y0 + static_cast<int>(k)) * static_cast<std::size_t>(layout_.cells.x) +
-               static_cast<std::size_t>(print.x0) + j] += power * print.x[j] * print.y[k];
+    slopes_[i] = facet_slope({(b + d - a - c) / (2 * facet.x), (a + b - c - d) / (2 * facet.y)}, layout_.n);
+    add_light(layout_, i, slopes_[i], 1, light_, (a + b + c + d) / 4);
   }
 }
 
@@ -128,14 +124,9 @@ void Lens::advance()
   make_surface();
 }
 
-std::vector<Cost> Lens::costs() const
-{
-  double sent = 0;
-  for (const glm::dvec2& slope : slopes_) sent += facet_power(slope, layout_.n);
-  return {cost_of(target_, light_, sent)};
-}
+std::vector<Cost> Lens::costs() const { return {cost_of(target_, light_.front(), light_sent(slopes_, layout_.n))}; }
 
-Solid Lens::solid() const { return make_smooth_solid(layout_, heights_); }
+Solid Lens::solid() const { return make_smooth_solid(layout_, {heights_.data(), heights_.data() + heights_.size()}); }
 
 void Lens::show(job::Snapshot& made) const { made.scalars.push_back({"lens", "astray", transport_.astray()}); }
 
@@ -145,7 +136,6 @@ void Lens::save(ByteSink& to) const
   to.value(steps_);
   to.value(best_step_);
   to.value(best_);
-  to.write(std::as_bytes(std::span(heights_.data(), static_cast<std::size_t>(heights_.size()))));
 }
 
 void Lens::load(ByteSource& from)
@@ -154,7 +144,6 @@ void Lens::load(ByteSource& from)
   from.value(steps_);
   from.value(best_step_);
   from.value(best_);
-  from.read(std::as_writable_bytes(std::span(heights_.data(), static_cast<std::size_t>(heights_.size()))));
   make_surface();
 }
 

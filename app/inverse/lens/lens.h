@@ -4,7 +4,8 @@
 #include "inverse/lens/transport.h"
 #include "inverse/method.h"
 
-#include <optional>
+#include <cstdint>
+#include <vector>
 
 namespace nephroid::inverse {
 
@@ -24,7 +25,7 @@ public:
   job::Units units() const override { return {.step = "step", .steps = "steps", .work = "facet", .works = "facets"}; }
 
   const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
-  const std::vector<double>& light(std::size_t) const override { return light_; }
+  const std::vector<double>& light(std::size_t) const override { return light_.front(); }
   std::vector<Cost> costs() const override;
   Solid solid() const override;
   void show(job::Snapshot& made) const override;
@@ -46,7 +47,7 @@ private:
   double best_ = 1;
   Grid heights_; ///< of the facets' corners, millimetres
   std::vector<glm::dvec2> slopes_;
-  std::vector<double> light_;
+  std::vector<std::vector<double>> light_; ///< of the one receiver
 };
 
 } // namespace nephroid::inverse

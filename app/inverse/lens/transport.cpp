@@ -44,11 +44,12 @@ void lower_envelope(const double* f, double* out, int count, double cell)
   }
 }
 
-/// Of a potential at the corner between four cells, in the unit of the potential over that of `cell`. Nothing flows over the rim.
+/// Of a potential at the corner between four cells, in the unit of the potential over that of `cell`; on the rim that of the nearest
+/// corner inside.
 glm::dvec2 gradient_at(const Grid& u, int column, int row, double cell)
 {
-  const auto left = std::max(column - 1, 0), right = std::min(column, static_cast<int>(u.cols()) - 1);
-  const auto up = std::max(row - 1, 0), down = std::min(row, static_cast<int>(u.rows()) - 1);
+  const int right = std::clamp(column, 1, static_cast<int>(u.cols()) - 1), left = right - 1;
+  const int down = std::clamp(row, 1, static_cast<int>(u.rows()) - 1), up = down - 1;
   return {(u(up, right) + u(down, right) - u(up, left) - u(down, left)) / (2 * cell),
           (u(down, left) + u(down, right) - u(up, left) - u(up, right)) / (2 * cell)};
 }
@@ -123,8 +124,9 @@ Grid pushed(const Grid& from, const Grid& potential, double cell)
 
 Transport::Transport(Grid from, Grid to)
     : from_(std::move(from)), to_(std::move(to)), cell_(1.0 / static_cast<double>(std::max(from_.rows(), from_.cols()))),
-      poisson_(static_cast<int>(from_.cols()), static_cast<int>(from_.rows()), {cell_, cell_}),
-      phi_{Grid::Zero(from_.rows(), from_.cols())}, psi_(phi_)
+      poisson_(static_cast<int>(from_.cols()), static_cast<int>(from_.rows()), {cell_, cell_}), phi_{Grid::Zero(from_.rows(),
+                                                                                                                from_.cols())},
+      psi_(phi_)
 {
   const double area = cell_ * cell_;
   from_ /= from_.sum() * area;
@@ -132,7 +134,10 @@ Transport::Transport(Grid from, Grid to)
   phi_.step = psi_.step = 8 / std::max(from_.maxCoeff(), to_.maxCoeff());
 }
 
-double Transport::value() const { return cell_ * cell_ * (phi_.potential.cwiseProduct(to_).sum() + psi_.potential.cwiseProduct(from_).sum()); }
+double Transport::value() const
+{
+  return cell_ * cell_ * (phi_.potential.cwiseProduct(to_).sum() + psi_.potential.cwiseProduct(from_).sum());
+}
 
 void Transport::move(Side& side, const Grid& wanted, const Grid& arrived, Side& other)
 {

@@ -11,8 +11,8 @@
 namespace nephroid::inverse {
 
 /// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"): steps along the gradient of the dual
-/// problem, by turns in its two potentials, in the metric in which the gradient is a solution of Poisson's equation. Lengths are in parts of the grid's longer
-/// side; both pictures are on the same grid of square cells and have the same sum.
+/// problem, by turns in its two potentials, in the metric in which the gradient is a solution of Poisson's equation. Lengths are in parts
+/// of the grid's longer side; both pictures are on the same grid of square cells and have the same sum.
 class Transport {
 public:
   Transport(Grid from, Grid to);
@@ -22,6 +22,8 @@ public:
   double astray() const { return astray_; }
   /// Where the light at p goes. p and the result are in cells from the first cell's corner.
   glm::dvec2 map(const glm::dvec2& p) const;
+
+  glm::dvec2 cells() const { return {from_.cols(), from_.rows()}; } ///< across and down
 
   void save(ByteSink& to) const;
   void load(ByteSource& from);

@@ -34,6 +34,7 @@ public:
   const std::vector<glm::dvec2>& slopes() const override { return best_.slopes; }
   const std::vector<double>& light(std::size_t receiver) const override { return light_[receiver]; }
   std::vector<Cost> costs() const override;
+  Solid solid() const override { return make_solid(layout_, slopes()); }
   void show(job::Snapshot& snapshot) const override;
 
   void save(ByteSink& to) const override;
