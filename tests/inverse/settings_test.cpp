@@ -59,6 +59,16 @@ TEST_F(InverseSettings, Distances)
   EXPECT_THAT(refusal({"inverse.thickness_mm=0.2"}), AllOf(HasSubstr("can reach"), HasSubstr("choose more facets")));
 }
 
+TEST_F(InverseSettings, ALensCastsOnePicture)
+{
+  EXPECT_THAT(
+      refusal(
+          {"inverse.method=lens",
+           R"(inverse.receivers=[{"distance_mm": 90, "picture": {"type": "disc"}}, {"distance_mm": 99, "picture": {"type": "disc"}}])"}),
+      AllOf(HasSubstr("is \"lens\", and there are 2 receivers"), HasSubstr("choose \"assign\"")));
+  EXPECT_THAT(refusal({"inverse.method=lens", "inverse.heights=free"}), HasSubstr("a surface without steps"));
+}
+
 TEST_F(InverseSettings, Index)
 {
   EXPECT_THAT(refusal({"inverse.index=1"}), HasSubstr("is 1, which bends no light; expected another index, such as 1.5"));

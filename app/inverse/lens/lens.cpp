@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/lens/lens.h"
 
+#include "base/error.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +104,7 @@ void Lens::make_surface()
         }
       }
     heights_ = heights_of_.solve(source);
+    heights_.array() -= (heights_.minCoeff() + heights_.maxCoeff()) / 2;
   }
 
   light_.assign(1, std::vector<double>(layout_.cell_count()));
@@ -126,7 +130,13 @@ void Lens::advance()
 
 std::vector<Cost> Lens::costs() const { return {cost_of(target_, light_.front(), light_sent(slopes_, layout_.n))}; }
 
-Solid Lens::solid() const { return make_smooth_solid(layout_, {heights_.data(), heights_.data() + heights_.size()}); }
+Solid Lens::solid() const
+{
+  if (const double reach = heights_.maxCoeff(); reach >= layout_.thickness)
+    throw bad_input("inverse/thickness_mm", fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", layout_.thickness, reach),
+                    "expected more than that", "choose a larger thickness_mm or a receiver further away");
+  return make_smooth_solid(layout_, {heights_.data(), heights_.data() + heights_.size()});
+}
 
 void Lens::show(job::Snapshot& made) const { made.scalars.push_back({"lens", "astray", transport_.astray()}); }
 

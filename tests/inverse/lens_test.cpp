@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smooth surfaces for one picture, against maps that are known.
+#include "inverse/bending.h"
+#include "inverse/judge.h"
+#include "inverse/lens/lens.h"
+
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace {
+
+using namespace nephroid;
+using inverse::Grid;
+
+TEST(Poisson, SolvesForACosine)
+{
+  const int columns = 24, rows = 16;
+  const glm::dvec2 spacing{0.5, 0.25};
+  Grid wave(rows, columns);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x)
+      wave(y, x) = std::cos(glm::pi<double>() * 3 * (x + 0.5) / columns) * std::cos(glm::pi<double>() * 2 * (y + 0.5) / rows);
+  const double value =
+      2 * (1 - std::cos(glm::pi<double>() * 3 / columns)) / 0.25 + 2 * (1 - std::cos(glm::pi<double>() * 2 / rows)) / 0.0625;
+  const Grid solved = inverse::Poisson(columns, rows, spacing).solve(wave * value + Grid::Constant(rows, columns, 7));
+  EXPECT_LT((solved - wave).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Conjugate, IsTheLeastOverAllCells)
+{
+  const int columns = 13, rows = 9;
+  const double cell = 0.1;
+  Grid f(rows, columns);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) f(y, x) = 0.3 * std::sin(1.7 * x * y) + 0.05 * x;
+  const Grid found = inverse::conjugate(f, cell);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      double least = 1e9;
+      for (int v = 0; v < rows; ++v)
+        for (int u = 0; u < columns; ++u) least = std::min(least, cell * cell * ((x - u) * (x - u) + (y - v) * (y - v)) / 2 - f(v, u));
+      EXPECT_NEAR(found(y, x), least, 1e-12);
+    }
+}
+
+/// A rectangle of light goes into a smaller one by a map that is linear: the shortest way.
+TEST(Transport, ShrinksARectangle)
+{
+  Grid from = Grid::Ones(64, 96), to = Grid::Zero(64, 96);
+  to.block(16, 24, 32, 48).setOnes();
+  inverse::Transport transport(from, to);
+  for (int i = 0; i < 40; ++i) transport.advance();
+  double farthest = 0, sum = 0;
+  for (int y = 1; y < 64; ++y)
+    for (int x = 1; x < 96; ++x) {
+      const glm::dvec2 expected{48 + (x - 48) / 2.0, 32 + (y - 32) / 2.0};
+      const double off = glm::length(transport.map({x, y}) - expected);
+      sum += off;
+      if (x > 3 && x < 93 && y > 3 && y < 61) farthest = std::max(farthest, off); // the rim's corner is off by three cells
+    }
+  EXPECT_LT(farthest, 0.15) << "cells, where light moves by up to 29";
+  EXPECT_LT(sum / (63 * 95), 0.02);
+}
+
+inverse::Layout object()
+{
+  inverse::Layout layout;
+  layout.size = layout.receiver = {60, 40};
+  layout.facets = {120, 80};
+  layout.cells = {30, 20};
+  layout.distances = {150};
+  layout.thickness = 12;
+  return layout;
+}
+
+inverse::Target disc(const inverse::Layout& layout)
+{
+  inverse::Target target;
+  for (int y = 0; y < layout.cells.y; ++y)
+    for (int x = 0; x < layout.cells.x; ++x) target.push_back(std::hypot(x - 14.5, y - 9.5) < 6 ? 1 : 0.1);
+  const double sum = std::accumulate(target.begin(), target.end(), 0.0);
+  for (double& t : target) t /= sum;
+  return target;
+}
+
+TEST(Lens, IsJudgedAsItBelievesAndHasNoWalls)
+{
+  const inverse::Layout layout = object();
+  const inverse::Target target = disc(layout);
+  inverse::Lens lens(layout, target);
+  const double flat = lens.costs().front().rel_l2;
+  while (!lens.finished() && lens.steps() < lens.most()) lens.advance();
+  const double believed = lens.costs().front().rel_l2;
+  EXPECT_LT(believed, 0.1);
+  EXPECT_GT(flat, 0.5);
+  const inverse::Solid solid = lens.solid();
+  EXPECT_EQ(solid.highest_wall, 0);
+  EXPECT_EQ(std::count(solid.parts.begin(), solid.parts.end(), inverse::Part::wall), 0);
+  inverse::Judge judge(layout, solid, 1);
+  while (!judge.finished()) judge.advance();
+  EXPECT_NEAR(judge.costs({target}).front().rel_l2, believed, 0.03);
+  EXPECT_NEAR(judge.fates().sent + judge.fates().reflected + judge.fates().lost, 1, 1e-12);
+}
+
+TEST(Lens, GoesOnWithTheSameBits)
+{
+  const inverse::Layout layout = object();
+  const inverse::Target target = disc(layout);
+  inverse::Lens whole(layout, target), first(layout, target), second(layout, target);
+  for (int i = 0; i < 6; ++i) whole.advance();
+  for (int i = 0; i < 3; ++i) first.advance();
+  ByteStore kept;
+  first.save(kept);
+  StoredBytes from(kept.bytes(), "kept");
+  second.load(from);
+  for (int i = 0; i < 3; ++i) second.advance();
+  EXPECT_EQ(whole.steps(), second.steps());
+  EXPECT_EQ(whole.light(0), second.light(0));
+}
+
+TEST(Lens, IsRefusedWhereItReachesTheFront)
+{
+  inverse::Layout layout = object();
+  layout.thickness = 0.2;
+  const inverse::Target target = disc(layout);
+  inverse::Lens lens(layout, target);
+  for (int i = 0; i < 6; ++i) lens.advance();
+  EXPECT_THROW(lens.solid(), Error);
+}
+
+TEST(FacetSlope, TakesBackFacetGradient)
+{
+  for (const double n : {1.5, 2.4, 0.7})
+    for (const glm::dvec2& slope : {glm::dvec2(0.1, -0.3), glm::dvec2(0), glm::dvec2(-0.4, 0.2)})
+      EXPECT_LT(glm::length(inverse::facet_slope(inverse::facet_gradient(slope, n), n) - slope), 1e-12) << n;
+}
+
+} // namespace
