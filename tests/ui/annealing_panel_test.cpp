@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
 #include "inverse_runs.h"
+#include "preset/settings_type.h"
 #include "ui/annealing/panel.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 
 namespace nephroid::ui {
@@ -14,6 +16,17 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
+
+/// The current folder, for a while.
+class Inside {
+public:
+  explicit Inside(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder); }
+  ~Inside() { std::filesystem::current_path(before_); }
+  Inside(const Inside&) = delete;
+
+private:
+  std::filesystem::path before_;
+};
 
 class AnnealingPanelTest : public test::WindowFixtureOf<test::InverseRuns> {
 protected:
@@ -173,6 +186,20 @@ TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
   EXPECT_EQ(settings().receivers[1].distance_mm, 200);
   EXPECT_EQ(settings().receivers[0].weight, 1);
   EXPECT_EQ(runs.made, 1);
+}
+
+// The preset of the finished object is of another engine: the View turns it, and this panel is gone.
+TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass)
+{
+  const Inside here(folder.path());
+  open(test::inverse_text(1));
+  finish();
+  click_widget("show as glass");
+  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.preset()->settings.type().name == "spectral"; }));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder.path() / "test-object" / "object.obj"));
+  EXPECT_EQ(std::filesystem::weakly_canonical(workbench.preset()->source),
+            std::filesystem::weakly_canonical(folder.path() / "test-object" / "view.json"));
+  EXPECT_EQ(workbench.preset()->scene.objects.size(), 5u) << "the ground, and twice the object and its receiver";
 }
 
 TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)

@@ -2,6 +2,7 @@
 #include "ui/annealing/panel.h"
 
 #include "base/error.h"
+#include "ui/state/files.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -9,9 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace nephroid::ui {
 namespace {
+
+constexpr const char* glass_view = "view.json"; ///< of the run's files
 
 float em() { return ImGui::GetFontSize(); }
 
@@ -43,7 +47,7 @@ void AnnealingPanel::draw(const Context& context)
     return;
   }
   follow(context);
-  draw_toolbar();
+  draw_toolbar(context);
   draw_histories();
   if (snapshot_) draw_figures(*snapshot_);
   if (!why_no_layout_.empty()) draw_wrapped(colour::error, why_no_layout_);
@@ -74,7 +78,7 @@ void AnnealingPanel::follow(const Context& context)
   if (facet_ && layout_ && slopes) beam_ = facet_beam(*slopes, *layout_, *facet_);
 }
 
-void AnnealingPanel::draw_toolbar()
+void AnnealingPanel::draw_toolbar(const Context& context)
 {
   ImGui::Checkbox("log", &look_.log);
   places_.note("log");
@@ -83,6 +87,16 @@ void AnnealingPanel::draw_toolbar()
   ImGui::Checkbox("over seconds", &look_.seconds);
   places_.note("over seconds");
   ImGui::SetItemTooltip("Over seconds of work; else over what the search counts. A click on a name in the plot hides its line.");
+  const auto& files = snapshot_ ? snapshot_->files : std::vector<job::ExtraFile>();
+  const bool has_view = std::any_of(files.begin(), files.end(), [](const job::ExtraFile& file) { return file.name == glass_view; });
+  const std::filesystem::path folder = proposed_name(context.preset(), "-object");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!has_view || !context.run.snapshot_is_current());
+  if (ImGui::Button("Show as glass")) context.push(command::SaveFiles{folder, glass_view});
+  places_.note("show as glass");
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled | ImGuiHoveredFlags_DelayNormal))
+    ImGui::SetTooltip("Saves the finished object in the folder %s, and opens it as lit glass over its receivers", folder.c_str());
 }
 
 void AnnealingPanel::draw_histories()
@@ -90,7 +104,7 @@ void AnnealingPanel::draw_histories()
   histories_.clear();
   if (snapshot_)
     for (const job::Curve& curve : snapshot_->curves) histories_.push_back(history_lines(curve, look_));
-  const float height = std::max(8 * em(), 0.18f * ImGui::GetWindowHeight());
+  const float height = std::max(8 * em(), 0.2f * ImGui::GetWindowHeight());
   if (histories_.empty()) {
     draw_hint(ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, height}, "The search has not begun");
     ImGui::Dummy({0, height});

@@ -34,7 +34,7 @@ public:
 
 private:
   void follow(const Context& context);
-  void draw_toolbar();
+  void draw_toolbar(const Context& context);
   void draw_histories();
   void draw_figures(const job::Snapshot& snapshot) const;
   void draw_receivers(const Context& context);

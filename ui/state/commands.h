@@ -113,6 +113,11 @@ struct SavePreset {
 struct SavePicture {
   std::filesystem::path file;
 };
+/// Writes the files that the run made (job::Snapshot::files) into a folder, in the background, and then opens one of them.
+struct SaveFiles {
+  std::filesystem::path folder;
+  std::string open; ///< a preset's name among them
+};
 struct Dismiss {
   std::uint64_t message = 0;
 };
@@ -134,8 +139,8 @@ using Command =
     std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
                  command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::PinRun,
                  command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
-                 command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::Dismiss, command::ToggleHelp,
-                 command::ResetLayout, command::Report, command::Quit>;
+                 command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss,
+                 command::ToggleHelp, command::ResetLayout, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

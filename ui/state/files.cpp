@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/files.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "image/image.h"
@@ -107,7 +108,18 @@ void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<c
     else
       throw bad_input(file.string(), "a picture cannot be saved as \"" + extension + "\"",
                       "expected .png (as shown) or .exr (linear, with layers)");
-    return Done{"saved " + file.string(), std::nullopt};
+    return Done{"saved " + file.string()};
+  }));
+}
+
+void FileWork::save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open)
+{
+  background_.push_back(std::async(std::launch::async, [=] {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw failed(folder.string(), "cannot be made: " + error.message());
+    for (const job::ExtraFile& file : of->files) write_file_whole(folder / file.name, file.write);
+    return Done{fmt::format("saved {} in {}", counted(of->files.size(), "file"), folder.string()), {}, folder / open};
   }));
 }
 
@@ -116,7 +128,8 @@ void FileWork::pin(const std::filesystem::path& path)
   background_.push_back(std::async(std::launch::async, [path] { return Done{{}, read_pin(path)}; }));
 }
 
-void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin)
+void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,
+                       const std::function<void(const std::filesystem::path&)>& open)
 {
   for (std::future<Done>& future : background_) {
     if (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) continue;
@@ -124,6 +137,7 @@ void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>&
       Done done = future.get();
       if (!done.note.empty()) messages.note(done.note);
       if (done.pin) take_pin(std::move(*done.pin));
+      if (!done.to_open.empty()) open(done.to_open);
     } catch (const std::exception& error) {
       messages.error(error);
     }

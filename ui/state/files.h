@@ -32,16 +32,20 @@ class FileWork {
 public:
   /// By the extension of file: .png as shown with this exposure, .exr linear with every layer.
   void save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops);
+  /// The files of a run, into a folder that is made where it is not there. open: the one to be opened then.
+  void save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open);
   /// read_pin() of a path.
   void pin(const std::filesystem::path& path);
   bool busy() const { return !background_.empty(); }
-  /// Once a frame: says what is done, and hands over the runs that were read.
-  void collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin);
+  /// Once a frame: says what is done, and hands over the runs that were read and the files to be opened.
+  void collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,
+               const std::function<void(const std::filesystem::path&)>& open);
 
 private:
   struct Done {
-    std::string note;             ///< empty where there is nothing to say
-    std::optional<PinnedRun> pin; ///< that was read
+    std::string note;                   ///< empty where there is nothing to say
+    std::optional<PinnedRun> pin = {};  ///< that was read
+    std::filesystem::path to_open = {}; ///< empty: nothing
   };
   std::vector<std::future<Done>> background_; ///< what is thrown there becomes a message
 };

@@ -132,6 +132,11 @@ void Workbench::carry_out(const command::SavePicture& c)
   files_.save_picture(c.file, run_.snapshot()->picture, chosen_.look.exposure_stops);
 }
 
+void Workbench::carry_out(const command::SaveFiles& c)
+{
+  if (run_.snapshot()) files_.save_files(c.folder, run_.snapshot(), c.open);
+}
+
 void Workbench::carry_out(const command::Report& c)
 {
   if (c.error)
@@ -158,7 +163,9 @@ std::vector<std::string> Workbench::notes() const
 void Workbench::update(Clock::time_point now)
 {
   run_.update(edits());
-  files_.collect(messages_, [this](PinnedRun run) { comparing_.pin(std::move(run)); });
+  files_.collect(
+      messages_, [this](PinnedRun run) { comparing_.pin(std::move(run)); },
+      [this](const std::filesystem::path& file) { carry_out(command::Open{file.string()}); });
   messages_.expire(now);
   comparing_.update(now);
 }
