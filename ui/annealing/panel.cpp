@@ -104,7 +104,7 @@ void AnnealingPanel::draw_histories()
   histories_.clear();
   if (snapshot_)
     for (const job::Curve& curve : snapshot_->curves) histories_.push_back(history_lines(curve, look_));
-  const float height = std::max(8 * em(), 0.2f * ImGui::GetWindowHeight());
+  const float height = std::max(8 * em(), 0.18f * ImGui::GetWindowHeight());
   if (histories_.empty()) {
     draw_hint(ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, height}, "The search has not begun");
     ImGui::Dummy({0, height});
@@ -146,7 +146,7 @@ void AnnealingPanel::draw_receivers(const Context& context)
   const float gap = ImGui::GetStyle().CellPadding.x * 2, free = ImGui::GetContentRegionAvail().x, least = 5 * em();
   const float column = std::max(std::floor(free / static_cast<float>(count)) - gap, least);
   const glm::dvec2 shape = layout_ ? layout_->receiver : glm::dvec2(1);
-  const ImVec2 size = fitted(shape, std::min(column, std::max(least, 0.105f * ImGui::GetWindowHeight())));
+  const ImVec2 size = fitted(shape, std::min(column, std::max(least, 0.1f * ImGui::GetWindowHeight())));
   const std::array<const char*, 3> kinds{"target", "receiver", "difference"};
   const float line = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y, row = size.y + 2 * ImGui::GetStyle().CellPadding.y;
   const float height = 2 * line + row * (beam_ ? 4 : 3) + ImGui::GetTextLineHeight() + ImGui::GetStyle().ScrollbarSize + gap;
@@ -252,7 +252,7 @@ void AnnealingPanel::draw_facets()
 {
   const job::Picture* slopes = pictures_.find("slopes");
   if (!slopes || !layout_) return;
-  const float longest = std::min(ImGui::GetContentRegionAvail().x / 3, std::max(8 * em(), 0.18f * ImGui::GetWindowHeight()));
+  const float longest = std::min(ImGui::GetContentRegionAvail().x / 3, std::max(8 * em(), 0.16f * ImGui::GetWindowHeight()));
   const ImVec2 size = fitted(layout_->size, longest);
   draw_facet_map("slopes", size);
   ImGui::SetItemTooltip("Facets: red is how far light goes to the right, green how far up. A click shows where a facet's light goes.");
