@@ -89,6 +89,22 @@ TEST(HistoryLines, LeaveOutWhatHasNoPlace)
   EXPECT_THAT(linear.lines[1].y, ElementsAre(0, 3, 7));
 }
 
+// A value of 1e-14, which is rounding, does not press all others to the plot's upper edge.
+TEST_F(AnnealingPanelTest, ALogAxisHasFourDecadesAtMost)
+{
+  HistoryPlot plot;
+  const HistoryLines lines{"cost", "sweep", {{"cost", {0, 1}, {0.5, 0.1}}, {"missed", {0, 1}, {1e-14, 1e-13}}}};
+  for (int i = 0; i < 3; ++i) {
+    ImGui::NewFrame();
+    ImGui::Begin("plot");
+    plot.draw(lines, true, 200);
+    ImGui::End();
+    ImGui::Render();
+  }
+  EXPECT_GT(plot.area().y[0], 1e-5);
+  EXPECT_GT(plot.area().y[1], 0.5);
+}
+
 TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures)
 {
   open(test::inverse_text(2));

@@ -16,6 +16,9 @@
 namespace nephroid::ui {
 namespace {
 
+/// A log axis that follows the run reaches down to this part of the largest value: what is missed may be 1e-14, by rounding alone.
+constexpr double log_range = 1e-4;
+
 using Ends = std::array<double, 2>;
 
 void widen(Ends& ends, const std::vector<double>& values)
@@ -27,7 +30,7 @@ void widen(Ends& ends, const std::vector<double>& values)
 Ends with_room(const Ends& ends, bool log)
 {
   if (ends[0] > ends[1]) return log ? Ends{0.1, 1} : Ends{0, 1};
-  if (log) return {ends[0] / 1.25, ends[1] * 1.25};
+  if (log) return {std::max(ends[0] / 1.25, log_range * ends[1]), ends[1] * 1.25};
   const double room = std::max({0.05 * (ends[1] - ends[0]), 1e-3 * std::abs(ends[1]), 1e-9});
   return {ends[0] - room, ends[1] + room};
 }
@@ -61,13 +64,13 @@ void HistoryPlot::draw(const HistoryLines& lines, bool log, float height)
   y = follows_ ? with_room(y, log) : area_.y;
   constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText;
   if (!ImPlot::BeginPlot(("##" + lines.name).c_str(), {-1, height}, flags)) return;
-  ImPlot::SetupAxes(lines.x.c_str(), nullptr);
+  ImPlot::SetupAxes(lines.x.c_str(), lines.name.c_str());
   if (log) {
     ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
     set_up_ticks(y);
   }
   if (follows_) ImPlot::SetupAxesLimits(x[0], x[1], y[0], y[1], ImPlotCond_Always);
-  ImPlot::SetupLegend(ImPlotLocation_NorthEast);
+  ImPlot::SetupLegend(ImPlotLocation_North, ImPlotLegendFlags_Outside | ImPlotLegendFlags_Horizontal); // lines end at the right
   ImPlot::SetupFinish();
   for (const HistoryLine& line : lines.lines) {
     if (line.x.empty()) continue;
