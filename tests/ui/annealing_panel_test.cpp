@@ -109,9 +109,8 @@ TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures)
 {
   open(test::inverse_text(2));
   finish();
-  for (const char* name : {"target_1", "receiver_1", "difference_1", "target_2", "receiver_2", "difference_2", "slopes"})
+  for (const char* name : {"target_1", "receiver_1", "difference_1", "target_2", "receiver_2", "difference_2", "slopes", "conflict"})
     EXPECT_GT(panel().area_of(name)[2], 50) << name;
-  EXPECT_EQ(panel().area_of("conflict")[2], 0) << "the run has no such picture";
   EXPECT_LT(panel().area_of("target_1")[1], panel().area_of("receiver_1")[1]);
   EXPECT_LT(panel().area_of("target_1")[0], panel().area_of("target_2")[0]);
 }
