@@ -136,6 +136,14 @@ void describe(V& v, S& s)
            .unit = "degrees",
            .bounds = within(0.01, 90)},
           s.max_slope_deg);
+  v.field({.name = "smoothing_normals",
+           .sentence = "Weight of facets that are unlike their neighbours, over 'smoothing_pictures': alpha_N of the thesis' (6.1).",
+           .bounds = within(0, 1000)},
+          s.smoothing_normals);
+  v.field({.name = "smoothing_pictures",
+           .sentence = "Weight of the pictures' error, where 'smoothing_normals' is above 0: alpha_P of (6.1).",
+           .bounds = within(0.001, 1000)},
+          s.smoothing_pictures);
   v.field({.name = "facets", .sentence = "Facets across and down.", .bounds = within(1, 1024)}, s.facets);
   v.field({.name = "index", .sentence = "Index of refraction: a number, a file or an object."}, s.index);
   v.field({.name = "wavelength_nm", .sentence = "The wavelength that the index is taken at.", .unit = "nm", .bounds = within(380, 780)},

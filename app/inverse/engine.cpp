@@ -35,6 +35,10 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
            : assign ? not_asked
                     : "inverse.thesis.corrections is 0"},
           {"blur", blurred, blurred ? "the sun's disc or a rough surface, in every footprint" : "inverse.sun_deg and scatter_deg are 0"},
+          {"smoothing", assign && l.smoothing > 0,
+           !assign           ? "the method 'assign' alone has it"
+           : l.smoothing > 0 ? "facets unlike their neighbours cost something"
+                             : "inverse.smoothing_normals is 0: no term"},
           {"heights", l.free_heights,
            l.free_heights ? "facets move along z to where their walls are lowest" : "inverse.heights is flat: nothing is solved"},
           {"judge", true, "rays through the finished solid, walls and all"}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 3: slopes, then the solid, then its judgement. All on the host.
 #include "inverse/assign/conflicts.h"
+#include "inverse/assign/smoothing.h"
 #include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "inverse/facets/mesh_files.h"
@@ -257,6 +258,7 @@ private:
                                              {"object", "thinnest_mm", layout_.thickness - solid_->highest},
                                              {"object", "highest_wall_mm", solid_->highest_wall},
                                              {"object", "wall_area_mm2", solid_->wall_area},
+                                             {"object", "roughness", roughness(layout_, method_->slopes())},
                                              {"object", "steepest_deg", solid_->steepest_deg},
                                              {"object", "triangles", static_cast<double>(solid_->mesh.triangles.size())}});
   }

@@ -96,6 +96,7 @@ Layout make_layout(const preset::Preset& preset)
   l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
   l.scatter = std::tan(glm::radians(s.scatter_deg));
 
+  l.smoothing = s.smoothing_normals / s.smoothing_pictures;
   l.free_heights = s.heights == Settings::Heights::free;
   l.band = band_of(s, own);
   l.steepest = 2 * l.band / glm::length(l.facet());

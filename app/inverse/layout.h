@@ -29,6 +29,8 @@ struct Layout {
   double band = std::numeric_limits<double>::infinity();     ///< no corner of a facet is further from z = 0
   double steepest = std::numeric_limits<double>::infinity(); ///< of a facet's gradient, at most
 
+  double smoothing = 0; ///< thesis (6.1): alpha_N over alpha_P
+
   glm::dvec2 facet() const { return size / glm::dvec2(facets); }
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }

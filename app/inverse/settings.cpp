@@ -73,6 +73,10 @@ void check(const preset::Preset& preset, const Where& where)
   if (s.method == Settings::Method::lens && s.heights == Settings::Heights::free)
     throw bad_input(where(preset::child(own, "heights")), "is \"free\", and the method \"lens\" makes a surface without steps",
                     "expected none", "remove it");
+  if (s.smoothing_normals > 0 && s.method != Settings::Method::assign)
+    throw bad_input(where(preset::child(own, "smoothing_normals")),
+                    fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals), "expected 0",
+                    "or choose the method 'assign'");
   if (preset.stop.error && !preset.reference)
     throw bad_input(where("/stop/error"), "the engine 'inverse' makes no estimate of its error",
                     "expected 'stop.passes' or 'stop.seconds'");

@@ -47,6 +47,8 @@ struct Settings {
   std::optional<double> min_thickness_mm{};           ///< nowhere is the object thinner
   std::optional<double> max_relief_mm{};              ///< from the lowest corner of a facet to the highest
   std::optional<double> max_slope_deg{};              ///< between a facet and the front
+  double smoothing_normals = 0;                       ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
+  double smoothing_pictures = 1;                      ///< alpha_P: weight of the pictures' error
   std::array<int, 2> facets{128, 128};                ///< across and down
   preset::Dispersion index{};                         ///< of the object, in air
   double wavelength_nm = 550;                         ///< at which the index is taken

@@ -131,9 +131,10 @@ TEST_F(InverseRun, IsPlannedWithItsReasons)
   ASSERT_EQ(planned.exit_code, 0) << planned.err;
   const json plan = json::parse(planned.out);
   EXPECT_EQ(plan.at("passes").at(0).at("reason"), "64 x 64 facets, 3 receivers, slopes up to 1.06");
-  for (const std::size_t i : {1u, 2u, 3u, 4u, 5u}) EXPECT_EQ(plan.at("passes").at(i).at("runs"), false);
+  for (const std::size_t i : {1u, 2u, 3u, 4u, 5u, 6u}) EXPECT_EQ(plan.at("passes").at(i).at("runs"), false);
   EXPECT_EQ(plan.at("passes").at(2).at("reason"), "inverse.method is 'assign'");
-  EXPECT_EQ(plan.at("passes").at(5).at("reason"), "inverse.heights is flat: nothing is solved");
+  EXPECT_EQ(plan.at("passes").at(5).at("reason"), "inverse.smoothing_normals is 0: no term");
+  EXPECT_EQ(plan.at("passes").at(6).at("reason"), "inverse.heights is flat: nothing is solved");
   EXPECT_THAT(plan.at("notes").at(0), HasSubstr("are larger than half a cell"));
   const json thesis = json::parse(run({"plan", "inverse/shapes", "--json", "--set", "inverse.method=thesis"}).out);
   EXPECT_EQ(thesis.at("passes").at(0).at("reason"), "inverse.method is 'thesis'");

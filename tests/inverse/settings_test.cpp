@@ -133,6 +133,7 @@ TEST_F(InverseSettings, ConstraintsOfAWorkshop)
   EXPECT_THAT(refusal({"inverse.receiver_mm=[200, 200]", "inverse.receivers.0.picture.radius=0.49", "inverse.max_slope_deg=10"}),
               AllOf(HasSubstr("light must reach"), HasSubstr("the constraints on the facets let it have a slope of 0.08")));
   EXPECT_THAT(refusal({"inverse.heights=high"}), HasSubstr("flat"));
+  EXPECT_THAT(refusal({"inverse.smoothing_normals=1", "inverse.method=thesis"}), HasSubstr("choose the method 'assign'"));
   EXPECT_THAT(refusal({"inverse.heights=free", "inverse.method=thesis"}), HasSubstr("choose the method 'assign'"));
 }
 

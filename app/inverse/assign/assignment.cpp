@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
+#include "inverse/assign/smoothing.h"
 #include "inverse/bending.h"
 #include "inverse/facets/heights.h"
 #include "inverse/uniform.h"
@@ -48,6 +49,7 @@ bool Assignment::relight()
   put_all();
   residual_ = residual();
   refinement_.reset();
+  converged_ = false;
   next_ = 0;
   begin_sweep();
   return true;
@@ -77,11 +79,22 @@ void Assignment::put_all()
   for (std::size_t i = 0; i < slopes_.size(); ++i) put(i, 1);
 }
 
+/// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all cells.
+double Assignment::smoothing() const
+{
+  return layout_.smoothing * static_cast<double>(layout_.cell_count() * light_.size()) / static_cast<double>(slopes_.size());
+}
+
+glm::dvec3 Assignment::pull_on(std::size_t facet) const
+{
+  return layout_.smoothing > 0 ? smoothing() * pull(layout_, slopes_, facet) : glm::dvec3(0);
+}
+
 /// What the sum would change by with the facet there too.
 double Assignment::gain(std::size_t facet, const glm::dvec2& slope) const
 {
   const double light = facet_power(slope, layout_.n), facets = static_cast<double>(slopes_.size());
-  double change = 0;
+  double change = layout_.smoothing > 0 ? -glm::dot(normal_of(slope, layout_.n), pull_on(facet)) : 0;
   for (std::size_t j = 0; j < light_.size(); ++j)
     for_cells(layout_, footprint(layout_, facet, slope, j, heights_[facet]), [&](std::size_t cell, double part) {
       const double a = light * part;
@@ -111,9 +124,10 @@ std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std:
 glm::dvec2 Assignment::look(std::size_t facet, const std::vector<Lack>& lacks) const
 {
   glm::dvec2 from = slopes_[facet];
-  const std::optional<glm::dvec2> found = search_.best(facet, lacks);
-  if (found && search_.score(facet, *found, lacks) < search_.score(facet, from, lacks)) from = *found;
-  return search_.refined(facet, from, lacks);
+  const glm::dvec3 pull = pull_on(facet);
+  const std::optional<glm::dvec2> found = search_.best(facet, lacks, pull);
+  if (found && search_.score(facet, *found, lacks, pull) < search_.score(facet, from, lacks, pull)) from = *found;
+  return search_.refined(facet, from, lacks, pull);
 }
 
 void Assignment::refine()
@@ -146,11 +160,18 @@ void Assignment::advance()
   ++sweeps_;
   if (layout_.free_heights) raise();
   const double before = std::exchange(residual_, residual());
-  if (residual_ > (1 - worth_a_sweep) * before) refinement_.emplace(layout_, targets_, weights_, heights_);
+  if (residual_ > (1 - worth_a_sweep) * before) {
+    converged_ = layout_.smoothing > 0;
+    if (!converged_) refinement_.emplace(layout_, targets_, weights_, heights_);
+  }
   begin_sweep();
 }
 
-double Assignment::residual() const { return weighted_squares(targets_, weights_, light_, slopes_.size()); }
+double Assignment::residual() const
+{
+  const double rough = layout_.smoothing > 0 ? smoothing() * static_cast<double>(slopes_.size()) * roughness(layout_, slopes_) : 0;
+  return weighted_squares(targets_, weights_, light_, slopes_.size()) + rough;
+}
 
 double Assignment::part() const
 {
@@ -174,6 +195,7 @@ void Assignment::save(ByteSink& to) const
   to.write(std::as_bytes(std::span(slopes_)));
   if (layout_.free_heights) to.write(std::as_bytes(std::span(heights_)));
   for (const auto& light : light_) to.write(std::as_bytes(std::span(light)));
+  to.value(converged_);
   to.value(refinement_.has_value());
   if (refinement_) refinement_->save(to);
 }
@@ -190,6 +212,7 @@ void Assignment::load(ByteSource& from)
   if (layout_.free_heights) from.read(std::as_writable_bytes(std::span(heights_)));
   for (auto& light : light_) from.read(std::as_writable_bytes(std::span(light)));
   bool refines = false;
+  from.value(converged_);
   from.value(refines);
   refinement_.reset();
   if (refines) refinement_.emplace(layout_, targets_, weights_, heights_).load(from);

@@ -14,11 +14,11 @@
 
 namespace nephroid::inverse {
 
-/// Lowers weighted_squares(). A sweep goes through all facets in a random order, in batches of a few: every facet of a batch looks for
-/// its slope at once, on as many threads as there are, among the light as it is before the batch; then one after the other takes what it
-/// found if that is better than what it had. So no sweep makes the sum larger, and the number of threads changes no bit. When a sweep
-/// gains less than a hundredth of the sum, the last one moves all facets together: see Refinement. Free heights follow the
-/// slopes after each sweep.
+/// Lowers weighted_squares(), and what smoothing adds to it (smoothing.h). A sweep goes through all facets in a random order, in batches of
+/// a few: every facet of a batch looks for its slope at once, on as many threads as there are, among the light as it is before the batch;
+/// then one after the other takes what it found if that is better than what it had. So no sweep makes the sum larger, and the number of
+/// threads changes no bit. When a sweep gains less than a hundredth of the sum, the last one moves all facets together: see Refinement,
+/// which knows no smoothing and is left out where there is some. Free heights follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin with random slopes.
@@ -26,7 +26,7 @@ public:
 
   /// One batch, or one step of the refinement.
   void advance() override;
-  bool finished() const override { return refinement_ && refinement_->finished(); }
+  bool finished() const override { return refinement_ ? refinement_->finished() : converged_; }
   std::int64_t steps() const override { return sweeps_; }
   std::int64_t most() const override { return preset::default_passes; }
   double part() const override;
@@ -51,6 +51,8 @@ private:
   void put(std::size_t facet, double sign);
   void put_all();
   void refine();
+  double smoothing() const;
+  glm::dvec3 pull_on(std::size_t facet) const;
   double gain(std::size_t facet, const glm::dvec2& slope) const;
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
   glm::dvec2 look(std::size_t facet, const std::vector<Lack>& lacks) const;
@@ -69,6 +71,7 @@ private:
   std::size_t next_ = 0; ///< in order_
   std::uint64_t tried_ = 0;
   double residual_ = 0;                  ///< before the sweep in hand
+  bool converged_ = false;               ///< without refinement
   std::optional<Refinement> refinement_; ///< from when a sweep gained too little
 };
 

@@ -4,6 +4,7 @@
 #include "inverse/assign/slope_search.h"
 
 #include "inverse/assign/footprint.h"
+#include "inverse/assign/smoothing.h"
 #include "inverse/bending.h"
 
 #include <algorithm>
@@ -137,32 +138,35 @@ void SlopeSearch::add_scores(std::size_t receiver, std::size_t facet, const Lack
   }
 }
 
-std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const Lack> lacks) const
+std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const Lack> lacks, const glm::dvec3& pull) const
 {
   const auto across = static_cast<std::size_t>(lattice_.x), down = static_cast<std::size_t>(lattice_.y);
   const glm::dvec2 from = layout_.middle(facet);
   std::vector<float> scores(across * down);
   for (std::size_t j = 0; j < lacks.size(); ++j) add_scores(j, facet, lacks[j], scores);
   const double last = layout_.distances.back() + heights_[facet], limit = usable_slope(layout_);
+  const bool smooths = pull != glm::dvec3(0);
   float lowest = std::numeric_limits<float>::infinity();
   std::optional<glm::dvec2> found;
   for (std::size_t k = 0; k < down; ++k) {
     const double slope_y = (point(static_cast<int>(k), 1) - from.y) / last;
     for (std::size_t i = 0; i < across; ++i) {
-      if (!(scores[k * across + i] < lowest)) continue;
+      if (!smooths && !(scores[k * across + i] < lowest)) continue;
       const glm::dvec2 slope{(point(static_cast<int>(i), 0) - from.x) / last, slope_y};
       if (glm::dot(slope, slope) > limit * limit) continue;
-      lowest = scores[k * across + i];
+      const float there = scores[k * across + i] - (smooths ? static_cast<float>(glm::dot(normal_of(slope, layout_.n), pull)) : 0);
+      if (!(there < lowest)) continue;
+      lowest = there;
       found = slope;
     }
   }
   return found;
 }
 
-double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks) const
+double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks, const glm::dvec3& pull) const
 {
   const double power = facet_power(slope, layout_.n);
-  double sum = 0;
+  double sum = pull != glm::dvec3(0) ? -glm::dot(normal_of(slope, layout_.n), pull) : 0;
   for (std::size_t j = 0; j < lacks.size(); ++j) {
     const Footprint print = footprint(layout_, facet, slope, j, heights_[facet]);
     const Lack& lack = lacks[j];
@@ -178,11 +182,11 @@ double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<
   return sum;
 }
 
-glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks) const
+glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks, const glm::dvec3& pull) const
 {
   const double limit = usable_slope(layout_);
   glm::dvec2 step = layout_.receiver / glm::dvec2(lattice_) / layout_.distances.back();
-  double lowest = score(facet, from, lacks);
+  double lowest = score(facet, from, lacks, pull);
   while (step.x > finest * layout_.cell().x / layout_.distances.back()) {
     step /= 2.0;
     for (int i = 0; i < steps; ++i) {
@@ -190,7 +194,7 @@ glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<co
       for (const glm::dvec2& side : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
         const glm::dvec2 slope = middle + side * step;
         if (glm::dot(slope, slope) > limit * limit) continue;
-        if (const double there = score(facet, slope, lacks); there < lowest) {
+        if (const double there = score(facet, slope, lacks, pull); there < lowest) {
           lowest = there;
           from = slope;
         }

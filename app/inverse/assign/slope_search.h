@@ -44,13 +44,14 @@ public:
 
   /// The slope with the lowest sum over receivers and cells of lack * a + weight * a^2, a being the facet's light there, of equals the
   /// first; a is that of a facet as large as if it lay flat. Empty: the facet can reach no point of the lattice.
-  std::optional<glm::dvec2> best(std::size_t facet, std::span<const Lack> lacks) const;
+  /// All three take off n . pull, n being the facet's normal: see smoothing.h.
+  std::optional<glm::dvec2> best(std::size_t facet, std::span<const Lack> lacks, const glm::dvec3& pull = glm::dvec3(0)) const;
 
   /// The same sum for one slope, of the facet's true footprint and power.
-  double score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks) const;
+  double score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks, const glm::dvec3& pull = glm::dvec3(0)) const;
 
   /// A slope near `from` that scores no worse: steps to four sides, from half the lattice's to an eighth of a cell, as long as they gain.
-  glm::dvec2 refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks) const;
+  glm::dvec2 refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks, const glm::dvec3& pull = glm::dvec3(0)) const;
 
 private:
   struct Columns;
