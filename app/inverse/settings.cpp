@@ -73,6 +73,14 @@ void check(const preset::Preset& preset, const Where& where)
   if (s.method == Settings::Method::lens && s.heights == Settings::Heights::free)
     throw bad_input(where(preset::child(own, "heights")), "is \"free\", and the method \"lens\" makes a surface without steps",
                     "expected none", "remove it");
+  if (s.method == Settings::Method::lens && (s.light.type == Light::Type::point || s.light.tilt_deg != 0))
+    throw bad_input(where(preset::child(own, "light")), "is a lamp or tilted, and the method \"lens\" takes light straight on",
+                    "expected parallel light with a tilt_deg of 0", "choose \"assign\"");
+  if (s.wavelength_nm - s.band_nm / 2 < 380 || s.wavelength_nm + s.band_nm / 2 > 780)
+    throw bad_input(where(preset::child(own, "band_nm")),
+                    fmt::format("is {} nm, and the light would have {} to {} nm", s.band_nm, s.wavelength_nm - s.band_nm / 2,
+                                s.wavelength_nm + s.band_nm / 2),
+                    "expected a band within 380 to 780 nm", "for all of it take 400 about a wavelength_nm of 580");
   if (preset.stop.error && !preset.reference)
     throw bad_input(where("/stop/error"), "the engine 'inverse' makes no estimate of its error",
                     "expected 'stop.passes' or 'stop.seconds'");

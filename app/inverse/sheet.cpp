@@ -59,8 +59,9 @@ std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> s
   auto picture = std::make_shared<job::Picture>();
   picture->width = layout.facets.x;
   picture->height = layout.facets.y;
-  for (const glm::dvec2& slope : slopes)
-    for (const double value : {slope.x, slope.y, facet_power(slope, layout.n)}) picture->rgb.push_back(static_cast<float>(value));
+  for (std::size_t i = 0; i < slopes.size(); ++i)
+    for (const double value : {slopes[i].x, slopes[i].y, facet_power(layout, i, slopes[i])})
+      picture->rgb.push_back(static_cast<float>(value));
   return picture;
 }
 
