@@ -200,6 +200,10 @@ void describe(V& v, S& s)
            .bounds = within(0.1, 1e6)},
           s.receiver_mm);
   v.field({.name = "cells", .sentence = "Cells of every picture, across and down.", .bounds = within(2, 1024)}, s.cells);
+  v.field({.name = "frames",
+           .sentence = "How many pictures the judge takes between each receiver and the next one, as a screen that moves would show them.",
+           .bounds = within(0, 64)},
+          s.frames);
   v.field({.name = "receivers", .sentence = "The screens that light reaches, the nearest first.", .count = {1, 16}}, s.receivers);
   v.field({.name = "thesis", .sentence = "Constants of the method \"thesis\"."}, s.thesis);
 }

@@ -119,14 +119,15 @@ WayOut follow(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 fr
 
 /// What a row of facets sends.
 struct Judge::Row {
-  std::vector<std::vector<double>> light; ///< [receiver][cell], in facets
+  std::vector<std::vector<double>> light; ///< [screen][cell], in facets
   Fates fates;
 };
 
 Judge::Judge(const Layout& layout, const Solid& solid, std::uint64_t seed)
-    : layout_(layout), solid_(solid), bvh_(scene::build_bvh(solid.mesh)), seed_(seed),
-      light_(layout.distances.size(), std::vector<double>(layout.cell_count()))
+    : layout_(layout), solid_(solid), bvh_(scene::build_bvh(solid.mesh)), seed_(seed), screens_(layout.distances)
 {
+  screens_.insert(screens_.end(), layout.frames.begin(), layout.frames.end());
+  light_.assign(screens_.size(), std::vector<double>(layout.cell_count()));
 }
 
 Judge::Row Judge::trace_row(int row) const
@@ -157,7 +158,7 @@ Judge::Row Judge::trace_row(int row) const
       glm::dvec2 slope = glm::dvec2(way.direction) / -way.direction.z;
       if (layout_.scatter > 0) slope += layout_.scatter * normal_pair(numbers[2], numbers[3]);
       for (std::size_t j = 0; j < light_.size(); ++j) {
-        const glm::dvec2 cell = glm::floor(layout_.in_cells(glm::dvec2(way.from) + slope * (layout_.distances[j] + way.from.z)));
+        const glm::dvec2 cell = glm::floor(layout_.in_cells(glm::dvec2(way.from) + slope * (screens_[j] + way.from.z)));
         if (cell.x < 0 || cell.y < 0 || cell.x >= layout_.cells.x || cell.y >= layout_.cells.y) continue;
         made.light[j][static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(layout_.cells.x) + static_cast<std::size_t>(cell.x)] +=
             ray * way.part;
@@ -192,7 +193,7 @@ Fates Judge::fates() const
 std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const
 {
   std::vector<Cost> costs;
-  for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets[j], light_[j], sum_.sent));
+  for (std::size_t j = 0; j < targets.size(); ++j) costs.push_back(cost_of(targets[j], light_[j], sum_.sent));
   return costs;
 }
 

@@ -42,6 +42,7 @@ public:
   bool finished() const { return row_ >= layout_.facets.y; }
   double part() const { return static_cast<double>(row_) / layout_.facets.y; }
   const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; } ///< of each cell, in what falls on a facet
+  const std::vector<double>& frame(std::size_t i) const { return light_[layout_.distances.size() + i]; } ///< the same of layout.frames
   Fates fates() const;
   std::vector<Cost> costs(const std::vector<Target>& targets) const; ///< of each receiver
 
@@ -58,7 +59,8 @@ private:
   std::uint64_t seed_;
   int row_ = 0;
   Fates sum_;                              ///< of the rows so far, in facets
-  std::vector<std::vector<double>> light_; ///< [receiver][cell], in facets
+  std::vector<double> screens_;            ///< distances: the receivers', then the frames'
+  std::vector<std::vector<double>> light_; ///< [screen][cell], in facets
 };
 
 } // namespace nephroid::inverse

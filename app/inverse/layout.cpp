@@ -158,6 +158,8 @@ Layout make_layout(const preset::Preset& preset)
     l.distances.push_back(r.distance_mm);
     l.weights.push_back(r.weight);
   }
+  for (std::size_t j = 1; j < l.distances.size() && s.frames > 0; ++j)
+    for (int k = 1; k <= s.frames; ++k) l.frames.push_back(glm::mix(l.distances[j - 1], l.distances[j], k / (s.frames + 1.0)));
   l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
   l.scatter = std::tan(glm::radians(s.scatter_deg));
 

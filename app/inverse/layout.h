@@ -31,6 +31,7 @@ struct Layout {
   glm::dvec2 receiver{100, 100};  ///< size of every receiver
   glm::ivec2 cells{64, 64};       ///< of every receiver
   std::vector<double> distances;  ///< ascending
+  std::vector<double> frames;     ///< distances of further screens, which the judge alone looks at; ascending
   std::vector<double> weights;    ///< of each receiver's picture; empty: they count alike
   double sun_radius = 0;          ///< of the sun's disc: tangent of its half angle
   double scatter = 0;             ///< standard deviation of a slope, along x and along y

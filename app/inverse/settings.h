@@ -67,6 +67,7 @@ struct Settings {
   double scatter_deg = 0;                             ///< standard deviation of the directions that a rough surface gives one ray
   std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
   std::array<int, 2> cells{64, 64};                   ///< of every receiver, across and down
+  int frames = 0;                                     ///< pictures between a receiver and the next one
   std::vector<Receiver> receivers{{100, Picture{}}};  ///< the nearest first
   Thesis thesis{};                                    ///< of the method thesis
   bool operator==(const Settings&) const = default;

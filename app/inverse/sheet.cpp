@@ -38,7 +38,12 @@ std::shared_ptr<const job::Picture> wanted_picture(const Target& target, const L
 
 std::shared_ptr<const job::Picture> received_picture(const Target& target, std::span<const double> light, const Layout& layout)
 {
-  const double sum = std::accumulate(light.begin(), light.end(), 0.0), most = *std::max_element(target.begin(), target.end());
+  return received_picture(light, *std::max_element(target.begin(), target.end()), layout);
+}
+
+std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout)
+{
+  const double sum = std::accumulate(light.begin(), light.end(), 0.0);
   return grey(light, sum > 0 ? 1 / (sum * most) : 0, layout.cells);
 }
 
