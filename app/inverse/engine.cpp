@@ -37,10 +37,10 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
           {"blur", blurred,
            blurred ? "the sun's disc, a rough surface or dispersion, in every footprint"
                    : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
-          {"incoming", !straight,
-           straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
           {"heights", l.free_heights,
            l.free_heights ? "facets move along z to where their walls are lowest" : "inverse.heights is flat: nothing is solved"},
+          {"incoming", !straight,
+           straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
           {"judge", true, "rays through the finished solid, walls and all"}};
 }
 
