@@ -62,7 +62,7 @@ double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::s
 {
   std::vector<std::pair<std::size_t, double>> moves; // a cell, and how much it gets
   const auto move = [&](const glm::dvec2& to, double sign) {
-    const double power = sign * facet_power(to, layout_.n);
+    const double power = sign * facet_power(layout_, facet, to);
     for_cells(layout_, footprint(layout_, facet, to, receiver, heights_[facet]), [&](std::size_t cell, double part) {
       const auto known = std::find_if(moves.begin(), moves.end(), [&](const auto& m) { return m.first == cell; });
       if (known == moves.end())
