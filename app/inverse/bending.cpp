@@ -32,7 +32,7 @@ double slope_behind(double tilt_radians, double n)
   return sine < 1 ? std::tan(std::abs(std::asin(sine) - tilt_radians)) : std::numeric_limits<double>::infinity();
 }
 
-glm::dvec2 facet_gradient(const glm::dvec2& slope, double n) { return -slope / (n * std::sqrt(1 + glm::dot(slope, slope)) - 1); }
+glm::dvec3 light_inside(const glm::dvec2& sines, double n) { return {sines, -std::sqrt(n * n - glm::dot(sines, sines))}; }
 
 glm::dvec2 facet_slope(const glm::dvec2& gradient, double n)
 {
@@ -42,10 +42,62 @@ glm::dvec2 facet_slope(const glm::dvec2& gradient, double n)
   return gradient / steepness * (n > 1 ? -slope : slope);
 }
 
-double transmitted(const glm::dvec2& slope, double n)
+bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
 {
-  const std::optional<glm::dvec3> normal = facet_normal({0, 0, -1}, direction_of(slope), n);
-  return normal ? 1 - optics::fresnel_reflectance(-normal->z, n, 1) : 0;
+  const double n2 = n > 1 ? n * n : 1 / (n * n), most2 = usable_part * usable_part * (n2 - 1); // of usable_slope, squared
+  if (sines == glm::dvec2(0)) {
+    if (glm::dot(slope, slope) > most2) return false;
+  } else {
+    const double cosine = glm::dot(light_inside(sines, n), direction_of(slope)) / n;
+    if (cosine <= 0 || cosine * cosine * (1 + most2) < 1) return false;
+  }
+  if (steepest == any_steepness) return true;
+  const glm::dvec2 g = facet_gradient(slope, n, sines);
+  return glm::dot(g, g) <= steepest * steepest;
+}
+
+glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
+{
+  if (reachable(slope, n, sines, steepest)) return slope;
+  glm::dvec2 good = sines / std::sqrt(1 - glm::dot(sines, sines)), bad = slope;
+  for (int i = 0; i < 50; ++i) {
+    const glm::dvec2 middle = (good + bad) / 2.0;
+    (reachable(middle, n, sines, steepest) ? good : bad) = middle;
+  }
+  return good;
+}
+
+glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& sines)
+{
+  const glm::dvec3 along = light_inside(sines, n) - direction_of(slope);
+  return -glm::dvec2(along) / along.z;
+}
+
+double transmitted(const glm::dvec2& slope, double n, const glm::dvec2& sines)
+{
+  const glm::dvec3 in = light_inside(sines, n) / n;
+  const std::optional<glm::dvec3> normal = facet_normal(in, direction_of(slope), n);
+  return normal ? 1 - optics::fresnel_reflectance(std::min(1.0, glm::dot(*normal, in)), n, 1) : 0;
+}
+
+// Snell's law for the unit normal N out of the object: out = k - (k.N - c) N with c^2 = 1 - k^2 + (k.N)^2, so that for a change dk of k and
+// dn of |k|, c dc = -n dn + (k.N) (dk.N) and dout = dk - (dk.N - dc) N. Of k only z answers to the two: k_z = -sqrt(n^2 - sines^2).
+SlopeChange slope_change(const glm::dvec2& slope, double n, const glm::dvec2& sines)
+{
+  const glm::dvec3 k = light_inside(sines, n), out = direction_of(slope);
+  const std::optional<glm::dvec3> normal = facet_normal(k / n, out, n);
+  if (!normal) return {};
+  const double along = glm::dot(k, *normal), c = glm::dot(out, *normal);
+  const auto change = [&](const glm::dvec3& dk, double dn) {
+    const double dk_n = glm::dot(dk, *normal), dc = (along * dk_n - n * dn) / c;
+    const glm::dvec3 dout = dk - (dk_n - dc) * *normal;
+    return -(glm::dvec2(dout) + slope * dout.z) / out.z;
+  };
+  SlopeChange made;
+  made.by_sines[0] = change({1, 0, -sines.x / k.z}, 0);
+  made.by_sines[1] = change({0, 1, -sines.y / k.z}, 0);
+  made.by_index = change({0, 0, n / k.z}, 1);
+  return made;
 }
 
 } // namespace nephroid::inverse

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refraction at a facet, from inside the object to what is around it (thesis section 5.4.1). A slope is how far light moves along x and y
-// while it goes one length along -z.
+// while it goes one length along -z. Sines are x and y of light's unit direction before the flat front; by Snell's law they are also those
+// of n times its unit direction behind it.
 #pragma once
 #include <glm/glm.hpp>
 
+#include <limits>
 #include <optional>
 
 namespace nephroid::inverse {
@@ -27,14 +29,31 @@ inline double usable_slope(double n) { return usable_part * slope_limit(n); }
 /// The slope of light along -z behind a facet that is tilted so far against the front; infinite where the light is reflected totally.
 double slope_behind(double tilt_radians, double n);
 
-/// dz/dx and dz/dy of the facet that gives light along -z this slope, which is below the limit. Where z rises by (g . p) over p, that is
-/// g = -slope / (n sqrt(1 + slope^2) - 1).
-glm::dvec2 facet_gradient(const glm::dvec2& slope, double n);
+/// Light inside the object: n times its unit direction. |sines| < min(1, n).
+glm::dvec3 light_inside(const glm::dvec2& sines, double n);
+
+inline constexpr double any_steepness = std::numeric_limits<double>::infinity();
+
+/// Whether the deviation from that light to a slope outside is no more than usable_slope(n), and the facet's gradient than `steepest`.
+bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {}, double steepest = any_steepness);
+/// The slope itself where it is reachable; else where the way to it from that of a flat facet ends to be so.
+glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {}, double steepest = any_steepness);
+
+/// dz/dx and dz/dy of the facet that gives light this slope, which is reachable. Its normal is along k - (slope, -1) / sqrt(1 + slope^2), k
+/// being light_inside; for light straight on the gradient is -slope / (n sqrt(1 + slope^2) - 1).
+glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& sines = {});
 
 /// The other way round: the slope that light along -z gets behind such a facet; the limit where it is totally reflected.
 glm::dvec2 facet_slope(const glm::dvec2& gradient, double n);
 
 /// How much of the light inside leaves through such a facet: 1 minus Fresnel's reflectance.
-double transmitted(const glm::dvec2& slope, double n);
+double transmitted(const glm::dvec2& slope, double n, const glm::dvec2& sines = {});
+
+/// How the slope behind such a facet changes with the sines, and with the index.
+struct SlopeChange {
+  glm::dmat2 by_sines{1};
+  glm::dvec2 by_index{0};
+};
+SlopeChange slope_change(const glm::dvec2& slope, double n, const glm::dvec2& sines = {});
 
 } // namespace nephroid::inverse

@@ -23,6 +23,13 @@ struct Choices<inverse::Picture::Type> {
 };
 
 template <>
+struct Choices<inverse::Light::Type> {
+  using Type = inverse::Light::Type;
+  static constexpr Choice<Type> all[] = {{Type::parallel, "parallel", "As the sun's: from one direction."},
+                                         {Type::point, "point", "A lamp: from one place."}};
+};
+
+template <>
 struct Choices<inverse::Settings::Method> {
   using Method = inverse::Settings::Method;
   static constexpr Choice<Method> all[] = {
@@ -50,6 +57,12 @@ struct About<inverse::Picture> {
 template <>
 struct About<inverse::Receiver> {
   static constexpr std::string_view name = "InverseReceiver", sentence = "A screen across the light, and its picture.";
+};
+
+template <>
+struct About<inverse::Light> {
+  using Type = inverse::Light::Type;
+  static constexpr std::string_view name = "InverseLight", sentence = "What falls on the front of the object.";
 };
 
 template <>
@@ -114,6 +127,31 @@ void describe(V& v, S& r)
           r.weight);
 }
 
+template <class V, preset::Is<Light> S>
+void describe(V& v, S& l)
+{
+  v.type({.name = "type", .sentence = "Where the light comes from."}, l.type);
+  if (l.type == Light::Type::parallel) {
+    v.field({.name = "tilt_deg",
+             .sentence = "Between the light and the front's normal; receivers stay where they are.",
+             .unit = "degrees",
+             .bounds = preset::within(-360, 360)},
+            l.tilt_deg);
+    v.field({.name = "turn_deg",
+             .sentence = "The side to which tilted light goes: 0 is to the right, 90 up.",
+             .unit = "degrees",
+             .bounds = preset::within(-360, 360)},
+            l.turn_deg);
+  } else {
+    v.field({.name = "distance_mm", .sentence = "From the front.", .unit = "mm", .bounds = preset::within(-1e6, 1e6)}, l.distance_mm);
+    v.field({.name = "offset_mm",
+             .sentence = "Beside the middle of the object: to the right and up.",
+             .unit = "mm",
+             .bounds = preset::within(-1e5, 1e5)},
+            l.offset_mm);
+  }
+}
+
 template <class V, preset::Is<Settings> S>
 void describe(V& v, S& s)
 {
@@ -148,8 +186,14 @@ void describe(V& v, S& s)
   v.field({.name = "index", .sentence = "Index of refraction: a number, a file or an object."}, s.index);
   v.field({.name = "wavelength_nm", .sentence = "The wavelength that the index is taken at.", .unit = "nm", .bounds = within(380, 780)},
           s.wavelength_nm);
+  v.field({.name = "band_nm",
+           .sentence = "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",
+           .unit = "nm",
+           .bounds = within(0, 400)},
+          s.band_nm);
+  v.field({.name = "light", .sentence = "What falls on the front."}, s.light);
   v.field({.name = "sun_deg",
-           .sentence = "Diameter of the sun's disc, which blurs the pictures; the sun's own is 0.53.",
+           .sentence = "Diameter of the light's disc, which blurs the pictures; the sun's own is 0.53.",
            .unit = "degrees",
            .bounds = within(0, 20)},
           s.sun_deg);
@@ -164,6 +208,10 @@ void describe(V& v, S& s)
            .bounds = within(0.1, 1e6)},
           s.receiver_mm);
   v.field({.name = "cells", .sentence = "Cells of every picture, across and down.", .bounds = within(2, 1024)}, s.cells);
+  v.field({.name = "frames",
+           .sentence = "How many pictures the judge takes between each receiver and the next one, as a screen that moves would show them.",
+           .bounds = within(0, 64)},
+          s.frames);
   v.field({.name = "receivers", .sentence = "The screens that light reaches, the nearest first.", .count = {1, 16}}, s.receivers);
   v.field({.name = "thesis", .sentence = "Constants of the method \"thesis\"."}, s.thesis);
 }

@@ -18,7 +18,7 @@ constexpr std::uint64_t solid_bytes = 3000;
 
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
 {
-  const bool blurred = l.sun_radius > 0 || l.scatter > 0;
+  const bool blurred = l.sun_radius > 0 || l.scatter > 0 || !l.indices.empty(), straight = l.incoming.empty();
   const bool assign = s.method == Settings::Method::assign;
   const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
                                        counted(l.distances.size(), "receiver"), usable_slope(l));
@@ -34,13 +34,17 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
            corrects ? "of intensities, cell by cell"
            : assign ? not_asked
                     : "inverse.thesis.corrections is 0"},
-          {"blur", blurred, blurred ? "the sun's disc or a rough surface, in every footprint" : "inverse.sun_deg and scatter_deg are 0"},
+          {"blur", blurred,
+           blurred ? "the sun's disc, a rough surface or dispersion, in every footprint"
+                   : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
           {"smoothing", assign && l.smoothing > 0,
            !assign           ? "the method 'assign' alone has it"
            : l.smoothing > 0 ? "facets unlike their neighbours cost something"
                              : "inverse.smoothing_normals is 0: no term"},
           {"heights", l.free_heights,
            l.free_heights ? "facets move along z to where their walls are lowest" : "inverse.heights is flat: nothing is solved"},
+          {"incoming", !straight,
+           straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
           {"judge", true, "rays through the finished solid, walls and all"}};
 }
 
@@ -55,7 +59,9 @@ InversePlan make_plan(const preset::Preset& preset)
   plan.engine = "inverse";
   plan.layers = 1;
   plan.passes = passes_of(settings(preset), l);
-  plan.buffers = {{"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
+  plan.buffers = {{"light on the facets (host)", sizeof(Incoming) * l.incoming.size(), true},
+                  {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
+                  {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},
                   {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "

@@ -89,7 +89,10 @@ public:
       made.curves.back().rows.push_back({r.step, r.seconds, r.cost.cost, r.cost.cost_all, r.cost.rel_l2, r.cost.missed});
     method_->show(made);
     made.phases = {{"slopes", method_seconds_}, {"judge", judge_seconds_}};
-    if (finished()) add_files(made);
+    if (finished()) {
+      add_files(made);
+      add_frames(made);
+    }
     return made;
   }
 
@@ -227,6 +230,28 @@ private:
       made.scalars.push_back({"conflicts", fmt::format("floor_{}", j + 1), conflicts_->misplaced[j]});
       for (std::size_t k = j + 1; k < targets_.size(); ++k)
         made.scalars.push_back({"conflicts", fmt::format("{}_{}", j + 1, k + 1), conflicts_->between[j][k] + conflicts_->between[k][j]});
+    }
+  }
+
+  /// The receivers' pictures and those between them in the order of their distance, as a screen that moves away would show them: as bright
+  /// as is wanted at the receivers, and between them from the one to the other.
+  void add_frames(job::Snapshot& made) const
+  {
+    if (layout_.frames.empty()) return;
+    made.curves.push_back({"frames", {"frame", "distance_mm"}, {}});
+    const auto add = [&](double distance, std::span<const double> light, double most) {
+      const std::size_t number = made.curves.back().rows.size() + 1;
+      made.curves.back().rows.push_back({static_cast<double>(number), distance});
+      made.pictures.push_back({fmt::format("frame_{:04}", number), received_picture(light, most, layout_)});
+    };
+    const auto most = [&](std::size_t j) { return *std::max_element(targets_[j].begin(), targets_[j].end()); };
+    const std::size_t gaps = layout_.distances.size() - 1, between = layout_.frames.size() / gaps;
+    for (std::size_t j = 0; j < layout_.distances.size(); ++j) {
+      add(layout_.distances[j], judge_->light(j), most(j));
+      for (std::size_t k = 0; k < between && j < gaps; ++k) {
+        const double part = static_cast<double>(k + 1) / static_cast<double>(between + 1);
+        add(layout_.frames[j * between + k], judge_->frame(j * between + k), (1 - part) * most(j) + part * most(j + 1));
+      }
     }
   }
 

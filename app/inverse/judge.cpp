@@ -3,12 +3,14 @@
 
 #include "base/parallel.h"
 #include "inverse/bending.h"
+#include "inverse/light.h"
 #include "optics/fresnel.h"
 #include "scene/ray.h"
 
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <span>
@@ -25,17 +27,49 @@ int rays_along(const Layout& layout) { return std::clamp(1024 / std::max(layout.
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-/// Two independent normal numbers (Box and Muller 1958).
-glm::dvec2 normal_pair(std::mt19937_64& random)
+/// Two independent normal numbers of two of 0..1 (Box and Muller 1958).
+glm::dvec2 normal_pair(double u, double v)
 {
-  const double r = std::sqrt(-2 * std::log(1 - uniform(random))), phi = 2 * glm::pi<double>() * uniform(random);
+  const double r = std::sqrt(-2 * std::log(1 - u)), phi = 2 * glm::pi<double>() * v;
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 
-glm::dvec2 in_disc(std::mt19937_64& random)
+glm::dvec2 in_disc(double u, double v)
 {
-  const double r = std::sqrt(uniform(random)), phi = 2 * glm::pi<double>() * uniform(random);
+  const double r = std::sqrt(u), phi = 2 * glm::pi<double>() * v;
   return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+/// Five numbers of 0..1 for each ray of a facet, more evenly spread than random ones: multiples of the powers of 1 / g, g being the root of
+/// g^6 = g + 1 (Roberts 2018, the golden ratio in five dimensions), from a random begin.
+class EvenNumbers {
+public:
+  explicit EvenNumbers(std::mt19937_64& random)
+  {
+    for (double& value : begin_) value = uniform(random);
+  }
+  std::array<double, 5> of(int ray) const
+  {
+    constexpr double g = 1.1347241384015194;
+    std::array<double, 5> numbers{};
+    double step = 1;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      step /= g;
+      const double value = begin_[k] + ray * step;
+      numbers[k] = value - std::floor(value);
+    }
+    return numbers;
+  }
+
+private:
+  std::array<double, 5> begin_{};
+};
+
+/// A direction that leads to `offset` in a plane across d at distance 1.
+glm::dvec3 beside(const glm::dvec3& d, const glm::dvec2& offset)
+{
+  const glm::dvec3 a = glm::normalize(glm::cross(d, std::abs(d.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+  return glm::normalize(d + offset.x * a + offset.y * glm::cross(a, d));
 }
 
 glm::dvec3 outward_normal(const scene::Mesh& mesh, std::uint32_t triangle)
@@ -65,6 +99,7 @@ WayOut follow(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 fr
     }
     way.from += hit->t * way.direction;
     leaves = hit->primitive;
+    if (solid.parts[leaves] == Part::side) break;
     way.met_wall = way.met_wall || solid.parts[leaves] == Part::wall;
     glm::dvec3 normal = outward_normal(solid.mesh, leaves);
     const bool enters = glm::dot(normal, way.direction) < 0;
@@ -84,14 +119,15 @@ WayOut follow(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 fr
 
 /// What a row of facets sends.
 struct Judge::Row {
-  std::vector<std::vector<double>> light; ///< [receiver][cell], in facets
+  std::vector<std::vector<double>> light; ///< [screen][cell], in facets
   Fates fates;
 };
 
 Judge::Judge(const Layout& layout, const Solid& solid, std::uint64_t seed)
-    : layout_(layout), solid_(solid), bvh_(scene::build_bvh(solid.mesh)), seed_(seed),
-      light_(layout.distances.size(), std::vector<double>(layout.cell_count()))
+    : layout_(layout), solid_(solid), bvh_(scene::build_bvh(solid.mesh)), seed_(seed), screens_(layout.distances)
 {
+  screens_.insert(screens_.end(), layout.frames.begin(), layout.frames.end());
+  light_.assign(screens_.size(), std::vector<double>(layout.cell_count()));
 }
 
 Judge::Row Judge::trace_row(int row) const
@@ -99,29 +135,36 @@ Judge::Row Judge::trace_row(int row) const
   std::mt19937_64 random(seed_ * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(row) + 0x5eed);
   Row made{std::vector<std::vector<double>>(light_.size(), std::vector<double>(layout_.cell_count())), {}};
   const int along = rays_along(layout_);
-  const double ray = 1.0 / (along * along); // of a facet's light
-  for (int column = 0; column < layout_.facets.x; ++column)
+  for (int column = 0; column < layout_.facets.x; ++column) {
+    const EvenNumbers even(random);
     for (int i = 0; i < along * along; ++i) {
       const glm::dvec2 at = glm::dvec2(column + (i % along + uniform(random)) / along, row + (i / along + uniform(random)) / along);
-      const glm::dvec2 sun = layout_.sun_radius > 0 ? layout_.sun_radius * in_disc(random) : glm::dvec2(0);
-      const glm::dvec3 from(at.x * layout_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - at.y * layout_.facet().y,
-                            layout_.thickness);
-      const glm::dvec3 towards(sun, -1);
-      WayOut way = follow(solid_, bvh_, layout_.n, from - 1e-3 * layout_.thickness * towards, towards);
+      const glm::dvec3 front(at.x * layout_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - at.y * layout_.facet().y,
+                             layout_.thickness);
+      const std::array<double, 5> numbers = even.of(i);
+      const LightRay light = light_ray(layout_, front);
+      const double ray = light.weight / (along * along); // of what falls on a facet
+      glm::dvec3 towards = light.direction;
+      if (layout_.sun_radius > 0) towards = beside(towards, layout_.sun_radius * in_disc(numbers[0], numbers[1]));
+      const double n = layout_.indices.empty()
+                           ? layout_.n
+                           : layout_.indices[static_cast<std::size_t>(numbers[4] * static_cast<double>(layout_.indices.size()))];
+      WayOut way = follow(solid_, bvh_, n, front - 1e-3 * layout_.thickness * towards, towards);
       made.fates.reflected += ray * way.reflected;
       made.fates.lost += ray * (way.part > 0 ? 0 : 1 - way.reflected);
       if (!(way.part > 0)) continue;
       made.fates.sent += ray * way.part;
       if (way.met_wall) made.fates.by_walls += ray * way.part;
       glm::dvec2 slope = glm::dvec2(way.direction) / -way.direction.z;
-      if (layout_.scatter > 0) slope += layout_.scatter * normal_pair(random);
+      if (layout_.scatter > 0) slope += layout_.scatter * normal_pair(numbers[2], numbers[3]);
       for (std::size_t j = 0; j < light_.size(); ++j) {
-        const glm::dvec2 cell = glm::floor(layout_.in_cells(glm::dvec2(way.from) + slope * (layout_.distances[j] + way.from.z)));
+        const glm::dvec2 cell = glm::floor(layout_.in_cells(glm::dvec2(way.from) + slope * (screens_[j] + way.from.z)));
         if (cell.x < 0 || cell.y < 0 || cell.x >= layout_.cells.x || cell.y >= layout_.cells.y) continue;
         made.light[j][static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(layout_.cells.x) + static_cast<std::size_t>(cell.x)] +=
             ray * way.part;
       }
     }
+  }
   return made;
 }
 
@@ -150,7 +193,7 @@ Fates Judge::fates() const
 std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const
 {
   std::vector<Cost> costs;
-  for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets[j], light_[j], sum_.sent));
+  for (std::size_t j = 0; j < targets.size(); ++j) costs.push_back(cost_of(targets[j], light_[j], sum_.sent));
   return costs;
 }
 

@@ -15,7 +15,7 @@ namespace nephroid::inverse {
 /// Where the light goes that falls on the front; all of it sums to 1, at each receiver. By_walls is part of the others.
 struct Fates {
   double reflected = 0; ///< by a surface that lets some of it through, the front first; it is not followed
-  double lost = 0;      ///< to a side or back, or after too many surfaces
+  double lost = 0;      ///< on the object's sides, back, or after too many surfaces
   double sent = 0;      ///< forward, to the receivers and beside them
   double by_walls = 0;  ///< of `sent`, what met a wall between facets
 };
@@ -28,7 +28,8 @@ struct WayOut {
   bool met_wall = false;
 };
 
-/// Follows a ray that starts in front of the object. Light is refracted, less Fresnel's reflectance; total reflection is followed.
+/// Follows a ray that starts in front of the object. Light is refracted, less Fresnel's reflectance; total reflection is followed. The
+/// object's sides are black: a frame holds them, or a saw has left them rough.
 WayOut follow(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 from, glm::dvec3 direction);
 
 /// Rays fall evenly on all facets, a jittered lattice on each. The same seed gives the same bits on any number of threads.
@@ -41,6 +42,7 @@ public:
   bool finished() const { return row_ >= layout_.facets.y; }
   double part() const { return static_cast<double>(row_) / layout_.facets.y; }
   const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; } ///< of each cell, in what falls on a facet
+  const std::vector<double>& frame(std::size_t i) const { return light_[layout_.distances.size() + i]; } ///< the same of layout.frames
   Fates fates() const;
   std::vector<Cost> costs(const std::vector<Target>& targets) const; ///< of each receiver
 
@@ -57,7 +59,8 @@ private:
   std::uint64_t seed_;
   int row_ = 0;
   Fates sum_;                              ///< of the rows so far, in facets
-  std::vector<std::vector<double>> light_; ///< [receiver][cell], in facets
+  std::vector<double> screens_;            ///< distances: the receivers', then the frames'
+  std::vector<std::vector<double>> light_; ///< [screen][cell], in facets
 };
 
 } // namespace nephroid::inverse

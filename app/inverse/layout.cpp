@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "inverse/bending.h"
+#include "inverse/light.h"
 #include "inverse/settings.h"
 #include "scene/materials.h"
 
@@ -11,32 +12,96 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace nephroid::inverse {
 namespace {
 
-double read_index(const preset::Preset& preset)
+/// Of wavelengths that stand for the light's band.
+constexpr int band_samples = 16;
+
+void read_index(const preset::Preset& preset, Layout& layout)
 {
   const Settings& s = settings(preset);
   const Place where = Place(preset.source) / "inverse" / "index";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
-  const optics::IndexSample sample =
-      scene::make_curve(s.index, finder, where).sample(s.wavelength_nm, scene::outside_policy(s.index.outside));
-  if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", s.wavelength_nm), "expected another wavelength_nm");
-  if (std::abs(*sample.n - 1) < 1e-3)
-    throw bad_input(where, fmt::format("is {:.5f} at {} nm, which bends hardly any light", *sample.n, s.wavelength_nm),
-                    "expected one that differs from 1 by at least 0.001");
-  return *sample.n;
+  const optics::DispersionCurve curve = scene::make_curve(s.index, finder, where);
+  const int count = s.band_nm > 0 ? band_samples : 1;
+  for (int i = 0; i < count; ++i) {
+    const double nm = s.wavelength_nm + s.band_nm * ((i + 0.5) / count - 0.5);
+    const optics::IndexSample sample = curve.sample(nm, scene::outside_policy(s.index.outside));
+    if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", nm), "expected another wavelength_nm or a narrower band_nm");
+    if (std::abs(*sample.n - 1) < 1e-3)
+      throw bad_input(where, fmt::format("is {:.5f} at {} nm, which bends hardly any light", *sample.n, nm),
+                      "expected one that differs from 1 by at least 0.001");
+    layout.indices.push_back(*sample.n);
+  }
+  layout.n = std::accumulate(layout.indices.begin(), layout.indices.end(), 0.0) / count;
+  if (std::all_of(layout.indices.begin(), layout.indices.end(), [&](double n) { return n == layout.indices.front(); })) {
+    layout.n = layout.indices.front();
+    layout.indices.clear();
+  }
 }
 
 /// The most that a facet with this slope can reach from its middle at its corners.
 double reach(const Layout& layout, double slope)
 {
   return glm::length(facet_gradient({slope, 0}, layout.n)) * glm::length(layout.facet()) / 2;
+}
+
+/// The most that a facet can reach from z = 0 at its corners: the normal of the steepest one is as far from the light inside as that of
+/// the steepest one for light straight on.
+double most_relief(const Layout& layout)
+{
+  double tilt = glm::length(layout.sines);
+  if (layout.lamp)
+    for (const glm::dvec2& corner : {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)})
+      tilt = std::max(tilt, glm::length(incoming_at(layout, corner * layout.size / 2.0).sines));
+  const double bent = std::atan(glm::length(facet_gradient({usable_slope(layout.n), 0}, layout.n))) + std::asin(tilt / layout.n);
+  constexpr double upright = 1.5; // radians, 86 degrees
+  return std::min(std::tan(std::min(bent, upright)), layout.steepest) * glm::length(layout.facet()) / 2;
+}
+
+/// The least turn that brings a facet's light to a place of a receiver, as the slope of light that came straight on and is turned as far.
+double least_turn(const Layout& layout, const glm::dvec2& to, double distance)
+{
+  constexpr int across = 9;
+  double closest = -1; // cosine
+  for (int i = 0; i < across * across; ++i) {
+    const glm::dvec2 middle = (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
+    for (const glm::dvec2& from : {middle, glm::clamp(to, -(layout.size - layout.facet()) / 2.0, (layout.size - layout.facet()) / 2.0)}) {
+      const glm::dvec2 sines = layout.incoming.empty() ? glm::dvec2(0) : incoming_at(layout, from).sines;
+      closest = std::max(closest, glm::dot(light_inside(sines, layout.n), direction_of((to - from) / distance)) / layout.n);
+    }
+  }
+  return closest > 0 ? std::sqrt(std::max(0.0, 1 - closest * closest)) / closest : std::numeric_limits<double>::infinity();
+}
+
+/// The lit cells that lie farthest to 16 sides.
+std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& target)
+{
+  std::array<glm::dvec2, 16> to{};
+  std::array<double, 16> farthest{};
+  farthest.fill(-std::numeric_limits<double>::infinity());
+  const auto columns = static_cast<std::size_t>(layout.cells.x);
+  for (std::size_t c = 0; c < target.size(); ++c) {
+    if (target[c] <= 0) continue;
+    const glm::dvec2 at{(static_cast<double>(c % columns) + 0.5) * layout.cell().x - layout.receiver.x / 2,
+                        layout.receiver.y / 2 - (static_cast<double>(c / columns) + 0.5) * layout.cell().y};
+    for (std::size_t side = 0; side < to.size(); ++side) {
+      const double angle = glm::pi<double>() * static_cast<double>(side) / 8,
+                   far = glm::dot(at, glm::dvec2(std::cos(angle), std::sin(angle)));
+      if (far <= farthest[side]) continue;
+      farthest[side] = far;
+      to[side] = at;
+    }
+  }
+  return to;
 }
 
 /// Free heights leave this part of the thickness, and of the way to the nearest receiver, where no constraint says more.
@@ -86,13 +151,15 @@ Layout make_layout(const preset::Preset& preset)
   l.size = {s.size_mm[0], s.size_mm[1]};
   l.thickness = s.thickness_mm;
   l.facets = {s.facets[0], s.facets[1]};
-  l.n = read_index(preset);
+  read_index(preset, l);
   l.receiver = s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : l.size;
   l.cells = {s.cells[0], s.cells[1]};
   for (const Receiver& r : s.receivers) {
     l.distances.push_back(r.distance_mm);
     l.weights.push_back(r.weight);
   }
+  for (std::size_t j = 1; j < l.distances.size() && s.frames > 0; ++j)
+    for (int k = 1; k <= s.frames; ++k) l.frames.push_back(glm::mix(l.distances[j - 1], l.distances[j], k / (s.frames + 1.0)));
   l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
   l.scatter = std::tan(glm::radians(s.scatter_deg));
 
@@ -102,8 +169,9 @@ Layout make_layout(const preset::Preset& preset)
   l.steepest = 2 * l.band / glm::length(l.facet());
   if (s.max_slope_deg) l.steepest = std::min(l.steepest, std::tan(glm::radians(*s.max_slope_deg)));
   check_constraints(l, s, own);
+  set_light(l, s.light, own / "light");
 
-  const double relief = reach(l, usable_slope(l));
+  const double relief = most_relief(l);
   const auto refuse = [&](const Place& where, double value, const char* what) {
     if (value > relief) return;
     throw bad_input(where,
@@ -120,26 +188,24 @@ double usable_slope(const Layout& layout) { return std::min(usable_slope(layout.
 
 void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset)
 {
-  const double limit = usable_slope(layout);
+  const double limit = layout.incoming.empty() ? usable_slope(layout) : usable_slope(layout.n);
   const std::string limits = limit < usable_slope(layout.n) ? "the constraints on the facets let it have a slope of"
                                                             : fmt::format("an index of {:.4g} bends it by a slope of", layout.n);
-  const glm::dvec2 last = layout.size / 2.0 - layout.facet() / 2.0;
   for (std::size_t j = 0; j < targets.size(); ++j) {
-    double farthest = 0; // from a lit cell to its nearest facet
-    for (std::size_t c = 0; c < targets[j].size(); ++c) {
-      if (targets[j][c] <= 0) continue;
-      const auto columns = static_cast<std::size_t>(layout.cells.x);
-      const glm::dvec2 at{(static_cast<double>(c % columns) + 0.5) * layout.cell().x - layout.receiver.x / 2,
-                          layout.receiver.y / 2 - (static_cast<double>(c / columns) + 0.5) * layout.cell().y};
-      farthest = std::max(farthest, glm::length(glm::max(glm::abs(at) - last, glm::dvec2(0))));
-    }
     const double distance = layout.distances[j];
-    if (farthest <= limit * distance) continue;
-    throw bad_input(
-        Place(preset.source) / "inverse" / "receivers" / j / "distance_mm",
-        fmt::format("light must reach {:.4g} mm beside the object over {} mm, a slope of {:.3g}", farthest, distance, farthest / distance),
-        fmt::format("{} {:.3g} at most", limits, limit),
-        fmt::format("choose a distance of at least {:.4g} mm, a larger object or a smaller receiver_mm", farthest / limit));
+    const std::array<glm::dvec2, 16> lit = farthest_lit(layout, targets[j]);
+    const auto turn = [&](const glm::dvec2& to, double over) { return least_turn(layout, to, over); };
+    const glm::dvec2 place = *std::max_element(
+        lit.begin(), lit.end(), [&](const glm::dvec2& a, const glm::dvec2& b) { return turn(a, distance) < turn(b, distance); });
+    if (turn(place, distance) <= limit) continue;
+    double far = distance;
+    while (far < 1e7 && turn(place, far) > limit) far *= 1.01;
+    throw bad_input(Place(preset.source) / "inverse" / "receivers" / j / "distance_mm",
+                    fmt::format("light must reach ({:.4g}, {:.4g}) mm over {:.4g} mm, a turn by a slope of {:.3g}", place.x, place.y,
+                                distance, turn(place, distance)),
+                    fmt::format("{} {:.3g} at most", limits, limit),
+                    far < 1e7 ? fmt::format("choose a distance of at least {:.4g} mm, a larger object or a smaller receiver_mm", far)
+                              : "choose an index farther from 1, or light that is tilted less");
   }
 }
 

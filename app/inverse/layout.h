@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands where, in millimetres: facets about z = 0, light along -z through the flat front at z = thickness, receivers at
+// What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at
 // z = -distance, all of them centred on the z axis. y is up, and row 0 of facets and cells is at the top: a person who looks along the
 // light sees the pictures as they are.
 #pragma once
@@ -9,21 +9,35 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace nephroid::inverse {
+
+/// Light that falls on a facet's middle through the flat front.
+struct Incoming {
+  glm::dvec2 sines{0};  ///< x and y of its unit direction before the front: see bending.h
+  glm::dvec2 around{0}; ///< a typical gradient of facets here: of one that lights the middle of the last receiver
+  double power = 1;     ///< on the facet as if it lay flat, over the mean of all facets
+  glm::dmat2 spread{0}; ///< of the sines over x and y: a lamp's light falls on each place of the facet from another side
+};
 
 struct Layout {
   glm::dvec2 size{100, 100}; ///< of the object
   double thickness = 10;
   glm::ivec2 facets{128, 128};
-  double n = 1.5;                ///< index of the object over that of what is around it
-  glm::dvec2 receiver{100, 100}; ///< size of every receiver
-  glm::ivec2 cells{64, 64};      ///< of every receiver
-  std::vector<double> distances; ///< ascending
-  std::vector<double> weights;   ///< of each receiver's picture; empty: they count alike
-  double sun_radius = 0;         ///< of the sun's disc: tangent of its half angle
-  double scatter = 0;            ///< standard deviation of a slope, along x and along y
+  double n = 1.5;                 ///< index of the object over that of what is around it
+  std::vector<double> indices;    ///< of wavelengths that the light has alike, whose mean is n; empty: of one
+  glm::dvec2 receiver{100, 100};  ///< size of every receiver
+  glm::ivec2 cells{64, 64};       ///< of every receiver
+  std::vector<double> distances;  ///< ascending
+  std::vector<double> frames;     ///< distances of further screens, which the judge alone looks at; ascending
+  std::vector<double> weights;    ///< of each receiver's picture; empty: they count alike
+  double sun_radius = 0;          ///< of the sun's disc: tangent of its half angle
+  double scatter = 0;             ///< standard deviation of a slope, along x and along y
+  glm::dvec2 sines{0};            ///< of parallel light: x and y of its unit direction before the front
+  std::optional<glm::dvec3> lamp; ///< of a point light: its place
+  std::vector<Incoming> incoming; ///< of each facet; empty: straight on
 
   bool free_heights = false;                                 ///< else every facet's middle is at z = 0
   double band = std::numeric_limits<double>::infinity();     ///< no corner of a facet is further from z = 0
@@ -42,6 +56,7 @@ struct Layout {
     const double x = static_cast<double>(i % columns) + 0.5, y = static_cast<double>(i / columns) + 0.5;
     return {x * facet().x - size.x / 2, size.y / 2 - y * facet().y};
   }
+  glm::dvec2 sines_on(std::size_t facet) const { return incoming.empty() ? glm::dvec2(0) : incoming[facet].sines; }
   /// Of a point of a receiver, in cells from its top left corner.
   glm::dvec2 in_cells(const glm::dvec2& p) const { return {(p.x + receiver.x / 2) / cell().x, (receiver.y / 2 - p.y) / cell().y}; }
 };

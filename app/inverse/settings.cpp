@@ -77,6 +77,14 @@ void check(const preset::Preset& preset, const Where& where)
     throw bad_input(where(preset::child(own, "smoothing_normals")),
                     fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals), "expected 0",
                     "or choose the method 'assign'");
+  if (s.method == Settings::Method::lens && (s.light.type == Light::Type::point || s.light.tilt_deg != 0))
+    throw bad_input(where(preset::child(own, "light")), "is a lamp or tilted, and the method \"lens\" takes light straight on",
+                    "expected parallel light with a tilt_deg of 0", "choose \"assign\"");
+  if (s.wavelength_nm - s.band_nm / 2 < 380 || s.wavelength_nm + s.band_nm / 2 > 780)
+    throw bad_input(where(preset::child(own, "band_nm")),
+                    fmt::format("is {} nm, and the light would have {} to {} nm", s.band_nm, s.wavelength_nm - s.band_nm / 2,
+                                s.wavelength_nm + s.band_nm / 2),
+                    "expected a band within 380 to 780 nm", "for all of it take 400 about a wavelength_nm of 580");
   if (preset.stop.error && !preset.reference)
     throw bad_input(where("/stop/error"), "the engine 'inverse' makes no estimate of its error",
                     "expected 'stop.passes' or 'stop.seconds'");

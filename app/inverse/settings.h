@@ -37,25 +37,39 @@ struct Receiver {
   bool operator==(const Receiver&) const = default;
 };
 
+/// What falls on the front.
+struct Light {
+  enum class Type { parallel, point };
+  Type type = Type::parallel;
+  double tilt_deg = 0;                   ///< parallel: between the light and the front's normal
+  double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
+  double distance_mm = 1000;             ///< point: from the front
+  std::array<double, 2> offset_mm{0, 0}; ///< point: beside the middle of the object
+  bool operator==(const Light&) const = default;
+};
+
 struct Settings {
   enum class Method { assign, thesis, lens };
   enum class Heights { flat, free };
   Method method = Method::assign;
-  std::array<double, 2> size_mm{100, 100};            ///< of the object
-  double thickness_mm = 10;                           ///< from the middle of the relief to the flat front
-  Heights heights = Heights::flat;                    ///< where the facets' middles are
-  std::optional<double> min_thickness_mm{};           ///< nowhere is the object thinner
-  std::optional<double> max_relief_mm{};              ///< from the lowest corner of a facet to the highest
-  std::optional<double> max_slope_deg{};              ///< between a facet and the front
-  double smoothing_normals = 0;                       ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
-  double smoothing_pictures = 1;                      ///< alpha_P: weight of the pictures' error
-  std::array<int, 2> facets{128, 128};                ///< across and down
-  preset::Dispersion index{};                         ///< of the object, in air
-  double wavelength_nm = 550;                         ///< at which the index is taken
+  std::array<double, 2> size_mm{100, 100};  ///< of the object
+  double thickness_mm = 10;                 ///< from the middle of the relief to the flat front
+  Heights heights = Heights::flat;          ///< where the facets' middles are
+  std::optional<double> min_thickness_mm{}; ///< nowhere is the object thinner
+  std::optional<double> max_relief_mm{};    ///< from the lowest corner of a facet to the highest
+  std::optional<double> max_slope_deg{};    ///< between a facet and the front
+  double smoothing_normals = 0;             ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
+  double smoothing_pictures = 1;            ///< alpha_P: weight of the pictures' error
+  std::array<int, 2> facets{128, 128};      ///< across and down
+  preset::Dispersion index{};               ///< of the object, in air
+  double wavelength_nm = 550;               ///< at which the index is taken
+  double band_nm = 0;                       ///< width of the light's band about it
+  Light light;
   double sun_deg = 0;                                 ///< diameter of the sun's disc
   double scatter_deg = 0;                             ///< standard deviation of the directions that a rough surface gives one ray
   std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
   std::array<int, 2> cells{64, 64};                   ///< of every receiver, across and down
+  int frames = 0;                                     ///< pictures between a receiver and the next one
   std::vector<Receiver> receivers{{100, Picture{}}};  ///< the nearest first
   Thesis thesis{};                                    ///< of the method thesis
   bool operator==(const Settings&) const = default;

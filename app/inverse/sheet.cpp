@@ -38,7 +38,12 @@ std::shared_ptr<const job::Picture> wanted_picture(const Target& target, const L
 
 std::shared_ptr<const job::Picture> received_picture(const Target& target, std::span<const double> light, const Layout& layout)
 {
-  const double sum = std::accumulate(light.begin(), light.end(), 0.0), most = *std::max_element(target.begin(), target.end());
+  return received_picture(light, *std::max_element(target.begin(), target.end()), layout);
+}
+
+std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout)
+{
+  const double sum = std::accumulate(light.begin(), light.end(), 0.0);
   return grey(light, sum > 0 ? 1 / (sum * most) : 0, layout.cells);
 }
 
@@ -59,8 +64,9 @@ std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> s
   auto picture = std::make_shared<job::Picture>();
   picture->width = layout.facets.x;
   picture->height = layout.facets.y;
-  for (const glm::dvec2& slope : slopes)
-    for (const double value : {slope.x, slope.y, facet_power(slope, layout.n)}) picture->rgb.push_back(static_cast<float>(value));
+  for (std::size_t i = 0; i < slopes.size(); ++i)
+    for (const double value : {slopes[i].x, slopes[i].y, facet_power(layout, i, slopes[i])})
+      picture->rgb.push_back(static_cast<float>(value));
   return picture;
 }
 

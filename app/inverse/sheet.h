@@ -13,6 +13,8 @@ namespace nephroid::inverse {
 /// Grey: 1 is the brightest that is wanted, where both have the same energy.
 std::shared_ptr<const job::Picture> wanted_picture(const Target& target, const Layout& layout);
 std::shared_ptr<const job::Picture> received_picture(const Target& target, std::span<const double> light, const Layout& layout);
+/// most: the brightest cell that is wanted, as a part of all light.
+std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout);
 /// Red: too much light, blue: too little, on the same scale.
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received);
 /// A pixel a facet: slope along x, slope along y, and its light over that of a facet that lies flat.

@@ -73,7 +73,7 @@ TEST(Assignment, KeepsTheLightAndTheLimit)
   EXPECT_LE(steepest, inverse::usable_slope(1.1) * (1 + 1e-12));
   EXPECT_GT(steepest, 0.8 * inverse::usable_slope(1.1)); // the limit is met
   const std::vector<Cost> costs = a.costs();
-  const double sent = inverse::light_sent(a.slopes(), layout.n);
+  const double sent = inverse::light_sent(layout, a.slopes());
   for (const std::size_t j : {0u, 1u}) {
     const double light = std::accumulate(a.light(j).begin(), a.light(j).end(), 0.0);
     EXPECT_NEAR(light, sent * (1 - costs[j].missed), 1e-9 * sent);

@@ -81,7 +81,7 @@ TEST(Conflicts, AddUpToTheError)
   layout.distances = {100};
   const std::vector<Target> targets{box(3, 9, 2, 12)};
   const Assignment a(layout, targets, 4); // random slopes, all of them to the receiver
-  const double sent = inverse::light_sent(a.slopes(), layout.n);
+  const double sent = inverse::light_sent(layout, a.slopes());
   double lacking = 0;
   for (std::size_t c = 0; c < 256; ++c) lacking += std::max(0.0, targets[0][c] - a.light(0)[c] / sent);
   const ConflictSearch search(layout, targets, a.slopes(), {a.light(0)});
@@ -95,7 +95,7 @@ TEST(Conflicts, BlameNoThird)
   found.layout.distances = {100, 130, 200};
   found.light.assign(3, std::vector<double>(256));
   for (std::size_t i = 0; i < found.slopes.size(); ++i) add_light(found.layout, i, found.slopes[i], 1, found.light);
-  const double sent = inverse::light_sent(found.slopes, found.layout.n);
+  const double sent = inverse::light_sent(found.layout, found.slopes);
   found.targets.insert(found.targets.begin() + 1, found.light[1]);
   for (double& t : found.targets[1]) t /= sent;
   const Conflicts c = found.search().of_pictures();

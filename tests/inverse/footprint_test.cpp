@@ -38,12 +38,13 @@ std::vector<double> drawn(const Layout& layout, std::size_t facet, const glm::dv
   std::uniform_real_distribution<double> uniform(0, 1);
   std::normal_distribution<double> normal;
   const glm::dvec2 g = inverse::facet_gradient(slope, layout.n);
+  const glm::dmat2 widens = inverse::slope_change(slope, layout.n).by_sines;
   std::vector<double> cells(layout.cell_count());
   for (int i = 0; i < count; ++i) {
     const glm::dvec2 p = (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.facet();
     const double r = std::sqrt(uniform(random)), phi = 6.283185307179586 * uniform(random);
-    const glm::dvec2 turned =
-        layout.sun_radius * r * glm::dvec2(std::cos(phi), std::sin(phi)) + layout.scatter * glm::dvec2(normal(random), normal(random));
+    const glm::dvec2 turned = widens * (layout.sun_radius * r * glm::dvec2(std::cos(phi), std::sin(phi))) +
+                              layout.scatter * glm::dvec2(normal(random), normal(random));
     const glm::dvec2 at =
         layout.in_cells(layout.middle(facet) + p + slope * glm::dot(g, p) + (slope + turned) * (layout.distances[receiver] + height));
     if (at.x < 0 || at.y < 0 || at.x >= layout.cells.x || at.y >= layout.cells.y) continue;

@@ -53,7 +53,7 @@ std::vector<double> light_of(const Layout& layout, const std::vector<glm::dvec2>
     for (std::size_t k = 0; k < print.y.size(); ++k)
       for (std::size_t i = 0; i < print.x.size(); ++i)
         light[(static_cast<std::size_t>(print.y0) + k) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(print.x0) +
-              i] += inverse::facet_power(slopes[f], layout.n) * print.x[i] * print.y[k];
+              i] += inverse::facet_power(layout, f, slopes[f]) * print.x[i] * print.y[k];
   }
   return light;
 }

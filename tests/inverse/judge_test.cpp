@@ -60,6 +60,29 @@ TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre)
     }
 }
 
+// A beam of slope s is at s d on a screen at d, a receiver or not.
+TEST(Judge, LooksBetweenReceiversToo)
+{
+  Layout layout;
+  layout.size = {1, 1};
+  layout.facets = {1, 1};
+  layout.receiver = {80, 80};
+  layout.cells = {80, 80};
+  layout.distances = {100, 200};
+  layout.frames = {130, 170};
+  const glm::dvec2 slope{0.15, 0.1};
+  const Solid solid = make_solid(layout, {slope});
+  Judge judge(layout, solid, 1);
+  while (!judge.finished()) judge.advance();
+  for (const std::size_t i : {0u, 1u}) {
+    glm::dvec2 mean(0);
+    for (std::size_t c = 0; c < 6400; ++c)
+      mean += judge.frame(i)[c] * glm::dvec2(static_cast<double>(c % 80) - 39.5, 39.5 - static_cast<double>(c / 80));
+    EXPECT_NEAR(glm::length(mean / total(judge.frame(i)) - slope * layout.frames[i]), 0, 0.1);
+  }
+  EXPECT_EQ(judge.costs({inverse::Target(6400, 1 / 6400.0), inverse::Target(6400, 1 / 6400.0)}).size(), 2u);
+}
+
 // Two facets, 1 mm wide; ga and gb are how steeply they fall towards the line between them, the right one more so. The left one sends light
 // to the right by a slope of a. A ray that leaves it at u before the line is at -ga (1/2 - u) - u / a when it gets there, and meets the
 // wall if that is above the right one's edge, -gb / 2: where u < (gb - ga) / 2 / (1 / a - ga).

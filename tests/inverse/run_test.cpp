@@ -63,6 +63,20 @@ TEST_F(InverseRun, CastsTheShapes)
   EXPECT_EQ(static_cast<double>(bytes("out/object.stl").size()), 84 + 50 * triangles);
 }
 
+// Three receivers and three frames between each two: the first, the fifth and the last are the receivers.
+TEST_F(InverseRun, ShowsWhatAScreenSeesThatMoves)
+{
+  const Ended ended = run_to("out", {"--passes", "1", "--set", "inverse.frames=3"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(bytes("out/frames.csv"), "frame,distance_mm\n1,100\n2,112.5\n3,125\n4,137.5\n5,150\n6,162.5\n7,175\n8,187.5\n9,200\n");
+  const auto picture = [&](const std::string& name) { return nephroid::image::read_image(folder / "out" / (name + ".exr")).data; };
+  EXPECT_EQ(picture("frame_0001"), picture("receiver_1"));
+  EXPECT_EQ(picture("frame_0005"), picture("receiver_2"));
+  EXPECT_EQ(picture("frame_0009"), picture("receiver_3"));
+  EXPECT_NE(picture("frame_0004"), picture("frame_0005"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_0010.exr"));
+}
+
 TEST_F(InverseRun, GoesOnWithTheSameBits)
 {
   ASSERT_EQ(run_to("whole", {"--passes", "3"}).exit_code, 0);

@@ -15,6 +15,7 @@
 namespace {
 
 using namespace nephroid;
+using inverse::Layout;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -75,6 +76,26 @@ TEST_F(InverseSettings, Index)
   EXPECT_THAT(refusal({R"(inverse.index={"type": "cauchy", "coefficients": [1.0005]})"}), HasSubstr("bends hardly any light"));
   EXPECT_THAT(refusal({"inverse.index=materials/no-such.yml"}), HasSubstr("no-such.yml"));
   EXPECT_NEAR(inverse::make_plan(read({"inverse.index=PMMA-Szczurowski"})).layout.n, 1.49, 0.01);
+}
+
+TEST_F(InverseSettings, Lights)
+{
+  EXPECT_THAT(refusal({R"(inverse.light={"type": "point", "distance_mm": -300})"}),
+              HasSubstr("own.json#/inverse/light/distance_mm: is -300 mm, and the light would stand behind the front"));
+  EXPECT_THAT(refusal({R"(inverse.light={"type": "point", "distance_mm": 5})"}),
+              AllOf(HasSubstr("so near"), HasSubstr("expected at least")));
+  EXPECT_THAT(refusal({R"(inverse.light={"type": "parallel", "tilt_deg": 120})"}), HasSubstr("would not enter through the front"));
+  EXPECT_THAT(refusal({"inverse.band_nm=400"}), AllOf(HasSubstr("the light would have 350 to 750 nm"), HasSubstr("wavelength_nm of 580")));
+  const Layout parallel = inverse::make_plan(read()).layout,
+               tilted = inverse::make_plan(read({R"(inverse.light={"type": "parallel", "tilt_deg": 10, "turn_deg": 90})"})).layout,
+               lamp = inverse::make_plan(read({R"(inverse.light={"type": "point", "distance_mm": 500})"})).layout;
+  EXPECT_TRUE(parallel.incoming.empty()); // left out: one direction for all
+  EXPECT_NEAR(tilted.incoming[0].sines.y, std::sin(3.14159265 / 18), 1e-6);
+  EXPECT_LT(lamp.incoming[0].sines.x, -0.05);
+  // A constant index has no colours; a dispersive one has them only where the light has a band.
+  EXPECT_TRUE(inverse::make_plan(read({"inverse.band_nm=100"})).layout.indices.empty());
+  EXPECT_TRUE(inverse::make_plan(read({"inverse.index=N-SF11"})).layout.indices.empty());
+  EXPECT_EQ(inverse::make_plan(read({"inverse.index=N-SF11", "inverse.band_nm=100"})).layout.indices.size(), 16u);
 }
 
 // A receiver of 600 mm over 50 mm: the corners of its ring are 0.3 * 600 - 50 mm beside an object of 100 mm.

@@ -40,7 +40,7 @@ TEST(Smoothing, ThePullIsWhatAFacetChanges)
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     auto moved = slopes;
     moved[i] = {0.1, -0.3};
-    const glm::dvec3 change = inverse::normal_of(moved[i], layout.n) - inverse::normal_of(slopes[i], layout.n);
+    const glm::dvec3 change = inverse::normal_of(layout, i, moved[i]) - inverse::normal_of(layout, i, slopes[i]);
     EXPECT_NEAR(20 * (roughness(layout, moved) - roughness(layout, slopes)), -glm::dot(change, pull(layout, slopes, i)), 1e-12) << i;
   }
 }

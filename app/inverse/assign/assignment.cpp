@@ -29,12 +29,10 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
       search_(layout, weights_, heights_), slopes_(layout.facet_count()), light_(targets.size(), std::vector<double>(layout.cell_count()))
 {
   std::mt19937_64 random(seed_);
-  const double limit = usable_slope(layout), last = layout.distances.back();
+  const double last = layout.distances.back();
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
     const glm::dvec2 to = (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
-    slopes_[i] = (to - layout.middle(i)) / last;
-    const double length = glm::length(slopes_[i]);
-    if (length > limit) slopes_[i] *= limit / length;
+    slopes_[i] = nearest_reachable((to - layout.middle(i)) / last, layout.n, layout.sines_on(i), layout.steepest);
     put(i, 1);
   }
   if (layout_.free_heights) raise();
@@ -93,8 +91,8 @@ glm::dvec3 Assignment::pull_on(std::size_t facet) const
 /// What the sum would change by with the facet there too.
 double Assignment::gain(std::size_t facet, const glm::dvec2& slope) const
 {
-  const double light = facet_power(slope, layout_.n), facets = static_cast<double>(slopes_.size());
-  double change = layout_.smoothing > 0 ? -glm::dot(normal_of(slope, layout_.n), pull_on(facet)) : 0;
+  const double light = facet_power(layout_, facet, slope), facets = static_cast<double>(slopes_.size());
+  double change = layout_.smoothing > 0 ? -glm::dot(normal_of(layout_, facet, slope), pull_on(facet)) : 0;
   for (std::size_t j = 0; j < light_.size(); ++j)
     for_cells(layout_, footprint(layout_, facet, slope, j, heights_[facet]), [&](std::size_t cell, double part) {
       const double a = light * part;
@@ -107,7 +105,7 @@ std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std:
 {
   std::vector<Lack> all = lacks;
   const glm::dvec2 slope = slopes_[facet];
-  const double light = facet_power(slope, layout_.n);
+  const double light = facet_power(layout_, facet, slope);
   for (std::size_t j = 0; j < all.size(); ++j) {
     Lack& lack = all[j];
     const Footprint print = footprint(layout_, facet, slope, j, heights_[facet]);
@@ -181,7 +179,7 @@ double Assignment::part() const
 std::vector<Cost> Assignment::costs() const
 {
   std::vector<Cost> costs;
-  const double all = light_sent(slopes_, layout_.n);
+  const double all = light_sent(layout_, slopes_);
   for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets_[j], light_[j], all));
   return costs;
 }

@@ -32,7 +32,7 @@ ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& 
     : layout_(layout), targets_(targets), slopes_(slopes), light_(light), heights_(heights_of(layout, slopes)),
       weights_(picture_weights(layout, targets)), too_much_(light)
 {
-  const double sent = light_sent(slopes, layout.n);
+  const double sent = light_sent(layout, slopes);
   for (std::size_t j = 0; j < light.size(); ++j)
     for (std::size_t c = 0; c < light[j].size(); ++c)
       too_much_[j][c] = light[j][c] > 0 ? std::max(0.0, 1 - sent * targets[j][c] / light[j][c]) : 0;
@@ -62,7 +62,7 @@ double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::s
 {
   std::vector<std::pair<std::size_t, double>> moves; // a cell, and how much it gets
   const auto move = [&](const glm::dvec2& to, double sign) {
-    const double power = sign * facet_power(to, layout_.n);
+    const double power = sign * facet_power(layout_, facet, to);
     for_cells(layout_, footprint(layout_, facet, to, receiver, heights_[facet]), [&](std::size_t cell, double part) {
       const auto known = std::find_if(moves.begin(), moves.end(), [&](const auto& m) { return m.first == cell; });
       if (known == moves.end())
@@ -82,10 +82,10 @@ double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::s
 Conflicts ConflictSearch::of_pictures() const
 {
   const std::size_t count = light_.size();
-  const double sent = light_sent(slopes_, layout_.n);
+  const double sent = light_sent(layout_, slopes_);
   Conflicts found{std::vector<double>(count), std::vector<std::vector<double>>(count, std::vector<double>(count))};
   for (std::size_t i = 0; i < slopes_.size(); ++i)
-    for (std::size_t j = 0; j < count; ++j) found.misplaced[j] += misplaced(i, j) * facet_power(slopes_[i], layout_.n) / sent;
+    for (std::size_t j = 0; j < count; ++j) found.misplaced[j] += misplaced(i, j) * facet_power(layout_, i, slopes_[i]) / sent;
   if (count == 1) return found;
 
   const std::vector<std::size_t> facets = some_facets(layout_);
@@ -106,12 +106,12 @@ Conflicts ConflictSearch::of_pictures() const
         double all = 0;
         for (std::size_t k = 0; k < count; ++k)
           if (k != j) all += parts[i][j][k] = std::max(0.0, change(facets[i], *wish, k));
-        const double light = misplaced(facets[i], j) * facet_power(slopes_[facets[i]], layout_.n);
+        const double light = misplaced(facets[i], j) * facet_power(layout_, facets[i], slopes_[facets[i]]);
         for (double& loss : parts[i][j]) loss *= all > 0 ? light / all : 0;
       }
   });
   double some_sent = 0;
-  for (const std::size_t facet : facets) some_sent += facet_power(slopes_[facet], layout_.n);
+  for (const std::size_t facet : facets) some_sent += facet_power(layout_, facet, slopes_[facet]);
   for (const auto& part : parts)
     for (std::size_t j = 0; j < count; ++j)
       for (std::size_t k = 0; k < count; ++k) found.between[j][k] += part[j][k] / some_sent;

@@ -18,8 +18,8 @@ struct Beam {
 /// The part of a beam before t.
 double part_before(const Beam& beam, double t);
 
-/// Width of the box that smears as the sun's disc and rough surfaces do: with their variance. A disc of radius r has r^2 / 4 along an
-/// axis, a box b^2 / 12. Millimetres on a receiver at this distance.
+/// Width of the box that smears as the sun's disc and rough surfaces do behind a flat facet: with their variance. A disc of radius r has
+/// r^2 / 4 along an axis, a box b^2 / 12. Millimetres on a receiver at this distance.
 double blur_width(const Layout& layout, double distance);
 
 /// Light of a facet in cells of a receiver. Cell (x0 + i, y0 + k) gets x[i] * y[k]; cells beside the receiver are left out.
@@ -29,12 +29,17 @@ struct Footprint {
 };
 
 /// The beam of a facet with this slope. A facet of gradient g, whose light starts at z = g . p, hits a plane at (1 + slope g^T) p beside
-/// its middle: a parallelogram, smaller along the slope than the facet. Its shadow along x and along y is exact; that both hang
-/// together off the axes is not kept. height: z of the facet's middle, from where its light has further to go.
+/// its middle: a parallelogram, smaller along the slope than the facet; a lamp's light has another slope at each p. Its shadow along x and
+/// along y is exact, but that the smears by the sun, roughness and dispersion are boxes of the right variance; that both hang together off
+/// the axes is not kept. height: z of the facet's middle, from where its light has further to go.
 Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0);
 
-/// How much light a facet sends, over what it would send straight on.
-double facet_power(const glm::dvec2& slope, double n);
+/// How much light a facet sends, over what the mean facet would send lying flat. Light that falls in with a slope t meets 1 + t . g of it
+/// on a facet of gradient g, whose edge towards the light is g / 2 below its middle, in parts of its width. A neighbour of gradient h ends
+/// h / 2 above its own, so that t (g + h) / 2 / (1 + t . g) of the facet lies in its shadow, along x and along y. In the same way a wall
+/// stops what leaves with a slope s within s (g + h) / 2 / (1 + s . g) of the other edge. The footprint is of what is left. Light straight
+/// on is taken to meet no neighbour, nor are facets of free heights, whose edges nearly meet.
+double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
 /// Calls f(cell, part of the facet's light) for every cell of the receiver that gets some.
 template <class F>
@@ -51,6 +56,6 @@ void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope,
                double height = 0);
 
 /// Light that all facets send, wherever to.
-double light_sent(const std::vector<glm::dvec2>& slopes, double n);
+double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
 } // namespace nephroid::inverse

@@ -61,7 +61,7 @@ void Refinement::find_gradient(const std::vector<glm::dvec2>& slopes, const std:
             double over = 0;
             for_cells(layout_, footprint(layout_, i, slope, j, heights_[i]),
                       [&](std::size_t cell, double part) { over += part * (light[j][cell] - facets * targets_[j][cell]); });
-            sum += weights_[j] * facet_power(slope, layout_.n) * over / side;
+            sum += weights_[j] * facet_power(layout_, i, slope) * over / side;
           }
         }
         gradient_[i][axis] = sum;
@@ -74,7 +74,7 @@ void Refinement::find_light(const std::vector<glm::dvec2>& slopes, std::vector<s
   for_blocks(light.size(), [&](std::size_t j) {
     std::fill(light[j].begin(), light[j].end(), 0.0);
     for (std::size_t i = 0; i < slopes.size(); ++i) {
-      const double power = facet_power(slopes[i], layout_.n);
+      const double power = facet_power(layout_, i, slopes[i]);
       for_cells(layout_, footprint(layout_, i, slopes[i], j, heights_[i]),
                 [&](std::size_t cell, double part) { light[j][cell] += power * part; });
     }
@@ -96,7 +96,7 @@ void Refinement::advance(std::vector<glm::dvec2>& slopes, std::vector<std::vecto
 {
   ++done_;
   find_gradient(slopes, light);
-  const double change = turn(), from = weighted_squares(targets_, weights_, light, slopes.size()), limit = usable_slope(layout_);
+  const double change = turn(), from = weighted_squares(targets_, weights_, light, slopes.size());
   if (step_ == 0) {
     const double length = std::sqrt(-change / static_cast<double>(slopes.size()));
     step_ = length > 0 ? first_step * layout_.cell().x / layout_.distances.back() / length : 0;
@@ -105,11 +105,8 @@ void Refinement::advance(std::vector<glm::dvec2>& slopes, std::vector<std::vecto
   std::vector<glm::dvec2> moved(slopes.size());
   std::vector<std::vector<double>> there = light;
   for (int i = 0; i < most_tries; ++i) {
-    for (std::size_t k = 0; k < slopes.size(); ++k) {
-      moved[k] = slopes[k] + step_ * direction_[k];
-      const double length = glm::length(moved[k]);
-      if (length > limit) moved[k] *= limit / length;
-    }
+    for (std::size_t k = 0; k < slopes.size(); ++k)
+      moved[k] = nearest_reachable(slopes[k] + step_ * direction_[k], layout_.n, layout_.sines_on(k), layout_.steepest);
     find_light(moved, there);
     // The parabola through both sums with the slope at the first: its lowest point is the next length.
     const double to = weighted_squares(targets_, weights_, there, slopes.size()), bend = (to - from - step_ * change) / (step_ * step_);

@@ -21,10 +21,18 @@ constexpr int most_points = 64;
 constexpr int steps = 2;
 constexpr double finest = 0.125;
 
+/// Width of a flat facet's beam on a receiver; a lamp's light spreads.
+double flat_beam(const Layout& layout, std::size_t receiver, int axis)
+{
+  const double lamp = layout.lamp ? layout.distances[receiver] / (layout.lamp->z - layout.thickness + layout.thickness / layout.n) : 0;
+  return layout.facet()[axis] * (1 + lamp);
+}
+
 /// How many cells a beam can touch.
 int taps(const Layout& layout, std::size_t receiver, int axis)
 {
-  return 1 + static_cast<int>(std::ceil((layout.facet()[axis] + blur_width(layout, layout.distances[receiver])) / layout.cell()[axis]));
+  return 1 + static_cast<int>(
+                 std::ceil((flat_beam(layout, receiver, axis) + blur_width(layout, layout.distances[receiver])) / layout.cell()[axis]));
 }
 
 } // namespace
@@ -95,7 +103,7 @@ SlopeSearch::Columns SlopeSearch::columns(std::size_t receiver, double from, dou
   const double cell = layout_.cell()[axis], way = (layout_.distances[receiver] + height) / (layout_.distances.back() + height);
   Columns made{std::vector<int>(static_cast<std::size_t>(points)), std::vector<float>(static_cast<std::size_t>(points * count)),
                std::vector<float>(static_cast<std::size_t>(points))};
-  Beam beam{0, layout_.facet()[axis] / cell, blur_width(layout_, layout_.distances[receiver]) / cell};
+  Beam beam{0, flat_beam(layout_, receiver, axis) / cell, blur_width(layout_, layout_.distances[receiver]) / cell};
   for (int i = 0; i < points; ++i) {
     const double at = from + (point(i, axis) - from) * way, half = layout_.receiver[axis] / 2;
     beam.middle = (axis == 0 ? at + half : half - at) / cell;
@@ -144,7 +152,8 @@ std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const L
   const glm::dvec2 from = layout_.middle(facet);
   std::vector<float> scores(across * down);
   for (std::size_t j = 0; j < lacks.size(); ++j) add_scores(j, facet, lacks[j], scores);
-  const double last = layout_.distances.back() + heights_[facet], limit = usable_slope(layout_);
+  const glm::dvec2 sines = layout_.sines_on(facet);
+  const double last = layout_.distances.back() + heights_[facet];
   const bool smooths = pull != glm::dvec3(0);
   float lowest = std::numeric_limits<float>::infinity();
   std::optional<glm::dvec2> found;
@@ -153,8 +162,8 @@ std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const L
     for (std::size_t i = 0; i < across; ++i) {
       if (!smooths && !(scores[k * across + i] < lowest)) continue;
       const glm::dvec2 slope{(point(static_cast<int>(i), 0) - from.x) / last, slope_y};
-      if (glm::dot(slope, slope) > limit * limit) continue;
-      const float there = scores[k * across + i] - (smooths ? static_cast<float>(glm::dot(normal_of(slope, layout_.n), pull)) : 0);
+      if (!reachable(slope, layout_.n, sines, layout_.steepest)) continue;
+      const float there = scores[k * across + i] - (smooths ? static_cast<float>(glm::dot(normal_of(layout_, facet, slope), pull)) : 0);
       if (!(there < lowest)) continue;
       lowest = there;
       found = slope;
@@ -165,8 +174,8 @@ std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const L
 
 double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks, const glm::dvec3& pull) const
 {
-  const double power = facet_power(slope, layout_.n);
-  double sum = pull != glm::dvec3(0) ? -glm::dot(normal_of(slope, layout_.n), pull) : 0;
+  const double power = facet_power(layout_, facet, slope);
+  double sum = pull != glm::dvec3(0) ? -glm::dot(normal_of(layout_, facet, slope), pull) : 0;
   for (std::size_t j = 0; j < lacks.size(); ++j) {
     const Footprint print = footprint(layout_, facet, slope, j, heights_[facet]);
     const Lack& lack = lacks[j];
@@ -184,7 +193,7 @@ double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<
 
 glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks, const glm::dvec3& pull) const
 {
-  const double limit = usable_slope(layout_);
+  const glm::dvec2 sines = layout_.sines_on(facet);
   glm::dvec2 step = layout_.receiver / glm::dvec2(lattice_) / layout_.distances.back();
   double lowest = score(facet, from, lacks, pull);
   while (step.x > finest * layout_.cell().x / layout_.distances.back()) {
@@ -193,7 +202,7 @@ glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<co
       const glm::dvec2 middle = from;
       for (const glm::dvec2& side : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
         const glm::dvec2 slope = middle + side * step;
-        if (glm::dot(slope, slope) > limit * limit) continue;
+        if (!reachable(slope, layout_.n, sines, layout_.steepest)) continue;
         if (const double there = score(facet, slope, lacks, pull); there < lowest) {
           lowest = there;
           from = slope;

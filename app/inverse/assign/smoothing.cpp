@@ -27,14 +27,18 @@ double neighbours(const glm::ivec2& facets, std::size_t facet)
 
 } // namespace
 
-glm::dvec3 normal_of(const glm::dvec2& slope, double n) { return glm::normalize(glm::dvec3(facet_gradient(slope, n), -1)); }
+glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope)
+{
+  return glm::normalize(glm::dvec3(facet_gradient(slope, layout.n, layout.sines_on(facet)), -1));
+}
 
 glm::dvec3 pull(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t facet)
 {
   glm::dvec3 sum(0);
   const double own = neighbours(layout.facets, facet);
-  for_neighbours(layout.facets, facet,
-                 [&](std::size_t other) { sum += (1 / own + 1 / neighbours(layout.facets, other)) * normal_of(slopes[other], layout.n); });
+  for_neighbours(layout.facets, facet, [&](std::size_t other) {
+    sum += (1 / own + 1 / neighbours(layout.facets, other)) * normal_of(layout, other, slopes[other]);
+  });
   return sum;
 }
 
@@ -43,8 +47,8 @@ double roughness(const Layout& layout, const std::vector<glm::dvec2>& slopes)
   double sum = 0;
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     glm::dvec3 around(0);
-    for_neighbours(layout.facets, i, [&](std::size_t other) { around += normal_of(slopes[other], layout.n); });
-    if (const double count = neighbours(layout.facets, i); count > 0) sum += 1 - glm::dot(normal_of(slopes[i], layout.n), around) / count;
+    for_neighbours(layout.facets, i, [&](std::size_t other) { around += normal_of(layout, other, slopes[other]); });
+    if (const double count = neighbours(layout.facets, i); count > 0) sum += 1 - glm::dot(normal_of(layout, i, slopes[i]), around) / count;
   }
   return sum / static_cast<double>(slopes.size());
 }

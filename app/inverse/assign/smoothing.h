@@ -12,7 +12,7 @@
 namespace nephroid::inverse {
 
 /// The unit normal out of the object.
-glm::dvec3 normal_of(const glm::dvec2& slope, double n);
+glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
 /// The sum of Cost_N over all facets falls by n . pull where a facet of normal n is put among its neighbours: their normals, times one part
 /// in the facet's neighbours and one in each neighbour's own.

@@ -126,7 +126,7 @@ std::vector<double> heights_of(const Layout& layout, std::span<const glm::dvec2>
 {
   if (!layout.free_heights) return std::vector<double>(slopes.size());
   std::vector<glm::dvec2> gradients;
-  for (const glm::dvec2& slope : slopes) gradients.push_back(facet_gradient(slope, layout.n));
+  for (std::size_t i = 0; i < slopes.size(); ++i) gradients.push_back(facet_gradient(slopes[i], layout.n, layout.sines_on(i)));
   return least_steps(layout, gradients);
 }
 

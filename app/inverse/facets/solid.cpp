@@ -26,7 +26,8 @@ public:
   Builder(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
       : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y)
   {
-    for (std::size_t i = 0; i < slopes.size(); ++i) solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n), heights[i]});
+    for (std::size_t i = 0; i < slopes.size(); ++i)
+      solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n, layout.sines_on(i)), heights[i]});
   }
 
   /// corners: z where facets meet, row by row, one more across and down than facets.

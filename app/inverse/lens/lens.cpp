@@ -128,7 +128,7 @@ void Lens::advance()
   make_surface();
 }
 
-std::vector<Cost> Lens::costs() const { return {cost_of(target_, light_.front(), light_sent(slopes_, layout_.n))}; }
+std::vector<Cost> Lens::costs() const { return {cost_of(target_, light_.front(), light_sent(layout_, slopes_))}; }
 
 Solid Lens::solid() const
 {

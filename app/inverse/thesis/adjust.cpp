@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "inverse/bending.h"
+#include "inverse/light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,17 +71,17 @@ public:
   Projection(const Layout& layout, const std::vector<Aim>& aims, const std::vector<Margin>& margins)
       : layout_(layout), aims_(aims), margins_(margins), facets_(some_facets(layout))
   {
+    for (const glm::dvec2& from : facets_) sines_.push_back(incoming_at(layout, from).sines);
   }
 
   /// Light through a lit cell of picture `a`. Empty: the cell is not missing.
   std::vector<Met> through(std::size_t a, std::size_t cell) const
   {
     const glm::dvec2 to = middle_of_cell(layout_, cell);
-    const double limit = usable_slope(layout_);
     std::vector<Met> met(aims_.size());
-    for (const glm::dvec2& from : facets_) {
-      const glm::dvec2 slope = (to - from) / aims_[a].distance;
-      if (glm::dot(slope, slope) > limit * limit) continue;
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+      const glm::dvec2 from = facets_[i], slope = (to - from) / aims_[a].distance;
+      if (!reachable(slope, layout_.n, sines_[i], layout_.steepest)) continue;
       bool all = true;
       for (std::size_t b = 0; b < aims_.size(); ++b) {
         if (b == a) continue;
@@ -99,7 +100,7 @@ private:
   const Layout& layout_;
   const std::vector<Aim>& aims_;
   const std::vector<Margin>& margins_;
-  std::vector<glm::dvec2> facets_;
+  std::vector<glm::dvec2> facets_, sines_; ///< middles, and the light that falls there
 };
 
 } // namespace

@@ -209,7 +209,7 @@ std::uint64_t Pipeline::tried() const
 std::vector<Cost> Pipeline::costs() const
 {
   std::vector<Cost> costs;
-  const double all = light_sent(best_.slopes, layout_.n);
+  const double all = light_sent(layout_, best_.slopes);
   for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets_[j], light_[j], all));
   return costs;
 }

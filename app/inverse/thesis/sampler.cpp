@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace nephroid::inverse {
 
@@ -23,6 +24,7 @@ struct Sampler::Lattice {
   Axis x, y;
   std::vector<double> sums; ///< of the products of all rows up to this one
   double most = 0;          ///< of the products
+  glm::dvec2 sines{0};      ///< of the light on the facet
 };
 
 Sampler::Sampler(const Layout& layout, const std::vector<Aim>& aims, const Thesis& settings)
@@ -50,7 +52,8 @@ Sampler::Sampler(const Layout& layout, const std::vector<Aim>& aims, const Thesi
 
 Sampler::Axis Sampler::axis(std::size_t facet, int along) const
 {
-  const double from = layout_.middle(facet)[along], half = layout_.receiver[along] / 2, limit = usable_slope(layout_);
+  const double from = layout_.middle(facet)[along], half = layout_.receiver[along] / 2;
+  const double limit = layout_.incoming.empty() ? usable_slope(layout_) : std::numeric_limits<double>::infinity();
   double low = limit, high = -limit;
   for (const double distance : distances_) {
     low = std::min(low, (-half - from) / distance);
@@ -81,8 +84,8 @@ Sampler::Axis Sampler::axis(std::size_t facet, int along) const
 
 double Sampler::product(const Lattice& lattice, std::size_t column, std::size_t row) const
 {
-  const double x = lattice.x.slopes[column], y = lattice.y.slopes[row], limit = usable_slope(layout_);
-  if ((lattice.x.hits[column] & lattice.y.hits[row]) == 0 || x * x + y * y > limit * limit) return 0;
+  if ((lattice.x.hits[column] & lattice.y.hits[row]) == 0) return 0;
+  if (!reachable({lattice.x.slopes[column], lattice.y.slopes[row]}, layout_.n, lattice.sines, layout_.steepest)) return 0;
   double product = 1;
   for (std::size_t j = 0; j < padded_.size(); ++j)
     product *= padded_[j][static_cast<std::size_t>(lattice.y.cells[j][row] * (layout_.cells.x + 2) + lattice.x.cells[j][column])];
@@ -93,12 +96,12 @@ double Sampler::product(const Lattice& lattice, std::size_t column, std::size_t 
 void Sampler::multiply_row(const Lattice& lattice, std::size_t row, std::vector<double>& products) const
 {
   const std::size_t across = lattice.x.slopes.size();
-  const double y = lattice.y.slopes[row], limit = usable_slope(layout_);
+  const double y = lattice.y.slopes[row];
   const std::uint32_t hits = lattice.y.hits[row];
   products.resize(across);
   for (std::size_t i = 0; i < across; ++i) {
-    const double x = lattice.x.slopes[i];
-    products[i] = (hits & lattice.x.hits[i]) == 0 || x * x + y * y > limit * limit ? 0.0 : 1.0;
+    products[i] =
+        (hits & lattice.x.hits[i]) != 0 && reachable({lattice.x.slopes[i], y}, layout_.n, lattice.sines, layout_.steepest) ? 1.0 : 0.0;
   }
   for (std::size_t j = 0; j < padded_.size(); ++j) {
     const double* const cells = padded_[j].data() + static_cast<std::ptrdiff_t>(lattice.y.cells[j][row]) * (layout_.cells.x + 2);
@@ -109,7 +112,7 @@ void Sampler::multiply_row(const Lattice& lattice, std::size_t row, std::vector<
 
 Sampler::Lattice Sampler::lattice(std::size_t facet) const
 {
-  Lattice made{axis(facet, 0), axis(facet, 1), {}, 0};
+  Lattice made{axis(facet, 0), axis(facet, 1), {}, 0, layout_.sines_on(facet)};
   std::vector<double> products;
   double sum = 0;
   for (std::size_t row = 0; row < made.y.slopes.size(); ++row) {

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/light.h"
+
+#include "base/parallel.h"
+#include "inverse/bending.h"
+#include "optics/fresnel.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Facets whose light falls in with a slope t meet 1 + t . g of it; above this value most of a facet lies in its neighbour's shadow.
+constexpr double most_shadow = 1;
+
+/// A lamp at distance a before the front, b thick, and a facet at r beside it. The sine q of the light's angle before the front solves
+/// r(q) = a q / sqrt(1 - q^2) + b q / sqrt(n^2 - q^2) = r, which grows with q.
+struct LampWay {
+  double a, b, n;
+  double r(double q) const { return q * (a / std::sqrt(1 - q * q) + b / std::sqrt(n * n - q * q)); }
+  double change(double q) const { return a / std::pow(1 - q * q, 1.5) + b * n * n / std::pow(n * n - q * q, 1.5); }
+  double sine(double at) const
+  {
+    double low = 0, high = std::min(1.0, n);
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (r(middle) < at ? low : high) = middle;
+    }
+    return low;
+  }
+};
+
+/// The part of a facet whose light comes through the front, not through a side.
+double through_front(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& sines)
+{
+  const glm::dvec2 from = middle + layout.thickness / light_inside(sines, layout.n).z * sines, half = layout.size / 2.0,
+                   facet = layout.facet() / 2.0;
+  const glm::dvec2 low = glm::max(from - facet, -half), high = glm::min(from + facet, half);
+  const glm::dvec2 part = glm::max(high - low, glm::dvec2(0)) / layout.facet();
+  return part.x * part.y;
+}
+
+Incoming from_lamp(const Layout& layout, const glm::dvec2& middle)
+{
+  const glm::dvec2 to = middle - glm::dvec2(*layout.lamp);
+  const LampWay way{layout.lamp->z - layout.thickness, layout.thickness, layout.n};
+  const double r = glm::length(to), q = way.sine(r), radial = 1 / way.change(q), around = r > 0 ? q / r : radial;
+  const glm::dvec2 e = r > 0 ? to / r : glm::dvec2(1, 0);
+  Incoming in;
+  in.sines = q * e;
+  in.spread = around * glm::dmat2(1) + (radial - around) * glm::outerProduct(e, e);
+  // A solid angle of q dq dphi / cos alpha falls on r dr dphi.
+  in.power = around * radial / std::sqrt(1 - q * q);
+  return in;
+}
+
+/// Solid angle of a rectangle from the corner over which a lamp stands, z above it.
+double solid_angle(double x, double y, double z) { return std::atan(x * y / (z * std::sqrt(x * x + y * y + z * z))); }
+
+double solid_angle_of_front(const Layout& layout)
+{
+  const glm::dvec2 low = -layout.size / 2.0 - glm::dvec2(*layout.lamp), high = low + layout.size;
+  const double z = layout.lamp->z - layout.thickness;
+  return solid_angle(high.x, high.y, z) - solid_angle(low.x, high.y, z) - solid_angle(high.x, low.y, z) + solid_angle(low.x, low.y, z);
+}
+
+/// The largest t . g of facets that send their light to the place of the last receiver that is nearest to where it goes straight on.
+/// Infinite where one cannot.
+double worst_shadow(const Layout& layout)
+{
+  constexpr int across = 9;
+  double worst = 0;
+  for (int i = 0; i < across * across; ++i) {
+    const glm::dvec2 middle = (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
+    const glm::dvec2 sines = incoming_at(layout, middle).sines;
+    const glm::dvec2 straight = middle + sines / std::sqrt(1 - glm::dot(sines, sines)) * layout.distances.back();
+    const glm::dvec2 slope = (glm::clamp(straight, -layout.receiver / 2.0, layout.receiver / 2.0) - middle) / layout.distances.back();
+    if (!reachable(slope, layout.n, sines)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, glm::dot(sines / -light_inside(sines, layout.n).z, facet_gradient(slope, layout.n, sines)));
+  }
+  return worst;
+}
+
+/// Between a value that is good and one that is not, the last good one.
+double last_good(double good, double bad, const std::function<bool(double)>& is_good)
+{
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (good + bad) / 2;
+    (is_good(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+Layout with_tilt(Layout layout, double tilt_deg, double turn_deg)
+{
+  const double turn = glm::radians(turn_deg);
+  layout.sines = std::sin(glm::radians(tilt_deg)) * glm::dvec2(std::cos(turn), std::sin(turn));
+  return layout;
+}
+
+Layout with_lamp(Layout layout, double distance, const std::array<double, 2>& offset)
+{
+  layout.lamp = {offset[0], offset[1], layout.thickness + distance};
+  return layout;
+}
+
+Layout tilted(const Layout& layout, const Light& light, const Place& where)
+{
+  const double most = glm::degrees(std::asin(std::min(1.0, layout.n)));
+  if (std::abs(light.tilt_deg) >= most)
+    throw bad_input(where, fmt::format("is {} degrees, and light would not enter through the front", light.tilt_deg),
+                    fmt::format("expected less than {:.4g}", most));
+  const auto good = [&](double tilt) { return worst_shadow(with_tilt(layout, tilt, light.turn_deg)) <= most_shadow; };
+  if (!good(light.tilt_deg))
+    throw bad_input(
+        where, fmt::format("is {} degrees, and facets that bend such light to the receivers stand in each other's shadow", light.tilt_deg),
+        fmt::format("expected at most {:.3g}", std::abs(last_good(0, light.tilt_deg, good))), "tilt it less, or move the receivers away");
+  return with_tilt(layout, light.tilt_deg, light.turn_deg);
+}
+
+Layout lit_by_lamp(const Layout& layout, const Light& light, const Place& where)
+{
+  if (light.distance_mm <= 0)
+    throw bad_input(where, fmt::format("is {} mm, and the light would stand behind the front", light.distance_mm),
+                    "expected more than 0 mm");
+  const auto good = [&](double distance) { return worst_shadow(with_lamp(layout, distance, light.offset_mm)) <= most_shadow; };
+  if (!good(light.distance_mm)) {
+    double far = 2 * light.distance_mm;
+    while (!good(far) && far < 1e9) far *= 2;
+    throw bad_input(
+        where,
+        fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, stand in each other's shadow",
+                    light.distance_mm),
+        fmt::format("expected at least {:.4g} mm", last_good(far, light.distance_mm, good)),
+        "move the light away, or make the object smaller");
+  }
+  return with_lamp(layout, light.distance_mm, light.offset_mm);
+}
+
+} // namespace
+
+Incoming incoming_at(const Layout& layout, const glm::dvec2& middle)
+{
+  Incoming in;
+  in.sines = layout.sines;
+  if (layout.lamp) in = from_lamp(layout, middle);
+  const double cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
+  in.around = facet_gradient(nearest_reachable(-middle / layout.distances.back(), layout.n, in.sines, layout.steepest), layout.n, in.sines);
+  in.power *= (1 - optics::fresnel_reflectance(cosine, 1, layout.n)) * through_front(layout, middle, in.sines);
+  return in;
+}
+
+void set_light(Layout& layout, const Light& light, const Place& where)
+{
+  if (light.type == Light::Type::point)
+    layout = lit_by_lamp(layout, light, where / "distance_mm");
+  else
+    layout = tilted(layout, light, where / "tilt_deg");
+  if (!layout.lamp && layout.sines == glm::dvec2(0)) return;
+  layout.incoming.resize(layout.facet_count());
+  for_ranges(layout.facet_count(), 1024, [&](std::size_t, const Range& range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) layout.incoming[i] = incoming_at(layout, layout.middle(i));
+  });
+  double sum = 0;
+  for (const Incoming& in : layout.incoming) sum += in.power;
+  for (Incoming& in : layout.incoming) in.power *= static_cast<double>(layout.facet_count()) / sum;
+}
+
+LightRay light_ray(const Layout& layout, const glm::dvec3& front)
+{
+  if (!layout.lamp) return {glm::dvec3(layout.sines, -std::sqrt(1 - glm::dot(layout.sines, layout.sines))), 1};
+  const glm::dvec3 way = front - *layout.lamp;
+  const double length = glm::length(way), angle = -way.z / (length * length * length); // of a square millimetre
+  return {way / length, angle * layout.size.x * layout.size.y / solid_angle_of_front(layout)};
+}
+
+} // namespace nephroid::inverse
