@@ -138,7 +138,8 @@ Judge::Row Judge::trace_row(int row) const
   for (int column = 0; column < layout_.facets.x; ++column) {
     const EvenNumbers even(random);
     for (int i = 0; i < along * along; ++i) {
-      const glm::dvec2 at = glm::dvec2(column + (i % along + uniform(random)) / along, row + (i / along + uniform(random)) / along);
+      const int across = i % along, down = i / along;
+      const glm::dvec2 at = glm::dvec2(column + (across + uniform(random)) / along, row + (down + uniform(random)) / along);
       const glm::dvec3 front(at.x * layout_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - at.y * layout_.facet().y,
                              layout_.thickness);
       const std::array<double, 5> numbers = even.of(i);

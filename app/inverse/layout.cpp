@@ -91,8 +91,9 @@ std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& targ
   const auto columns = static_cast<std::size_t>(layout.cells.x);
   for (std::size_t c = 0; c < target.size(); ++c) {
     if (target[c] <= 0) continue;
-    const glm::dvec2 at{(static_cast<double>(c % columns) + 0.5) * layout.cell().x - layout.receiver.x / 2,
-                        layout.receiver.y / 2 - (static_cast<double>(c / columns) + 0.5) * layout.cell().y};
+    const std::size_t column = c % columns, row = c / columns;
+    const glm::dvec2 at{(static_cast<double>(column) + 0.5) * layout.cell().x - layout.receiver.x / 2,
+                        layout.receiver.y / 2 - (static_cast<double>(row) + 0.5) * layout.cell().y};
     for (std::size_t side = 0; side < to.size(); ++side) {
       const double angle = glm::pi<double>() * static_cast<double>(side) / 8,
                    far = glm::dot(at, glm::dvec2(std::cos(angle), std::sin(angle)));

@@ -22,6 +22,12 @@ struct Incoming {
   glm::dmat2 spread{0}; ///< of the sines over x and y: a lamp's light falls on each place of the facet from another side
 };
 
+/// Where column and row are among values that are kept row by row, `columns` of them a row.
+inline std::size_t index_at(int column, int row, int columns)
+{
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+}
+
 struct Layout {
   glm::dvec2 size{100, 100}; ///< of the object
   double thickness = 10;
@@ -53,8 +59,8 @@ struct Layout {
   glm::dvec2 middle(std::size_t i) const
   {
     const auto columns = static_cast<std::size_t>(facets.x);
-    const double x = static_cast<double>(i % columns) + 0.5, y = static_cast<double>(i / columns) + 0.5;
-    return {x * facet().x - size.x / 2, size.y / 2 - y * facet().y};
+    const std::size_t column = i % columns, row = i / columns;
+    return {(static_cast<double>(column) + 0.5) * facet().x - size.x / 2, size.y / 2 - (static_cast<double>(row) + 0.5) * facet().y};
   }
   glm::dvec2 sines_on(std::size_t facet) const { return incoming.empty() ? glm::dvec2(0) : incoming[facet].sines; }
   /// Of a point of a receiver, in cells from its top left corner.

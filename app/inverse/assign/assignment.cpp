@@ -112,7 +112,7 @@ std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std:
     for (std::size_t k = 0; k < print.y.size(); ++k)
       for (std::size_t i = 0; i < print.x.size(); ++i) {
         const int x = print.x0 + static_cast<int>(i) + lack.rim, y = print.y0 + static_cast<int>(k) + lack.rim;
-        lack.values[static_cast<std::size_t>(y * lack.width + x)] -= static_cast<float>(2 * weights_[j] * light * print.x[i] * print.y[k]);
+        lack.values[index_at(x, y, lack.width)] -= static_cast<float>(2 * weights_[j] * light * print.x[i] * print.y[k]);
       }
   }
   return all;

@@ -83,7 +83,7 @@ std::vector<Lack> SlopeSearch::lacks(const std::vector<Target>& targets, const s
       for (int x = 0; x < cells.x; ++x) {
         const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(x);
         const double over = light[j][cell] - static_cast<double>(layout_.facet_count()) * targets[j][cell];
-        lack.values[static_cast<std::size_t>((y + rim) * width + x + rim)] = static_cast<float>(2 * weights_[j] * over);
+        lack.values[index_at(x + rim, y + rim, width)] = static_cast<float>(2 * weights_[j] * over);
       }
     all.push_back(std::move(lack));
   }
@@ -112,7 +112,7 @@ SlopeSearch::Columns SlopeSearch::columns(std::size_t receiver, double from, dou
     double before = part_before(beam, first);
     for (int tap = 0; tap < count; ++tap) {
       const double after = part_before(beam, first + tap + 1), part = after - before;
-      made.parts[static_cast<std::size_t>(tap * points + i)] = static_cast<float>(part);
+      made.parts[index_at(i, tap, points)] = static_cast<float>(part);
       made.square[static_cast<std::size_t>(i)] += static_cast<float>(part * part);
       before = after;
     }

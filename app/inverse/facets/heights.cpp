@@ -2,6 +2,7 @@
 #include "inverse/facets/heights.h"
 
 #include "inverse/bending.h"
+#include "inverse/poisson.h"
 
 #include <Eigen/Core>
 #include <glm/gtc/constants.hpp>
@@ -13,37 +14,20 @@
 namespace nephroid::inverse {
 namespace {
 
-using Grid = Eigen::MatrixXd; // (column, row): columns of facets vary fastest in memory, as in the layout
-
-/// The orthonormal cosine transform (DCT-II) of n values: its rows are what the differences between neighbours, none at the ends, have as
-/// eigenvectors. Row k's eigenvalue is 2 - 2 cos(pi k / n).
-Eigen::MatrixXd cosines(Eigen::Index n)
-{
-  Eigen::MatrixXd c(n, n);
-  for (Eigen::Index k = 0; k < n; ++k)
-    for (Eigen::Index i = 0; i < n; ++i)
-      c(k, i) = std::sqrt((k == 0 ? 1.0 : 2.0) / static_cast<double>(n)) *
-                std::cos(glm::pi<double>() * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
-  return c;
-}
-
-double eigenvalue(Eigen::Index k, Eigen::Index n)
-{
-  return 2 - 2 * std::cos(glm::pi<double>() * static_cast<double>(k) / static_cast<double>(n));
-}
+using FacetGrid = Eigen::MatrixXd; // (column, row): columns of facets vary fastest in memory, as in the layout
 
 /// The facets' planes and how their edges weigh.
 struct Steps {
   Eigen::Index across, down;
   glm::dvec2 facet;
-  Grid over_x, over_y; ///< how much a facet's neighbour at +x, or below, must be higher for their edges to meet in the middle
-  Grid reach;          ///< from a facet's middle to its highest corner
+  FacetGrid over_x, over_y; ///< how much a facet's neighbour at +x, or below, must be higher for their edges to meet in the middle
+  FacetGrid reach;          ///< from a facet's middle to its highest corner
 };
 
 Steps steps_of(const Layout& layout, std::span<const glm::dvec2> gradients)
 {
   Steps s{layout.facets.x, layout.facets.y, layout.facet(), {}, {}, {}};
-  s.over_x = s.over_y = s.reach = Grid::Zero(s.across, s.down);
+  s.over_x = s.over_y = s.reach = FacetGrid::Zero(s.across, s.down);
   const auto g = [&](Eigen::Index x, Eigen::Index y) { return gradients[static_cast<std::size_t>(y * s.across + x)]; };
   for (Eigen::Index y = 0; y < s.down; ++y)
     for (Eigen::Index x = 0; x < s.across; ++x) {
@@ -55,9 +39,9 @@ Steps steps_of(const Layout& layout, std::span<const glm::dvec2> gradients)
 }
 
 /// Without bounds. An edge weighs as much as it is long.
-Grid poisson(const Steps& s)
+FacetGrid free_heights(const Steps& s)
 {
-  Grid right = Grid::Zero(s.across, s.down);
+  FacetGrid right = FacetGrid::Zero(s.across, s.down);
   for (Eigen::Index y = 0; y < s.down; ++y)
     for (Eigen::Index x = 0; x < s.across; ++x) {
       const double to_right = s.facet.y * s.over_x(x, y), to_below = s.facet.x * s.over_y(x, y);
@@ -65,19 +49,14 @@ Grid poisson(const Steps& s)
       if (x + 1 < s.across) right(x + 1, y) += to_right;
       if (y + 1 < s.down) right(x, y + 1) += to_below;
     }
-  const Eigen::MatrixXd cx = cosines(s.across), cy = cosines(s.down);
-  Grid waves = cx * right * cy.transpose();
-  for (Eigen::Index y = 0; y < s.down; ++y)
-    for (Eigen::Index x = 0; x < s.across; ++x)
-      if (x + y > 0) waves(x, y) /= s.facet.y * eigenvalue(x, s.across) + s.facet.x * eigenvalue(y, s.down);
-  waves(0, 0) = 0;
-  Grid heights = cx.transpose() * waves * cy;
+  const Poisson poisson(static_cast<int>(s.across), static_cast<int>(s.down), 1.0 / glm::sqrt(glm::dvec2(s.facet.y, s.facet.x)));
+  FacetGrid heights = poisson.solve(right.transpose()).transpose();
   heights.array() -= ((heights + s.reach).maxCoeff() + (heights - s.reach).minCoeff()) / 2;
   return heights;
 }
 
 /// Where a facet would stand among its neighbours as they are.
-double between_neighbours(const Steps& s, const Grid& h, Eigen::Index x, Eigen::Index y)
+double between_neighbours(const Steps& s, const FacetGrid& h, Eigen::Index x, Eigen::Index y)
 {
   double sum = 0, weight = 0;
   const auto add = [&](double height, double length) {
@@ -91,7 +70,7 @@ double between_neighbours(const Steps& s, const Grid& h, Eigen::Index x, Eigen::
   return weight > 0 ? sum / weight : 0;
 }
 
-void relax(const Steps& s, double band, Grid& h)
+void relax(const Steps& s, double band, FacetGrid& h)
 {
   constexpr int most_rounds = 1000;
   constexpr double still = 1e-4; // of a facet's side
@@ -113,9 +92,9 @@ void relax(const Steps& s, double band, Grid& h)
 std::vector<double> least_steps(const Layout& layout, std::span<const glm::dvec2> gradients)
 {
   const Steps steps = steps_of(layout, gradients);
-  Grid heights = poisson(steps);
+  FacetGrid heights = free_heights(steps);
   if ((heights + steps.reach).maxCoeff() > layout.band) {
-    const Grid bound = (layout.band - steps.reach.array()).max(0.0);
+    const FacetGrid bound = (layout.band - steps.reach.array()).max(0.0);
     heights = heights.cwiseMin(bound).cwiseMax(-bound);
     relax(steps, layout.band, heights);
   }

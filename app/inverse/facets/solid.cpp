@@ -64,11 +64,11 @@ private:
   {
     if (!is_facet(column, row)) return layout_.thickness;
     if (!corners_.empty()) return corner(half.x < 0 ? column : column + 1, half.y < 0 ? row + 1 : row);
-    const Facet& facet = solid_.facets[static_cast<std::size_t>(row * nx_ + column)];
+    const Facet& facet = solid_.facets[index_at(column, row, nx_)];
     return facet.height + glm::dot(facet.gradient, half);
   }
 
-  double corner(int a, int b) const { return corners_[static_cast<std::size_t>(b * (nx_ + 1) + a)]; }
+  double corner(int a, int b) const { return corners_[index_at(a, b, nx_ + 1)]; }
 
   glm::dvec2 place(int a, int b) const
   {
@@ -76,7 +76,7 @@ private:
     return {a * facet.x - layout_.size.x / 2, layout_.size.y / 2 - b * facet.y};
   }
 
-  const Post& post(int a, int b) const { return posts_[static_cast<std::size_t>(b * (nx_ + 1) + a)]; }
+  const Post& post(int a, int b) const { return posts_[index_at(a, b, nx_ + 1)]; }
 
   void make_posts()
   {
@@ -181,14 +181,14 @@ private:
       if (vertex) ring.push_back(vertex->id);
     };
     corner(column, row, 3);
-    crossing(across_[static_cast<std::size_t>(row * nx_ + column)]);
+    crossing(across_[index_at(column, row, nx_)]);
     corner(column + 1, row, 2);
-    crossing(down_[static_cast<std::size_t>(row * (nx_ + 1) + column + 1)]);
+    crossing(down_[index_at(column + 1, row, nx_ + 1)]);
     corner(column + 1, row + 1, 1);
-    crossing(across_[static_cast<std::size_t>((row + 1) * nx_ + column)]);
+    crossing(across_[index_at(column, row + 1, nx_)]);
     corner(column, row + 1, 0);
-    crossing(down_[static_cast<std::size_t>(row * (nx_ + 1) + column)]);
-    const auto facet = static_cast<std::size_t>(row * nx_ + column);
+    crossing(down_[index_at(column, row, nx_ + 1)]);
+    const auto facet = index_at(column, row, nx_);
     fan(glm::dvec3(layout_.middle(facet), solid_.facets[facet].height), ring, Part::facet);
   }
 

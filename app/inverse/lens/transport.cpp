@@ -111,7 +111,8 @@ Grid pushed(const Grid& from, const Grid& potential, double cell)
         const int samples = std::clamp(static_cast<int>(std::ceil(2 * (1 + std::max(wide.x, wide.y)))), 2, most_samples);
         const double light = from(y, x) / (samples * samples);
         for (int k = 0; k < samples * samples; ++k) {
-          const glm::dvec2 at{(k % samples + 0.5) / samples, (k / samples + 0.5) / samples}; // NOLINT(bugprone-integer-division)
+          const int column = k % samples, row = k / samples;
+          const glm::dvec2 at{(column + 0.5) / samples, (row + 0.5) / samples};
           const glm::dvec2 goes = glm::mix(glm::mix(way[0][0], way[0][1], at.x), glm::mix(way[1][0], way[1][1], at.x), at.y);
           deposit(into, glm::dvec2(x, y) + at - goes, light);
         }

@@ -4,7 +4,7 @@
 // design").
 #pragma once
 #include "base/bytes.h"
-#include "inverse/lens/poisson.h"
+#include "inverse/poisson.h"
 
 #include <glm/glm.hpp>
 

@@ -30,7 +30,8 @@ Target draw(const Layout& layout, const F& brightness_at)
     for (int x = 0; x < layout.cells.x; ++x) {
       double sum = 0;
       for (int i = 0; i < samples * samples; ++i) {
-        const double across = x + (i % samples + 0.5) / samples, down = y + (i / samples + 0.5) / samples;
+        const int column = i % samples, row = i / samples;
+        const double across = x + (column + 0.5) / samples, down = y + (row + 0.5) / samples;
         sum += brightness_at(glm::dvec2(across * cell.x - half.x, half.y - down * cell.y));
       }
       target.push_back(sum / (samples * samples));

@@ -37,7 +37,8 @@ std::vector<Source> sources(int cells, double scale, double shift)
 glm::dvec2 middle_of_cell(const Layout& layout, std::size_t cell)
 {
   const auto columns = static_cast<std::size_t>(layout.cells.x);
-  const glm::dvec2 at(static_cast<double>(cell % columns) + 0.5, static_cast<double>(cell / columns) + 0.5);
+  const std::size_t column = cell % columns, row = cell / columns;
+  const glm::dvec2 at(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   return {at.x * layout.cell().x - layout.receiver.x / 2, layout.receiver.y / 2 - at.y * layout.cell().y};
 }
 

@@ -25,7 +25,7 @@ public:
   /// cost: at the knobs' starts.
   Annealer(std::vector<Knob> knobs, const Cooling& cooling, double cost);
 
-  bool finished() const { return done_ >= cooling_.cycles * cooling_.moves; }
+  bool finished() const { return done_ >= std::int64_t{cooling_.cycles} * cooling_.moves; }
   double temperature() const; ///< of the move in hand
   /// All knobs moved at once. The same random numbers propose the same.
   const std::vector<double>& propose(std::mt19937_64 random);

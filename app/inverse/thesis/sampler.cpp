@@ -38,8 +38,8 @@ Sampler::Sampler(const Layout& layout, const std::vector<Aim>& aims, const Thesi
         lit_rows(static_cast<std::size_t>(rows), aim.beside > 0);
     for (int y = 1; y <= layout.cells.y; ++y)
       for (int x = 1; x <= layout.cells.x; ++x) {
-        const double value = aim.picture[static_cast<std::size_t>((y - 1) * layout.cells.x + x - 1)];
-        padded[static_cast<std::size_t>(y * columns + x)] = value;
+        const double value = aim.picture[index_at(x - 1, y - 1, layout.cells.x)];
+        padded[index_at(x, y, columns)] = value;
         if (value <= 0) continue;
         lit_columns[static_cast<std::size_t>(x)] = 1;
         lit_rows[static_cast<std::size_t>(y)] = 1;
@@ -88,7 +88,7 @@ double Sampler::product(const Lattice& lattice, std::size_t column, std::size_t 
   if (!reachable({lattice.x.slopes[column], lattice.y.slopes[row]}, layout_.n, lattice.sines, layout_.steepest)) return 0;
   double product = 1;
   for (std::size_t j = 0; j < padded_.size(); ++j)
-    product *= padded_[j][static_cast<std::size_t>(lattice.y.cells[j][row] * (layout_.cells.x + 2) + lattice.x.cells[j][column])];
+    product *= padded_[j][index_at(lattice.x.cells[j][column], lattice.y.cells[j][row], layout_.cells.x + 2)];
   return product;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/lens/poisson.h"
+#include "inverse/poisson.h"
 
 #include <glm/gtc/constants.hpp>
 
