@@ -2,6 +2,7 @@
 // Every shipped preset as the parameter of a test.
 #pragma once
 #include "preset/read.h"
+#include "preset/settings_type.h"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +13,12 @@
 
 namespace nephroid::test {
 
-inline std::vector<std::string> shipped_names()
+/// Of one engine's.
+inline std::vector<std::string> shipped_names(const std::string& engine)
 {
   std::vector<std::string> names;
-  for (const preset::ShippedPreset& shipped : preset::shipped_presets()) names.push_back(shipped.name);
+  for (const preset::ShippedPreset& shipped : preset::shipped_presets())
+    if (preset::read_presets(shipped.name).front().settings.type().name == engine) names.push_back(shipped.name);
   return names;
 }
 

@@ -71,6 +71,11 @@ protected:
     for (int i = 0; i < 100 && text() != before; ++i) undo();
     ASSERT_EQ(text(), before);
   }
+  bool is_engine(const std::string& name) const
+  {
+    const Json& words = schema["properties"]["engine"]["oneOf"];
+    return std::any_of(words.begin(), words.end(), [&](const Json& word) { return word["const"] == name; });
+  }
   /// null where there is none: settings that are not given.
   Json drafted(const std::string& pointer) const { return panel().draft().value().value(Json::json_pointer(pointer), Json()); }
   static std::set<std::string> differences(const std::string& before, const std::string& after)
@@ -136,7 +141,8 @@ protected:
         EXPECT_EQ(text(), before) << "the run's preset is as it was";
       restore(before);
     }
-    EXPECT_TRUE(once) << "none of its other values was taken";
+    // Another engine wants another scene: its choice waits until that is there.
+    EXPECT_NE(once, pointer == "/engine") << "none of its other values was taken";
   }
   /// A plain value, or each of the numbers in a list or table, which is given items first.
   void edit_leaf(const Json& node, const std::string& pointer, const std::string& owner)
@@ -174,6 +180,7 @@ protected:
     for (const auto& [name, property] : properties.items()) {
       if (HasFatalFailure()) return;
       if (pointer.empty() && !panel().draft().value().contains(name)) continue; // of the file, not of the preset
+      if (is_engine(name) && name != drafted("/engine")) continue;              // a reference has settings of its run's engine
       visit(property, child_of(pointer, name), owner, owner + "." + name);
     }
   }
@@ -238,6 +245,9 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
   const std::string before = text();
   visit_properties(schema["properties"], "", "Preset");
   EXPECT_EQ(text(), before);
+  if (HasFatalFailure()) return;
+  open(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {"facets": [8, 8]}})");
+  visit(schema["properties"]["inverse"], "/inverse", "Preset", "Preset.inverse");
   EXPECT_EQ(edited, leaves());
   EXPECT_TRUE(workbench.messages().empty());
   RecordProperty("fields", static_cast<int>(edited.size()));
