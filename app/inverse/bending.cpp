@@ -42,6 +42,8 @@ glm::dvec2 facet_slope(const glm::dvec2& gradient, double n)
   return gradient / steepness * (n > 1 ? -slope : slope);
 }
 
+glm::dvec2 flat_slope(const glm::dvec2& sines) { return sines / std::sqrt(1 - glm::dot(sines, sines)); }
+
 bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
 {
   const double n2 = n > 1 ? n * n : 1 / (n * n), most2 = usable_part * usable_part * (n2 - 1); // of usable_slope, squared
@@ -59,7 +61,7 @@ bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, doubl
 glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
 {
   if (reachable(slope, n, sines, steepest)) return slope;
-  glm::dvec2 good = sines / std::sqrt(1 - glm::dot(sines, sines)), bad = slope;
+  glm::dvec2 good = flat_slope(sines), bad = slope;
   for (int i = 0; i < 50; ++i) {
     const glm::dvec2 middle = (good + bad) / 2.0;
     (reachable(middle, n, sines, steepest) ? good : bad) = middle;

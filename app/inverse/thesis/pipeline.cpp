@@ -50,7 +50,7 @@ Pipeline::Pipeline(const Layout& layout, const std::vector<Target>& targets, con
   if (settings_.adjust == Thesis::Adjust::each)
     for (std::size_t j = 0; j < targets.size(); ++j) sizes_.insert(sizes_.end(), {1, 0, 0, 1});
   adjust(sizes_);
-  keep({{}, std::vector<glm::dvec2>(layout.facet_count()), 0}, 1);
+  keep({{}, flat_slopes(layout), 0}, 1);
   begin_trial();
 }
 
