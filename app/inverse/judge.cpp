@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "inverse/bending.h"
 #include "inverse/light.h"
+#include "inverse/uniform.h"
 #include "optics/fresnel.h"
 #include "scene/ray.h"
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <span>
 
@@ -24,8 +26,6 @@ constexpr int rows_at_a_time = 2;
 /// Rays along one side of a facet: about a million in all, and so many a facet that a cell's light is known to a few percent, since the
 /// brightest cell scales the cost.
 int rays_along(const Layout& layout) { return std::clamp(1024 / std::max(layout.facets.x, layout.facets.y), 6, 64); }
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 /// Two independent normal numbers of two of 0..1 (Box and Muller 1958).
 glm::dvec2 normal_pair(double u, double v)

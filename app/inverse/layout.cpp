@@ -131,7 +131,8 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own)
   const bool too_shallow = l.band < needed;
   const char* const field = !too_shallow                                        ? "max_slope_deg"
                             : s.max_relief_mm && *s.max_relief_mm / 2 <= l.band ? "max_relief_mm"
-                                                                                : "min_thickness_mm";
+                            : s.min_thickness_mm                                ? "min_thickness_mm"
+                                                                                : "heights";
   const double least = glm::degrees(std::atan(glm::length(facet_gradient({slope, 0}, l.n))));
   throw bad_input(own / field,
                   fmt::format("lets facets of {:.4g} x {:.4g} mm move light by {:.3g} mm over {} mm, less than a cell of {:.3g} mm",

@@ -78,14 +78,14 @@ void Assignment::put_all()
 }
 
 /// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all cells.
-double Assignment::smoothing() const
+double Assignment::smoothing_weight() const
 {
   return layout_.smoothing * static_cast<double>(layout_.cell_count() * light_.size()) / static_cast<double>(slopes_.size());
 }
 
 glm::dvec3 Assignment::pull_on(std::size_t facet) const
 {
-  return layout_.smoothing > 0 ? smoothing() * pull(layout_, slopes_, facet) : glm::dvec3(0);
+  return layout_.smoothing > 0 ? smoothing_weight() * pull(layout_, slopes_, facet) : glm::dvec3(0);
 }
 
 /// What the sum would change by with the facet there too.
@@ -167,7 +167,7 @@ void Assignment::advance()
 
 double Assignment::residual() const
 {
-  const double rough = layout_.smoothing > 0 ? smoothing() * static_cast<double>(slopes_.size()) * roughness(layout_, slopes_) : 0;
+  const double rough = layout_.smoothing > 0 ? smoothing_weight() * static_cast<double>(slopes_.size()) * roughness(layout_, slopes_) : 0;
   return weighted_squares(targets_, weights_, light_, slopes_.size()) + rough;
 }
 

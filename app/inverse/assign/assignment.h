@@ -51,7 +51,7 @@ private:
   void put(std::size_t facet, double sign);
   void put_all();
   void refine();
-  double smoothing() const;
+  double smoothing_weight() const;
   glm::dvec3 pull_on(std::size_t facet) const;
   double gain(std::size_t facet, const glm::dvec2& slope) const;
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
