@@ -34,6 +34,8 @@ double slope_behind(double tilt_radians, double n)
 
 glm::dvec3 light_inside(const glm::dvec2& sines, double n) { return {sines, -std::sqrt(n * n - glm::dot(sines, sines))}; }
 
+glm::dvec2 slope_inside(const glm::dvec2& sines, double n) { return sines / -light_inside(sines, n).z; }
+
 glm::dvec2 facet_slope(const glm::dvec2& gradient, double n)
 {
   const double steepness = glm::length(gradient);

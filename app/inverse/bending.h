@@ -32,6 +32,9 @@ double slope_behind(double tilt_radians, double n);
 /// Light inside the object: n times its unit direction. |sines| < min(1, n).
 glm::dvec3 light_inside(const glm::dvec2& sines, double n);
 
+/// Its slope there.
+glm::dvec2 slope_inside(const glm::dvec2& sines, double n);
+
 inline constexpr double any_steepness = std::numeric_limits<double>::infinity();
 
 /// The slope behind a flat facet: light goes on as before the front.

@@ -82,7 +82,7 @@ double worst_shadow(const Layout& layout)
     const glm::dvec2 straight = middle + flat_slope(sines) * layout.distances.back();
     const glm::dvec2 slope = (glm::clamp(straight, -layout.receiver / 2.0, layout.receiver / 2.0) - middle) / layout.distances.back();
     if (!reachable(slope, layout.n, sines)) return std::numeric_limits<double>::infinity();
-    worst = std::max(worst, glm::dot(sines / -light_inside(sines, layout.n).z, facet_gradient(slope, layout.n, sines)));
+    worst = std::max(worst, glm::dot(slope_inside(sines, layout.n), facet_gradient(slope, layout.n, sines)));
   }
   return worst;
 }

@@ -176,13 +176,7 @@ double Assignment::part() const
   return refinement_ ? refinement_->part() : static_cast<double>(next_) / static_cast<double>(slopes_.size());
 }
 
-std::vector<Cost> Assignment::costs() const
-{
-  std::vector<Cost> costs;
-  const double all = light_sent(layout_, slopes_);
-  for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets_[j], light_[j], all));
-  return costs;
-}
+std::vector<Cost> Assignment::costs() const { return costs_of(targets_, light_, light_sent(layout_, slopes_)); }
 
 void Assignment::save(ByteSink& to) const
 {

@@ -81,7 +81,7 @@ std::vector<Lack> SlopeSearch::lacks(const std::vector<Target>& targets, const s
     Lack lack{rim, width, std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(cells.y + 2 * rim))};
     for (int y = 0; y < cells.y; ++y)
       for (int x = 0; x < cells.x; ++x) {
-        const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(x);
+        const std::size_t cell = index_at(x, y, cells.x);
         const double over = light[j][cell] - static_cast<double>(layout_.facet_count()) * targets[j][cell];
         lack.values[index_at(x + rim, y + rim, width)] = static_cast<float>(2 * weights_[j] * over);
       }
