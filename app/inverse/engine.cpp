@@ -63,6 +63,7 @@ InversePlan make_plan(const preset::Preset& preset)
   const Layout& l = plan.layout;
   plan.engine = "inverse";
   plan.layers = 1;
+  plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
   plan.passes = passes_of(settings(preset), l);
   plan.buffers = {{"light on the facets (host)", sizeof(Incoming) * l.incoming.size(), true},
                   {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
