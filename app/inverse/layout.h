@@ -83,7 +83,8 @@ struct Layout {
 /// A receiver's wanted light: a value a cell, row 0 at the top, which sum to 1.
 using Target = std::vector<double>;
 
-/// Reads the index. Throws bad_input where that cannot be read or is 1, and where facets would reach the front or the nearest receiver.
+/// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no picture, and where facets
+/// would reach the front or the nearest receiver.
 Layout make_layout(const preset::Preset& preset);
 
 /// A lattice of facets that speaks for all: every one up to so many a side.

@@ -17,8 +17,6 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Facets that look for their slopes at once. More leave each other's choice out; fewer keep threads waiting.
-constexpr std::size_t batch = 16;
 /// A sweep that lowers the sum of squares by less than this part of it is the last.
 constexpr double worth_a_sweep = 0.01;
 

@@ -21,6 +21,9 @@ namespace nephroid::inverse {
 /// which knows no smoothing and is left out where there is some. Free heights follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
+  /// Facets that look for their slopes at once. More leave each other's choice out; fewer keep threads waiting.
+  static constexpr std::size_t batch = 16;
+
   /// The layout and the targets outlive it. Facets begin with random slopes.
   Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
 

@@ -17,8 +17,9 @@ double half_square(double t) { return t > 0 ? t * t / 2 : 0; }
 std::vector<double> parts(const Beam& beam, int cells, int& first)
 {
   const double reach = (beam.width + beam.blur) / 2;
-  first = std::clamp(static_cast<int>(std::floor(beam.middle - reach)), 0, cells);
-  const int last = std::clamp(static_cast<int>(std::ceil(beam.middle + reach)), first, cells);
+  const double end = cells; // far off no int would hold the cell
+  first = static_cast<int>(std::clamp(std::floor(beam.middle - reach), 0.0, end));
+  const int last = static_cast<int>(std::clamp(std::ceil(beam.middle + reach), static_cast<double>(first), end));
   std::vector<double> all;
   double before = part_before(beam, first);
   for (int i = first; i < last; ++i) {
