@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs engine 3's presets and prints the tables of docs/inverse.md.
+
+    tests/experiments/inverse.py PROGRAM OUT [EXPERIMENT...]
+
+Runs of one table follow each other, so that their seconds can be compared.
+"""
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+SETS = ["words", "shapes", "bars", "star", "faces", "qr"]
+LIGHTS = ["point", "tilted", "sun", "wide", "dispersion", "lens"]
+
+
+class Experiments:
+    def __init__(self, program, out):
+        self.program, self.out = program, Path(out)
+
+    def run(self, preset, *sets, passes=None, seconds=None):
+        """One run; returns its run.json, with the seconds of its slopes and of its judge, and its history of costs."""
+        folder = self.out / "-".join([preset, *sets, str(passes or ""), str(seconds or "")]).replace("/", "_")
+        command = [self.program, "run", f"inverse/{preset}", "-o", str(folder)]
+        for value in sets:
+            command += ["--set", f"inverse.{value}"]
+        if passes:
+            command += ["--passes", str(passes)]
+        if seconds:
+            command += ["--seconds", str(seconds)]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        result = json.loads((folder / "run.json").read_text())
+        with (folder / "cost.csv").open() as file:
+            result["history"] = list(csv.DictReader(file))
+        return result
+
+    @staticmethod
+    def row(name, r):
+        judged, believed, phases = r["judged"], r["believed"], r["phase_seconds"]
+        count = sum(key.startswith("cost_") and key != "cost_all" for key in judged)
+        each = ", ".join(f"{judged[f'cost_{j + 1}']:.3f}" for j in range(count))
+        light = r["light"]
+        print(f"| {name} | {judged['cost']:.3f} | {believed['cost']:.3f} | {each} | {judged['rel_l2']:.3f} | {judged['missed']:.3f} | "
+              f"{light['reflected']:.3f} | {light['by_walls']:.4f} | {phases['slopes']:.1f} + {phases['judge']:.1f} |")
+
+    def table(self, names):
+        print("| preset | judged cost | believed | each picture | rel_l2 | missed | reflected | by walls | seconds: slopes + judge |\n" + "|---" * 9 + "|")
+        for name in names:
+            self.row(f"`{name}`", self.run(name))
+
+    def sets(self):
+        self.table(SETS)
+
+    def lights(self):
+        self.table(LIGHTS)
+
+    def seeds(self):
+        """How close several starts come to each other."""
+        for name in SETS[1:4]:
+            folder = [self.out / f"{name}-seed{seed}" for seed in (1, 2, 3)]
+            for seed, f in enumerate(folder):
+                subprocess.run([self.program, "run", f"inverse/{name}", "-o", str(f), "--seed", str(seed + 1)], check=True,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            print(name, *(f"{json.loads((f / 'run.json').read_text())['judged']['cost']:.4f}" for f in folder))
+
+    def relief(self):
+        print("| heights | max_relief_mm | judged cost | relief mm | walls mm^2 | light by walls |\n" + "|---" * 6 + "|")
+        for heights, limit in [("flat", None), ("flat", 0.7), ("flat", 0.6), ("flat", 0.5), ("flat", 0.4), ("free", 1), ("free", 2), ("free", 5),
+                               ("free", 10), ("free", None)]:
+            sets = [f"heights={heights}"] + ([f"max_relief_mm={limit}"] if limit else [])
+            r = self.run("shapes", *sets)
+            o = r["object"]
+            print(f"| {heights} | {limit or '-'} | {r['judged']['cost']:.4f} | {o['relief_mm']:.2f} | {o['wall_area_mm2']:.0f} | "
+                  f"{r['light']['by_walls']:.4f} |")
+
+    def smoothing(self):
+        print("| smoothing_normals | judged cost | relief mm | walls mm^2 | with free heights: judged | walls mm^2 |\n" + "|---" * 6 + "|")
+        for weight in [0, 0.01, 0.1, 0.3, 1]:
+            r, free = self.run("shapes", f"smoothing_normals={weight}"), self.run("shapes", f"smoothing_normals={weight}", "heights=free")
+            print(f"| {weight} | {r['judged']['cost']:.4f} | {r['object']['relief_mm']:.2f} | {r['object']['wall_area_mm2']:.0f} | "
+                  f"{free['judged']['cost']:.4f} | {free['object']['wall_area_mm2']:.0f} |")
+
+    def speed(self):
+        """Judged cost after so many seconds of assigning."""
+        for seconds in (1, 2, 5, 10, 60):
+            r = self.run("shapes", seconds=seconds)
+            print(f"{seconds} s: judged {r['judged']['cost']:.4f}, {r['phase_seconds']['slopes']:.1f} + {r['phase_seconds']['judge']:.1f} s, {r['steps']} sweeps")
+        r = self.run("shapes", "facets=[512,512]", "cells=[256,256]", passes=4)
+        print(f"512: judged {r['judged']['cost']:.4f}, believed {r['believed']['cost']:.4f}, {r['phase_seconds']}")
+
+    def thesis(self):
+        """Both methods on one set: when does `assign` reach what the thesis' pipeline ends with?"""
+        for name in SETS[1:4]:
+            thesis, assign = self.run(name, "method=thesis", passes=251), self.run(name)
+            t, goal = thesis["phase_seconds"]["slopes"], thesis["believed"]
+            print(f"{name}: thesis {t:.1f} s, judged cost {thesis['judged']['cost']:.3f}, rel_l2 {thesis['judged']['rel_l2']:.3f}; "
+                  f"assign {assign['phase_seconds']['slopes']:.1f} s, {assign['judged']['cost']:.3f}, {assign['judged']['rel_l2']:.3f}")
+            print("  ", {k: round(v, 4) for k, v in thesis["thesis"].items()})
+            for metric in ("cost", "rel_l2"):
+                first = next((h for h in assign["history"] if float(h[metric]) <= goal[metric]), None)
+                if first:
+                    print(f"   believed {metric} {goal[metric]:.3f}: reached by assign within {float(first['seconds']):.2f} s (row {first['sweep']})")
+
+
+def main():
+    program, out, *names = sys.argv[1:]
+    experiments = Experiments(program, out)
+    for name in names or ["sets", "lights", "seeds", "relief", "smoothing", "speed", "thesis"]:
+        print(f"\n## {name}\n", flush=True)
+        getattr(experiments, name)()
+
+
+if __name__ == "__main__":
+    main()
