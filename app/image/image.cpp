@@ -139,10 +139,6 @@ Layout layout_of(const Image& picture, const std::string& name)
   throw bad_input(name, fmt::format("has the channels {}", fmt::join(channels, ", ")), "expected R, G, B or Y alone");
 }
 
-} // namespace
-
-namespace {
-
 /// What the module hands over, as a copy of our own; to: an Image.
 void take_picture(void* to, const NephroidPicture* picture)
 {

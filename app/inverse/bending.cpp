@@ -34,6 +34,8 @@ double slope_behind(double tilt_radians, double n)
 
 glm::dvec3 light_inside(const glm::dvec2& sines, double n) { return {sines, -std::sqrt(n * n - glm::dot(sines, sines))}; }
 
+glm::dvec2 slope_inside(const glm::dvec2& sines, double n) { return sines / -light_inside(sines, n).z; }
+
 glm::dvec2 facet_slope(const glm::dvec2& gradient, double n)
 {
   const double steepness = glm::length(gradient);
@@ -41,6 +43,8 @@ glm::dvec2 facet_slope(const glm::dvec2& gradient, double n)
   const double slope = std::min(slope_behind(std::atan(steepness), n), slope_limit(n));
   return gradient / steepness * (n > 1 ? -slope : slope);
 }
+
+glm::dvec2 flat_slope(const glm::dvec2& sines) { return sines / std::sqrt(1 - glm::dot(sines, sines)); }
 
 bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
 {
@@ -59,7 +63,7 @@ bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, doubl
 glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
 {
   if (reachable(slope, n, sines, steepest)) return slope;
-  glm::dvec2 good = sines / std::sqrt(1 - glm::dot(sines, sines)), bad = slope;
+  glm::dvec2 good = flat_slope(sines), bad = slope;
   for (int i = 0; i < 50; ++i) {
     const glm::dvec2 middle = (good + bad) / 2.0;
     (reachable(middle, n, sines, steepest) ? good : bad) = middle;

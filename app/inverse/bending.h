@@ -32,11 +32,17 @@ double slope_behind(double tilt_radians, double n);
 /// Light inside the object: n times its unit direction. |sines| < min(1, n).
 glm::dvec3 light_inside(const glm::dvec2& sines, double n);
 
+/// Its slope there.
+glm::dvec2 slope_inside(const glm::dvec2& sines, double n);
+
 inline constexpr double any_steepness = std::numeric_limits<double>::infinity();
+
+/// The slope behind a flat facet: light goes on as before the front.
+glm::dvec2 flat_slope(const glm::dvec2& sines);
 
 /// Whether the deviation from that light to a slope outside is no more than usable_slope(n), and the facet's gradient than `steepest`.
 bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {}, double steepest = any_steepness);
-/// The slope itself where it is reachable; else where the way to it from that of a flat facet ends to be so.
+/// The slope itself where it is reachable; else the last on the way to it from flat_slope() that is.
 glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines = {}, double steepest = any_steepness);
 
 /// dz/dx and dz/dy of the facet that gives light this slope, which is reachable. Its normal is along k - (slope, -1) / sqrt(1 + slope^2), k

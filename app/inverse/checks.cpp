@@ -4,6 +4,7 @@
 #include "inverse/engine.h"
 #include "inverse/facets/solid.h"
 #include "inverse/judge.h"
+#include "inverse/uniform.h"
 
 #include <algorithm>
 #include <random>
@@ -21,8 +22,8 @@ check::Result one_facet(const compute::Context&, std::uint64_t seed)
     layout.size = {1, 1};
     layout.facets = {1, 1};
     layout.distances = {100};
-    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
-    const glm::dvec2 slope(uniform(), uniform()), at = 0.8 * glm::dvec2(uniform(), uniform());
+    const auto about_0 = [&] { return uniform(random) - 0.5; };
+    const glm::dvec2 slope(about_0(), about_0()), at = 0.8 * glm::dvec2(about_0(), about_0());
     const Solid solid = make_solid(layout, {slope});
     const WayOut way = follow(solid, scene::build_bvh(solid.mesh), layout.n, {at, layout.thickness + 1}, {0, 0, -1});
     const double z = glm::dot(facet_gradient(slope, layout.n), at), distance = layout.distances[0];

@@ -2,7 +2,9 @@
 #include "inverse/engine.h"
 
 #include "base/counted.h"
+#include "inverse/assign/assignment.h"
 #include "inverse/bending.h"
+#include "inverse/describe_settings.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
 
@@ -19,21 +21,22 @@ constexpr std::uint64_t solid_bytes = 3000;
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
 {
   const bool blurred = l.sun_radius > 0 || l.scatter > 0 || !l.indices.empty(), straight = l.incoming.empty();
-  const bool assign = s.method == Settings::Method::assign;
+  const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
+             lens = s.method == Settings::Method::lens;
   const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
                                        counted(l.distances.size(), "receiver"), usable_slope(l));
-  const std::string not_asked = "inverse.method is 'assign'";
-  const bool anneals = !assign && s.thesis.cycles > 0, corrects = !assign && s.thesis.corrections > 0;
-  return {{"assign", assign, assign ? what : "inverse.method is 'thesis'"},
-          {"sampling", !assign, assign ? not_asked : what},
+  const std::string chosen = fmt::format("inverse.method is '{}'", preset::word(s.method));
+  const bool anneals = thesis && s.thesis.cycles > 0, corrects = thesis && s.thesis.corrections > 0;
+  return {{"assign", assign, assign ? what : chosen},
+          {"sampling", thesis, thesis ? what : chosen},
           {"annealing", anneals,
            anneals  ? "sizes, then extension and overshoot"
-           : assign ? not_asked
-                    : "inverse.thesis.cycles is 0"},
+           : thesis ? "inverse.thesis.cycles is 0"
+                    : chosen},
           {"correction", corrects,
            corrects ? "of intensities, cell by cell"
-           : assign ? not_asked
-                    : "inverse.thesis.corrections is 0"},
+           : thesis ? "inverse.thesis.corrections is 0"
+                    : chosen},
           {"blur", blurred,
            blurred ? "the sun's disc, a rough surface or dispersion, in every footprint"
                    : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
@@ -42,7 +45,10 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
            : l.smoothing > 0 ? "facets unlike their neighbours cost something"
                              : "inverse.smoothing_normals is 0: no term"},
           {"heights", l.free_heights,
-           l.free_heights ? "facets move along z to where their walls are lowest" : "inverse.heights is flat: nothing is solved"},
+           l.free_heights ? "facets move along z to where their walls are lowest"
+           : lens         ? "a smooth surface has no walls"
+                          : "inverse.heights is flat: nothing is solved"},
+          {"transport", lens, lens ? what : chosen},
           {"incoming", !straight,
            straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
           {"judge", true, "rays through the finished solid, walls and all"}};
@@ -58,9 +64,12 @@ InversePlan make_plan(const preset::Preset& preset)
   const Layout& l = plan.layout;
   plan.engine = "inverse";
   plan.layers = 1;
+  plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
   plan.passes = passes_of(settings(preset), l);
   plan.buffers = {{"light on the facets (host)", sizeof(Incoming) * l.incoming.size(), true},
                   {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
+                  {"what the pictures lack, for each of a batch (host)",
+                   settings(preset).method == Settings::Method::assign ? (1 + Assignment::batch) * lack_bytes(l) : 0, true},
                   {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},
                   {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/glass_view.h"
 
+#include "inverse/light.h"
 #include "preset/read.h"
 
 #include <fmt/format.h>
@@ -98,10 +99,11 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   double brightest = 0; // over light that is spread evenly
   for (const Target& target : targets) brightest = std::max(brightest, *std::max_element(target.begin(), target.end()));
   brightest *= static_cast<double>(layout.cell_count());
+  const glm::dvec3 falls = light_ray(layout, {0, 0, layout.thickness}).direction;
   preset::Preset view; // of the engine that renders: the first
   view.description = name + " as glass over its receivers";
   view.unit = preset::Preset::Unit::mm;
-  view.white = irradiance * luminous_part * reflectance / glm::pi<double>() * brightest;
+  view.white = irradiance * -falls.z * luminous_part * reflectance / glm::pi<double>() * brightest;
   view.stop.seconds = 60;
   preset::Scene& scene = view.scene;
   scene.camera = camera(layout);
@@ -117,7 +119,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   preset::Light sun;
   sun.type = preset::Light::Type::directional;
   sun.irradiance_w_m2 = irradiance;
-  sun.direction = {0, 0, -1};
+  sun.direction = vec(falls);
   scene.lights.push_back(sun);
   scene.environment.emplace(); // what glass reflects
   scene.environment->type = preset::Environment::Type::constant;

@@ -290,8 +290,9 @@ private:
 
   void add_files(job::Snapshot& made) const
   {
+    const auto layout = std::make_shared<const Layout>(layout_); // one for all files: a lamp's has a table of the facets
     const auto add = [&](const char* name, auto write) {
-      made.files.push_back({name, [write, solid = solid_, layout = layout_](ByteSink& to) { write(layout, *solid, to); }});
+      made.files.push_back({name, [write, solid = solid_, layout](ByteSink& to) { write(*layout, *solid, to); }});
     };
     add("object.obj", [](const Layout&, const Solid& solid, ByteSink& to) { write_obj(solid.mesh, to); });
     add("object.stl", [](const Layout&, const Solid& solid, ByteSink& to) { write_stl(solid.mesh, to); });
@@ -301,8 +302,8 @@ private:
     add("heights.png", write_height_png);
     made.files.push_back({"view.json", [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
                                            ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
-    add("workshop.md", [material = material_of(settings(preset_), layout_.n)](const Layout& layout, const Solid& solid, ByteSink& to) {
-      const std::string page = workshop_page(layout, solid, material);
+    add("workshop.md", [material = material_of(settings(preset_), layout_.n)](const Layout& of, const Solid& solid, ByteSink& to) {
+      const std::string page = workshop_page(of, solid, material);
       to.write(std::as_bytes(std::span(page)));
     });
   }

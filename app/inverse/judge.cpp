@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "inverse/bending.h"
 #include "inverse/light.h"
+#include "inverse/uniform.h"
 #include "optics/fresnel.h"
 #include "scene/ray.h"
 
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <random>
 #include <span>
 
@@ -24,8 +27,6 @@ constexpr int rows_at_a_time = 2;
 /// Rays along one side of a facet: about a million in all, and so many a facet that a cell's light is known to a few percent, since the
 /// brightest cell scales the cost.
 int rays_along(const Layout& layout) { return std::clamp(1024 / std::max(layout.facets.x, layout.facets.y), 6, 64); }
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 /// Two independent normal numbers of two of 0..1 (Box and Muller 1958).
 glm::dvec2 normal_pair(double u, double v)
@@ -159,10 +160,8 @@ Judge::Row Judge::trace_row(int row) const
       glm::dvec2 slope = glm::dvec2(way.direction) / -way.direction.z;
       if (layout_.scatter > 0) slope += layout_.scatter * normal_pair(numbers[2], numbers[3]);
       for (std::size_t j = 0; j < light_.size(); ++j) {
-        const glm::dvec2 cell = glm::floor(layout_.in_cells(glm::dvec2(way.from) + slope * (screens_[j] + way.from.z)));
-        if (cell.x < 0 || cell.y < 0 || cell.x >= layout_.cells.x || cell.y >= layout_.cells.y) continue;
-        made.light[j][static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(layout_.cells.x) + static_cast<std::size_t>(cell.x)] +=
-            ray * way.part;
+        const std::optional<std::size_t> cell = layout_.cell_at(glm::dvec2(way.from) + slope * (screens_[j] + way.from.z));
+        if (cell) made.light[j][*cell] += ray * way.part;
       }
     }
   }
@@ -191,12 +190,7 @@ Fates Judge::fates() const
   return {sum_.reflected / all, sum_.lost / all, sum_.sent / all, sum_.by_walls / all};
 }
 
-std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const
-{
-  std::vector<Cost> costs;
-  for (std::size_t j = 0; j < targets.size(); ++j) costs.push_back(cost_of(targets[j], light_[j], sum_.sent));
-  return costs;
-}
+std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const { return costs_of(targets, light_, sum_.sent); }
 
 void Judge::save(ByteSink& to) const
 {

@@ -12,10 +12,10 @@
 
 namespace nephroid::inverse {
 
-/// Where the light goes that falls on the front; all of it sums to 1, at each receiver. By_walls is part of the others.
+/// Where the light goes that falls on the front; reflected, lost and sent sum to 1, for a lamp but for noise.
 struct Fates {
   double reflected = 0; ///< by a surface that lets some of it through, the front first; it is not followed
-  double lost = 0;      ///< on the object's sides, back, or after too many surfaces
+  double lost = 0;      ///< on the object's sides, backwards, or after too many surfaces
   double sent = 0;      ///< forward, to the receivers and beside them
   double by_walls = 0;  ///< of `sent`, what met a wall between facets
 };

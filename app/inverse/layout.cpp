@@ -88,12 +88,9 @@ std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& targ
   std::array<glm::dvec2, 16> to{};
   std::array<double, 16> farthest{};
   farthest.fill(-std::numeric_limits<double>::infinity());
-  const auto columns = static_cast<std::size_t>(layout.cells.x);
   for (std::size_t c = 0; c < target.size(); ++c) {
     if (target[c] <= 0) continue;
-    const std::size_t column = c % columns, row = c / columns;
-    const glm::dvec2 at{(static_cast<double>(column) + 0.5) * layout.cell().x - layout.receiver.x / 2,
-                        layout.receiver.y / 2 - (static_cast<double>(row) + 0.5) * layout.cell().y};
+    const glm::dvec2 at = layout.middle_of_cell(c);
     for (std::size_t side = 0; side < to.size(); ++side) {
       const double angle = glm::pi<double>() * static_cast<double>(side) / 8,
                    far = glm::dot(at, glm::dvec2(std::cos(angle), std::sin(angle)));
@@ -131,7 +128,8 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own)
   const bool too_shallow = l.band < needed;
   const char* const field = !too_shallow                                        ? "max_slope_deg"
                             : s.max_relief_mm && *s.max_relief_mm / 2 <= l.band ? "max_relief_mm"
-                                                                                : "min_thickness_mm";
+                            : s.min_thickness_mm                                ? "min_thickness_mm"
+                                                                                : "heights";
   const double least = glm::degrees(std::atan(glm::length(facet_gradient({slope, 0}, l.n))));
   throw bad_input(own / field,
                   fmt::format("lets facets of {:.4g} x {:.4g} mm move light by {:.3g} mm over {} mm, less than a cell of {:.3g} mm",
@@ -183,6 +181,15 @@ Layout make_layout(const preset::Preset& preset)
   refuse(own / "thickness_mm", l.thickness, "the object holds together");
   refuse(own / "receivers" / 0 / "distance_mm", l.distances.front(), "the receiver is free of the object");
   return l;
+}
+
+std::vector<std::size_t> some_facets(const Layout& layout, int a_side)
+{
+  const glm::ivec2 step = (layout.facets + a_side - 1) / a_side;
+  std::vector<std::size_t> facets;
+  for (int y = step.y / 2; y < layout.facets.y; y += step.y)
+    for (int x = step.x / 2; x < layout.facets.x; x += step.x) facets.push_back(index_at(x, y, layout.facets.x));
+  return facets;
 }
 
 double usable_slope(const Layout& layout) { return std::min(usable_slope(layout.n), slope_behind(std::atan(layout.steepest), layout.n)); }

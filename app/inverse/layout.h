@@ -62,16 +62,33 @@ struct Layout {
     const std::size_t column = i % columns, row = i / columns;
     return {(static_cast<double>(column) + 0.5) * facet().x - size.x / 2, size.y / 2 - (static_cast<double>(row) + 0.5) * facet().y};
   }
+  glm::dvec2 middle_of_cell(std::size_t i) const
+  {
+    const auto columns = static_cast<std::size_t>(cells.x);
+    const glm::dvec2 at(static_cast<double>(i % columns) + 0.5, static_cast<double>(i / columns) + 0.5);
+    return {at.x * cell().x - receiver.x / 2, receiver.y / 2 - at.y * cell().y};
+  }
   glm::dvec2 sines_on(std::size_t facet) const { return incoming.empty() ? glm::dvec2(0) : incoming[facet].sines; }
   /// Of a point of a receiver, in cells from its top left corner.
   glm::dvec2 in_cells(const glm::dvec2& p) const { return {(p.x + receiver.x / 2) / cell().x, (receiver.y / 2 - p.y) / cell().y}; }
+  /// Where a point of a receiver lies; empty: beside it.
+  std::optional<std::size_t> cell_at(const glm::dvec2& p) const
+  {
+    const glm::dvec2 at = in_cells(p);
+    if (!(at.x >= 0 && at.y >= 0 && at.x < cells.x && at.y < cells.y)) return std::nullopt;
+    return index_at(static_cast<int>(at.x), static_cast<int>(at.y), cells.x);
+  }
 };
 
 /// A receiver's wanted light: a value a cell, row 0 at the top, which sum to 1.
 using Target = std::vector<double>;
 
-/// Reads the index. Throws bad_input where that cannot be read or is 1, and where facets would reach the front or the nearest receiver.
+/// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no picture, and where facets
+/// would reach the front or the nearest receiver.
 Layout make_layout(const preset::Preset& preset);
+
+/// A lattice of facets that speaks for all: every one up to so many a side.
+std::vector<std::size_t> some_facets(const Layout& layout, int a_side);
 
 /// The largest slope that facets give the light: what their index lets them, or less where they may not be steeper.
 double usable_slope(const Layout& layout);

@@ -79,10 +79,10 @@ double worst_shadow(const Layout& layout)
   for (int i = 0; i < across * across; ++i) {
     const glm::dvec2 middle = (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
     const glm::dvec2 sines = incoming_at(layout, middle).sines;
-    const glm::dvec2 straight = middle + sines / std::sqrt(1 - glm::dot(sines, sines)) * layout.distances.back();
+    const glm::dvec2 straight = middle + flat_slope(sines) * layout.distances.back();
     const glm::dvec2 slope = (glm::clamp(straight, -layout.receiver / 2.0, layout.receiver / 2.0) - middle) / layout.distances.back();
     if (!reachable(slope, layout.n, sines)) return std::numeric_limits<double>::infinity();
-    worst = std::max(worst, glm::dot(sines / -light_inside(sines, layout.n).z, facet_gradient(slope, layout.n, sines)));
+    worst = std::max(worst, glm::dot(slope_inside(sines, layout.n), facet_gradient(slope, layout.n, sines)));
   }
   return worst;
 }
@@ -112,6 +112,7 @@ Layout with_lamp(Layout layout, double distance, const std::array<double, 2>& of
 
 Layout tilted(const Layout& layout, const Light& light, const Place& where)
 {
+  if (light.tilt_deg == 0) return layout; // light straight on casts no shadow, whatever a facet can do with it
   const double most = glm::degrees(std::asin(std::min(1.0, layout.n)));
   if (std::abs(light.tilt_deg) >= most)
     throw bad_input(where, fmt::format("is {} degrees, and light would not enter through the front", light.tilt_deg),
@@ -169,6 +170,12 @@ void set_light(Layout& layout, const Light& light, const Place& where)
   });
   double sum = 0;
   for (const Incoming& in : layout.incoming) sum += in.power;
+  if (!(sum > 0))
+    throw bad_input(
+        where,
+        fmt::format("comes so much from the side that all of it leaves through a side of an object {:.4g} mm thick", layout.thickness),
+        "expected light that reaches some facet through the front",
+        "choose a smaller thickness_mm, or light that comes more from the front");
   for (Incoming& in : layout.incoming) in.power *= static_cast<double>(layout.facet_count()) / sum;
 }
 

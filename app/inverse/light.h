@@ -8,7 +8,8 @@
 namespace nephroid::inverse {
 
 /// Fills sines, lamp and incoming. Parallel light straight on needs no table of facets. Throws bad_input, naming the tilt or distance that
-/// would do, for light from behind the front, and where facets would stand in each other's light.
+/// would do, for light from behind the front, and where facets would stand in each other's light; also where no light that enters through
+/// the front reaches a facet.
 void set_light(Layout& layout, const Light& light, const Place& where);
 
 /// At a facet's middle. power: over light that falls straight on or, of a lamp, in units of its intensity over a square millimetre.

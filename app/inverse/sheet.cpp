@@ -18,7 +18,7 @@ std::shared_ptr<const job::Picture> grey(std::span<const double> values, double 
   return picture;
 }
 
-/// The pixels from `first` that show `count` cells on `pixels`, by the nearest cell.
+/// Into a rectangle of pixels, each by the cell that it shows.
 void paste(const job::Picture& from, job::Picture& into, int left, int top, int width, int height)
 {
   for (int y = 0; y < height; ++y)

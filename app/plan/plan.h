@@ -40,6 +40,7 @@ struct Plan {
   std::vector<std::string> notes;          ///< what the run should say once: extrapolated data, open meshes
   int layers = 0;                          ///< pictures that the run makes and adds up
   std::uint64_t picture_bytes_a_pixel = 0; ///< on this machine, while a picture is made, beside it
+  std::string smaller = {};                ///< what to choose where the memory is too small for it; empty: a smaller picture
   bool estimates_error = false;            ///< films are kept in two halves, whose difference tells the error
 };
 

@@ -15,8 +15,6 @@
 namespace nephroid::run {
 namespace {
 
-constexpr const char* remedy = "choose a smaller scene.camera.resolution";
-
 /// Of the buffers on the device, or of those on the host.
 std::uint64_t total_bytes(const plan::Plan& plan, bool on_host)
 {
@@ -25,7 +23,10 @@ std::uint64_t total_bytes(const plan::Plan& plan, bool on_host)
       [&](std::uint64_t sum, const plan::PlannedBuffer& buffer) { return sum + (buffer.on_host == on_host ? buffer.bytes : 0); });
 }
 
-Error does_not_fit(const std::string& what, const std::string& there_is) { return failed("memory", what, there_is, remedy); }
+Error does_not_fit(const plan::Plan& plan, const std::string& what, const std::string& there_is)
+{
+  return failed("memory", what, there_is, plan.smaller.empty() ? "choose a smaller scene.camera.resolution" : plan.smaller);
+}
 
 } // namespace
 
@@ -65,15 +66,17 @@ void require_memory(const plan::Plan& plan, int width, int height, const compute
   using plan::readable_bytes;
   const std::uint64_t on_device = total_bytes(plan, false);
   if (on_device > device.memory_bytes)
-    throw does_not_fit(fmt::format("the run needs {} on the device", readable_bytes(on_device)),
+    throw does_not_fit(plan, fmt::format("the run needs {} on the device", readable_bytes(on_device)),
                        fmt::format("{} has {}", device.name, readable_bytes(device.memory_bytes)));
   for (const plan::PlannedBuffer& buffer : plan.buffers)
     if (!buffer.on_host && buffer.bytes > device.max_buffer_bytes)
-      throw does_not_fit(fmt::format("the buffer '{}' needs {}", buffer.name, readable_bytes(buffer.bytes)),
+      throw does_not_fit(plan, fmt::format("the buffer '{}' needs {}", buffer.name, readable_bytes(buffer.bytes)),
                          fmt::format("{} has at most {} for one buffer", device.name, readable_bytes(device.max_buffer_bytes)));
   const std::uint64_t here = total_bytes(plan, true) + (device.type == "cpu" ? on_device : 0);
   if (available && here > *available)
-    throw does_not_fit(fmt::format("a picture of {} x {} pixels needs about {}", width, height, readable_bytes(here)),
+    throw does_not_fit(plan,
+                       plan.smaller.empty() ? fmt::format("a picture of {} x {} pixels needs about {}", width, height, readable_bytes(here))
+                                            : fmt::format("the run needs about {}", readable_bytes(here)),
                        fmt::format("{} of this machine's memory are free", readable_bytes(*available)));
 }
 

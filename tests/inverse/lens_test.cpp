@@ -131,6 +131,30 @@ TEST(Lens, IsRefusedWhereItReachesTheFront)
   EXPECT_THROW(lens.solid(), Error);
 }
 
+TEST(Lens, KeepsAWorkshopsRelief)
+{
+  inverse::Layout layout = object();
+  layout.band = 0.1;
+  const inverse::Target target = disc(layout);
+  inverse::Lens lens(layout, target);
+  for (int i = 0; i < 6; ++i) lens.advance();
+  EXPECT_THROW(lens.solid(), Error);
+}
+
+// Of such an object the grid would have less than a row; and of so fine a picture it has no cell's middle in the only one that is lit.
+TEST(Lens, HasNarrowObjectsAndFinePictures)
+{
+  inverse::Layout layout = object();
+  layout.size = layout.receiver = {600, 0.5};
+  layout.facets = {120, 1};
+  layout.cells = {1000, 2};
+  inverse::Target target(2000);
+  target[500] = 1;
+  inverse::Lens lens(layout, target);
+  for (int i = 0; i < 3; ++i) lens.advance();
+  EXPECT_TRUE(std::isfinite(lens.costs().front().rel_l2));
+}
+
 TEST(FacetSlope, TakesBackFacetGradient)
 {
   for (const double n : {1.5, 2.4, 0.7})

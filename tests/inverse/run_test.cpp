@@ -153,6 +153,10 @@ TEST_F(InverseRun, IsPlannedWithItsReasons)
   const json thesis = json::parse(run({"plan", "inverse/shapes", "--json", "--set", "inverse.method=thesis"}).out);
   EXPECT_EQ(thesis.at("passes").at(0).at("reason"), "inverse.method is 'thesis'");
   for (const std::size_t i : {1u, 2u, 3u}) EXPECT_EQ(thesis.at("passes").at(i).at("runs"), true);
+  const json lens = json::parse(run({"plan", "inverse/lens", "--json"}).out);
+  for (const std::size_t i : {0u, 1u, 2u, 3u}) EXPECT_EQ(lens.at("passes").at(i).at("reason"), "inverse.method is 'lens'");
+  EXPECT_EQ(lens.at("passes").at(7).at("name"), "transport");
+  EXPECT_EQ(lens.at("passes").at(7).at("runs"), true);
   EXPECT_EQ(thesis.at("notes").at(0), "the thesis' pipeline takes up to 251 trials and stops after 12: a 'stop.passes' of 251 lets it end");
 }
 

@@ -86,6 +86,10 @@ TEST_F(InverseSettings, Lights)
               AllOf(HasSubstr("so near"), HasSubstr("expected at least")));
   EXPECT_THAT(refusal({R"(inverse.light={"type": "parallel", "tilt_deg": 120})"}), HasSubstr("would not enter through the front"));
   EXPECT_THAT(refusal({"inverse.band_nm=400"}), AllOf(HasSubstr("the light would have 350 to 750 nm"), HasSubstr("wavelength_nm of 580")));
+  EXPECT_THAT(refusal({"inverse.size_mm=[10, 10]", "inverse.thickness_mm=40", R"(inverse.light={"type": "parallel", "tilt_deg": 30})"}),
+              AllOf(HasSubstr("/inverse/light: comes so much from the side"), HasSubstr("a smaller thickness_mm")));
+  // Straight on it may also be that some facets reach no receiver: others do.
+  EXPECT_NO_THROW(inverse::make_plan(read({"inverse.receiver_mm=[10, 10]", "inverse.receivers.0.distance_mm=30"})));
   const Layout parallel = inverse::make_plan(read()).layout,
                tilted = inverse::make_plan(read({R"(inverse.light={"type": "parallel", "tilt_deg": 10, "turn_deg": 90})"})).layout,
                lamp = inverse::make_plan(read({R"(inverse.light={"type": "point", "distance_mm": 500})"})).layout;

@@ -103,7 +103,9 @@ void AnnealingPanel::draw_histories()
 {
   histories_.clear();
   if (snapshot_)
-    for (const job::Curve& curve : snapshot_->curves) histories_.push_back(history_lines(curve, look_));
+    for (const job::Curve& curve : snapshot_->curves)
+      if (curve.columns.front() == snapshot_->progress.units.step) // others, as the frames' distances, are not of the search
+        histories_.push_back(history_lines(curve, look_));
   const float height = std::max(8 * em(), 0.19f * ImGui::GetWindowHeight());
   if (histories_.empty()) {
     draw_hint(ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, height}, "The search has not begun");

@@ -98,7 +98,7 @@ void draw_beam_cells(const inverse::Footprint& print, const job::Picture& pictur
   const int first_x = std::max(0, static_cast<int>(std::floor(left))), first_y = std::max(0, static_cast<int>(std::floor(top)));
   for (int y = first_y; y < picture.height && corner(0, y).y < high.y; ++y)
     for (int x = first_x; x < picture.width && corner(x, y).x < high.x; ++x) {
-      const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x);
+      const std::size_t index = inverse::index_at(x, y, picture.width);
       const unsigned char grey = shown_byte(picture.rgb[3 * index], 1);
       list.AddRectFilled(corner(x, y), corner(x + 1, y + 1), IM_COL32(grey, grey, grey, 255));
       const int i = x - print.x0, k = y - print.y0;

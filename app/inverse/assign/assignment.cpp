@@ -17,8 +17,6 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Facets that look for their slopes at once. More leave each other's choice out; fewer keep threads waiting.
-constexpr std::size_t batch = 16;
 /// A sweep that lowers the sum of squares by less than this part of it is the last.
 constexpr double worth_a_sweep = 0.01;
 
@@ -78,14 +76,14 @@ void Assignment::put_all()
 }
 
 /// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all cells.
-double Assignment::smoothing() const
+double Assignment::smoothing_weight() const
 {
   return layout_.smoothing * static_cast<double>(layout_.cell_count() * light_.size()) / static_cast<double>(slopes_.size());
 }
 
 glm::dvec3 Assignment::pull_on(std::size_t facet) const
 {
-  return layout_.smoothing > 0 ? smoothing() * pull(layout_, slopes_, facet) : glm::dvec3(0);
+  return layout_.smoothing > 0 ? smoothing_weight() * pull(layout_, slopes_, facet) : glm::dvec3(0);
 }
 
 /// What the sum would change by with the facet there too.
@@ -167,7 +165,7 @@ void Assignment::advance()
 
 double Assignment::residual() const
 {
-  const double rough = layout_.smoothing > 0 ? smoothing() * static_cast<double>(slopes_.size()) * roughness(layout_, slopes_) : 0;
+  const double rough = layout_.smoothing > 0 ? smoothing_weight() * static_cast<double>(slopes_.size()) * roughness(layout_, slopes_) : 0;
   return weighted_squares(targets_, weights_, light_, slopes_.size()) + rough;
 }
 
@@ -176,13 +174,7 @@ double Assignment::part() const
   return refinement_ ? refinement_->part() : static_cast<double>(next_) / static_cast<double>(slopes_.size());
 }
 
-std::vector<Cost> Assignment::costs() const
-{
-  std::vector<Cost> costs;
-  const double all = light_sent(layout_, slopes_);
-  for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets_[j], light_[j], all));
-  return costs;
-}
+std::vector<Cost> Assignment::costs() const { return costs_of(targets_, light_, light_sent(layout_, slopes_)); }
 
 void Assignment::save(ByteSink& to) const
 {

@@ -21,6 +21,9 @@ namespace nephroid::inverse {
 /// which knows no smoothing and is left out where there is some. Free heights follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
+  /// Facets that look for their slopes at once. More leave each other's choice out; fewer keep threads waiting.
+  static constexpr std::size_t batch = 16;
+
   /// The layout and the targets outlive it. Facets begin with random slopes.
   Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
 
@@ -51,7 +54,7 @@ private:
   void put(std::size_t facet, double sign);
   void put_all();
   void refine();
-  double smoothing() const;
+  double smoothing_weight() const;
   glm::dvec3 pull_on(std::size_t facet) const;
   double gain(std::size_t facet, const glm::dvec2& slope) const;
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;

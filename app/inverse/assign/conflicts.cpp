@@ -15,16 +15,6 @@ namespace {
 
 constexpr int facets_a_side = 32;
 
-std::vector<std::size_t> some_facets(const Layout& layout)
-{
-  const glm::ivec2 step = (layout.facets + facets_a_side - 1) / facets_a_side;
-  std::vector<std::size_t> facets;
-  for (int y = step.y / 2; y < layout.facets.y; y += step.y)
-    for (int x = step.x / 2; x < layout.facets.x; x += step.x)
-      facets.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(layout.facets.x) + static_cast<std::size_t>(x));
-  return facets;
-}
-
 } // namespace
 
 ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& targets, const std::vector<glm::dvec2>& slopes,
@@ -88,7 +78,7 @@ Conflicts ConflictSearch::of_pictures() const
     for (std::size_t j = 0; j < count; ++j) found.misplaced[j] += misplaced(i, j) * facet_power(layout_, i, slopes_[i]) / sent;
   if (count == 1) return found;
 
-  const std::vector<std::size_t> facets = some_facets(layout_);
+  const std::vector<std::size_t> facets = some_facets(layout_, facets_a_side);
   std::vector<SlopeSearch> alone; // with that picture only
   std::vector<std::vector<Lack>> lacks;
   for (std::size_t j = 0; j < count; ++j) {

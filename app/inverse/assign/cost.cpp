@@ -30,6 +30,13 @@ Cost cost_of(const Target& t, std::span<const double> z, double sent)
           std::sqrt(l2 / norm), sent > 0 ? 1 - z_sum / sent : 0};
 }
 
+std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light, double sent)
+{
+  std::vector<Cost> costs;
+  for (std::size_t j = 0; j < targets.size(); ++j) costs.push_back(cost_of(targets[j], light[j], sent));
+  return costs;
+}
+
 Cost mean(std::span<const Cost> costs)
 {
   Cost sum;

@@ -4,6 +4,7 @@
 #include "inverse/layout.h"
 
 #include <span>
+#include <vector>
 
 namespace nephroid::inverse {
 
@@ -19,6 +20,9 @@ struct Cost {
 
 /// sent: the light that left the object, in the unit of z.
 Cost cost_of(const Target& t, std::span<const double> z, double sent);
+
+/// Of each target. light: [receiver][cell], and more at its end.
+std::vector<Cost> costs_of(const std::vector<Target>& targets, const std::vector<std::vector<double>>& light, double sent);
 
 /// Each figure's mean.
 Cost mean(std::span<const Cost> costs);

@@ -17,8 +17,9 @@ double half_square(double t) { return t > 0 ? t * t / 2 : 0; }
 std::vector<double> parts(const Beam& beam, int cells, int& first)
 {
   const double reach = (beam.width + beam.blur) / 2;
-  first = std::clamp(static_cast<int>(std::floor(beam.middle - reach)), 0, cells);
-  const int last = std::clamp(static_cast<int>(std::ceil(beam.middle + reach)), first, cells);
+  const double end = cells; // far off no int would hold the cell
+  first = static_cast<int>(std::clamp(std::floor(beam.middle - reach), 0.0, end));
+  const int last = static_cast<int>(std::clamp(std::ceil(beam.middle + reach), static_cast<double>(first), end));
   std::vector<double> all;
   double before = part_before(beam, first);
   for (int i = first; i < last; ++i) {
@@ -76,7 +77,7 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
   LitPart lit;
   glm::dvec2 variance(layout.scatter * layout.scatter); // of the slope, along x and along y
   if (!layout.incoming.empty()) {
-    const glm::dvec2 inside = in.sines / -light_inside(in.sines, layout.n).z;
+    const glm::dvec2 inside = slope_inside(in.sines, layout.n);
     if (!layout.free_heights) lit = lit_part(in, inside, slope, g);
     if (layout.lamp)
       map += distance * slope_change(slope, layout.n, in.sines).by_sines * in.spread * (glm::dmat2(1) + glm::outerProduct(inside, g));
@@ -110,7 +111,7 @@ double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& sl
   const double n = layout.n;
   if (layout.incoming.empty()) return transmitted(slope, n) / transmitted({0, 0}, n);
   const Incoming& in = layout.incoming[facet];
-  const glm::dvec2 g = facet_gradient(slope, n, in.sines), inside = in.sines / -light_inside(in.sines, n).z;
+  const glm::dvec2 g = facet_gradient(slope, n, in.sines), inside = slope_inside(in.sines, n);
   const glm::dvec2 lit = layout.free_heights ? glm::dvec2(1) : lit_part(in, inside, slope, g).size;
   return in.power * (1 + glm::dot(inside, g)) * lit.x * lit.y * transmitted(slope, n, in.sines) / transmitted({0, 0}, n);
 }

@@ -31,9 +31,12 @@ double flat_beam(const Layout& layout, std::size_t receiver, int axis)
 /// How many cells a beam can touch.
 int taps(const Layout& layout, std::size_t receiver, int axis)
 {
-  return 1 + static_cast<int>(
-                 std::ceil((flat_beam(layout, receiver, axis) + blur_width(layout, layout.distances[receiver])) / layout.cell()[axis]));
+  constexpr double most = 1e7; // no memory holds a rim of so many
+  const double wide = flat_beam(layout, receiver, axis) + blur_width(layout, layout.distances[receiver]);
+  return 1 + static_cast<int>(std::min(most, std::ceil(wide / layout.cell()[axis])));
 }
+
+int rim_of(const Layout& layout, std::size_t receiver) { return std::max(taps(layout, receiver, 0), taps(layout, receiver, 1)); }
 
 } // namespace
 
@@ -43,6 +46,16 @@ struct SlopeSearch::Columns {
   std::vector<float> parts;  ///< [tap][point]
   std::vector<float> square; ///< sum of the parts' squares
 };
+
+std::uint64_t lack_bytes(const Layout& layout)
+{
+  std::uint64_t bytes = 0;
+  for (std::size_t j = 0; j < layout.distances.size(); ++j) {
+    const glm::ivec2 wide = layout.cells + 2 * rim_of(layout, j);
+    bytes += sizeof(float) * static_cast<std::uint64_t>(wide.x) * static_cast<std::uint64_t>(wide.y);
+  }
+  return bytes;
+}
 
 std::vector<double> picture_weights(const Layout& layout, const std::vector<Target>& targets)
 {
@@ -77,11 +90,11 @@ std::vector<Lack> SlopeSearch::lacks(const std::vector<Target>& targets, const s
   std::vector<Lack> all;
   const glm::ivec2 cells = layout_.cells;
   for (std::size_t j = 0; j < light.size(); ++j) {
-    const int rim = std::max(taps(layout_, j, 0), taps(layout_, j, 1)), width = cells.x + 2 * rim;
+    const int rim = rim_of(layout_, j), width = cells.x + 2 * rim;
     Lack lack{rim, width, std::vector<float>(static_cast<std::size_t>(width) * static_cast<std::size_t>(cells.y + 2 * rim))};
     for (int y = 0; y < cells.y; ++y)
       for (int x = 0; x < cells.x; ++x) {
-        const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.x) + static_cast<std::size_t>(x);
+        const std::size_t cell = index_at(x, y, cells.x);
         const double over = light[j][cell] - static_cast<double>(layout_.facet_count()) * targets[j][cell];
         lack.values[index_at(x + rim, y + rim, width)] = static_cast<float>(2 * weights_[j] * over);
       }
@@ -98,10 +111,10 @@ double SlopeSearch::point(int i, int axis) const
 
 SlopeSearch::Columns SlopeSearch::columns(std::size_t receiver, double from, double height, int axis) const
 {
-  const int count = taps(layout_, receiver, axis), points = lattice_[axis], cells = layout_.cells[axis],
-            rim = std::max(taps(layout_, receiver, 0), taps(layout_, receiver, 1));
+  const int count = taps(layout_, receiver, axis), points = lattice_[axis], cells = layout_.cells[axis], rim = rim_of(layout_, receiver);
   const double cell = layout_.cell()[axis], way = (layout_.distances[receiver] + height) / (layout_.distances.back() + height);
-  Columns made{std::vector<int>(static_cast<std::size_t>(points)), std::vector<float>(static_cast<std::size_t>(points * count)),
+  Columns made{std::vector<int>(static_cast<std::size_t>(points)),
+               std::vector<float>(static_cast<std::size_t>(points) * static_cast<std::size_t>(count)),
                std::vector<float>(static_cast<std::size_t>(points))};
   Beam beam{0, flat_beam(layout_, receiver, axis) / cell, blur_width(layout_, layout_.distances[receiver]) / cell};
   for (int i = 0; i < points; ++i) {

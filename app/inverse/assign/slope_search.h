@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,6 +18,9 @@ struct Lack {
   int rim = 0, width = 0; ///< cells; width: of a row, both rims included
   std::vector<float> values;
 };
+
+/// Of the lacks of all receivers: where facets are much larger than cells, or blur is, the rims are wider than the receivers.
+std::uint64_t lack_bytes(const Layout& layout);
 
 /// Of each picture's squares: the layout's weights, so that pictures of one weight count alike. Their cost is of light over its maximum,
 /// and a mean over the cells with light in them.

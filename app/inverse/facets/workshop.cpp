@@ -93,8 +93,7 @@ image::Image height_map(const Layout& layout, const Solid& solid)
   const auto from_middle = [&](int i) { return i % across + 0.5 - across / 2.0; };
   for (int y = 0; y < map.height; ++y)
     for (int x = map.width - 1; x >= 0; --x) {
-      const Facet& f = solid.facets[static_cast<std::size_t>(y / across) * static_cast<std::size_t>(layout.facets.x) +
-                                    static_cast<std::size_t>(x / across)];
+      const Facet& f = solid.facets[index_at(x / across, y / across, layout.facets.x)];
       const double z = f.height + glm::dot(f.gradient, glm::dvec2(from_middle(x), -from_middle(y)) * pixel);
       map.data.push_back(static_cast<float>(layout.thickness - z));
     }

@@ -20,45 +20,32 @@ constexpr int rounds = 4;
 
 glm::dvec2 domain_of(const Layout& layout) { return glm::max(layout.size, layout.receiver); }
 
-/// Part of a cell of the grid that a centred rectangle covers, times what `value` has at its middle.
-template <class Value>
-Grid on_grid(const Layout& layout, const glm::dvec2& rectangle, const Value& value)
+/// What a centred rectangle of so many cells brings to each cell of the grid, by the parts in which they overlap.
+Grid on_grid(const Layout& layout, const glm::dvec2& rectangle, const glm::ivec2& cells, const std::vector<double>& values)
 {
   const glm::dvec2 domain = domain_of(layout);
   const double cell = std::max(domain.x, domain.y) / grid_cells(layout);
-  Grid grid(static_cast<Eigen::Index>(std::lround(domain.y / cell)), static_cast<Eigen::Index>(std::lround(domain.x / cell)));
-  const glm::dvec2 step = domain / glm::dvec2(grid.cols(), grid.rows());
-  const auto covered = [&](Eigen::Index i, int axis) {
-    const double low = static_cast<double>(i) * step[axis] - domain[axis] / 2, high = low + step[axis], half = rectangle[axis] / 2;
-    return std::max(0.0, std::min(high, half) - std::max(low, -half)) / step[axis];
+  const auto overlaps = [&](int axis) { // [cell][cell of the grid]: part of the first; x to the right, y down
+    const Eigen::Index count = std::max(2L, std::lround(domain[axis] / cell)); // Transport interpolates between two
+    const double step = domain[axis] / static_cast<double>(count), side = rectangle[axis] / cells[axis],
+                 begin = (domain[axis] - rectangle[axis]) / 2;
+    Grid parts(cells[axis], count);
+    for (int i = 0; i < cells[axis]; ++i)
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const double low = begin + i * side, from = static_cast<double>(k) * step;
+        parts(i, k) = std::max(0.0, std::min(low + side, from + step) - std::max(low, from)) / side;
+      }
+    return parts;
   };
-  for (Eigen::Index y = 0; y < grid.rows(); ++y)
-    for (Eigen::Index x = 0; x < grid.cols(); ++x) {
-      const double part = covered(x, 0) * covered(y, 1);
-      const glm::dvec2 middle{(static_cast<double>(x) + 0.5) * step.x - domain.x / 2,
-                              domain.y / 2 - (static_cast<double>(y) + 0.5) * step.y};
-      grid(y, x) = part > 0 ? part * value(middle) : 0;
-    }
-  return grid;
-}
-
-Grid object_grid(const Layout& layout)
-{
-  return on_grid(layout, layout.size, [](const glm::dvec2&) { return 1.0; });
-}
-
-Grid target_grid(const Layout& layout, const Target& target)
-{
-  return on_grid(layout, layout.receiver, [&](const glm::dvec2& p) {
-    const glm::ivec2 cell = glm::clamp(glm::ivec2(glm::floor(layout.in_cells(p))), glm::ivec2(0), layout.cells - 1);
-    return target[static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(cell.x)];
-  });
+  const Eigen::Map<const Grid> light(values.data(), cells.y, cells.x);
+  return overlaps(1).transpose() * light * overlaps(0);
 }
 
 } // namespace
 
 Lens::Lens(const Layout& layout, const Target& target)
-    : layout_(layout), target_(target), domain_(domain_of(layout)), transport_(object_grid(layout), target_grid(layout, target)),
+    : layout_(layout), target_(target), domain_(domain_of(layout)),
+      transport_(on_grid(layout, layout.size, {1, 1}, {1}), on_grid(layout, layout.receiver, layout.cells, target)),
       heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()), heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)),
       slopes_(layout.facet_count())
 {
@@ -80,7 +67,7 @@ void Lens::make_surface()
   const double distance = layout_.distances.front(), limit = usable_slope(layout_);
   const glm::dvec2 facet = layout_.facet();
   const auto rise = [&](const glm::dvec2& p, double height) {
-    glm::dvec2 slope = (goal(p) - p) / (distance + height);
+    glm::dvec2 slope = (goal(p) - p) / std::max(distance + height, 0.01 * distance); // solid() refuses to be so near
     slope *= std::min(1.0, limit / std::max(glm::length(slope), 1e-300));
     return facet_gradient(slope, layout_.n);
   };
@@ -132,9 +119,17 @@ std::vector<Cost> Lens::costs() const { return {cost_of(target_, light_.front(),
 
 Solid Lens::solid() const
 {
-  if (const double reach = heights_.maxCoeff(); reach >= layout_.thickness)
-    throw bad_input("inverse/thickness_mm", fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", layout_.thickness, reach),
-                    "expected more than that", "choose a larger thickness_mm or a receiver further away");
+  const double reach = heights_.maxCoeff(); // and as far below z = 0
+  const auto refuse = [&](const char* where, double value) {
+    throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach), "expected more than that",
+                    "choose a larger value or a receiver further away");
+  };
+  if (reach >= layout_.thickness) refuse("inverse/thickness_mm", layout_.thickness);
+  if (reach >= layout_.distances.front()) refuse("inverse/receivers/0/distance_mm", layout_.distances.front());
+  if (reach > layout_.band)
+    throw bad_input("inverse", fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
+                    fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),
+                    "loosen them, or choose a receiver further away");
   return make_smooth_solid(layout_, {heights_.data(), heights_.data() + heights_.size()});
 }
 

@@ -173,9 +173,9 @@ glm::dvec2 Transport::map(const glm::dvec2& p) const
 
 void Transport::save(ByteSink& to) const
 {
-  for (const Side& side : {phi_, psi_}) {
-    to.write(std::as_bytes(values(side.potential)));
-    to.value(side.step);
+  for (const Side* const side : {&phi_, &psi_}) {
+    to.write(std::as_bytes(values(side->potential)));
+    to.value(side->step);
   }
   to.value(astray_);
 }

@@ -3,11 +3,11 @@
 
 #include "base/parallel.h"
 #include "inverse/bending.h"
-#include "inverse/light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace nephroid::inverse {
 namespace {
@@ -34,33 +34,6 @@ std::vector<Source> sources(int cells, double scale, double shift)
   return all;
 }
 
-glm::dvec2 middle_of_cell(const Layout& layout, std::size_t cell)
-{
-  const auto columns = static_cast<std::size_t>(layout.cells.x);
-  const std::size_t column = cell % columns, row = cell / columns;
-  const glm::dvec2 at(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
-  return {at.x * layout.cell().x - layout.receiver.x / 2, layout.receiver.y / 2 - at.y * layout.cell().y};
-}
-
-/// nowhere: beside the receiver.
-std::size_t cell_at(const Layout& layout, const glm::dvec2& point)
-{
-  const glm::dvec2 at = layout.in_cells(point);
-  if (at.x < 0 || at.y < 0 || at.x >= layout.cells.x || at.y >= layout.cells.y) return nowhere;
-  return static_cast<std::size_t>(at.y) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(at.x);
-}
-
-std::vector<glm::dvec2> some_facets(const Layout& layout)
-{
-  const glm::ivec2 step = (layout.facets + facets_a_side - 1) / facets_a_side;
-  std::vector<glm::dvec2> middles;
-  for (int y = step.y / 2; y < layout.facets.y; y += step.y)
-    for (int x = step.x / 2; x < layout.facets.x; x += step.x)
-      middles.push_back(
-          layout.middle(static_cast<std::size_t>(y) * static_cast<std::size_t>(layout.facets.x) + static_cast<std::size_t>(x)));
-  return middles;
-}
-
 /// What a missing cell's light meets at one other receiver.
 struct Met {
   double farthest = 0; ///< cells
@@ -70,15 +43,18 @@ struct Met {
 class Projection {
 public:
   Projection(const Layout& layout, const std::vector<Aim>& aims, const std::vector<Margin>& margins)
-      : layout_(layout), aims_(aims), margins_(margins), facets_(some_facets(layout))
+      : layout_(layout), aims_(aims), margins_(margins)
   {
-    for (const glm::dvec2& from : facets_) sines_.push_back(incoming_at(layout, from).sines);
+    for (const std::size_t facet : some_facets(layout, facets_a_side)) {
+      facets_.push_back(layout.middle(facet));
+      sines_.push_back(layout.sines_on(facet));
+    }
   }
 
   /// Light through a lit cell of picture `a`. Empty: the cell is not missing.
   std::vector<Met> through(std::size_t a, std::size_t cell) const
   {
-    const glm::dvec2 to = middle_of_cell(layout_, cell);
+    const glm::dvec2 to = layout_.middle_of_cell(cell);
     std::vector<Met> met(aims_.size());
     for (std::size_t i = 0; i < facets_.size(); ++i) {
       const glm::dvec2 from = facets_[i], slope = (to - from) / aims_[a].distance;
@@ -86,11 +62,11 @@ public:
       bool all = true;
       for (std::size_t b = 0; b < aims_.size(); ++b) {
         if (b == a) continue;
-        const std::size_t there = cell_at(layout_, from + slope * aims_[b].distance);
-        ++(there == nowhere ? met[b].beside : met[b].on);
-        const double distance = there == nowhere ? 0 : margins_[b].distance[there];
+        const std::optional<std::size_t> there = layout_.cell_at(from + slope * aims_[b].distance);
+        ++(there ? met[b].on : met[b].beside);
+        const double distance = there ? margins_[b].distance[*there] : 0;
         met[b].farthest = std::max(met[b].farthest, distance);
-        all = all && there != nowhere && distance == 0;
+        all = all && there && distance == 0;
       }
       if (all) return {};
     }

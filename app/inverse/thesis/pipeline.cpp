@@ -50,7 +50,7 @@ Pipeline::Pipeline(const Layout& layout, const std::vector<Target>& targets, con
   if (settings_.adjust == Thesis::Adjust::each)
     for (std::size_t j = 0; j < targets.size(); ++j) sizes_.insert(sizes_.end(), {1, 0, 0, 1});
   adjust(sizes_);
-  keep({{}, std::vector<glm::dvec2>(layout.facet_count()), 0}, 1);
+  keep({{}, flat_slopes(layout), 0}, 1);
   begin_trial();
 }
 
@@ -206,13 +206,7 @@ std::uint64_t Pipeline::tried() const
   return static_cast<std::uint64_t>(trials_) * layout_.facet_count() + (trial_ ? trial_->tried() : 0);
 }
 
-std::vector<Cost> Pipeline::costs() const
-{
-  std::vector<Cost> costs;
-  const double all = light_sent(layout_, best_.slopes);
-  for (std::size_t j = 0; j < light_.size(); ++j) costs.push_back(cost_of(targets_[j], light_[j], all));
-  return costs;
-}
+std::vector<Cost> Pipeline::costs() const { return costs_of(targets_, light_, light_sent(layout_, best_.slopes)); }
 
 void Pipeline::show(job::Snapshot& snapshot) const
 {

@@ -16,7 +16,7 @@ namespace nephroid::inverse {
 /// The lattice's slopes along one axis, without those that have probability 0 whatever the other axis has.
 struct Sampler::Axis {
   std::vector<double> slopes;
-  std::vector<std::vector<int>> cells; ///< [aim][slope]; 0 and the last: beside
+  std::vector<std::vector<int>> cells; ///< [aim][slope], counted with the rim; 0: beside
   std::vector<std::uint32_t> hits;     ///< [slope]: a bit for each aim whose receiver it meets
 };
 

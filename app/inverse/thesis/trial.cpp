@@ -2,6 +2,7 @@
 #include "inverse/thesis/trial.h"
 
 #include "base/parallel.h"
+#include "inverse/bending.h"
 #include "inverse/uniform.h"
 
 #include <algorithm>
@@ -15,9 +16,16 @@ constexpr std::size_t piece = 512, turn = 16;
 
 } // namespace
 
+std::vector<glm::dvec2> flat_slopes(const Layout& layout)
+{
+  std::vector<glm::dvec2> slopes(layout.facet_count());
+  for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = flat_slope(layout.sines_on(i));
+  return slopes;
+}
+
 Trial::Trial(const Layout& layout, const std::vector<Aim>& aims, const Thesis& settings, std::uint64_t seed)
     : layout_(layout), settings_(settings), seed_(seed), sampler_(layout, aims, settings),
-      counts_(aims.size(), std::vector<std::uint32_t>(layout.cell_count())), slopes_(layout.facet_count())
+      counts_(aims.size(), std::vector<std::uint32_t>(layout.cell_count())), slopes_(flat_slopes(layout))
 {
 }
 

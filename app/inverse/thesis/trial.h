@@ -12,9 +12,12 @@ namespace nephroid::inverse {
 /// What came of a trial.
 struct Drawn {
   std::vector<std::vector<double>> light; ///< [receiver][cell]: mean of the draws, in facets
-  std::vector<glm::dvec2> slopes;         ///< of each facet: its first draw; 0 where it has none
+  std::vector<glm::dvec2> slopes;         ///< of each facet: its first draw; as if it were flat where it has none
   std::uint64_t dark = 0;                 ///< facets whose joint probability is 0 everywhere: they send light nowhere
 };
+
+/// The slopes behind facets that are all flat.
+std::vector<glm::dvec2> flat_slopes(const Layout& layout);
 
 class Trial {
 public:
