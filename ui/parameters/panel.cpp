@@ -52,8 +52,10 @@ Json reset(const Outline& o, const Json& value)
 /// What an optional field is when it is given.
 Json given(const Outline& o)
 {
-  if (o.kind == Kind::number) return o.field.bounds.contain(1) ? 1 : o.field.bounds.low;
-  if (o.kind == Kind::integer) return o.field.bounds.contain(1) ? 1 : static_cast<std::int64_t>(o.field.bounds.low);
+  const double number = o.field.bounds.contain(1) ? 1 : o.field.bounds.low;
+  if (o.kind == Kind::number) return number;
+  if (o.kind == Kind::integer) return static_cast<std::int64_t>(number);
+  if (o.size > 0) return std::vector<double>(o.size, number);
   return o.fresh ? o.fresh() : o.kind == Kind::boolean ? Json(false) : o.kind == Kind::text ? Json("") : Json::array();
 }
 
