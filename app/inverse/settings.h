@@ -24,7 +24,7 @@ struct Picture {
   double inner = 0.15;   ///< ring and star: the inner radius
   double length = 0.7;   ///< cross and bars; text: its width
   double width = 0.15;   ///< cross and bars; bars are as far from each other as they are wide
-  int count = 1;         ///< bars; star: of its points
+  int count = 3;         ///< bars; star: of its points
   double turn_deg = 0;   ///< counterclockwise
   double background = 0; ///< brightness where nothing is drawn; the drawing has 1
   bool operator==(const Picture&) const = default;

@@ -103,7 +103,8 @@ public:
   void load(ByteSource&) override {}
   bool adopt(const preset::Preset& preset) override
   {
-    if (preset.scene.lights[0].power_w == 13) throw bad_input("lights/0", "is unlucky");
+    const auto& lights = preset.scene.lights;
+    if (!lights.empty() && lights[0].power_w == 13) throw bad_input("lights/0", "is unlucky");
     if (!runs_.adopts || !spectral::only_relit(preset_, preset)) return false;
     preset_ = preset;
     ++runs_.adopted;

@@ -101,10 +101,11 @@ protected:
     else if (node.value("minLength", 0) > 0)
       all = owner.starts_with("Dispersion") ? std::vector<std::string>{"N-BK7", "N-SF66"} : std::vector<std::string>{"a.exr", "b.exr"};
     else if (node["type"] == "string")
-      all = {"Grüße, \"quoted\" \\ ~/"};
+      all = {"Grüße, \"quoted\" \\ ~/", "other"};
     else {
       const double x = now.is_number() ? now.get<double>() : 1;
-      for (const double to : {x + 1, x - 1, x / 2, x + 0.5}) all.push_back(Json(to).dump());
+      for (const double to : {x + 1, x - 1, x / 2, x + 0.5})
+        if (to != x) all.push_back(Json(to).dump());
       if (node["type"] == "integer")
         for (std::string& number : all) number = number.substr(0, number.find('.'));
     }
@@ -246,10 +247,13 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
   visit_properties(schema["properties"], "", "Preset");
   EXPECT_EQ(text(), before);
   if (HasFatalFailure()) return;
+  runs.adopts = false; // fake jobs do so as engine 1 does
   open(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {"facets": [8, 8]}})");
   visit(schema["properties"]["inverse"], "/inverse", "Preset", "Preset.inverse");
-  EXPECT_EQ(edited, leaves());
-  EXPECT_TRUE(workbench.messages().empty());
+  std::vector<std::string> left;
+  std::ranges::set_symmetric_difference(edited, leaves(), std::back_inserter(left));
+  EXPECT_THAT(left, testing::IsEmpty());
+  for (const Message& message : workbench.messages()) ADD_FAILURE() << message.line;
   RecordProperty("fields", static_cast<int>(edited.size()));
 }
 
