@@ -90,8 +90,10 @@ bool may_go_on(const preset::Preset& before, const preset::Preset& now)
   same.name = before.name;
   same.description = before.description;
   same.scene.camera = before.scene.camera;
-  same.stop = before.stop;
-  settings(same).receivers = settings(before).receivers;
+  if (settings(before).method == Settings::Method::assign) {
+    same.stop = before.stop;
+    settings(same).receivers = settings(before).receivers;
+  }
   return same == before;
 }
 

@@ -27,7 +27,7 @@ InversePlan make_plan(const preset::Preset& preset);
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan);
 
 /// Whether a run of `before` may go on as one of `now` and keep its facets' slopes: only distances, weights and pictures of as many
-/// receivers differ, or the camera, the stop or a name. The job still refuses what its method cannot (Method::relight).
+/// receivers differ, or the stop; or the camera or a name. Methods other than assign begin again for all but the last two.
 bool may_go_on(const preset::Preset& before, const preset::Preset& now);
 
 /// Closed forms, for `nephroid check`.

@@ -102,13 +102,9 @@ public:
     if (!may_go_on(preset_, preset)) return false;
     if (settings(preset) != settings(preset_) || preset.stop != preset_.stop) {
       InversePlan plan = make_plan(preset);
-      std::swap(layout_, plan.layout);
-      std::swap(targets_, plan.targets);
-      if (!method_->relight()) {
-        std::swap(layout_, plan.layout);
-        std::swap(targets_, plan.targets);
-        return false;
-      }
+      layout_ = std::move(plan.layout);
+      targets_ = std::move(plan.targets);
+      method_->relight();
       judge_.reset();
       solid_.reset();
       began_ = {method_->steps(), method_seconds_};
@@ -207,7 +203,7 @@ private:
       const char* const names[] = {"target", "receiver", "difference"};
       for (std::size_t i = 0; i < 3; ++i) made.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i]});
     }
-    made.pictures.push_back({"slopes", slopes_picture(method_->slopes(), layout_)});
+    made.pictures.push_back({"slopes", slopes_picture(method_->slopes(), method_->heights(), layout_)});
     made.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
     if (!std::exchange(conflict_known_, true)) find_conflicts();
     made.pictures.push_back({"conflict", conflict_});
@@ -218,7 +214,8 @@ private:
   {
     std::vector<std::vector<double>> light;
     for (std::size_t j = 0; j < targets_.size(); ++j) light.push_back(method_->light(j));
-    const ConflictSearch search(layout_, targets_, method_->slopes(), light);
+    const std::vector<double> heights = method_->heights();
+    const ConflictSearch search(layout_, targets_, method_->slopes(), heights, light);
     conflict_ = facets_picture(search.of_facets(), layout_);
     conflicts_.reset();
     if (judge_) conflicts_ = search.of_pictures();

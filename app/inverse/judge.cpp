@@ -17,12 +17,12 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <thread>
 
 namespace nephroid::inverse {
 namespace {
 
 constexpr int max_surfaces = 16;
-constexpr int rows_at_a_time = 2;
 
 /// Rays along one side of a facet: about a million in all, and so many a facet that a cell's light is known to a few percent, since the
 /// brightest cell scales the cost.
@@ -170,7 +170,8 @@ Judge::Row Judge::trace_row(int row) const
 
 void Judge::advance()
 {
-  const int count = std::min(rows_at_a_time, layout_.facets.y - row_);
+  const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int count = std::min(threads, layout_.facets.y - row_);
   std::vector<Row> rows(static_cast<std::size_t>(count));
   for_blocks(rows.size(), [&](std::size_t i) { rows[i] = trace_row(row_ + static_cast<int>(i)); });
   for (const Row& row : rows) {

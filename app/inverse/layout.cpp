@@ -140,6 +140,18 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own)
                   too_shallow ? "choose a deeper relief or more facets" : "choose a larger angle or a receiver further away");
 }
 
+/// Light must be aimed at a cell, by facets that the solid turns a little.
+void check_aim(const Layout& l, const Place& own)
+{
+  const double cell = std::min(l.cell().x, l.cell().y), turn = std::abs(l.n - 1) * corners_join, last = l.distances.back();
+  if (last * turn <= cell / 2) return;
+  throw bad_input(
+      own / "receivers" / (l.distances.size() - 1) / "distance_mm",
+      fmt::format("is {} mm, where {:.2g} in its slope, the finest that facets are made, moves light by {:.4g} mm over a cell of {:.4g} mm",
+                  last, turn, last * turn, cell),
+      fmt::format("expected at most {:.6g} mm", cell / 2 / turn), "choose a nearer receiver, a larger receiver_mm or fewer cells");
+}
+
 } // namespace
 
 Layout make_layout(const preset::Preset& preset)
@@ -180,6 +192,7 @@ Layout make_layout(const preset::Preset& preset)
   };
   refuse(own / "thickness_mm", l.thickness, "the object holds together");
   refuse(own / "receivers" / 0 / "distance_mm", l.distances.front(), "the receiver is free of the object");
+  check_aim(l, own);
   return l;
 }
 

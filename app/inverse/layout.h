@@ -80,11 +80,14 @@ struct Layout {
   }
 };
 
+/// The solid makes heights equal that are closer than this part of a facet's shorter side. It turns a facet by that much at most.
+inline constexpr double corners_join = 1e-4;
+
 /// A receiver's wanted light: a value a cell, row 0 at the top, which sum to 1.
 using Target = std::vector<double>;
 
-/// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no picture, and where facets
-/// would reach the front or the nearest receiver.
+/// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no picture, where facets
+/// would reach the front or the nearest receiver, and where the farthest is too far for the solid to aim at its cells.
 Layout make_layout(const preset::Preset& preset);
 
 /// A lattice of facets that speaks for all: every one up to so many a side.

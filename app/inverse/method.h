@@ -30,12 +30,13 @@ public:
   virtual job::Units units() const = 0;
 
   virtual const std::vector<glm::dvec2>& slopes() const = 0;                ///< as good as they are so far
+  virtual std::vector<double> heights() const = 0;                          ///< z of the facets' middles, whose slopes these are
   virtual const std::vector<double>& light(std::size_t receiver) const = 0; ///< of these slopes, by their footprints
   virtual std::vector<Cost> costs() const = 0;                              ///< of that light
   virtual Solid solid() const = 0;                                          ///< whose facets have these slopes
-  /// The layout's distances or weights, or the targets, are other ones: facets keep their slopes, and the search goes on from them. False:
-  /// it cannot, and nothing has changed.
-  virtual bool relight() { return false; }
+  /// The layout's distances or weights, or the targets, are other ones: facets keep their slopes, and the search goes on from them. Only
+  /// where may_go_on() says so.
+  virtual void relight() {}
   /// Adds what this method alone has to tell. The job has the cost over steps and seconds.
   virtual void show(job::Snapshot&) const {}
 

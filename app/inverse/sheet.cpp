@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/sheet.h"
 
-#include "inverse/assign/footprint.h"
-
 #include <algorithm>
 #include <numeric>
 
@@ -59,14 +57,14 @@ std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wante
   return picture;
 }
 
-std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, const Layout& layout)
+std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,
+                                                   const Layout& layout)
 {
   auto picture = std::make_shared<job::Picture>();
   picture->width = layout.facets.x;
   picture->height = layout.facets.y;
   for (std::size_t i = 0; i < slopes.size(); ++i)
-    for (const double value : {slopes[i].x, slopes[i].y, facet_power(layout, i, slopes[i])})
-      picture->rgb.push_back(static_cast<float>(value));
+    for (const double value : {slopes[i].x, slopes[i].y, heights[i]}) picture->rgb.push_back(static_cast<float>(value));
   return picture;
 }
 

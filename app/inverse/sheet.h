@@ -17,8 +17,9 @@ std::shared_ptr<const job::Picture> received_picture(const Target& target, std::
 std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout);
 /// Red: too much light, blue: too little, on the same scale.
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received);
-/// A pixel a facet: slope along x, slope along y, and its light over that of a facet that lies flat.
-std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, const Layout& layout);
+/// A pixel a facet: slope along x, slope along y, and z of its middle in millimetres.
+std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,
+                                                   const Layout& layout);
 /// A pixel a facet: grey.
 std::shared_ptr<const job::Picture> facets_picture(const std::vector<double>& values, const Layout& layout);
 

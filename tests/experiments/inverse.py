@@ -86,7 +86,7 @@ class Experiments:
         """Judged cost after so many seconds of assigning."""
         for seconds in (1, 2, 5, 10, 60):
             r = self.run("shapes", seconds=seconds)
-            print(f"{seconds} s: judged {r['judged']['cost']:.4f}, {r['phase_seconds']['slopes']:.1f} + {r['phase_seconds']['judge']:.1f} s, {r['steps']} sweeps")
+            print(f"{seconds} s: judged {r['judged']['cost']:.4f}, {r['phase_seconds']['slopes']:.1f} + {r['phase_seconds']['judge']:.1f} s, {r['sweeps']} sweeps")
         r = self.run("shapes", "facets=[512,512]", "cells=[256,256]", passes=4)
         print(f"512: judged {r['judged']['cost']:.4f}, believed {r['believed']['cost']:.4f}, {r['phase_seconds']}")
 

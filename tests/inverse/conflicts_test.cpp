@@ -31,9 +31,10 @@ struct Found {
   Layout layout;
   std::vector<Target> targets;
   std::vector<glm::dvec2> slopes;
+  std::vector<double> heights;
   std::vector<std::vector<double>> light;
 
-  ConflictSearch search() const { return ConflictSearch(layout, targets, slopes, light); }
+  ConflictSearch search() const { return ConflictSearch(layout, targets, slopes, heights, light); }
 };
 
 Found assigned(const std::vector<double>& distances, const std::vector<Target>& targets)
@@ -46,6 +47,7 @@ Found assigned(const std::vector<double>& distances, const std::vector<Target>& 
   Assignment a(found.layout, targets, 1);
   while (!a.finished()) a.advance();
   found.slopes = a.slopes();
+  found.heights = a.heights();
   for (std::size_t j = 0; j < targets.size(); ++j) found.light.push_back(a.light(j));
   return found;
 }
@@ -84,7 +86,9 @@ TEST(Conflicts, AddUpToTheError)
   const double sent = inverse::light_sent(layout, a.slopes());
   double lacking = 0;
   for (std::size_t c = 0; c < 256; ++c) lacking += std::max(0.0, targets[0][c] - a.light(0)[c] / sent);
-  const ConflictSearch search(layout, targets, a.slopes(), {a.light(0)});
+  const std::vector<double> heights = a.heights();
+  const std::vector<std::vector<double>> light{a.light(0)};
+  const ConflictSearch search(layout, targets, a.slopes(), heights, light);
   EXPECT_NEAR(search.of_pictures().misplaced[0], lacking, 1e-9);
 }
 

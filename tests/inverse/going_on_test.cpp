@@ -70,7 +70,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
   const std::vector<glm::dvec2> slopes = a.slopes();
   layout.distances = {90, 230};
   layout.weights = {1, 3};
-  ASSERT_TRUE(a.relight());
+  a.relight();
   EXPECT_EQ(a.slopes(), slopes);
   EXPECT_EQ(a.part(), 0);
   EXPECT_FALSE(a.finished());

@@ -10,8 +10,10 @@ std::optional<FacetBeam> facet_beam(const job::Picture& slopes, const inverse::L
   if (slopes.width != layout.facets.x || slopes.height != layout.facets.y) return std::nullopt;
   if (facet.x < 0 || facet.y < 0 || facet.x >= layout.facets.x || facet.y >= layout.facets.y) return std::nullopt;
   const std::size_t index = inverse::index_at(facet.x, facet.y, layout.facets.x);
-  FacetBeam beam{facet, {slopes.rgb[3 * index], slopes.rgb[3 * index + 1]}, slopes.rgb[3 * index + 2], {}};
-  for (std::size_t j = 0; j < layout.distances.size(); ++j) beam.prints.push_back(inverse::footprint(layout, index, beam.slope, j));
+  const glm::dvec2 slope{slopes.rgb[3 * index], slopes.rgb[3 * index + 1]};
+  const double height = slopes.rgb[3 * index + 2];
+  FacetBeam beam{facet, slope, height, inverse::facet_power(layout, index, slope), {}};
+  for (std::size_t j = 0; j < layout.distances.size(); ++j) beam.prints.push_back(inverse::footprint(layout, index, slope, j, height));
   return beam;
 }
 

@@ -12,11 +12,12 @@ namespace nephroid::ui {
 struct FacetBeam {
   glm::ivec2 facet{0, 0}; ///< column and row, from the top left
   glm::dvec2 slope{0, 0};
+  double height = 0;                      ///< z of its middle, millimetres
   double power = 0;                       ///< over that of a facet that lies flat
   std::vector<inverse::Footprint> prints; ///< on each receiver
 };
 
-/// slopes: a pixel a facet: slope along x, along y, power. Empty where it is of another number of facets than the layout, or the facet is
+/// slopes: a pixel a facet: slope along x, along y, height. Empty where it is of another number of facets than the layout, or the facet is
 /// outside.
 std::optional<FacetBeam> facet_beam(const job::Picture& slopes, const inverse::Layout& layout, const glm::ivec2& facet);
 

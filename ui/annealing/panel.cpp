@@ -295,8 +295,8 @@ void AnnealingPanel::draw_facet_text() const
     draw_wrapped(colour::quiet_text, "Click on a facet to see its beam on every receiver");
     return;
   }
-  std::string text = fmt::format("Facet {}, {}\nslope {:.3f} to the right, {:.3f} up\nlight {:.3g} of a flat facet's", beam_->facet.x + 1,
-                                 beam_->facet.y + 1, beam_->slope.x, beam_->slope.y, beam_->power);
+  std::string text = fmt::format("Facet {}, {}\nslope {:.3f} to the right, {:.3f} up\nheight {:.3g} mm\nlight {:.3g} of a flat facet's",
+                                 beam_->facet.x + 1, beam_->facet.y + 1, beam_->slope.x, beam_->slope.y, beam_->height, beam_->power);
   for (std::size_t j = 0; j < beam_->prints.size(); ++j)
     if (!box_of(beam_->prints[j])) text += fmt::format("\nmisses receiver {}", j + 1);
   draw_wrapped(colour::quiet_text, text);

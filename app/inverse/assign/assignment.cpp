@@ -38,7 +38,7 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
   begin_sweep();
 }
 
-bool Assignment::relight()
+void Assignment::relight()
 {
   weights_ = picture_weights(layout_, targets_);
   search_.weigh(weights_);
@@ -48,7 +48,6 @@ bool Assignment::relight()
   converged_ = false;
   next_ = 0;
   begin_sweep();
-  return true;
 }
 
 void Assignment::begin_sweep()

@@ -37,13 +37,14 @@ public:
   job::Units units() const override { return {.step = "sweep", .steps = "sweeps", .work = "facet", .works = "facets"}; }
 
   const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
+  std::vector<double> heights() const override { return heights_; }
   /// In facets that send all of their light.
   const std::vector<double>& light(std::size_t receiver) const override { return light_[receiver]; }
   double residual() const; ///< the sum
   std::vector<Cost> costs() const override;
   Solid solid() const override { return make_solid(layout_, slopes()); }
   /// The sweep in hand begins again.
-  bool relight() override;
+  void relight() override;
 
   void save(ByteSink& to) const override;
   void load(ByteSource& from) override;

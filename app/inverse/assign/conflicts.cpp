@@ -4,7 +4,6 @@
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/assign/slope_search.h"
-#include "inverse/facets/heights.h"
 
 #include <algorithm>
 #include <optional>
@@ -18,9 +17,9 @@ constexpr int facets_a_side = 32;
 } // namespace
 
 ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& targets, const std::vector<glm::dvec2>& slopes,
-                               const std::vector<std::vector<double>>& light)
-    : layout_(layout), targets_(targets), slopes_(slopes), light_(light), heights_(heights_of(layout, slopes)),
-      weights_(picture_weights(layout, targets)), too_much_(light)
+                               const std::vector<double>& heights, const std::vector<std::vector<double>>& light)
+    : layout_(layout), targets_(targets), slopes_(slopes), heights_(heights), light_(light), weights_(picture_weights(layout, targets)),
+      too_much_(light)
 {
   const double sent = light_sent(layout, slopes);
   for (std::size_t j = 0; j < light.size(); ++j)

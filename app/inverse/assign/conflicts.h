@@ -17,12 +17,12 @@ struct Conflicts {
   std::vector<std::vector<double>> between; ///< [j][k]: part of all light that is misplaced in picture j for the sake of picture k
 };
 
-/// light: of these slopes by their footprints.
+/// light: of facets with these slopes and heights, by their footprints.
 class ConflictSearch {
 public:
   /// All of them outlive it.
   ConflictSearch(const Layout& layout, const std::vector<Target>& targets, const std::vector<glm::dvec2>& slopes,
-                 const std::vector<std::vector<double>>& light);
+                 const std::vector<double>& heights, const std::vector<std::vector<double>>& light);
 
   /// For each facet the part of its light that is misplaced, in the picture where that is largest.
   std::vector<double> of_facets() const;
@@ -38,8 +38,8 @@ private:
   const Layout& layout_;
   const std::vector<Target>& targets_;
   const std::vector<glm::dvec2>& slopes_;
+  const std::vector<double>& heights_;
   const std::vector<std::vector<double>>& light_;
-  std::vector<double> heights_; ///< of these slopes
   std::vector<double> weights_;
   std::vector<std::vector<double>> too_much_; ///< [receiver][cell]: part of the light there
 };

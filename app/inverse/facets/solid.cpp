@@ -16,9 +16,8 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Heights closer than this part of a facet's shorter side are made equal. It turns a facet by 1e-4 at most.
-constexpr double joins = 1e-4;
-/// Also those closer than this part of the height: a post cuts a stretch into four, and each must be some steps of single precision long.
+/// Heights closer than corners_join are made equal, and also those closer than this part of the height: a post cuts a stretch into four,
+/// and each must be some steps of single precision long.
 constexpr double tells_apart = 0x1p-19;
 
 class Builder {
@@ -83,7 +82,7 @@ private:
     const glm::dvec2 half = layout_.facet() / 2.0;
     double farthest = 0;
     for (const Facet& f : solid_.facets) farthest = std::max(farthest, std::abs(f.height) + glm::dot(glm::abs(f.gradient), half));
-    const double closest = std::max(joins * std::min(layout_.facet().x, layout_.facet().y), tells_apart * farthest);
+    const double closest = std::max(corners_join * std::min(layout_.facet().x, layout_.facet().y), tells_apart * farthest);
     const std::array<glm::dvec2, 4> corner{glm::dvec2{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
     solid_.lowest = std::numeric_limits<double>::infinity();
     solid_.highest = -solid_.lowest;

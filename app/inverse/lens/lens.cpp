@@ -115,6 +115,14 @@ void Lens::advance()
   make_surface();
 }
 
+std::vector<double> Lens::heights() const
+{
+  std::vector<double> middles;
+  for (Eigen::Index y = 0; y + 1 < heights_.rows(); ++y)
+    for (Eigen::Index x = 0; x + 1 < heights_.cols(); ++x) middles.push_back(heights_.block<2, 2>(y, x).mean());
+  return middles;
+}
+
 std::vector<Cost> Lens::costs() const { return {cost_of(target_, light_.front(), light_sent(layout_, slopes_))}; }
 
 Solid Lens::solid() const

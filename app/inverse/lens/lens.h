@@ -25,6 +25,7 @@ public:
   job::Units units() const override { return {.step = "step", .steps = "steps", .work = "facet", .works = "facets"}; }
 
   const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
+  std::vector<double> heights() const override;
   const std::vector<double>& light(std::size_t) const override { return light_.front(); }
   std::vector<Cost> costs() const override;
   Solid solid() const override;

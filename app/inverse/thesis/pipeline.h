@@ -32,6 +32,7 @@ public:
   job::Units units() const override { return {.step = "trial", .steps = "trials", .work = "facet", .works = "facets"}; }
 
   const std::vector<glm::dvec2>& slopes() const override { return best_.slopes; }
+  std::vector<double> heights() const override { return std::vector<double>(layout_.facet_count()); }
   const std::vector<double>& light(std::size_t receiver) const override { return light_[receiver]; }
   std::vector<Cost> costs() const override;
   Solid solid() const override { return make_solid(layout_, slopes()); }
