@@ -97,6 +97,8 @@ bool may_go_on(const preset::Preset& before, const preset::Preset& now)
   return same == before;
 }
 
+std::string receiver_group(std::size_t receiver) { return fmt::format("inverse/receivers/{}", receiver); }
+
 constinit const engine::Engine engine{
     .settings = settings_type,
     .plan = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&) -> std::unique_ptr<plan::Plan> {

@@ -258,18 +258,34 @@ private:
     made.scalars.insert(
         made.scalars.end(),
         {{group, "cost", all.cost}, {group, "cost_all", all.cost_all}, {group, "rel_l2", all.rel_l2}, {group, "missed", all.missed}});
-    for (std::size_t j = 0; j < costs.size(); ++j) {
-      made.scalars.push_back({group, fmt::format("cost_{}", j + 1), costs[j].cost});
-      made.scalars.push_back({group, fmt::format("rel_l2_{}", j + 1), costs[j].rel_l2});
+  }
+
+  /// judged: empty as long as nothing is.
+  void add_receivers(job::Snapshot& made, const std::vector<Cost>& believed, const std::vector<Cost>& judged) const
+  {
+    for (std::size_t j = 0; j < believed.size(); ++j) {
+      const std::string group = receiver_group(j);
+      made.scalars.insert(made.scalars.end(), {{group, "distance_mm", layout_.distances[j]},
+                                               {group, "width_mm", layout_.receiver.x},
+                                               {group, "height_mm", layout_.receiver.y},
+                                               {group, "believed_cost", believed[j].cost},
+                                               {group, "believed_rel_l2", believed[j].rel_l2}});
+      if (judged.empty()) continue;
+      const Cost& c = judged[j];
+      made.scalars.insert(
+          made.scalars.end(),
+          {{group, "cost", c.cost}, {group, "cost_all", c.cost_all}, {group, "rel_l2", c.rel_l2}, {group, "missed", c.missed}});
     }
   }
 
   void add_scalars(job::Snapshot& made) const
   {
-    add_costs(made, "believed", method_->costs());
+    const std::vector<Cost> believed = method_->costs(), judged = finished() ? judge_->costs(targets_) : std::vector<Cost>();
+    add_costs(made, "believed", believed);
+    if (finished()) add_costs(made, "judged", judged);
+    add_receivers(made, believed, judged);
     if (conflicts_) add_conflicts(made);
     if (!finished()) return;
-    add_costs(made, "judged", judge_->costs(targets_));
     const Fates f = judge_->fates();
     made.scalars.insert(
         made.scalars.end(),

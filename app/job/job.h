@@ -54,7 +54,7 @@ struct NamedPicture {
 
 /// A figure of the run: run.json has it under group and name, and the report shows it.
 struct Scalar {
-  std::string group, name; ///< "energy", "emitted_w"
+  std::string group, name; ///< "energy", "emitted_w"; one of a list: "inverse/receivers/0", "cost"
   double value = 0;
 };
 

@@ -23,12 +23,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// {"GROUP": {"NAME": value}}; whole numbers as such, what is no number as null.
+/// {"GROUP": {"NAME": value}}, a number in the group's path being a place in a list; whole numbers as such, what is no number as null.
 void add_scalars(Json& run, const std::vector<job::Scalar>& scalars)
 {
   for (const job::Scalar& s : scalars) {
     const bool whole = std::abs(s.value) < 0x1p53 && s.value == std::trunc(s.value);
-    run[s.group][s.name] = std::isnan(s.value) ? Json() : whole ? Json(static_cast<std::int64_t>(s.value)) : Json(s.value);
+    run[Json::json_pointer("/" + s.group)][s.name] = std::isnan(s.value) ? Json()
+                                                     : whole             ? Json(static_cast<std::int64_t>(s.value))
+                                                                         : Json(s.value);
   }
 }
 

@@ -39,8 +39,7 @@ class Experiments:
     @staticmethod
     def row(name, r):
         judged, believed, phases = r["judged"], r["believed"], r["phase_seconds"]
-        count = sum(key.startswith("cost_") and key != "cost_all" for key in judged)
-        each = ", ".join(f"{judged[f'cost_{j + 1}']:.3f}" for j in range(count))
+        each = ", ".join(f"{receiver['cost']:.3f}" for receiver in r["inverse"]["receivers"])
         light = r["light"]
         print(f"| {name} | {judged['cost']:.3f} | {believed['cost']:.3f} | {each} | {judged['rel_l2']:.3f} | {judged['missed']:.3f} | "
               f"{light['reflected']:.3f} | {light['by_walls']:.4f} | {phases['slopes']:.1f} + {phases['judge']:.1f} |")

@@ -134,7 +134,8 @@ const std::vector<Extreme> screens{
        settings["receivers"][1]["weight"] = 0.01;
        Json ring = settings;
        ring["receivers"].erase(1);
-       return at_most(judged(settings, "rel_l2_1"), judged(ring, "rel_l2_1"));
+       const auto ring_of = [](const Json& of) { return job::scalar(design(of), inverse::receiver_group(0), "rel_l2"); };
+       return at_most(ring_of(settings), ring_of(ring));
      }},
 };
 const std::vector<Extreme> lights{

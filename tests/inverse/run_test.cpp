@@ -51,6 +51,14 @@ TEST_F(InverseRun, CastsTheShapes)
   const auto [least, most] = std::minmax_element(conflict.data.begin(), conflict.data.end());
   EXPECT_GE(*least, 0);
   EXPECT_LE(*most, 1);
+  const json& receivers = all.at("inverse").at("receivers");
+  ASSERT_EQ(receivers.size(), 3);
+  double sum = 0;
+  for (const json& receiver : receivers) sum += receiver.at("cost").get<double>();
+  EXPECT_NEAR(sum / 3, judged, 1e-9);
+  EXPECT_EQ(receivers[1].at("distance_mm"), 150);
+  EXPECT_EQ(receivers[1].at("height_mm"), 100);
+  for (const char* name : {"width_mm", "cost_all", "rel_l2", "missed", "believed_cost"}) EXPECT_TRUE(receivers[2].contains(name)) << name;
   const json light = all.at("light");
   EXPECT_NEAR(light.at("sent").get<double>() + light.at("reflected").get<double>() + light.at("lost").get<double>(), 1, 1e-9);
   EXPECT_THAT(bytes("out/cost.csv"), testing::StartsWith("sweep,seconds,cost,cost_all,rel_l2,missed\n0,"));

@@ -2,6 +2,7 @@
 #include "ui/annealing/panel.h"
 
 #include "base/error.h"
+#include "inverse/engine.h"
 #include "ui/state/files.h"
 #include "ui/widgets/theme.h"
 
@@ -221,15 +222,16 @@ void AnnealingPanel::draw_receiver_picture(const std::string& kind, std::size_t 
   frame(low, high);
   areas_[name] = {low.x, low.y, size.x, size.y};
   if (!snapshot_) return;
-  const char* group = std::isfinite(job::scalar(*snapshot_, "judged", "cost")) ? "judged" : "believed";
-  const std::string number_of = fmt::format("{}", receiver + 1);
-  const auto figure = [&](const char* what) { return number(job::scalar(*snapshot_, group, what + number_of)); };
+  const bool judged = std::isfinite(job::scalar(*snapshot_, "judged", "cost"));
+  const auto figure = [&](const std::string& what) {
+    return number(job::scalar(*snapshot_, inverse::receiver_group(receiver), (judged ? "" : "believed_") + what));
+  };
   if (kind == "target")
-    ImGui::SetItemTooltip("What receiver %s shall show", number_of.c_str());
+    ImGui::SetItemTooltip("What receiver %zu shall show", receiver + 1);
   else if (kind == "receiver")
-    ImGui::SetItemTooltip(
-        "%s",
-        fmt::format("What receiver {} shows, {}\ncost {}, relative {}", number_of, group, figure("cost_"), figure("rel_l2_")).c_str());
+    ImGui::SetItemTooltip("%s", fmt::format("What receiver {} shows, {}\ncost {}, relative {}", receiver + 1,
+                                            judged ? "judged" : "believed", figure("cost"), figure("rel_l2"))
+                                    .c_str());
   else
     ImGui::SetItemTooltip("Red: too much light; blue: too little");
 }
