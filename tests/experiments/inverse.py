@@ -55,6 +55,13 @@ class Experiments:
     def lights(self):
         self.table(LIGHTS)
 
+    def pictures(self):
+        """What the sets want, cast and lack, in one picture: docs/inverse-sets.jpg. Needs ImageMagick."""
+        for name in SETS:
+            self.run(name)
+        subprocess.run(["montage", *(str(self.out / f"{name}--" / "image.png") for name in SETS), "-tile", "3x2", "-geometry", "480x480+4+4", "-background", "#262626",
+                        "-quality", "85", str(self.out / "inverse-sets.jpg")], check=True)
+
     def seeds(self):
         """How close several starts come to each other."""
         for name in SETS[1:4]:
@@ -106,7 +113,7 @@ class Experiments:
 def main():
     program, out, *names = sys.argv[1:]
     experiments = Experiments(program, out)
-    for name in names or ["sets", "lights", "seeds", "relief", "smoothing", "speed", "thesis"]:
+    for name in names or ["sets", "lights", "pictures", "seeds", "relief", "smoothing", "speed", "thesis"]:
         print(f"\n## {name}\n", flush=True)
         getattr(experiments, name)()
 
