@@ -47,8 +47,7 @@ struct CostRow {
 class InverseJob final : public job::Job {
 public:
   InverseJob(const preset::Preset& preset, const InversePlan& plan)
-      : preset_(preset), layout_(plan.layout), targets_(plan.targets),
-        method_(make_method(settings(preset), layout_, targets_, preset.seed))
+      : preset_(preset), layout_(plan.layout), targets_(plan.targets), method_(make_method(preset, layout_, targets_))
   {
     note_step();
   }

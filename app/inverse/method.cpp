@@ -7,11 +7,12 @@
 
 namespace nephroid::inverse {
 
-std::unique_ptr<Method> make_method(const Settings& settings, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
+std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets)
 {
-  if (settings.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, settings.thesis, seed);
-  if (settings.method == Settings::Method::lens) return std::make_unique<Lens>(layout, targets.front());
-  return std::make_unique<Assignment>(layout, targets, seed);
+  const Settings& s = settings(preset);
+  if (s.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, s.thesis, preset.seed);
+  if (s.method == Settings::Method::lens) return std::make_unique<Lens>(layout, targets.front(), Place(preset.source) / "inverse");
+  return std::make_unique<Assignment>(layout, targets, preset.seed);
 }
 
 } // namespace nephroid::inverse

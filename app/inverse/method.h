@@ -45,7 +45,7 @@ public:
   virtual void load(ByteSource& from) = 0;
 };
 
-/// As the settings say. The layout and the targets outlive it.
-std::unique_ptr<Method> make_method(const Settings& settings, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
+/// As the preset says. The layout and the targets outlive it.
+std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets);
 
 } // namespace nephroid::inverse

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smooth surfaces for one picture, against maps that are known.
+#include "base/error.h"
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
 
 #include <glm/gtc/constants.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,6 +16,8 @@ namespace {
 
 using namespace nephroid;
 using inverse::Grid;
+
+const Place own = Place("p.json") / "inverse";
 
 TEST(Poisson, SolvesForACosine)
 {
@@ -90,7 +94,7 @@ TEST(Lens, IsJudgedAsItBelievesAndHasNoWalls)
 {
   const inverse::Layout layout = object();
   const inverse::Target target = disc(layout);
-  inverse::Lens lens(layout, target);
+  inverse::Lens lens(layout, target, own);
   const double flat = lens.costs().front().rel_l2;
   while (!lens.finished() && lens.steps() < lens.most()) lens.advance();
   const double believed = lens.costs().front().rel_l2;
@@ -109,7 +113,7 @@ TEST(Lens, GoesOnWithTheSameBits)
 {
   const inverse::Layout layout = object();
   const inverse::Target target = disc(layout);
-  inverse::Lens whole(layout, target), first(layout, target), second(layout, target);
+  inverse::Lens whole(layout, target, own), first(layout, target, own), second(layout, target, own);
   for (int i = 0; i < 6; ++i) whole.advance();
   for (int i = 0; i < 3; ++i) first.advance();
   ByteStore kept;
@@ -126,9 +130,14 @@ TEST(Lens, IsRefusedWhereItReachesTheFront)
   inverse::Layout layout = object();
   layout.thickness = 0.2;
   const inverse::Target target = disc(layout);
-  inverse::Lens lens(layout, target);
+  inverse::Lens lens(layout, target, own);
   for (int i = 0; i < 6; ++i) lens.advance();
-  EXPECT_THROW(lens.solid(), Error);
+  try {
+    lens.solid();
+    ADD_FAILURE() << "it is thicker than the object";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.line(), testing::StartsWith("p.json#/inverse/thickness_mm: is 0.2 mm, and half of the lens's relief is "));
+  }
 }
 
 TEST(Lens, KeepsAWorkshopsRelief)
@@ -136,7 +145,7 @@ TEST(Lens, KeepsAWorkshopsRelief)
   inverse::Layout layout = object();
   layout.band = 0.1;
   const inverse::Target target = disc(layout);
-  inverse::Lens lens(layout, target);
+  inverse::Lens lens(layout, target, own);
   for (int i = 0; i < 6; ++i) lens.advance();
   EXPECT_THROW(lens.solid(), Error);
 }
@@ -150,7 +159,7 @@ TEST(Lens, HasNarrowObjectsAndFinePictures)
   layout.cells = {1000, 2};
   inverse::Target target(2000);
   target[500] = 1;
-  inverse::Lens lens(layout, target);
+  inverse::Lens lens(layout, target, own);
   for (int i = 0; i < 3; ++i) lens.advance();
   EXPECT_TRUE(std::isfinite(lens.costs().front().rel_l2));
 }

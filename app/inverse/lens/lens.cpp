@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nephroid::inverse {
 namespace {
@@ -43,8 +44,8 @@ Grid on_grid(const Layout& layout, const glm::dvec2& rectangle, const glm::ivec2
 
 } // namespace
 
-Lens::Lens(const Layout& layout, const Target& target)
-    : layout_(layout), target_(target), domain_(domain_of(layout)),
+Lens::Lens(const Layout& layout, const Target& target, Place settings)
+    : layout_(layout), target_(target), settings_(std::move(settings)), domain_(domain_of(layout)),
       transport_(on_grid(layout, layout.size, {1, 1}, {1}), on_grid(layout, layout.receiver, layout.cells, target)),
       heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()), heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)),
       slopes_(layout.facet_count())
@@ -128,14 +129,14 @@ std::vector<Cost> Lens::costs() const { return {cost_of(target_, light_.front(),
 Solid Lens::solid() const
 {
   const double reach = heights_.maxCoeff(); // and as far below z = 0
-  const auto refuse = [&](const char* where, double value) {
+  const auto refuse = [&](const Place& where, double value) {
     throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach), "expected more than that",
                     "choose a larger value or a receiver further away");
   };
-  if (reach >= layout_.thickness) refuse("inverse/thickness_mm", layout_.thickness);
-  if (reach >= layout_.distances.front()) refuse("inverse/receivers/0/distance_mm", layout_.distances.front());
+  if (reach >= layout_.thickness) refuse(settings_ / "thickness_mm", layout_.thickness);
+  if (reach >= layout_.distances.front()) refuse(settings_ / "receivers" / 0 / "distance_mm", layout_.distances.front());
   if (reach > layout_.band)
-    throw bad_input("inverse", fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
+    throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
                     fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),
                     "loosen them, or choose a receiver further away");
   return make_smooth_solid(layout_, {heights_.data(), heights_.data() + heights_.size()});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One picture by a smooth surface: where the light has to go, then heights whose slopes send it there.
 #pragma once
+#include "base/place.h"
 #include "inverse/lens/transport.h"
 #include "inverse/method.h"
 
@@ -12,8 +13,8 @@ namespace nephroid::inverse {
 /// For one receiver and light along -z. Steps are those of Transport; the surface is made after each.
 class Lens final : public Method {
 public:
-  /// The layout and the target outlive it.
-  Lens(const Layout& layout, const Target& target);
+  /// The layout and the target outlive it. settings: where they stand, for what solid() refuses.
+  Lens(const Layout& layout, const Target& target, Place settings);
 
   void advance() override;
   /// Ten steps brought no less light astray.
@@ -40,6 +41,7 @@ private:
 
   const Layout& layout_;
   const Target& target_;
+  Place settings_;
   glm::dvec2 domain_; ///< size of the grid in millimetres, centred as the object and the receiver are
   Transport transport_;
   Poisson heights_of_;
