@@ -31,8 +31,9 @@ namespace nephroid::cli {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* result_files[] = {"image.exr",   "image.png",   "preset.json",   "plan.json",     "run.json",
-                                        "history.csv", "report.html", "pictures.json", "checkpoint.bin"};
+/// Beside the engine's own.
+constexpr const char* result_files[] = {"preset.json", "plan.json",     "run.json",      "history.csv",
+                                        "report.html", "pictures.json", "checkpoint.bin"};
 
 struct RunOptions {
   std::string preset;
@@ -82,7 +83,7 @@ std::vector<Target> targets_of(const RunOptions& options)
 /// The last words about one run, on standard output.
 void report_result(const RunOptions& options, const Target& target, const job::Progress& progress, bool finished)
 {
-  std::vector<std::string> files;
+  std::vector<std::string> files = run::engine_files(target.folder);
   for (const char* name : result_files)
     if (fs::exists(target.folder / name)) files.emplace_back(name);
   for (const auto& made : run::pictures_at(target.folder)) {
@@ -159,7 +160,8 @@ private:
   {
     if (options_.resume && run::load_checkpoint(target_.folder, prepared, context, job)) {
       const job::Progress progress = job.progress();
-      fmt::print(stderr, "{}: going on in pass {} ({:.1f} s of work so far)\n", target_.label, progress.step + 1, progress.work_seconds);
+      fmt::print(stderr, "{}: going on in {} {} ({:.1f} s of work so far)\n", target_.label, progress.units.step, progress.step + 1,
+                 progress.work_seconds);
       run::write_settings(target_.folder, prepared);
       run::remove_pictures_after(target_.folder, progress.work_seconds);
       return;
@@ -285,7 +287,8 @@ private:
     report_result(options_, target_, snapshot.progress, finished);
     for (const std::string& warning : snapshot.warnings) fmt::print(stderr, "note: {}: {}\n", target_.label, warning);
     if (!finished)
-      throw Error(ErrorKind::interrupted, target_.folder.string(), fmt::format("interrupted in pass {}", snapshot.progress.step + 1),
+      throw Error(ErrorKind::interrupted, target_.folder.string(),
+                  fmt::format("interrupted in {} {}", snapshot.progress.units.step, snapshot.progress.step + 1),
                   "the image and a checkpoint are saved", "go on with --resume");
   }
 

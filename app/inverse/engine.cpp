@@ -74,7 +74,7 @@ InversePlan make_plan(const preset::Preset& preset)
                   {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
-                                     "soft; more facets or fewer cells would not",
+                                     "soft; choose more facets or fewer cells",
                                      l.facet().x, l.facet().y, l.cell().x, l.cell().y));
   const std::int64_t trials = Pipeline::trials_of(settings(preset).thesis);
   if (settings(preset).method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)

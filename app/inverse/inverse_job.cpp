@@ -312,8 +312,9 @@ private:
     add("facets.json", write_facets);
     add("heights.exr", write_height_exr);
     add("heights.png", write_height_png);
-    made.files.push_back({"view.json", [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
-                                           ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
+    if (!layout_.lamp)
+      made.files.push_back({"view.json", [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
+                                             ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
     add("workshop.md", [material = material_of(settings(preset_), layout_.n)](const Layout& of, const Solid& solid, ByteSink& to) {
       const std::string page = workshop_page(of, solid, material);
       to.write(std::as_bytes(std::span(page)));

@@ -26,6 +26,11 @@ void check_picture(const Picture& p, const std::string& pointer, const Where& wh
   if (((words || code) && p.text.empty()) || (words && p.text.size() > most_text))
     throw bad_input(where(preset::child(pointer, "text")), fmt::format("has {} bytes", p.text.size()),
                     words ? fmt::format("expected a text of 1 to {}", most_text) : "expected a text");
+  if (words)
+    for (const char c : p.text)
+      if (c < ' ' || c > '~')
+        throw bad_input(where(preset::child(pointer, "text")), fmt::format("is \"{}\", and only printable ASCII is drawn", p.text),
+                        "expected letters without accents, digits and signs in one line", "draw other ones as a picture file");
   if (p.type == Picture::Type::star && p.count < 2)
     throw bad_input(where(preset::child(pointer, "count")), fmt::format("is {}", p.count), "expected a star of at least 2 points");
 }
@@ -35,6 +40,10 @@ void check_receivers(const Settings& s, const std::string& pointer, const Where&
   for (std::size_t j = 0; j < s.receivers.size(); ++j) {
     const std::string at = preset::child(pointer, j);
     check_picture(s.receivers[j].picture, preset::child(at, "picture"), where);
+    if (s.method == Settings::Method::thesis && s.receivers[j].weight != 1)
+      throw bad_input(where(preset::child(at, "weight")),
+                      fmt::format("is {}, and the method 'thesis' has all pictures alike", s.receivers[j].weight), "expected 1",
+                      "or choose the method 'assign'");
     if (j == 0) continue;
     const double before = s.receivers[j - 1].distance_mm, now = s.receivers[j].distance_mm;
     if (now <= before)
@@ -62,6 +71,9 @@ void check(const preset::Preset& preset, const Where& where)
   const std::string own = "/inverse";
   check_scene(preset, where);
   check_receivers(s, preset::child(own, "receivers"), where);
+  if (s.frames > 0 && s.receivers.size() == 1)
+    throw bad_input(where(preset::child(own, "frames")), fmt::format("is {}, and there is one receiver", s.frames),
+                    "expected two or more, between which a screen can move", "add a receiver, or take 'frames' away");
   if (s.index.type == preset::Dispersion::Type::constant && s.index.n == 1)
     throw bad_input(where(preset::child(own, "index")), "is 1, which bends no light", "expected another index, such as 1.5");
   if (s.heights == Settings::Heights::free && s.method == Settings::Method::thesis)

@@ -28,6 +28,13 @@ bool holds_a_run_or_nothing(const fs::path& folder)
   return true;
 }
 
+/// What the engine of an older run wrote, by its run.json.
+void remove_files_of_engine(const fs::path& folder)
+{
+  std::error_code ignored;
+  for (const std::string& name : engine_files(folder)) fs::remove(folder / name, ignored);
+}
+
 void remove_leftovers(const fs::path& folder)
 {
   for (const auto& entry : fs::directory_iterator(folder))
@@ -37,10 +44,11 @@ void remove_leftovers(const fs::path& folder)
 void claim(const fs::path& folder)
 {
   if (is_there(folder) && !fs::is_directory(folder))
-    throw bad_input(folder.string(), "is a file", "a folder for the run's files", "choose another one with -o");
+    throw bad_input(folder.string(), "is a file", "expected a folder for the run's files", "choose another one with -o");
   fs::create_directories(folder);
   if (!holds_a_run_or_nothing(folder))
-    throw bad_input(folder.string(), "holds files that are not of a run", "an empty or a new folder", "choose another one with -o");
+    throw bad_input(folder.string(), "holds files that are not of a run", "expected an empty or a new folder",
+                    "choose another one with -o");
   remove_leftovers(folder);
   const fs::path probe = folder / "probe";
   write_file_whole(probe, "writable?\n");
@@ -54,7 +62,7 @@ void claim_folder(const fs::path& folder)
   try {
     claim(folder);
   } catch (const fs::filesystem_error& error) {
-    throw failed(folder.string(), "cannot be used: " + error.code().message(), "a folder that can be written to",
+    throw failed(folder.string(), "cannot be used: " + error.code().message(), "expected a folder that can be written to",
                  "choose another one with -o");
   }
 }
@@ -65,8 +73,23 @@ void release_folder(const fs::path& folder)
   fs::remove(folder, ignored); // refused where anything is in it
 }
 
+std::vector<std::string> engine_files(const fs::path& folder)
+{
+  std::vector<std::string> names;
+  if (!is_there(folder / "run.json")) return names;
+  try {
+    const auto run = nlohmann::json::parse(read_file(folder / "run.json"));
+    for (const auto& name : run.at("files"))
+      names.push_back(fs::path(name.get<std::string>()).filename().string()); // nothing outside the folder
+  } catch (const nlohmann::json::exception&) {
+    names.clear(); // written by something else
+  }
+  return names;
+}
+
 void begin_run(const fs::path& folder, const Prepared& prepared)
 {
+  remove_files_of_engine(folder);
   for (const char* name : results) {
     std::error_code ignored;
     fs::remove(folder / name, ignored);

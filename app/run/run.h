@@ -48,6 +48,8 @@ void release_folder(const std::filesystem::path& folder);
 /// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all writing below
 /// throws failed with the system's reason.
 void begin_run(const std::filesystem::path& folder, const Prepared& prepared);
+/// Names of the pictures, curves and further files in the folder that are the engine's, by run.json; none where that is missing or damaged.
+std::vector<std::string> engine_files(const std::filesystem::path& folder);
 /// preset.json and plan.json alone: what begin_run and write_run write, and a resumed run whose stop differs.
 void write_settings(const std::filesystem::path& folder, const Prepared& prepared);
 /// How far the run in the folder came, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged.

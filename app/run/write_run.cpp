@@ -63,7 +63,7 @@ void add_errors(Json& run, const job::History& history, const measure::Reference
 }
 
 std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device, const job::Snapshot& snapshot,
-                     const measure::Reference* reference, const Json& pictures, bool finished)
+                     const measure::Reference* reference, const Json& pictures, const std::vector<std::string>& files, bool finished)
 {
   const job::Progress& progress = snapshot.progress;
   Json phases = Json::object();
@@ -86,6 +86,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
   add_scalars(all, snapshot.scalars);
   if (snapshot.history) add_errors(all, *snapshot.history, reference);
   if (!pictures.empty()) all["pictures"] = pictures;
+  all["files"] = files;
   return json_text(all, 2) + "\n";
 }
 
@@ -107,15 +108,19 @@ void write_run(const std::filesystem::path& folder, const Prepared& prepared, co
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw failed(folder.string(), "cannot be made: " + error.message());
-  write_picture(folder / "image", prepared.preset, device, *snapshot.picture);
-  for (const job::NamedPicture& further : snapshot.pictures)
-    write_picture(folder / further.name, prepared.preset, device, *further.picture);
-  for (const job::Curve& curve : snapshot.curves) write_file_whole(folder / (curve.name + ".csv"), to_csv(curve));
-  for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / file.name, file.write);
+  std::vector<std::string> files;
+  const auto picture = [&](const std::string& name, const job::Picture& pixels) {
+    write_picture(folder / name, prepared.preset, device, pixels);
+    files.insert(files.end(), {name + ".exr", name + ".png"});
+  };
+  picture("image", *snapshot.picture);
+  for (const job::NamedPicture& further : snapshot.pictures) picture(further.name, *further.picture);
+  for (const job::Curve& curve : snapshot.curves) write_file_whole(folder / files.emplace_back(curve.name + ".csv"), to_csv(curve));
+  for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / files.emplace_back(file.name), file.write);
   if (snapshot.history) write_history(folder, *snapshot.history);
   write_settings(folder, prepared);
-  write_file_whole(folder / "run.json",
-                   run_json(prepared, device, snapshot, reference, pictures_at(folder), finished)); // last: its "finished" speaks for all
+  write_file_whole(folder / "run.json", run_json(prepared, device, snapshot, reference, pictures_at(folder), files,
+                                                 finished)); // last: its "finished" speaks for all
 }
 
 } // namespace nephroid::run

@@ -106,7 +106,8 @@ const std::vector<Extreme> screens{
      [] {
        return refuses(alone(R"({"distance_mm": 0.01, "picture": {"type": "disc"}})"),
                       "p.json#/inverse/receivers/0/distance_mm: is 0.01 mm, and facets of 3.125 x 3.125 mm can reach 1.975 mm from their "
-                      "middle; expected more than that, so that the receiver is free of the object; choose more facets, or a larger value");
+                      "middle; expected more than that, so that the receiver is free of the object; choose more facets, a larger value "
+                      "here or an index farther from 1");
      }},
     {"FiftyMetresAway", "a receiver of 100 mm at 50 m: slopes up to 1e-3", "footprints beside rays",
      [] { return as_believed(alone(R"({"distance_mm": 5e4, "picture": {"type": "disc"}})"), 0.1); }},

@@ -140,6 +140,26 @@ TEST(Lens, IsRefusedWhereItReachesTheFront)
   }
 }
 
+// Each facet is four triangles about its middle: what a workshop is told is the steepest of them.
+TEST(Lens, IsAsSteepAsItsTriangles)
+{
+  inverse::Layout layout = object();
+  const inverse::Target target = disc(layout);
+  inverse::Lens lens(layout, target, own);
+  for (int i = 0; i < 6; ++i) lens.advance();
+  const inverse::Solid solid = lens.solid();
+  double steepest = 0;
+  for (std::size_t t = 0; t < solid.parts.size(); ++t)
+    if (solid.parts[t] == inverse::Part::facet) {
+      const auto corner = [&](int i) { return glm::dvec3(solid.mesh.positions[solid.mesh.triangles[t][i]]); };
+      const glm::dvec3 across = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+      steepest = std::max(steepest, glm::degrees(std::atan2(glm::length(glm::dvec2(across)), std::abs(across.z))));
+    }
+  EXPECT_NEAR(solid.steepest_deg, steepest, 1e-3);
+  layout.steepest = std::tan(glm::radians(solid.steepest_deg - 0.01));
+  EXPECT_THROW(lens.solid(), Error) << "max_slope_deg";
+}
+
 TEST(Lens, KeepsAWorkshopsRelief)
 {
   inverse::Layout layout = object();

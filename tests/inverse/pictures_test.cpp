@@ -2,6 +2,7 @@
 // Words, QR codes, grey levels and tones as light a cell.
 #include "base/files.h"
 #include "image/image.h"
+#include "inverse/pictures/grey.h"
 #include "inverse/pictures/target.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
@@ -165,6 +166,13 @@ TEST_F(PictureFiles, ToneIsAnExponent)
 }
 
 // A header that promises 43 GB of floats.
+TEST_F(PictureFiles, AreDarkWhereTheyAreTransparent)
+{
+  image::write_png_bytes(folder.path() / "cut.png", 2, 1, {255, 255, 255, 0, 255, 255, 255, 255});
+  const inverse::Grey grey = inverse::read_grey(folder.path() / "cut.png");
+  EXPECT_THAT(grey.values, testing::ElementsAre(0, 1));
+}
+
 TEST_F(PictureFiles, AreRefusedWhereTheyAreHuge)
 {
   std::ofstream(file + ".hdr", std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n";

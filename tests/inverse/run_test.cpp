@@ -85,6 +85,20 @@ TEST_F(InverseRun, ShowsWhatAScreenSeesThatMoves)
   EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_0010.exr"));
 }
 
+// A person would mill the object of the run before.
+TEST_F(InverseRun, LeavesNothingOfTheRunBefore)
+{
+  ASSERT_EQ(run_to("out", {"--passes", "1", "--set", "inverse.frames=1"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/receiver_3.png"));
+  const auto files = of("out/run.json").at("files").get<std::vector<std::string>>();
+  EXPECT_THAT(files, testing::IsSupersetOf({"object.stl", "workshop.md", "frame_0002.exr", "frames.csv", "image.png"}));
+  for (const std::string& file : files) EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
+  const std::string one = R"(inverse.receivers=[{"distance_mm": 100, "picture": {"type": "disc"}}])";
+  ASSERT_EQ(run_to("out", {"--passes", "1", "--set", one, "--set", R"(inverse.light={"type": "point"})"}).exit_code, 0);
+  for (const char* file : {"receiver_3.png", "target_2.exr", "frame_0002.exr", "frames.csv", "view.json"})
+    EXPECT_FALSE(std::filesystem::exists(folder / "out" / file)) << file;
+}
+
 TEST_F(InverseRun, GoesOnWithTheSameBits)
 {
   ASSERT_EQ(run_to("whole", {"--passes", "3"}).exit_code, 0);

@@ -8,6 +8,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -118,6 +119,20 @@ TEST_F(InverseSettings, Drawings)
   EXPECT_THAT(refusal({R"(inverse.receivers.0.picture={"type": "square"})"}), HasSubstr("square"));
   EXPECT_THAT(refusal({R"(inverse.receivers.0.picture={"type": "ring", "inner": 1.5, "radius": 1.9})"}),
               HasSubstr("leaves every cell of the receiver dark"));
+}
+
+TEST_F(InverseSettings, WordsThatTheFontIsNotAskedFor)
+{
+  for (const char* text : {"Grüße", "two\\nlines"})
+    EXPECT_THAT(refusal({fmt::format(R"(inverse.receivers.0.picture={{"type": "text", "text": "{}"}})", text)}),
+                AllOf(HasSubstr(": is \""), HasSubstr("only printable ASCII is drawn")));
+}
+
+TEST_F(InverseSettings, WhatTheChosenMethodHasNot)
+{
+  EXPECT_THAT(refusal({"inverse.method=thesis", "inverse.receivers.0.weight=2"}), HasSubstr("weight=2: is 2, and the method 'thesis'"));
+  EXPECT_THAT(refusal({R"(inverse.receivers=[{"distance_mm": 100, "picture": {"type": "disc"}}])", "inverse.frames=2"}),
+              HasSubstr("frames=2: is 2, and there is one receiver"));
 }
 
 TEST_F(InverseSettings, PictureFiles)

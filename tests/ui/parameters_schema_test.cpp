@@ -101,7 +101,7 @@ protected:
     else if (node.value("minLength", 0) > 0)
       all = owner.starts_with("Dispersion") ? std::vector<std::string>{"N-BK7", "N-SF66"} : std::vector<std::string>{"a.exr", "b.exr"};
     else if (node["type"] == "string")
-      all = {"Grüße, \"quoted\" \\ ~/", "other"};
+      all = {owner.starts_with("InversePicture") ? "A \"quoted\" \\ ~/" : "Grüße, \"quoted\" \\ ~/", "other"};
     else {
       const double x = now.is_number() ? now.get<double>() : 1;
       for (const double to : {x + 1, x - 1, x / 2, x + 0.5})
@@ -248,7 +248,8 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
   EXPECT_EQ(text(), before);
   if (HasFatalFailure()) return;
   runs.adopts = false; // fake jobs do so as engine 1 does
-  open(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {"facets": [8, 8]}})");
+  open(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {"facets": [8, 8], "receivers": [
+    {"distance_mm": 100, "picture": {"type": "ring"}}, {"distance_mm": 200, "picture": {"type": "disc"}}]}})");
   visit(schema["properties"]["inverse"], "/inverse", "Preset", "Preset.inverse");
   std::vector<std::string> left;
   std::ranges::set_symmetric_difference(edited, leaves(), std::back_inserter(left));

@@ -68,14 +68,31 @@ const char* read(const char* file, void (*take)(void*, const NephroidPicture*), 
                   std::to_string(spec.nchannels) + " channels, and at most 2^29 values are read");
   std::vector<float> floats(values);
   if (!input->read_image(0, 0, 0, spec.nchannels, TypeFloat, floats.data())) return reason(input->geterror());
+  int width = spec.width, height = spec.height;
+  if (const int orientation = spec.get_int_attribute("Orientation", 1); orientation != 1) { // as a camera was held (Exif)
+    ImageSpec own(spec.width, spec.height, spec.nchannels, TypeFloat);
+    own.attribute("Orientation", orientation);
+    const ImageBuf upright = ImageBufAlgo::reorient(ImageBuf(own, floats.data()));
+    std::vector<float> turned(values);
+    if (!upright.get_pixels(upright.roi(), TypeFloat, turned.data())) return reason(upright.geterror());
+    floats.swap(turned);
+    width = upright.spec().width;
+    height = upright.spec().height;
+  }
   std::vector<const char*> channels;
   for (const std::string& name : spec.channelnames) channels.push_back(name.c_str());
   const auto texts = texts_of(spec);
   std::vector<NephroidAttribute> attributes;
   for (const auto& [name, value] : texts) attributes.push_back({name.c_str(), value.c_str()});
-  const NephroidPicture picture{spec.width,        spec.height,       spec.nchannels,
-                                channels.data(),   floats.data(),     nullptr,
-                                attributes.data(), attributes.size(), !spec.format.is_floating_point()};
+  const NephroidPicture picture{width,
+                                height,
+                                spec.nchannels,
+                                channels.data(),
+                                floats.data(),
+                                nullptr,
+                                attributes.data(),
+                                attributes.size(),
+                                !spec.format.is_floating_point()};
   take(context, &picture);
   return nullptr;
 }

@@ -38,6 +38,11 @@ public:
         const double a = corner(column, row), b = corner(column + 1, row), c = corner(column, row + 1), d = corner(column + 1, row + 1);
         const glm::dvec2 gradient{(b + d - a - c) / (2 * layout.facet().x), (a + b - c - d) / (2 * layout.facet().y)};
         solid_.facets.push_back({facet_slope(gradient, layout.n), gradient, (a + b + c + d) / 4});
+        for (const glm::dvec2& side : {glm::dvec2(b - a, (a + b - c - d) / 2),
+                                       {d - c, (a + b - c - d) / 2},
+                                       {(b + d - a - c) / 2, a - c},
+                                       {(b + d - a - c) / 2, b - d}}) // its four triangles
+          lean(side / layout.facet());
       }
   }
 
@@ -97,8 +102,13 @@ private:
             solid_.highest = std::max(solid_.highest, heights[f]);
           }
       }
-    for (const Facet& f : solid_.facets)
-      solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan(glm::length(f.gradient))));
+    if (corners_.empty())
+      for (const Facet& f : solid_.facets) lean(f.gradient);
+  }
+
+  void lean(const glm::dvec2& gradient)
+  {
+    solid_.steepest_deg = std::max(solid_.steepest_deg, glm::degrees(std::atan(glm::length(gradient))));
   }
 
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, Part part)

@@ -57,8 +57,9 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
   row("steepest wall", solid.wall_area > 0 ? "90 degrees, as all of them" : "none");
   row("highest wall", mm(solid.highest_wall));
   row("area of the walls between facets", fmt::format("{:.4g} mm2", solid.wall_area));
-  page += "\nThe front is flat and the light's way in. The facets are on the other side; walls between them stand straight up.\n\n"
-          "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the front at the top (+z).\n"
+  page += fmt::format("\nThe front is flat and the light's way in. {} on the other side.\n\n",
+                      solid.wall_area > 0 ? "The facets, with walls between them that stand straight up, are" : "The relief is");
+  page += "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the front at the top (+z).\n"
           "- `facets.json`: a line a facet.\n";
   fmt::format_to(std::back_inserter(page), "- `heights.exr`: thickness in mm; {}.\n- `heights.png`: {}.\n", scale_of(layout),
                  png_scale(layout, solid));

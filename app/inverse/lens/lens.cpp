@@ -138,8 +138,13 @@ Solid Lens::solid() const
   if (reach > layout_.band)
     throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
                     fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),
-                    "loosen them, or choose a receiver further away");
-  return make_smooth_solid(layout_, {heights_.data(), heights_.data() + heights_.size()});
+                    "loosen them, choose a larger thickness_mm or a receiver further away");
+  Solid solid = make_smooth_solid(layout_, {heights_.data(), heights_.data() + heights_.size()});
+  if (const double most = glm::degrees(std::atan(layout_.steepest)); solid.steepest_deg > most)
+    throw bad_input(settings_ / "max_slope_deg",
+                    fmt::format("is {:.4g} degrees, and the lens is as steep as {:.4g}", most, solid.steepest_deg),
+                    "expected more than that", "choose a larger angle or a receiver further away");
+  return solid;
 }
 
 void Lens::show(job::Snapshot& made) const { made.scalars.push_back({"lens", "astray", transport_.astray()}); }

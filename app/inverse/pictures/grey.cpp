@@ -12,13 +12,18 @@ Grey read_grey(const std::filesystem::path& file)
 {
   const image::Image picture = image::read_image(file);
   const image::Rgb rgb = image::rgb_of(picture, file.string());
+  const auto alpha = std::find(picture.channels.begin(), picture.channels.end(), "A");
+  const bool transparent = alpha != picture.channels.end() && picture.integers; // colours of floats are multiplied by it already
+  const auto opacity = [&](std::size_t pixel) {
+    return transparent ? picture.data[pixel * picture.channels.size() + static_cast<std::size_t>(alpha - picture.channels.begin())] : 1.0f;
+  };
   Grey grey{picture.width, picture.height, {}};
   for (std::size_t i = 0; i < rgb.values.size(); i += 3) {
     const auto linear = [&](std::size_t channel) {
       const double value = rgb.values[i + channel];
       return picture.integers ? image::decoded_srgb(value) : value;
     };
-    const double y = 0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2);
+    const double y = (0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2)) * opacity(i / 3);
     if (!std::isfinite(y) || y < 0)
       throw bad_input(file.string(), "has a pixel that is negative or not a number", "expected a picture of light");
     grey.values.push_back(y);
