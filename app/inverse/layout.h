@@ -65,7 +65,8 @@ struct Layout {
   glm::dvec2 middle_of_cell(std::size_t i) const
   {
     const auto columns = static_cast<std::size_t>(cells.x);
-    const glm::dvec2 at(static_cast<double>(i % columns) + 0.5, static_cast<double>(i / columns) + 0.5);
+    const std::size_t column = i % columns, row = i / columns;
+    const glm::dvec2 at(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     return {at.x * cell().x - receiver.x / 2, receiver.y / 2 - at.y * cell().y};
   }
   glm::dvec2 sines_on(std::size_t facet) const { return incoming.empty() ? glm::dvec2(0) : incoming[facet].sines; }
