@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/environment.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "image/image.h"
 
@@ -30,6 +31,21 @@ void check_texels(const std::vector<float>& rgb, int width, const Place& file)
                   fmt::format("{} of the texel in row {}, column {} (from 0) {}", channels[index % 3],
                               texel / static_cast<std::size_t>(width), texel % static_cast<std::size_t>(width), fault_of(*bad)),
                   "expected radiances of 0 or more", "mend the picture");
+}
+
+/// A file that is compressed with loss, or was sharpened, has values a little below 0 in dark places. Where they are next to nothing in sum
+/// they become 0, and that is said; others are left for check_texels to refuse.
+void mend_negative_texels(std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings)
+{
+  constexpr double next_to_nothing = 1e-3;
+  double above = 0, below = 0;
+  for (const float value : rgb) (value < 0 ? below : above) += std::abs(double(value));
+  const auto count = std::count_if(rgb.begin(), rgb.end(), [](float value) { return value < 0; });
+  if (count == 0 || !(below <= next_to_nothing * above)) return;
+  std::replace_if(
+      rgb.begin(), rgb.end(), [](float value) { return value < 0; }, 0.0f);
+  warnings.push_back(fmt::format("environment {}: {} below 0, in sum {:.1g} of all its light; they are taken as 0", name,
+                                 counted(count, "value is", "values are"), below / above));
 }
 
 /// The film has 2^24 quanta for a mean texel (spectral/tables/background_tables.cpp). Says where one or few texels are so much brighter
@@ -62,6 +78,7 @@ Environment read_environment(const std::filesystem::path& file, std::vector<std:
   result.width = picture.width;
   result.height = picture.height;
   result.rgb = image::rgb_of(picture, file.string()).values;
+  mend_negative_texels(result.rgb, file.filename().string(), warnings);
   check_texels(result.rgb, result.width, file);
   if (picture.integers)
     for (float& value : result.rgb) value = static_cast<float>(image::decoded_srgb(value));

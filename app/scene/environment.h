@@ -24,7 +24,8 @@ struct Environment {
 
 /// Floats of a file are taken as linear, integers as sRGB-encoded; a grey picture is as good as one with colours.
 /// Throws bad_input at the file for what is no such picture, naming the texel of a value that is NaN, infinite or negative, and
-/// at `where` (FILE#/scene/environment) for a file that is not there. Appends to warnings where the picture's shape is not 2 : 1.
+/// at `where` (FILE#/scene/environment) for a file that is not there. Values below 0 that are at most a thousandth of all light in sum
+/// become 0. Appends to warnings where there are such, and where the picture's shape is not 2 : 1.
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Place& where,
                              std::vector<std::string>& warnings);
 

@@ -174,7 +174,13 @@ const std::vector<Extreme> extremes = {
     {"TexelNaN", "a texel that is not a number", "refused",
      [] { return texel_refused(std::numeric_limits<float>::quiet_NaN(), "is not a number"); }},
     {"TexelInfinite", "an infinite texel", "refused", [] { return texel_refused(std::numeric_limits<float>::infinity(), "is infinite"); }},
-    {"TexelNegative", "a texel of -1e-30", "refused", [] { return texel_refused(-1e-30f, "is negative"); }},
+    {"TexelNegative", "a texel of -1e6 among 1", "refused", [] { return texel_refused(-1e6f, "is negative"); }},
+    {"TexelBelowNothing", "a texel of -1e-30 among 1", "said, and taken as 0",
+     [] {
+       const TemporaryFolder folder;
+       return warns(one_texel(folder, -1e-30f),
+                    "environment sky.exr: 3 values are below 0, in sum 5e-34 of all its light; they are taken as 0");
+     }},
     {"SkyThroughBlackGlass", "white surroundings through 1 mm of glass with k = 1e12: exp(-infinity)", "only what its face reflects",
      [] { return through_absorbing_glass(1e12); }},
     {"SkyInOnePixel", "a picture of one pixel, seen through a ball", "a white furnace keeps its colour",

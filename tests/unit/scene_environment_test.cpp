@@ -91,8 +91,22 @@ TEST_F(SceneEnvironment, ABadTexelIsNamed)
   sky[3 * 3] = std::numeric_limits<float>::infinity();
   EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("red of the texel in row 0, column 3 (from 0) is infinite"));
   sky[3 * 3] = 1;
-  sky[3 * 7 + 2] = -1e-6f;
+  sky[3 * 7 + 2] = -1;
   EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("blue of the texel in row 1, column 3 (from 0) is negative"));
+}
+
+// As every map of Debian's blender-data has them, which are compressed with loss.
+TEST_F(SceneEnvironment, AFewValuesBelowNothingAreBlackAndSaid)
+{
+  std::vector<float> sky(3 * 8, 1.0f);
+  sky[3 * 7 + 2] = sky[4] = -0.01f; // 0.02 of 22
+  const Environment e = load(write_exr(sky, 4));
+  EXPECT_EQ(e.rgb[3 * 7 + 2], 0);
+  EXPECT_EQ(e.rgb[4], 0);
+  EXPECT_EQ(e.rgb[0], 1);
+  EXPECT_THAT(warnings, ElementsAre("environment sky.exr: 2 values are below 0, in sum 0.0009 of all its light; they are taken as 0"));
+  sky[4] = -0.02f;
+  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("green of the texel in row 0, column 1 (from 0) is negative"));
 }
 
 TEST_F(SceneEnvironment, WhatIsNoSuchPictureIsRefused)
