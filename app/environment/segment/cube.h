@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A cube seen from its centre: six square faces, which of their points a direction meets, and solid angles on them.
+#pragma once
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace nephroid::environment {
+
+inline constexpr int face_count = 6;
+/// A face is named by the axis through its middle. The numbers of faces are places in this list.
+inline constexpr std::array<const char*, face_count> face_names{"+x", "-x", "+y", "-y", "+z", "-z"};
+
+/// A point of the cube of half side 1: s to the right and t downwards in its face, -1..1 each. Faces lie as in cube maps of OpenGL:
+/// s and t of +x are -z and -y, of -x +z and -y, of +y +x and +z, of -y +x and -z, of +z +x and -y, of -z -x and -y.
+struct CubePoint {
+  int face = 0;
+  double s = 0, t = 0;
+};
+
+/// Where the point is; not of unit length.
+glm::dvec3 position(const CubePoint& point);
+/// The point that a direction from the centre meets. direction: of any length but 0.
+inline CubePoint met_point(const glm::dvec3& direction)
+{
+  const double x = direction.x, y = direction.y, z = direction.z;
+  const double across = std::abs(x), up = std::abs(y), along = std::abs(z);
+  if (up >= across && up >= along) return y > 0 ? CubePoint{2, x / up, z / up} : CubePoint{3, x / up, -z / up};
+  if (across >= along) return x > 0 ? CubePoint{0, -z / across, -y / across} : CubePoint{1, z / across, -y / across};
+  return z > 0 ? CubePoint{4, x / along, -y / along} : CubePoint{5, -x / along, -y / along};
+}
+
+/// Texels x0..x1 and y0..y1 of a face, half open; x counts along s, y along t.
+struct Rect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool operator==(const Rect&) const = default;
+};
+
+/// s or t of the border before texel i, 0..size, of a face of size x size texels.
+inline double border(int i, int size) { return 2.0 * i / size - 1; }
+/// s or t of the middle of texel i.
+inline double middle(int i, int size) { return (2.0 * i + 1) / size - 1; }
+/// The texel, 0..size-1, that s or t lies in.
+inline int texel_of(double s, int size)
+{
+  const int i = static_cast<int>((s + 1) / 2 * size);
+  return i < size ? i : size - 1;
+}
+
+/// In sr, exact.
+double solid_angle(const Rect& rect, int size);
+
+} // namespace nephroid::environment

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The environment as few directional lights: its cube map cut into rectangles, each with one direction and its whole flux (Kartasasmita,
+// Algorithm 3.3; Viriyothai and Debevec 2009, "Variance minimization light probe sampling").
+#pragma once
+#include "environment/segment/cube_map.h"
+
+#include <vector>
+
+namespace nephroid::environment {
+
+/// variance: M0 - |M1|^2 / M0, from a region's radiance M0 and the sum M1 of its radiance times direction, is what one direction leaves
+/// out. Of the region that has most of it, the cut is made that leaves least. thesis: the region of most radiance is cut into halves of
+/// equal radiance, in the direction that gives the squarer rectangles (3.2).
+enum class SegmentMethod { variance, thesis };
+
+/// How much a texel's radiance counts: as its solid angle, or, as printed in the thesis, as every other texel's. For where regions are cut
+/// and which direction each has; their flux is exact either way.
+enum class SegmentWeights { solid_angle, texel };
+
+struct SegmentSettings {
+  int lights = 24; ///< q, at least 6
+  SegmentMethod method = SegmentMethod::variance;
+  SegmentWeights weights = SegmentWeights::solid_angle;
+  double threshold = 1e-7; ///< a region with no more than this part of all radiance is no light; 0..1
+};
+
+struct Region {
+  int face = 0; ///< of face_names
+  Rect rect;
+  glm::dvec3 direction{0}; ///< unit; where its light comes from: the mean of its directions, weighted by radiance
+  glm::dvec3 flux{0};      ///< radiance times solid angle, linear sRGB, W/m^2 of Y on a plane that faces it
+  double solid_angle_sr = 0;
+};
+
+struct Segmentation {
+  int cube_size = 0;
+  glm::dvec3 total_flux{0};   ///< of the cube map, and of all lights together
+  std::vector<Region> lights; ///< by face, row and column of their first texel
+  std::vector<Region>
+      dropped; ///< below the threshold: black, or its flux is counted in the nearest light's. With the lights it tiles the cube.
+};
+
+/// Radiance is luminance here. A region of one texel is passed over, so there are fewer lights where the lit texels are fewer, and none
+/// where the map is black. Throws bad_input at "q" for fewer than 6.
+Segmentation segment(const CubeMap& cube, const SegmentSettings& settings);
+
+} // namespace nephroid::environment
