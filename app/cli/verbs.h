@@ -16,6 +16,7 @@ void add_plan(CLI::App& program, Session& session);
 void add_dispersion(CLI::App& program, Session& session);
 void add_clusters(CLI::App& program, Session& session);
 void add_importance(CLI::App& program, Session& session);
+void add_segment(CLI::App& program, Session& session);
 void add_report(CLI::App& program, Session& session);
 void add_compare(CLI::App& program, Session& session);
 void add_presets(CLI::App& program, Session& session);
