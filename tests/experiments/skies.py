@@ -60,7 +60,7 @@ def low_sun(azimuth, elevation):
     above = math.radians(elevation - 24)
     from_sun = math.degrees(math.hypot(aside, above))
     if from_sun < 0.7:
-        return [9000, 7200, 5000]
+        return [36000, 29000, 20000]
     if elevation < 0:
         return [0.10, 0.08, 0.06]
     return mixed([0.9, 0.75, 0.6], [0.12, 0.25, 0.6], min(1, math.sin(math.radians(elevation)) ** 0.5))
