@@ -136,10 +136,11 @@ std::string size_of(const scene::Environment& environment)
 }
 
 /// Of a scene that has an environment.
-plan::Pass environment_light_pass(const scene::Environment& environment)
+plan::Pass environment_light_pass(const Settings& settings, const scene::Environment& environment)
 {
   const std::string name = "environment light", field = "/scene/environment/lights";
   if (environment.is_black()) return {name, false, "the environment is black", "", false};
+  if (settings.relight) return not_in_layers(name, "every texel has a spectrum of its own");
   if (!environment.lights) return {name, false, "scene.environment.lights is false: it is only seen", field, true};
   return {name, true, size_of(environment) + ": sends photons and lights diffuse surfaces, each texel by its flux", field, true};
 }
@@ -325,7 +326,7 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
   for (const std::vector<plan::Pass>& passes : {tracing::data_omissions(leave_out, scene, tables.spheres), code.passes})
     plan.passes.insert(plan.passes.end(), passes.begin(), passes.end());
   for (const plan::Pass& pass : {maps.pass, indirect, background, estimate}) plan.passes.push_back(pass);
-  if (scene.environment) plan.passes.push_back(environment_light_pass(*scene.environment));
+  if (scene.environment) plan.passes.push_back(environment_light_pass(settings, *scene.environment));
   plan.direct = direct.runs;
   plan.photons = photons.runs;
   plan.maps = maps.pass.runs;
