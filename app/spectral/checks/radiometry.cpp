@@ -125,7 +125,7 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed)
   p.scene.lights.clear();
   p.scene.objects[0] = object("floor", quad(3, 3), "white");
   p.scene.materials["nothing"] = glass(1);
-  p.scene.objects.push_back(object("ball", ball(0.3), "nothing", at({0.1, 0.7, -0.2})));
+  p.scene.objects.push_back(object("ball", ball(0.4), "nothing", at({0.1, 1, -0.2})));
   p.scene.environment.emplace();
   p.scene.environment->type = preset::Environment::Type::constant;
   p.scene.environment->colour = {0.7, 0.4, 0.05};
