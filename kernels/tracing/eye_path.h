@@ -75,8 +75,8 @@ static inline float4 sky_numbers(const DeviceLight* light, uint2 seed, uint samp
 // What the environment sends unbent to the side of a surface that a path arrives at, as irradiance times Source::rgb. Two shadow rays, one
 // drawn by the map's flux and one by the cosine, weighted by the balance heuristic (Veach 1997, 9.2.2): each radiance * cosine over the sum
 // of both densities. The first finds a sun, the second is exact where the sky is even.
-static inline float3 sky_irradiance(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle, uint2 seed,
-                                    uint sample, uint paths, uint pixel)
+static inline float3 sky_irradiance(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle,
+                                    uint2 seed, uint sample, uint paths, uint pixel)
 {
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
@@ -84,8 +84,7 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
   const float4 random = sky_numbers(&light, seed, sample, paths, pixel);
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < 2; ++i) {
-    const SkyPlace place =
-        i == 0 ? sample_sky(&world->sky, random.xy) : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
+    const SkyPlace place = i == 0 ? sample_sky(&world->sky, random.xy) : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
     const float cosine = dot(place.direction, normal);
     if (!(cosine > 0.0f) || !(place.density > 0.0f) || !(side * dot(place.direction, surface->geometric) > 0.0f)) continue;
     if (is_blocked(world, from, place.direction, INFINITY, triangle)) continue;

@@ -33,14 +33,14 @@ static inline float sky_density(const Sky* sky, int row, int column)
   __global const float* columns = sky->cdf + height + (size_t)row * (size_t)width;
   const float of_row = sky->cdf[row] - chance_before(sky->cdf, row), of_column = columns[column] - chance_before(columns, column);
   // cos a - cos b as a product, exact for thin rows.
-  const float steradians =
-      4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
+  const float steradians = 4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
   return of_row * of_column / steradians;
 }
 
 static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column)
 {
-  const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->colour), sky_density(sky, row, column)};
+  const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->colour),
+                          sky_density(sky, row, column)};
   return place;
 }
 

@@ -52,8 +52,7 @@ typedef struct {
   {                                                                                                                                        \
     {nodes, blocks, corners, positions, normals, object_of_primitive, scene.root}, objects, materials, lights, index_of_cluster,           \
         index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                      \
-        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size}, reflector_count,       \
-        scene                                                                                                                              \
+        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size}, reflector_count, scene \
   }
 
 typedef struct {
