@@ -132,7 +132,8 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed)
   p.scene.environment->lights = true;
   spectral::settings(p).direct = true;
   spectral::settings(p).background = false;
-  spectral::settings(p).photons_per_pass = 1 << 19;
+  spectral::settings(p).photons_per_pass = 1 << 15;
+  p.stop.passes = spectral::settings(p).pixel_samples = 16;
   const job::Snapshot snapshot = render(p, context);
   const std::vector<float>&direct = layer(snapshot, "direct").rgb, &caustic = layer(snapshot, "caustic").rgb;
   double sums[3] = {}, squares[3] = {}, hidden = 0, worst = 0;
