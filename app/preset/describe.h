@@ -268,6 +268,7 @@ void describe(V& v, S& e)
              .unit = "degrees",
              .bounds = within(-3600, 3600)},
             e.rotate_deg);
+  v.field({.name = "lights", .sentence = "Whether engine 1 lights the scene with it; if not, it is only seen."}, e.lights);
 }
 
 template <class V, Is<Scene> S>
@@ -277,7 +278,7 @@ void describe(V& v, S& s)
   v.field({.name = "materials", .sentence = "Materials by name.", .count = {0, 1000}}, s.materials);
   v.field({.name = "objects", .sentence = "Everything that light can hit.", .count = {0, 10000}}, s.objects);
   v.field({.name = "lights", .sentence = "The lights.", .count = {0, 1000}}, s.lights);
-  v.field({.name = "environment", .sentence = "What is behind everything; seen, not shining."}, s.environment);
+  v.field({.name = "environment", .sentence = "What is behind everything, and may light it."}, s.environment);
   v.field({.name = "damaged_meshes", .sentence = "What is done about glass whose mesh has a hole or is inside out."}, s.damaged_meshes);
 }
 

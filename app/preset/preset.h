@@ -118,7 +118,7 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
-/// What is behind everything, infinitely far: the camera sees it, directly and through glass; it lights nothing in engine 1.
+/// What is behind everything, infinitely far: the camera sees it, directly and through glass.
 /// JSON: a string (a picture file) or an object with "type".
 struct Environment {
   enum class Type { file, constant };
@@ -127,6 +127,7 @@ struct Environment {
   Vec3 colour{1, 1, 1};  ///< constant: linear sRGB
   double radiance = 1;   ///< the luminance Y (W m^-2 sr^-1, no factor 683) of the colour (1, 1, 1)
   double rotate_deg = 0; ///< file: turns the surroundings about +y, counterclockwise as seen from above
+  bool lights = false;   ///< engine 1: whether it is a light too; false: it is a backdrop, as where lamps light a scene before a picture
   bool operator==(const Environment&) const = default;
 };
 

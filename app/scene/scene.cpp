@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "base/nearest.h"
 #include "scene/directions.h"
+#include "scene/environment_light.h"
 #include "scene/materials.h"
 #include "scene/place.h"
 #include "scene/shapes.h"
@@ -195,9 +196,9 @@ void warn_of_faint_lights(Scene& scene)
     const double share = typical_irradiance(scene, scene.lights[i]) / strongest;
     if (share > 0 && share < 0x1p-30)
       scene.warnings.push_back(
-          fmt::format("light {}: is {:.2g} of the strongest light, less than the film's numbers resolve: what it lights alone is "
+          fmt::format("{}: is {:.2g} of the strongest light, less than the film's numbers resolve: what it lights alone is "
                       "noise; render it in a run of its own",
-                      i, share));
+                      is_environment(scene.lights[i]) ? "environment" : fmt::format("light {}", i), share));
   }
 }
 
@@ -256,9 +257,11 @@ Scene load_scene(const preset::Preset& preset)
     warn_if_straddling(scene, scene.lights.back(), i);
     warn_if_wide(scene, scene.lights.back(), i);
   }
-  warn_of_faint_lights(scene);
-  if (preset.scene.environment)
+  if (preset.scene.environment) {
     scene.environment = make_environment(*preset.scene.environment, finder, where / "environment", scene.warnings);
+    if (scene.environment->lights) scene.lights.push_back(make_environment_light(*scene.environment));
+  }
+  warn_of_faint_lights(scene);
   scene.camera = make_camera(preset.scene.camera, scene);
   return scene;
 }

@@ -49,7 +49,14 @@ struct Light {
   double irradiance_w_m2 = 0;     ///< directional
   optics::Spectrum spectrum{};    ///< sums to 1
   std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
+  /// Of the environment, which is directional light of many directions and colours (environment_light.h): what a photon's red, green and
+  /// blue part each carry at every wavelength; `spectrum` is what photons are dealt by. Empty of a lamp.
+  std::vector<optics::Spectrum> primaries;
+
+  bool operator==(const Light&) const = default;
 };
+
+inline bool is_environment(const Light& light) { return !light.primaries.empty(); }
 
 /// Pinhole. right, up, forward: orthonormal; a pixel centre (x, y) looks along
 /// forward + (2 (x + .5) / width - 1) tan_x right + (1 - 2 (y + .5) / height) tan_y up.
@@ -67,7 +74,7 @@ struct Scene {
   Camera camera;
   std::vector<Material> materials;
   std::vector<Object> objects;
-  std::vector<Light> lights;
+  std::vector<Light> lights; ///< of the preset; after them the environment, where it is one
   std::optional<Environment> environment;
   Mesh geometry;                                  ///< every object's triangles, one after the other; normals for every vertex
   std::vector<std::uint32_t> object_of_primitive; ///< of the triangles, then of the ellipsoids

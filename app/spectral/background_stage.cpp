@@ -8,6 +8,7 @@
 #include "spectral/eye_stage.h"
 #include "tracing/exact_cdf.h"
 #include "tracing/scales.h"
+#include "tracing/sky_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +45,7 @@ struct BackgroundTables {
 BackgroundTables make_background_tables(const scene::Environment& environment, int pixel_samples)
 {
   BackgroundTables tables;
-  tables.size = {environment.width, environment.height, static_cast<float>(std::fmod(environment.rotate_deg, 360.0) / 360), 0};
+  tables.size = tracing::picture_size(environment);
   std::vector<double> weights(wavelength_count, 0.0); // of grey
   for (std::size_t w = 0; w < weights.size(); ++w)
     for (const Spectrum& primary : optics::primary_spectra()) {

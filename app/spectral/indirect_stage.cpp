@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect": kernels/spectral/indirect.cl.
+#include "optics/colour.h"
 #include "spectral/effort/emitters.h"
 #include "spectral/stage.h"
 #include "spectral/tables/run_tables.h"
@@ -16,13 +17,18 @@
 namespace nephroid::spectral {
 namespace {
 
-/// Of each wavelength of a light.
-std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, std::size_t light)
+/// Of each wavelength of the light at `index` of the tables.
+std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, const scene::Light& light, std::size_t index)
 {
+  const optics::ColourMatching& eye = optics::cie_1931();
   std::vector<double> weights;
-  for (const int w : tables.cluster_wavelengths) {
-    const shared::float4& xyz = tables.light_xyz[light * WAVELENGTH_COUNT + static_cast<std::size_t>(w)];
-    weights.push_back(tracing::worth((double(xyz.x) + xyz.y + xyz.z) / 3, xyz.w));
+  for (const int wavelength : tables.cluster_wavelengths) {
+    const auto w = static_cast<std::size_t>(wavelength);
+    const shared::float4& xyz = tables.light_xyz[index * WAVELENGTH_COUNT + w];
+    if (is_environment(light)) // whose rows are of its primaries
+      weights.push_back(tracing::worth(light.spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, light.spectrum[w]));
+    else
+      weights.push_back(tracing::worth((double(xyz.x) + xyz.y + xyz.z) / 3, xyz.w));
   }
   return weights;
 }
@@ -48,7 +54,7 @@ IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& 
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
     const double watts = tracing::towards_targets_w(light, {all}, scene.metres_per_unit);
-    const std::vector<double> weights = wavelength_worth(tables.wavelengths, l);
+    const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
     sources.push_back({watts * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
     result.emitted_w += watts;
     const std::vector<float> cdf = tracing::exact_cdf(weights);

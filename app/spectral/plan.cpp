@@ -129,16 +129,31 @@ plan::Pass indirect_pass(const Settings& settings, const scene::Scene& scene, co
   return {"indirect", true, reason, "/spectral/indirect", true};
 }
 
+std::string size_of(const scene::Environment& environment)
+{
+  if (environment.width * environment.height == 1) return "one colour all around";
+  return fmt::format("a picture of {} x {} texels", environment.width, environment.height);
+}
+
+/// Of a scene that has an environment.
+plan::Pass environment_light_pass(const Settings& settings, const scene::Environment& environment)
+{
+  const std::string name = "environment light", field = "/scene/environment/lights";
+  if (environment.is_black()) return {name, false, "the environment is black", "", false};
+  if (settings.relight) return not_in_layers(name, "every texel has a spectrum of its own");
+  if (!environment.lights) return {name, false, "scene.environment.lights is false: it is only seen", field, true};
+  return {name, true, size_of(environment) + ": sends photons and lights diffuse surfaces, each texel by its flux", field, true};
+}
+
 plan::Pass background_pass(const Settings& settings, const scene::Scene& scene)
 {
   if (!settings.background) return not_asked_for("background", "background");
   if (!scene.environment) return {"background", false, "there is no environment: what meets nothing is black", "", false};
   if (scene.environment->is_black()) return {"background", false, "the environment is black", "", false};
-  const int width = scene.environment->width, height = scene.environment->height;
   return {"background", true,
-          (width * height == 1 ? "one colour all around" : fmt::format("a picture of {} x {} texels", width, height)) +
-              fmt::format(", seen directly, through glass and in mirrors; {} a pixel{}", counted(settings.pixel_samples, "sample"),
-                          tracing::may_see_glass_or_mirror(scene) ? more_through_glass : ""),
+          size_of(*scene.environment) + fmt::format(", seen directly, through glass and in mirrors; {} a pixel{}",
+                                                    counted(settings.pixel_samples, "sample"),
+                                                    tracing::may_see_glass_or_mirror(scene) ? more_through_glass : ""),
           "/spectral/background", true};
 }
 
@@ -236,9 +251,10 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
   const std::uint64_t tree = bytes_of(bvh.nodes) + bytes_of(bvh.blocks),
                       triangles = bytes_of(scene.geometry.triangles) + bytes_of(scene.geometry.positions) +
                                   bytes_of(scene.geometry.normals) + bytes_of(scene.object_of_primitive),
-                      environment = scene.environment ? bytes_of(scene.environment->rgb) : 0;
+                      environment = scene.environment ? bytes_of(scene.environment->rgb) : 0,
+                      sky = tables.sky ? tracing::bytes_of(*tables.sky) : 0;
   std::vector<plan::PlannedBuffer> list{
-      {"scene (host)", tree + triangles + environment, true},
+      {"scene (host)", tree + triangles + environment + sky, true},
       {"tree", tree},
       {"triangles", triangles},
       {"wavelength tables", bytes_of(w.index_of_cluster) + bytes_of(w.index_of_wavelength) + bytes_of(w.wavelength_cdf) +
@@ -248,6 +264,7 @@ std::vector<plan::PlannedBuffer> buffers(const scene::Scene& scene, const scene:
   list.push_back({"pixels", 2 * sizeof(std::uint32_t) * pixels}); // all, and those of glass
   if (direct) list.push_back({"film direct", film_bytes(scene, halves)});
   if (photons) list.push_back({"film caustic", film_bytes(scene, halves)});
+  if (sky > 0) list.push_back({"environment as a light", sky});
   return list;
 }
 
@@ -309,6 +326,7 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
   for (const std::vector<plan::Pass>& passes : {tracing::data_omissions(leave_out, scene, tables.spheres), code.passes})
     plan.passes.insert(plan.passes.end(), passes.begin(), passes.end());
   for (const plan::Pass& pass : {maps.pass, indirect, background, estimate}) plan.passes.push_back(pass);
+  if (scene.environment) plan.passes.push_back(environment_light_pass(settings, *scene.environment));
   plan.direct = direct.runs;
   plan.photons = photons.runs;
   plan.maps = maps.pass.runs;

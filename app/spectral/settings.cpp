@@ -25,7 +25,7 @@ void check_effort(const Settings& s, const std::string& pointer, const Where& wh
 }
 
 /// Layers hold what splats of whole clusters add up to.
-void check_relight(const Settings& spectral, const Where& where)
+void check_relight(const preset::Preset& preset, const Settings& spectral, const Where& where)
 {
   if (!spectral.relight) return;
   const auto refuse = [&](bool contradicts, const char* key, const char* reason) {
@@ -38,6 +38,9 @@ void check_relight(const Settings& spectral, const Where& where)
          "half of the photons go by the present light's power, and half to every cluster alike for lights to come");
   refuse(spectral.differentials, "differentials", "a layer is a whole cluster's");
   refuse(spectral.indirect, "indirect", "its light met several reflectors");
+  if (preset.scene.environment && preset.scene.environment->lights)
+    throw bad_input(where("/scene/environment/lights"), "cannot be kept in layers: every texel has a spectrum of its own",
+                    "expected 'spectral.relight' false, or an environment that is only seen");
 }
 
 void check(const preset::Preset& preset, const Where& where)
@@ -49,7 +52,7 @@ void check(const preset::Preset& preset, const Where& where)
   if (preset.stop.error && !preset.reference && own.estimator == Settings::Estimator::sppm)
     throw bad_input(where("/stop/error"), "nothing measures the error of this run: the estimator sppm makes no estimate of its own error",
                     "expected a 'reference', or another 'spectral.estimator'");
-  check_relight(own, where);
+  check_relight(preset, own, where);
 }
 
 } // namespace

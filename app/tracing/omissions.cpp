@@ -22,7 +22,7 @@ namespace {
 
 using optics::wavelength_count;
 
-constexpr unsigned all_light_types = 15;
+constexpr unsigned all_light_types = 31;
 
 bool is_dielectric(const scene::Scene& scene, const scene::Object& object)
 {
@@ -104,7 +104,7 @@ bool nothing_blocks_the_view(const scene::Scene& scene)
 unsigned light_type_bits(const scene::Scene& scene)
 {
   unsigned bits = 0;
-  for (const scene::Light& light : scene.lights) bits |= 1u << device_light_type(light.type);
+  for (const scene::Light& light : scene.lights) bits |= 1u << device_light_type(light);
   return bits;
 }
 
@@ -113,6 +113,7 @@ std::string light_types_reason(unsigned bits)
   std::vector<std::string_view> names;
   for (const auto& choice : preset::Choices<preset::Light::Type>::all)
     if (bits >> device_light_type(choice.value) & 1) names.push_back(choice.name);
+  if (bits >> LIGHT_ENVIRONMENT & 1) names.push_back("environment");
   return names.empty() ? "there is no light" : fmt::format("every light is of type {}", fmt::join(names, " or "));
 }
 

@@ -50,6 +50,9 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   b.cluster_wavelengths = upload_vector(context, "cluster wavelengths", w.cluster_wavelengths);
   b.light_xyz = upload_vector(context, "light spectra", w.light_xyz);
   b.reflected_xyz = upload_vector(context, "reflected colours by cluster", w.reflected_xyz);
+  const SkyTables none, &sky = tables.sky ? *tables.sky : none;
+  b.sky_cdf = upload_vector(context, "environment as a light, choice of a texel", sky.cdf);
+  b.sky_colour = upload_vector(context, "environment as a light", sky.colour);
   b.reflected_xyz_all = upload_vector(context, "reflected colours", w.reflected_xyz_all);
   return b;
 }

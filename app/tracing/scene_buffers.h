@@ -17,7 +17,8 @@ struct SceneBuffers {
   compute::Buffer<shared::DeviceMaterial> materials;
   compute::Buffer<shared::DeviceLight> lights;
   compute::Buffer<shared::DeviceTarget> targets;
-  compute::Buffer<float> index_of_cluster, index_of_wavelength, wavelength_cdf, index_slope, coefficient, reflectance, cluster_cdf;
+  compute::Buffer<float> index_of_cluster, index_of_wavelength, wavelength_cdf, index_slope, coefficient, reflectance, cluster_cdf, sky_cdf,
+      sky_colour;
   compute::Buffer<int> cluster_first, cluster_wavelengths;
   compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all, stretch_place, stretch_span;
 };

@@ -40,7 +40,7 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
   out.edge_u = to_float4(light.edge_u);
   out.edge_v = to_float4(light.edge_v);
   using Type = preset::Light::Type;
-  out.type = device_light_type(light.type);
+  out.type = device_light_type(light);
   out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
   out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
   out.radiometric = static_cast<float>((light.type == Type::directional ? light.irradiance_w_m2 : light.power_w) / power_unit);
@@ -111,6 +111,8 @@ double choose_power_unit(const scene::Scene& scene)
 
 } // namespace
 
+int device_light_type(const scene::Light& light) { return is_environment(light) ? LIGHT_ENVIRONMENT : device_light_type(light.type); }
+
 int device_light_type(preset::Light::Type type)
 {
   using Type = preset::Light::Type;
@@ -129,7 +131,12 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   tables.stretch = make_stretch_tables(scene, clusters, lit);
   for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority, object.smooth ? 1 : 0, 0});
   tables.spheres = scene_targets(leave_out, scene);
-  for (const scene::Light* light : lights) add_light(*light, tables.spheres, scene, leave_out, tables);
+  for (const scene::Light* light : lights) {
+    add_light(*light, tables.spheres, scene, leave_out, tables);
+    if (!is_environment(*light)) continue;
+    tables.sky = std::make_shared<const SkyTables>(make_sky_tables(*scene.environment));
+    tables.lights.back().edge_u = tables.sky->mean_colour;
+  }
   tables.light_towards_targets_w = std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
   tables.camera = device_camera(scene.camera, Place(scene.source) / "scene" / "camera");
 

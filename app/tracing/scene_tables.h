@@ -5,9 +5,11 @@
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "tracing/leave_out.h"
+#include "tracing/sky_tables.h"
 #include "tracing/stretch.h"
 #include "tracing/wavelength_tables.h"
 
+#include <memory>
 #include <vector>
 
 namespace nephroid::tracing {
@@ -20,6 +22,7 @@ struct SceneTables {
   std::vector<shared::DeviceLight> lights;   ///< without those that are left out
   std::vector<scene::Sphere> spheres;        ///< where photons are sent, by all lights together
   std::vector<shared::DeviceTarget> targets; ///< lists, see DeviceLight::first_target
+  std::shared_ptr<const SkyTables> sky;      ///< null where the environment is no light; large, so copies share it
   WavelengthTables wavelengths;
   StretchTables stretch;                 ///< for the same clusters
   std::vector<double> towards_targets_w; ///< [light]: power that it sends towards its targets, all wavelengths
@@ -29,6 +32,7 @@ struct SceneTables {
 
 /// LIGHT_* of kernels/tracing/shared_types.h.
 int device_light_type(preset::Light::Type type);
+int device_light_type(const scene::Light& light);
 
 /// clusters: of the 401 wavelengths, each in exactly one. Throws bad_input at FILE#/pointer where the camera or a light is inside more than
 /// MEDIA_DEPTH dielectrics.

@@ -116,23 +116,34 @@ const float* reflectance_row(const WavelengthTables& tables, int reflector)
   return tables.reflectance.data() + static_cast<std::size_t>(reflector) * wavelength_count;
 }
 
+/// What a photon may carry, one row of light_xyz, reflected_xyz and reflected_xyz_all.
+void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, WavelengthTables& tables)
+{
+  for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(spectrum, nullptr, {w})));
+  for (const std::vector<int>& cluster : tables.clusters)
+    for (int r = 0; r < tables.reflector_count; ++r)
+      tables.reflected_xyz.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), cluster)));
+  for (int r = 0; r < tables.reflector_count; ++r)
+    tables.reflected_xyz_all.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), all)));
+}
+
+/// Photons are dealt by a light's spectrum and carry it too, but for those of the environment, which carry three parts.
 void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
   std::vector<int> all(wavelength_count);
   std::iota(all.begin(), all.end(), 0);
   for (const scene::Light* light : lights) {
-    for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(light->spectrum, nullptr, {w})));
+    if (is_environment(*light))
+      for (const Spectrum& primary : light->primaries) add_spectrum_rows(primary, all, tables);
+    else
+      add_spectrum_rows(light->spectrum, all, tables);
     std::vector<double>& share = tables.share.emplace_back();
     std::vector<double>& seen = tables.seen.emplace_back();
     for (const std::vector<int>& cluster : tables.clusters) {
       const std::array<double, 4> sum = reflected(light->spectrum, nullptr, cluster);
       share.push_back(sum[3]);
       seen.push_back((sum[0] + sum[1] + sum[2]) / 3);
-      for (int r = 0; r < tables.reflector_count; ++r)
-        tables.reflected_xyz.push_back(to_float4(reflected(light->spectrum, reflectance_row(tables, r), cluster)));
     }
-    for (int r = 0; r < tables.reflector_count; ++r)
-      tables.reflected_xyz_all.push_back(to_float4(reflected(light->spectrum, reflectance_row(tables, r), all)));
   }
 }
 

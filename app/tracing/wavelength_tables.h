@@ -19,9 +19,9 @@ struct WavelengthTables {
   bool clusters_spread = false;                  ///< whether n differs inside any cluster
   std::vector<float> coefficient;                ///< [attenuator][401]: 1/m, or -ln(reflectance) of a mirror
   std::vector<float> reflectance;                ///< [reflector][401]
-  std::vector<shared::float4> light_xyz;         ///< [light][401]: share times (xbar, ybar, zbar), share
-  std::vector<shared::float4> reflected_xyz;     ///< [light][cluster][reflector]; w: the share, as of a white one
-  std::vector<shared::float4> reflected_xyz_all; ///< [light][reflector]
+  std::vector<shared::float4> light_xyz;         ///< [light][401]: share times (xbar, ybar, zbar), share; three rows of the environment
+  std::vector<shared::float4> reflected_xyz;     ///< [row of light_xyz][cluster][reflector]; w: the share, as of a white one
+  std::vector<shared::float4> reflected_xyz_all; ///< [row of light_xyz][reflector]
   std::vector<float> cluster_cdf;                ///< exact_cdf_from_zero: what paths through glass are worth in each cluster
   std::vector<std::vector<double>> share;        ///< [light][cluster]: of the light's power
   std::vector<std::vector<double>>
@@ -33,8 +33,9 @@ struct WavelengthTables {
 /// and s is metres. On a mirror a = -ln(reflectance), and s is the number of reflections. Empty for a material that takes nothing away.
 std::vector<double> loss_coefficients(const scene::Material& material);
 
-/// For `lights` of the scene; fills materials[i].type, reflector and attenuator and every table. Only materials that an object uses get
-/// rows. lit: which wavelengths stay in the clusters; a cluster's index of refraction is the mean over all that it had.
+/// For `lights` of the scene, of which the environment is the last; fills materials[i].type, reflector and attenuator and every table. Only
+/// materials that an object uses get rows. lit: which wavelengths stay in the clusters; a cluster's index of refraction is the mean over
+/// all that it had.
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
                                         const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
                                         std::vector<shared::DeviceMaterial>& materials);

@@ -16,6 +16,7 @@ struct World {
   compute::Context context;
   SceneBuffers buffers;
   shared::DeviceScene scene{};
+  shared::DeviceBackground sky_size{};
   int reflector_count = 0;
   compute::Defines defines; ///< for every kernel
   shared::uint2 seed{};
@@ -53,6 +54,9 @@ struct World {
                                        {"coefficient", b.coefficient},
                                        {"light_xyz", b.light_xyz},
                                        {"reflectance", b.reflectance},
+                                       {"sky_cdf", b.sky_cdf},
+                                       {"sky_colour", b.sky_colour},
+                                       {"sky_size", sky_size},
                                        {"reflector_count", reflector_count},
                                        {"scene", scene}};
     all.insert(all.end(), more);
@@ -80,7 +84,13 @@ struct World {
 inline World make_world(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
                         const compute::Defines& defines, std::uint64_t seed)
 {
-  World world{context, upload(context, scene, bvh, tables), tables.scene, tables.wavelengths.reflector_count, defines, {}};
+  World world{context,
+              upload(context, scene, bvh, tables),
+              tables.scene,
+              tables.sky ? tables.sky->size : shared::DeviceBackground{},
+              tables.wavelengths.reflector_count,
+              defines,
+              {}};
   world.scene.root = bvh.root;
   world.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
   return world;

@@ -14,17 +14,6 @@
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
 
-// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere (Malley).
-static inline float3 cosine_direction(float3 n, float u, float v)
-{
-  float3 x, y;
-  make_frame(n, &x, &y);
-  const float radius = sqrt(u);
-  float cosine_phi;
-  const float sine_phi = sincos(2.0f * PI_F * v, &cosine_phi);
-  return normalize(x * (radius * cosine_phi) + y * (radius * sine_phi) + n * sqrt(1.0f - u));
-}
-
 // A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area light sends the same
 // power along every cosine-distributed direction; what emit() does, where directions are uniform, would be noisier.
 static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything, const DeviceScene* scene, float4 random,
@@ -49,7 +38,7 @@ typedef struct {
 typedef struct {
   Path path;
   Band band;
-  int light;
+  Source source;
   float watts;   // as if the band had all of the light's power
   float shading; // product of shading_ratio over the diffuse surfaces that it has left
 } Photon;
@@ -60,7 +49,7 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
 {
   const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
   if (splat.pixel < 0) return true;
-  const float3 xyz = carried_light(world, &photon->path.losses, photon->light, &photon->band, reflector).xyz;
+  const float3 xyz = carried_light(world, &photon->path.losses, photon->source, &photon->band, reflector).xyz;
   const float scale = photon->watts * photon->shading * splat.weight / PI_F;
   return film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither);
 }
@@ -112,19 +101,20 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
     if (item >= count) break;
     const uint number = offset + stride * item;
     const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];
-    const DeviceLight light = lights[emitter.light];
+    DeviceLight light = lights[emitter.light];
     const float4 random = random4(seed, pass, number, 0u, STREAM_INDIRECT);
-    const float2 place = is_light(&light, LIGHT_AREA) ? random4(seed, pass, number, 1u, STREAM_INDIRECT).xy : (float2)(0.0f);
+    const float2 place = has_places(&light) ? random4(seed, pass, number, 1u, STREAM_INDIRECT).xy : (float2)(0.0f);
+    const Source source = source_of(&world, emitter.light, place, &light);
     const Emission emission = emit_everywhere(light, everything, &scene, random, place);
     if (emission.watts == 0.0f) continue;
     Photon photon = {{emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind},
                      wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w),
-                     emitter.light,
+                     source,
                      emission.watts / (float)emitter.photon_count,
                      1.0f};
     const int outcome = follow_photon(&world, &receiver, &photon, seed, pass, number, outcomes + OUTCOME_REFUSED);
 
-    const long quanta = convert_long_rte(photon.watts * band_share(&world, photon.light, &photon.band, 0.0f) * energy_scale);
+    const long quanta = convert_long_rte(photon.watts * band_share(&world, photon.source, &photon.band, 0.0f) * energy_scale);
     const float left = wavelength_left(&world.tables, &photon.path.losses, photon.band.wavelength);
     const long quanta_left = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
     outcomes[OUTCOME_EMITTED] += quanta;

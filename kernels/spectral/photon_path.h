@@ -28,7 +28,7 @@ static inline int emitter_of(__global const DeviceEmitter* emitters, int count, 
 typedef struct {
   int emitter;
   float4 emission;  // in [0, 1): target, direction (2); w: the film's dither
-  float2 place;     // in [0, 1): on an area light
+  float2 place;     // in [0, 1): on an area light, or in the environment
   float wavelength; // in [0, 1): which of its cluster
 } PhotonStart;
 
@@ -48,7 +48,7 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   start.place = (float2)(0.0f);
   const DeviceEmitter emitter = emitters[start.emitter];
   const DeviceLight light = lights[emitter.light];
-  const bool area = is_light(&light, LIGHT_AREA);
+  const bool placed = has_places(&light);
 #if NEPHROID_LOW_DISCREPANCY
   const ulong start_of_deal = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
   const ulong number = start_of_deal + (ulong)((pass - first_pass) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
@@ -58,7 +58,7 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
   const uint below = (uint)(start.emission.x * 0x1p24f);         // of the fourth number: 24 bits more
   start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair
-  if (area) start.place = sobol4(seed, sequence, 1u, index).xy;
+  if (placed) start.place = sobol4(seed, sequence, 1u, index).xy;
   // The fourth number times the light's photons: a whole photon above, a fraction of 32 bits below. Fits 2^32 photons.
   const ulong count = emitter.light_photon_count, place = bits.w * count + (below * count >> 24);
   const uint chosen_photon = emitter.light_first_photon + (uint)(place >> 32);
@@ -67,7 +67,7 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   const float within = (float)(chosen_photon - chosen->first_photon) + (float)(uint)place * 0x1p-32f;
   start.wavelength = clamp(within / (float)chosen->photon_count, 0.0f, 0x1.fffffep-1f);
 #else
-  if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || area) {
+  if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || placed) {
     const float4 more = random4(seed, pass, photon, 1u, STREAM_PHOTONS);
     start.place = more.xy;
     start.wavelength = more.z;
@@ -119,16 +119,16 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
 }
 
 // The same for a photon of a light, with what is left of it and its colour. share: of the light's power, that the photon's band began with.
-static inline PhotonEnd trace_photon(const World* world, int light, const Band* band, float share, Path* path, uint2 seed, uint pass,
+static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path, uint2 seed, uint pass,
                                      uint photon)
 {
   PhotonEnd end = trace_way(world, band, path, seed, pass, photon);
   const bool deposited = end.outcome == OUTCOME_DEPOSITED;
   if (deposited || path->losses.any) {
     const int reflector = deposited ? material_of(world, end.surface.object).reflector : -1;
-    const float4 carried = carried_light(world, &path->losses, light, band, reflector);
+    const float4 carried = carried_light(world, &path->losses, source, band, reflector);
     end.xyz = carried.xyz;
-    if (path->losses.any) end.left = carried.w / share;
+    if (path->losses.any) end.left = share != 0.0f ? carried.w / share : 1.0f; // of the environment it may be 0 where colours cancel
   }
   return end;
 }

@@ -61,13 +61,14 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #endif
     PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, first_pass, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
-    const DeviceLight light = lights[emitter.light];
+    DeviceLight light = lights[emitter.light];
 #if NEPHROID_MOMENTS
     const Guided guided = guide_numbers(guide + emitter.light * GUIDE_FLOATS, &start.emission);
     long moment = 0;
 #else
     const Guided guided = {1.0f, 0u};
 #endif
+    const Source source = source_of(&world, emitter.light, start.place, &light);
     const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE
@@ -76,10 +77,10 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #else
     const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #endif
-    const float share = band_share(&world, emitter.light, &band, emitter.share);
+    const float share = band_share(&world, source, &band, emitter.share);
     const float watts = emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
-    const PhotonEnd end = trace_photon(&world, emitter.light, &band, share, &path, seed, pass, photon);
+    const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, pass, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
@@ -92,7 +93,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
       const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);
       for (int i = 0; i < stretch.count; ++i) {
         Strand strand;
-        if (!strand_of(&world, &end, &path, emitter.light, &band, &stretch, i, start.wavelength, &strand)) continue;
+        if (!strand_of(&world, &end, &path, source, &band, &stretch, i, start.wavelength, &strand)) continue;
         const Splat splat = splat_at(&world, &camera, &strand.surface, strand.triangle, path.direction);
         if (splat.pixel < 0) continue;
         const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);

@@ -153,7 +153,7 @@ typedef struct {
 
 // The splat number i of stretch->count; u in [0, 1), the same for all of them: they take turns through the cluster's distribution, and with
 // jitter the first is of the photon's own wavelength. False where it does not reach the receiver.
-static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, int light, const Band* band,
+static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source, const Band* band,
                              const Stretch* stretch, int i, float u, Strand* strand)
 {
   strand->surface = end->surface;
@@ -163,15 +163,15 @@ static inline bool strand_of(const World* world, const PhotonEnd* end, const Pat
   const int reflector = material_of(world, end->surface.object).reflector;
   if (stretch->count == 1) {
     const Band whole = whole_cluster(band->cluster);
-    if (stretch->whole && band->wavelength >= 0) strand->xyz = carried_light(world, &path->losses, light, &whole, reflector).xyz;
+    if (stretch->whole && band->wavelength >= 0) strand->xyz = carried_light(world, &path->losses, source, &whole, reflector).xyz;
     return true;
   }
   float turned = u + (float)i / (float)stretch->count;
   turned = turned < 1.0f ? turned : turned - 1.0f;
   float x;
   if (stretch->whole) {
-    const Band wavelength = stretched_band(world, light, band, turned, &x);
-    strand->xyz = carried_light(world, &path->losses, light, &wavelength, reflector).xyz;
+    const Band wavelength = stretched_band(world, source.light, band, turned, &x);
+    strand->xyz = carried_light(world, &path->losses, source, &wavelength, reflector).xyz;
   } else
     x = place_in_tent(world, band->wavelength, turned, stretch_origin(world, band));
   strand->xyz /= (float)stretch->count;

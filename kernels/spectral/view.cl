@@ -22,8 +22,8 @@ static inline float3 transmittance(const World* world, const Losses* losses, con
   const Losses none = no_losses();
   float3 left = (float3)(0.0f), all = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
-    left += world->lights[l].radiometric * carried_light(world, losses, l, band, reflector).xyz;
-    all += world->lights[l].radiometric * carried_light(world, &none, l, band, reflector).xyz;
+    left += world->lights[l].radiometric * carried_light(world, losses, mean_source(world, l), band, reflector).xyz;
+    all += world->lights[l].radiometric * carried_light(world, &none, mean_source(world, l), band, reflector).xyz;
   }
   part.x = all.x > 0.0f ? left.x / all.x : 0.0f;
   part.y = all.y > 0.0f ? left.y / all.y : 0.0f;

@@ -24,6 +24,17 @@ static inline void make_frame(float3 n, float3* x, float3* y)
   *y = (float3)(b, sign + n.y * n.y * a, -n.y);
 }
 
+// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere (Malley).
+static inline float3 cosine_direction(float3 n, float u, float v)
+{
+  float3 x, y;
+  make_frame(n, &x, &y);
+  const float radius = sqrt(u);
+  float cosine_phi;
+  const float sine_phi = sincos(2.0f * PI_F * v, &cosine_phi);
+  return normalize(x * (radius * cosine_phi) + y * (radius * sine_phi) + n * sqrt(1.0f - u));
+}
+
 // Uniform in the cone about axis with 1 - cos(half angle) = one_minus_cos, which stays exact for far and small targets:
 // the direction's part along the axis is 1 - *below, and *aside is the rest of it.
 static inline float3 sample_cone(float3 axis, float one_minus_cos, float u, float v, float* below, float3* aside)
@@ -159,12 +170,12 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   return emission;
 }
 
-// targets: the whole table, of which a light has its own list.
+// targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it for one photon.
 static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random,
                             float2 place)
 {
   targets += light->first_target;
-  if (is_light(light, LIGHT_DIRECTIONAL)) return emit_directional(light, targets, scene, random);
+  if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT)) return emit_directional(light, targets, scene, random);
   if (is_light(light, LIGHT_AREA)) return emit_from_area(light, targets, random, place);
   return emit_from_point(light, targets, random);
 }

@@ -3,7 +3,10 @@
 #ifndef NEPHROID_EYE_PATH_H
 #define NEPHROID_EYE_PATH_H
 
+#include "kernels/tracing/emission.h"
+#include "kernels/tracing/film.h"
 #include "kernels/tracing/light.h"
+#include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/world.h"
@@ -55,6 +58,39 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
   const float3 from = start_on_side(surface, side);
   return is_blocked(world, from, arrival.direction, arrival.distance, triangle) ? 0.0f : arrival.irradiance;
+}
+
+// The four numbers of sample `sample` of the environment at a pixel, which takes `paths` of them a frame. Those of one half of the film
+// follow a sequence; the halves are independent. Sets 0 and 1 of a sequence are of photons.
+static inline float4 sky_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel)
+{
+#if NEPHROID_LOW_DISCREPANCY
+  const uint frame = sample / paths, index = frame / NEPHROID_FILM_HALVES * paths + sample % paths;
+  return sobol4(seed, (uint3)(pixel, (uint)light->number, frame % NEPHROID_FILM_HALVES), 2u, index);
+#else
+  return random4(seed, sample, pixel, (uint)light->number, STREAM_CAMERA_LIGHT);
+#endif
+}
+
+// What the environment sends unbent to the side of a surface that a path arrives at, as irradiance times Source::rgb. Two shadow rays, one
+// drawn by the map's flux and one by the cosine, weighted by the balance heuristic (Veach 1997, 9.2.2): each radiance * cosine over the sum
+// of both densities. The first finds a sun, the second is exact where the sky is even.
+static inline float3 sky_irradiance(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle,
+                                    uint2 seed, uint sample, uint paths, uint pixel)
+{
+  const DeviceLight light = world->lights[light_index];
+  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  const float3 normal = side * surface->shading, from = start_on_side(surface, side);
+  const float4 random = sky_numbers(&light, seed, sample, paths, pixel);
+  float3 sum = (float3)(0.0f);
+  for (int i = 0; i < 2; ++i) {
+    const SkyPlace place = i == 0 ? sample_sky(&world->sky, random.xy) : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
+    const float cosine = dot(place.direction, normal);
+    if (!(cosine > 0.0f) || !(place.density > 0.0f) || !(side * dot(place.direction, surface->geometric) > 0.0f)) continue;
+    if (is_blocked(world, from, place.direction, INFINITY, triangle)) continue;
+    sum += place.rgb * (place.density * cosine / (place.density + cosine / PI_F));
+  }
+  return light.radiometric * sum;
 }
 
 // Whether a path from the eye has met a diffuse surface at once: then all wavelengths went the same way.

@@ -10,7 +10,7 @@
 // Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and no question is asked where there is
 // one type only.
 #ifndef NEPHROID_LIGHT_TYPES
-#define NEPHROID_LIGHT_TYPES 15
+#define NEPHROID_LIGHT_TYPES 31
 #endif
 
 static inline bool is_light(const DeviceLight* light, int type)
@@ -18,12 +18,21 @@ static inline bool is_light(const DeviceLight* light, int type)
   return (NEPHROID_LIGHT_TYPES >> type & 1) != 0 && (NEPHROID_LIGHT_TYPES == 1 << type || light->type == type);
 }
 
+// The light that a path carries of a lamp or of a texel of the environment.
+typedef struct {
+  int light;  // in the table
+  float3 rgb; // environment: how much of each primary's spectrum a photon's power stands for; else unused
+} Source;
+
 // Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.
 static inline bool in_spot(const DeviceLight* light, float3 direction)
 {
   const float3 aside = direction - light->direction.xyz;
   return 0.5f * dot(aside, aside) <= light->one_minus_cos;
 }
+
+// Whether a photon begins at a place of its own: on a rectangle, or in the environment.
+static inline bool has_places(const DeviceLight* light) { return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT); }
 
 // A point of an area light's rectangle.
 static inline float3 area_point(const DeviceLight* light, float2 place)

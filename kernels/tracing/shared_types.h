@@ -40,6 +40,7 @@ struct alignas(8) uint2 {
 #define LIGHT_SPOT 1
 #define LIGHT_DIRECTIONAL 2
 #define LIGHT_AREA 3
+#define LIGHT_ENVIRONMENT 4 // the last of the lights, where there is one; of directional light but for what sky.h says
 
 // Where a photon ended: the energy counters, in quanta of power (RunTables::energy_scale), are in this order.
 #define OUTCOME_EMITTED 0   // sum of the next five
@@ -72,15 +73,15 @@ typedef struct {
 } Media;
 
 typedef struct {
-  float4 position;  // area: its centre; directional: unused
-  float4 direction; // unit, the way the light goes; point: unused
-  float4 edge_u;    // area: the full edges
+  float4 position;  // area: its centre; directional, environment: unused
+  float4 direction; // unit, the way the light goes; point, environment: unused
+  float4 edge_u;    // area: the full edges; environment: the mean colour of its photons
   float4 edge_v;
   int type;            // LIGHT_*
   float one_minus_cos; // spot: of its half angle
   float solid_angle;   // spot: of its cone, in steradians
-  float radiometric;   // point, spot, area: power in W; directional: irradiance in W m^-2
-  Media inside;        // directional: none
+  float radiometric;   // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions together
+  Media inside;        // directional, environment: none
   int first_target;    // in the table of targets: those that this light can reach
   int target_count;
   int number; // among the preset's lights: its random numbers do not depend on which others are left out
@@ -118,7 +119,7 @@ typedef struct {
   Media inside;
 } DeviceCamera;
 
-// The environment's picture: see background.h.
+// The environment's picture: see background.h and sky.h.
 typedef struct {
   int width, height; // texels
   float turns;       // that the surroundings are turned about +y, counterclockwise as seen from above

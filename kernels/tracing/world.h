@@ -10,6 +10,7 @@
 #include "kernels/tracing/interface.h"
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/sky.h"
 #include "kernels/tracing/surface.h"
 
 #ifndef NEPHROID_MAX_SURFACES
@@ -32,6 +33,7 @@ typedef struct {
   __global const float4* stretch_span;       // [cluster]: s of its mean index, the lowest and the highest s of its light
   __global const float4* reflected_xyz;      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar); w: of light
   SpectralTables tables;
+  Sky sky; // empty where no environment is a light
   int reflector_count;
   DeviceScene scene;
 } World;
@@ -44,12 +46,13 @@ typedef struct {
       __global const float *index_of_wavelength, __global const float *wavelength_cdf, __global const float *index_slope,                  \
       __global const float4 *stretch_place, __global const float4 *stretch_span, __global const float4 *reflected_xyz,                     \
       __global const int *cluster_first, __global const int *cluster_wavelengths, __global const float *coefficient,                       \
-      __global const float4 *light_xyz, __global const float *reflectance, int reflector_count, DeviceScene scene
+      __global const float4 *light_xyz, __global const float *reflectance, __global const float *sky_cdf,                                  \
+      __global const float *sky_colour, DeviceBackground sky_size, int reflector_count, DeviceScene scene
 #define WORLD                                                                                                                              \
   {                                                                                                                                        \
     {nodes, blocks, corners, positions, normals, object_of_primitive, scene.root}, objects, materials, lights, index_of_cluster,           \
         index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                      \
-        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, reflector_count, scene                                  \
+        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size}, reflector_count, scene \
   }
 
 typedef struct {
@@ -148,9 +151,37 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return true;
 }
 
-// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a reflector sends
-// back of it (-1: a white one).
-static inline float4 carried_light(const World* world, const Losses* losses, int light, const Band* band, int reflector)
+// A light as one photon or shadow ray meets it, drawn by `place`, two numbers in [0, 1): of the environment *light becomes directional
+// light from one place.
+static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light)
+{
+  Source source = {index, (float3)(1.0f)};
+  if (is_light(light, LIGHT_ENVIRONMENT)) {
+    const SkyPlace from = sample_sky(&world->sky, place);
+    light->direction.xyz = -from.direction;
+    source.rgb = from.rgb;
+  }
+  return source;
+}
+
+// Light of a mean colour.
+static inline Source mean_source(const World* world, int index)
+{
+  const Source source = {index, world->lights[index].edge_u.xyz};
+  return source;
+}
+
+static inline bool is_of_environment(const World* world, int light)
+{
+#if NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1
+  return world->lights[light].type == LIGHT_ENVIRONMENT;
+#else
+  return false;
+#endif
+}
+
+// carried_light of one row of the tables of lights.
+static inline float4 carried_row(const World* world, const Losses* losses, int light, const Band* band, int reflector)
 {
 #if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0) {
@@ -166,11 +197,35 @@ static inline float4 carried_light(const World* world, const Losses* losses, int
   return world->reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->reflector_count + reflector];
 }
 
-// The share of a light's power that a band begins with; cluster_share: of its whole cluster.
-static inline float band_share(const World* world, int light, const Band* band, float cluster_share)
+// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a reflector sends
+// back of it (-1: a white one).
+static inline float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
+{
+  if (is_of_environment(world, source.light))
+    return source.rgb.x * carried_row(world, losses, source.light, band, reflector) +
+           source.rgb.y * carried_row(world, losses, source.light + 1, band, reflector) +
+           source.rgb.z * carried_row(world, losses, source.light + 2, band, reflector);
+  return carried_row(world, losses, source.light, band, reflector);
+}
+
+// The share of a row's power that a band begins with.
+static inline float row_share(const World* world, int light, const Band* band)
 {
 #if NEPHROID_JITTER
   if (band->wavelength >= 0) return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
+#endif
+  const Losses none = no_losses();
+  return attenuated_sum(&world->tables, &none, light, band->cluster, -1).w;
+}
+
+// The share of a light's power that a band begins with; cluster_share: of its whole cluster, of a lamp.
+static inline float band_share(const World* world, Source source, const Band* band, float cluster_share)
+{
+  if (is_of_environment(world, source.light))
+    return source.rgb.x * row_share(world, source.light, band) + source.rgb.y * row_share(world, source.light + 1, band) +
+           source.rgb.z * row_share(world, source.light + 2, band);
+#if NEPHROID_JITTER
+  if (band->wavelength >= 0) return band->weight * world->tables.light_xyz[source.light * WAVELENGTH_COUNT + band->wavelength].w;
 #endif
   return cluster_share;
 }

@@ -2,11 +2,11 @@
 // The white furnace: where the same radiance L comes from everywhere, nothing that takes no light can be seen, because radiance is kept
 // along a ray: Fresnel's two parts of it add up to one, and n^2 goes in and comes out.
 //
-// Six area lights, the faces of a cube, shine inwards. A small diffuse receiver inside gets pi L and sends rho L back. Glass or a mirror
-// above hides a part of the lights (the direct layer gets darker) and sends as much (the caustic layer): the sum stays rho L. One thing is
-// missing: a way from the receiver through the glass and back to it should end at the receiver's own radiance, which neither layer
-// has (that is interreflection). Its share r is measured apart: an area light in the receiver's place, and what comes back to it. So
-// direct + caustic = rho L (1 - r).
+// Six area lights, the faces of a cube, shine inwards, or an environment of one colour does. A small diffuse receiver inside gets pi L and
+// sends rho L back. Glass or a mirror above hides a part of the lights (the direct layer gets darker) and sends as much (the caustic
+// layer): the sum stays rho L. One thing is missing: a way from the receiver through the glass and back to it should end at the receiver's
+// own radiance, which neither layer has (that is interreflection). Its share r is measured apart: an area light in the receiver's place,
+// and what comes back to it. So direct + caustic = rho L (1 - r).
 #include "compute/compute.h"
 #include "scene/scene.h"
 #include "spectral/energy.h"
@@ -49,6 +49,10 @@ preset::Preset furnace(const std::vector<preset::Object>& things)
   p.scene.materials["glass"] = glass(1.5);
   p.scene.materials["dense"] = glass(2.4);
   p.scene.materials["air"] = glass(1);
+  p.scene.materials["flint"] = glass(1);
+  p.scene.materials["flint"].dispersion.type = preset::Dispersion::Type::file;
+  p.scene.materials["flint"].dispersion.file = "N-SF66.yml";
+  p.scene.materials["flint"].absorption = false;
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["mirror"].reflectance.value = 1;
   p.scene.objects = things;
@@ -93,7 +97,18 @@ preset::Object ball(const std::string& name, double radius, const std::string& m
 struct Furnace {
   const char* name;
   std::vector<preset::Object> things;
+  bool sky = false; ///< an environment instead of area lights
 };
+
+/// White, so that all luminance is that of its radiance.
+void put_under_a_sky(preset::Preset& p)
+{
+  p.scene.lights.clear();
+  p.scene.environment.emplace();
+  p.scene.environment->type = preset::Environment::Type::constant;
+  p.scene.environment->radiance = radiance;
+  p.scene.environment->lights = true;
+}
 
 std::vector<Furnace> furnaces()
 {
@@ -106,15 +121,21 @@ std::vector<Furnace> furnaces()
       {"diamond", {object("stone", stone, "dense", at({0, 0, 0}, {30, 10, 0}))}},
       {"nested",
        {ball("ball", 0.5, "glass", 0, smooth), ball("core", 0.2, "dense", 0.2, faceted, 1), ball("bubble", 0.15, "air", -0.2, smooth, 2)}},
-      {"mirror", {ball("ball", 0.4, "mirror", 0, smooth)}}};
+      {"mirror", {ball("ball", 0.4, "mirror", 0, smooth)}},
+      {"glass_ball_under_a_sky", {ball("ball", 0.5, "glass", 0, smooth)}, true},
+      {"dispersing_ball_under_a_sky", {ball("ball", 0.5, "flint", 0, smooth)}, true},
+      {"plate_under_a_sky", {object("plate", box(1.2, 0.2, 1.2), "glass")}, true},
+      {"mirror_under_a_sky", {ball("ball", 0.4, "mirror", 0, smooth)}, true}};
 }
 
 class WhiteFurnace : public testing::TestWithParam<Furnace> {};
 
 TEST_P(WhiteFurnace, NothingInItCanBeSeen)
 {
-  const preset::Preset p = furnace(GetParam().things);
-  const double truth = reflectance * radiance * optics::to_xyz(spectrum_of(p.scene.lights[0]))[1], r = returning_share(p);
+  preset::Preset p = furnace(GetParam().things);
+  const double of_a_watt = GetParam().sky ? 1 : optics::to_xyz(spectrum_of(p.scene.lights[0]))[1], r = returning_share(p);
+  const double truth = reflectance * radiance * of_a_watt;
+  if (GetParam().sky) put_under_a_sky(p);
   EXPECT_LT(r, 0.04);
   spectral::EnergyBalance energy;
   constexpr std::size_t squares = groups * groups;

@@ -107,6 +107,7 @@ std::any SeenByGlass::look(const preset::Preset& preset, const scene::Scene& sce
 {
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
+  if (!scene.lights.empty() && is_environment(scene.lights.back())) seen->environment = scene.lights.back();
   seen->whereabouts = spectral::whereabouts(spectral::settings(preset), scene, bvh);
   seen->settings = spectral::settings(preset);
   seen->clusters = spectral::scene_clusters(spectral::settings(preset), scene);
@@ -148,6 +149,7 @@ void SpectraMaker::make_lights(const preset::Scene& now)
   spectra_.lights = std::move(curves);
   outline_.lights.clear();
   for (std::size_t i = 0; i < now.lights.size(); ++i) outline_.lights.push_back(without_place(now.lights[i], spectra_.lights[i]));
+  if (now.environment && now.environment->lights && seen_ && seen_->environment) outline_.lights.push_back(*seen_->environment);
 }
 
 void SpectraMaker::make_materials(const preset::Preset& now)

@@ -20,7 +20,8 @@ namespace nephroid::ui {
 /// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with a run
 /// (RunInHand::seen); panels do the rest.
 struct SeenByGlass {
-  std::vector<std::string> materials; ///< names of Scene::materials, in whose order the shares are
+  std::vector<std::string> materials;      ///< names of Scene::materials, in whose order the shares are
+  std::optional<scene::Light> environment; ///< where it is a light
   spectral::Whereabouts whereabouts;
   spectral::Settings settings;            ///< of the run,
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The environment as a light: parallel light from every texel of a latitude-longitude picture (background.h says where a texel is seen). A
+// row is drawn by its flux, radiance times solid angle, then a texel of the row, then a place in the texel by solid angle: so every photon
+// carries nearly as much, and a sun of a few texels gets the photons that are its share.
+//
+// A texel has one colour, and a colour stands for r, g and b times the fixed spectra of the three sRGB primaries, as where the environment
+// is seen. These are three rows of the tables of lights, from the environment's own on: what a photon carries is a sum of three, and may
+// be negative at a wavelength where a primary is. Flux counts colours by (r + g + b) / 3.
+#ifndef NEPHROID_SKY_H
+#define NEPHROID_SKY_H
+
+#include "kernels/tracing/choice.h"
+#include "kernels/tracing/light.h"
+#include "kernels/tracing/shared_types.h"
+
+typedef struct {
+  __global const float* cdf;    // exact_cdf of the rows, then of the texels of each row
+  __global const float* colour; // [row][column][3]: linear sRGB of a texel over its grey: Source::rgb
+  DeviceBackground size;
+} Sky;
+
+// A direction with what comes from there: `density` is the chance of being drawn, a steradian. Radiance is colour * density, of a sky whose
+// grey light has 1 W m^-2 of all directions together.
+typedef struct {
+  float3 direction; // unit, to the sky
+  float3 rgb;
+  float density;
+} SkyPlace;
+
+static inline float sky_density(const Sky* sky, int row, int column)
+{
+  const int width = sky->size.width, height = sky->size.height;
+  __global const float* columns = sky->cdf + height + (size_t)row * (size_t)width;
+  const float of_row = sky->cdf[row] - chance_before(sky->cdf, row), of_column = columns[column] - chance_before(columns, column);
+  // cos a - cos b as a product, exact for thin rows.
+  const float steradians = 4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
+  return of_row * of_column / steradians;
+}
+
+static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column)
+{
+  const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->colour),
+                          sky_density(sky, row, column)};
+  return place;
+}
+
+// Where in its bin a number falls that has drawn it: in the middle of its 2^24th, so that bins of a few such numbers have no side.
+static inline float place_in_bin(__global const float* cdf, int bin, float number)
+{
+  const float before = chance_before(cdf, bin);
+  return (number + 0x1p-25f - before) / (cdf[bin] - before);
+}
+
+// place: two numbers in [0, 1).
+static inline SkyPlace sample_sky(const Sky* sky, float2 place)
+{
+  const int width = sky->size.width, height = sky->size.height;
+  const int row = choose(sky->cdf, height, place.x);
+  __global const float* columns = sky->cdf + height + (size_t)row * (size_t)width;
+  const int column = choose(columns, width, place.y);
+  // 1 - |cos| of the zenith angle, uniform over the row, from the pole that is nearer: it stays exact there.
+  const bool upper = 2 * row < height;
+  const int from_pole = upper ? row : height - 1 - row;
+  const float edge = sin(0.5f * PI_F * (float)from_pole / (float)height);
+  const float within = place_in_bin(sky->cdf, row, place.x);
+  const float deep = 2.0f * sin(PI_F * ((float)from_pole + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
+  const float below = 2.0f * edge * edge + (upper ? within : 1.0f - within) * deep;
+  const float sine = sqrt(fmax(below * (2.0f - below), 0.0f));
+  const float azimuth = ((float)column + place_in_bin(columns, column, place.y)) / (float)width - 0.5f - sky->size.turns;
+  float cosine_azimuth;
+  const float sine_azimuth = sincos(2.0f * PI_F * azimuth, &cosine_azimuth);
+  const float3 direction = {sine * sine_azimuth, upper ? 1.0f - below : below - 1.0f, -sine * cosine_azimuth};
+  return sky_texel(sky, direction, row, column);
+}
+
+// The texel in a unit direction.
+static inline SkyPlace sky_in(const Sky* sky, float3 direction)
+{
+  const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + sky->size.turns;
+  const float zenith = atan2(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y) / PI_F;
+  const int column = min((int)((azimuth - floor(azimuth)) * (float)sky->size.width), sky->size.width - 1);
+  const int row = min((int)(zenith * (float)sky->size.height), sky->size.height - 1);
+  return sky_texel(sky, direction, row, column);
+}
+
+#endif
