@@ -15,7 +15,7 @@ struct Settings {
   Radii radii = Radii::quadratic; ///< how they grow
   double reach = 4;               ///< radius of the largest, in largest sides of the box about the object
   int resolution = 360;           ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
-  int photons = 1 << 20;          ///< that are sent from each direction
+  int photons = 1 << 19;          ///< that are sent from each direction
   bool operator==(const Settings&) const = default;
 };
 
