@@ -121,6 +121,33 @@ TEST(Bake, IsTheIrradianceOnTheSphere)
   }
 }
 
+// Light straight down on a flat mirror below the middle goes straight up. On a sphere of radius r it is E = |cos psi| where it comes in
+// from below, which is farther from the axis than where the sphere cuts the mirror, and where it leaves above. A speck above the mirror's
+// corner makes the middle of the box about both the middle of the spheres.
+TEST(Bake, MarksWhereLightComesInAndWhereItLeaves)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("m.obj", "v -2 -2 -1\nv 2 -2 -1\nv 2 2 -1\nv -2 2 -1\nv 1.9 1.9 1\nv 1.91 1.9 1\nv 1.9 1.91 1\n"
+                                                 "f 1 2 3 4\nf 5 6 7\n");
+  const std::string object = R"({"name": "mirror", "mesh": ")" + file + R"(", "material": "mirror"})";
+  const Bake bake = bake_of(bake_preset(object, {"environment.resolution=32", "environment.spheres=5", "environment.radii=uniform",
+                                                 "environment.reach=1", "environment.photons=2000000"}),
+                            {{0, 0, -1}});
+  const double r = bake.radii[1], cut = std::sqrt(r * r - 1);
+  ASSERT_NEAR(r, 1.75, 0.01);
+  int below = 0, above = 0;
+  for (std::size_t t = 0; t < bake.map.texels(); ++t) {
+    const glm::dvec3 d = bake.map.direction(t);
+    const double from_axis = r * std::hypot(d.x, d.y);
+    if (std::abs(d.z) < 0.2 || (d.z < 0 && std::abs(from_axis - cut) < 0.25)) continue; // texels nearly along the light, or on the edge
+    const bool lit = d.z > 0 || from_axis > cut;
+    EXPECT_NEAR(bake.at(0, 1, t).x, lit ? std::abs(d.z) * r * r / 16 : 0, 0.02 * r * r / 16) << d.x << " " << d.y << " " << d.z;
+    if (lit) ++(d.z > 0 ? above : below);
+  }
+  EXPECT_GT(below, 50);
+  EXPECT_GT(above, 300);
+}
+
 // Parallel light on a mirror ball of radius 1 that meets it at the angle i from its axis is turned back at 2 i. From there the sphere of
 // radius r is crossed at psi = 2 i - gamma, sin(gamma) = sin(i) / r (law of sines), so of the power sin(i) cos(i) di through a ring of
 // azimuth 1, each solid angle sin(psi) dpsi gets sin(i) cos(i) / (sin(psi) (2 - cos(i) / (r cos(gamma)))): far away 1/4, the same

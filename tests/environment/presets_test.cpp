@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
+
 namespace {
 
 using namespace nephroid::test;
@@ -19,7 +21,9 @@ protected:
   {
     more.insert(more.begin(), {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32", "--set",
                                "environment.photons=30000", "--set", "scene.camera.resolution=[420, 220]"});
-    return run(more, {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()}});
+    const char* home = std::getenv("HOME"); // compiled kernels stay where they are
+    return run(more, {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()},
+                      {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}});
   }
   json of(const std::string& file) const { return json::parse(nephroid::read_file(folder / file)); }
 };
