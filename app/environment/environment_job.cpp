@@ -73,12 +73,10 @@ public:
   job::Snapshot snapshot() override
   {
     const Bake& bake = bake_ ? *bake_ : baker_->bake();
-    const Shown shown = choose_shown(bake, width_, height_);
     job::Snapshot made;
-    made.picture = sheet(bake, shown, width_, height_, white_);
-    for (const std::size_t direction : shown.directions)
-      if (direction < bake.baked.size())
-        made.pictures.push_back({fmt::format("direction_{:03}", direction + 1), spheres_picture(bake, direction, shown.spheres, white_)});
+    show(bake);
+    made.picture = sheet_;
+    made.pictures = spheres_;
     made.progress = progress();
     made.warnings = warnings_;
     made.phases = {{"bake", work_seconds_}};
@@ -141,6 +139,20 @@ private:
     }
   }
 
+  /// Makes what shows the directions that were baked since it was last made.
+  void show(const Bake& bake)
+  {
+    const Shown shown = choose_shown(bake, width_, height_);
+    const auto baked = static_cast<std::size_t>(
+        std::ranges::count_if(shown.directions, [&](std::size_t direction) { return direction < bake.baked.size(); }));
+    if (sheet_ && baked == spheres_.size()) return;
+    if (baked < spheres_.size()) spheres_.clear(); // an earlier state was loaded
+    sheet_ = sheet(bake, shown, width_, height_, white_);
+    for (std::size_t i = spheres_.size(); i < baked; ++i)
+      spheres_.push_back(
+          {fmt::format("direction_{:03}", shown.directions[i] + 1), spheres_picture(bake, shown.directions[i], shown.spheres, white_)});
+  }
+
   void add_figures(const Bake& bake, job::Snapshot& made) const
   {
     made.curves.push_back({"directions", {"direction", "x", "y", "z", "met", "sent", "absorbed", "lost"}, {}});
@@ -179,6 +191,8 @@ private:
   bool from_file_ = false;
   std::uint64_t photons_ = 0; ///< that the finished bake took here
   double work_seconds_ = 0;
+  std::shared_ptr<const job::Picture> sheet_; ///< of the directions in spheres_
+  std::vector<job::NamedPicture> spheres_;    ///< of each direction that is shown and baked
   std::vector<std::string> warnings_;
 };
 

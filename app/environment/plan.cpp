@@ -85,7 +85,8 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
     plan.notes.push_back(fmt::format("{}: its middle, about which the spheres stand, is outside of it; the smallest sphere has the radius "
                                      "{:.4g}, as the surface is {:.4g} from there",
                                      task.caster.name, task.radii.front(), task.caster.nearest));
-  if (!task.caster.scene.objects.front().closed)
+  const scene::Object& object = task.caster.scene.objects.front();
+  if (!object.closed && material_of(task.caster.scene, object).type == scene::Material::Type::dielectric)
     plan.notes.push_back(fmt::format("{}: its mesh is open: light that comes in by its surface and leaves by a hole marks spheres only on "
                                      "its last way",
                                      task.caster.name));

@@ -30,7 +30,7 @@ std::vector<std::size_t> spread(std::size_t count, int fit)
 /// Mean of a few places in each pixel, for a pixel has several texels.
 std::vector<float> latitude_longitude(const Bake& bake, std::size_t direction, std::size_t sphere, int width, int height, double white)
 {
-  constexpr int places = 3;
+  constexpr int places = 2;
   std::vector<float> rgb(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   if (direction >= bake.baked.size()) return rgb;
   for_ranges(static_cast<std::size_t>(height), 8, [&](std::size_t, const Range& rows) {

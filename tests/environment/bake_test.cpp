@@ -100,6 +100,18 @@ TEST(Bake, SpheresInsideTheCornersGetWhatIsOutsideOfTheBox)
   }
 }
 
+// Two walls of a mirror that stand on each other: light from one side meets both. What goes from wall to wall is outside of the spheres
+// that enclose both, so these get what leaves the mirror and no more.
+TEST(Bake, LightThatMeetsTheObjectAgainGoesNoFarther)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("walls.obj", "v 0 0 0\nv 0 2 0\nv 2 2 0\nv 2 0 0\nv 0 2 2\nv 0 0 2\nf 1 4 3 2\nf 1 2 5 6\n");
+  const std::string object = R"({"name": "walls", "mesh": ")" + file + R"(", "material": "mirror"})";
+  const Bake bake = bake_of(bake_preset(object, {"environment.spheres=4"}), {glm::normalize(glm::dvec3(-1, 0.1, -1))});
+  EXPECT_GT(bake.baked[0].met, 0.5);
+  for (std::size_t i = 2; i < 4; ++i) EXPECT_NEAR(power_through(bake, 0, i).x, bake.baked[0].sent, half_rounding * bake.baked[0].sent) << i;
+}
+
 // Light goes straight on through a ball with n = 1: on a sphere it meets with the cosine of the angle from its axis, so E is that cosine
 // for sin(angle) < 1 / r, and 0 elsewhere. The fluence would be 1.
 TEST(Bake, IsTheIrradianceOnTheSphere)

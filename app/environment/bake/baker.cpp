@@ -99,6 +99,7 @@ Baker::Baker(const BakeTask& task, const compute::Context& context)
   double discs = 0;
   for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
   watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2
+  bake_.halves.reserve(task.halves());
   film_ = world_.zeroed("spheres of one direction", bake_.direction_items());
   energy_ = world_.zeroed("energy", OUTCOME_COUNT);
   kernel_ = compute::Program(context, "environment/bake.cl", world_.photon_defines()).kernel("bake");
