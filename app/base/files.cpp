@@ -288,6 +288,17 @@ bool is_temporary_name(const fs::path& path)
   return std::regex_match(path.filename().string(), form);
 }
 
+fs::path cache_folder(const std::string& name)
+{
+  const auto variable = [](const char* key) {
+    const char* value = std::getenv(key);
+    return fs::path(value ? value : "");
+  };
+  if (const fs::path cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache / "nephroid" / name;
+  if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache/nephroid" / name;
+  return {};
+}
+
 fs::path presets_folder()
 {
   if (const char* variable = std::getenv("NEPHROID_PRESETS"); variable && *variable) {

@@ -36,6 +36,10 @@ bool is_temporary_name(const std::filesystem::path& path);
 /// program's build folder or installed share folder. Throws failed where none is found.
 std::filesystem::path presets_folder();
 
+/// nephroid/NAME in the user's folder of caches: XDG_CACHE_HOME, else ~/.cache. Whether it is there is not asked. Empty where HOME is not
+/// set either.
+std::filesystem::path cache_folder(const std::string& name);
+
 /// lib/nephroid/NAME of the build or installation folder that the program lies in: a module or a helper of ours.
 /// Throws failed where it is not there.
 std::filesystem::path library_file(const std::string& name);

@@ -39,12 +39,6 @@ preset::Preset settings_only(preset::Preset preset)
 
 } // namespace
 
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t hash)
-{
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  return hash;
-}
-
 std::uint64_t content_hash(const preset::Preset& preset, const scene::Scene& scene)
 {
   std::uint64_t hash = hash_of(preset::to_json(settings_only(preset)));

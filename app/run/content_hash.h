@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a picture depends on, as one number: checkpoints and references are bound to it.
 #pragma once
+#include "base/hash.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
 
 #include <cstdint>
-#include <string_view>
 
 namespace nephroid::run {
-
-/// FNV-1a: enough to tell contents apart and to notice damage; not against forgery. `hash` continues an earlier one.
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u);
 
 /// Of the settings that a picture's sums depend on (not: names, descriptions, stop, reference, mask) and of what the files that the preset
 /// names held when the scene was loaded from it.

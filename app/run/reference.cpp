@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 namespace nephroid::run {
@@ -42,14 +41,9 @@ preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
   return made;
 }
 
-fs::path cache_folder()
+fs::path references_folder()
 {
-  const auto variable = [](const char* name) {
-    const char* value = std::getenv(name);
-    return fs::path(value ? value : "");
-  };
-  if (const fs::path cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache / "nephroid/references";
-  if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache/nephroid/references";
+  if (const fs::path folder = cache_folder("references"); !folder.empty()) return folder;
   throw failed("reference", "there is no folder to keep it in: HOME is not set", "",
                "set XDG_CACHE_HOME to a folder that can be written to");
 }
@@ -60,7 +54,7 @@ fs::path cache_file(const Prepared& prepared, const compute::Context& context)
   std::uint64_t hash = content_hash(recipe, prepared.loaded->scene);
   hash = hash_of(fmt::format("{} passes {}", version(), recipe.stop.passes.value()), hash);
   hash = hash_of(compute::kernel_sources(context, prepared.preset.settings.type().name), hash);
-  return cache_folder() / fmt::format("{:016x}.exr", hash);
+  return references_folder() / fmt::format("{:016x}.exr", hash);
 }
 
 /// The picture of the first seed, where the file has it.

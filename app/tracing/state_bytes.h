@@ -26,6 +26,7 @@ public:
   {
     to_.value(value);
   }
+  void bytes(std::span<const std::byte> bytes) { to_.write(bytes); }
   template <class T>
   void buffer(const compute::Buffer<T>& buffer)
   {
@@ -56,6 +57,7 @@ public:
   {
     from_.value(value);
   }
+  void bytes(std::span<std::byte> into) { from_.read(into); }
   template <class T>
   void buffer(compute::Buffer<T>& buffer)
   {

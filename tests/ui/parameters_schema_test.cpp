@@ -100,6 +100,8 @@ protected:
       all = named->second;
     else if (node.value("minLength", 0) > 0)
       all = owner.starts_with("Dispersion") ? std::vector<std::string>{"N-BK7", "N-SF66"} : std::vector<std::string>{"a.exr", "b.exr"};
+    else if (pointer == "/environment/directions")
+      all = {"98", "386"};
     else if (node["type"] == "string")
       all = {owner.starts_with("InversePicture") ? "A \"quoted\" \\ ~/" : "Grüße, \"quoted\" \\ ~/", "other"};
     else {
@@ -136,14 +138,16 @@ protected:
       set(node, pointer, candidate);
       if (HasFatalFailure()) return;
       if (problems().empty()) {
-        EXPECT_EQ(differences(before, text()), (std::set<std::string>{pointer})) << candidate;
+        std::set<std::string> changed = differences(before, text());
+        if (pointer == "/engine") // each engine has a section of its own
+          std::erase_if(changed, [&](const std::string& at) { return is_engine(at.substr(1, at.find('/', 1) - 1)); });
+        EXPECT_EQ(changed, (std::set<std::string>{pointer})) << candidate;
         once = true;
       } else
         EXPECT_EQ(text(), before) << "the run's preset is as it was";
       restore(before);
     }
-    // Another engine wants another scene: its choice waits until that is there.
-    EXPECT_NE(once, pointer == "/engine") << "none of its other values was taken";
+    EXPECT_TRUE(once) << "none of its other values was taken";
   }
   /// A plain value, or each of the numbers in a list or table, which is given items first.
   void edit_leaf(const Json& node, const std::string& pointer, const std::string& owner)
@@ -251,6 +255,8 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
   open(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {"facets": [8, 8], "receivers": [
     {"distance_mm": 100, "picture": {"type": "ring"}}, {"distance_mm": 200, "picture": {"type": "disc"}}]}})");
   visit(schema["properties"]["inverse"], "/inverse", "Preset", "Preset.inverse");
+  open(R"({"engine": "environment", "scene": {"camera": {}}})");
+  visit(schema["properties"]["environment"], "/environment", "Preset", "Preset.environment");
   std::vector<std::string> left;
   std::ranges::set_symmetric_difference(edited, leaves(), std::back_inserter(left));
   EXPECT_THAT(left, testing::IsEmpty());

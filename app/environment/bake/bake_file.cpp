@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// NAME.bake: a header, radii, where light went, half floats, and a hash of everything before it.
+#include "environment/bake/bake_file.h"
+
+#include "base/build_info.h"
+#include "base/bytes.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "environment/bake/directions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <span>
+
+namespace nephroid::environment {
+namespace fs = std::filesystem;
+namespace {
+
+struct Header {
+  std::array<char, 8> magic{'N', 'E', 'P', 'H', 'B', 'A', 'K', 'E'};
+  std::uint64_t format = 1;
+  std::uint64_t program = 0, kernels = 0, key = 0;
+  std::uint64_t directions = 0, spheres = 0, side = 0, channels = 0;
+  double size = 0;
+};
+static_assert(sizeof(Header) == 80, "the header has no padding: it is written as it is");
+
+/// As hash_of, but eight bytes at a time: a bake has hundreds of megabytes. Pieces but the last have a multiple of 8 bytes.
+std::uint64_t hash_more(std::span<const std::byte> bytes, std::uint64_t hash)
+{
+  for (; bytes.size() >= sizeof hash; bytes = bytes.subspan(sizeof hash)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data(), sizeof word);
+    hash = (hash ^ word) * 0x100000001b3u;
+  }
+  return hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, hash);
+}
+
+class HashedSink final : public ByteSink {
+public:
+  explicit HashedSink(ByteSink& to) : to_(to) {}
+  void write(std::span<const std::byte> bytes) override
+  {
+    hash_ = hash_more(bytes, hash_);
+    to_.write(bytes);
+  }
+  std::uint64_t hash() const { return hash_; }
+
+private:
+  ByteSink& to_;
+  std::uint64_t hash_ = hash_of({});
+};
+
+class HashedSource final : public ByteSource {
+public:
+  explicit HashedSource(ByteSource& from) : from_(from) {}
+  void read(std::span<std::byte> into) override
+  {
+    from_.read(into);
+    hash_ = hash_more(into, hash_);
+  }
+  std::uint64_t left() const override { return from_.left(); }
+  std::uint64_t hash() const { return hash_; }
+
+private:
+  ByteSource& from_;
+  std::uint64_t hash_ = hash_of({});
+};
+
+template <class T>
+void read_items(ByteSource& from, std::vector<T>& items, std::uint64_t count)
+{
+  items.resize(count);
+  from.read(std::as_writable_bytes(std::span(items)));
+}
+
+std::uint64_t items_of(const Header& h) { return h.directions * h.spheres * h.side * h.side * h.channels; }
+
+std::uint64_t length_of(const Header& h)
+{
+  return sizeof h + h.spheres * sizeof(double) + h.directions * sizeof(BakedDirection) + items_of(h) * sizeof(std::uint16_t) +
+         sizeof(std::uint64_t);
+}
+
+/// Reads the header. "" where all is right.
+std::string fault_of(ByteSource& file, const BakeIdentity& identity, Header& header)
+{
+  const Header ours;
+  const std::uint64_t length = file.left();
+  if (length < sizeof header) return "is no bake";
+  file.value(header);
+  if (header.magic != ours.magic) return "is no bake";
+  if (header.format != ours.format || header.program != hash_of(version())) return "was made by another version of the program";
+  if (identity.kernels != 0 && header.kernels != identity.kernels) return "was made with other kernels";
+  if (header.key != identity.key) return "is of another object or of other settings";
+  if (length != length_of(header)) return fmt::format("has {} bytes, and {} are expected: it was cut short", length, length_of(header));
+  return {};
+}
+
+void remove_oldest(const fs::path& kept, std::uint64_t most)
+{
+  struct File {
+    fs::file_time_type time;
+    fs::path path;
+    std::uint64_t bytes;
+  };
+  std::vector<File> files;
+  std::uint64_t sum = fs::file_size(kept);
+  for (const fs::directory_entry& entry : fs::directory_iterator(kept.parent_path()))
+    if (entry.path().extension() == ".bake" && entry.path() != kept)
+      files.push_back({entry.last_write_time(), entry.path(), entry.file_size()});
+  std::ranges::sort(files, [](const File& a, const File& b) { return a.time > b.time; });
+  for (const File& file : files) {
+    sum += file.bytes;
+    if (sum > most) fs::remove(file.path);
+  }
+}
+
+} // namespace
+
+fs::path bake_path(std::uint64_t key)
+{
+  const fs::path folder = cache_folder("bakes");
+  return folder.empty() ? folder : folder / fmt::format("{:016x}.bake", key);
+}
+
+std::optional<std::string> bake_file_fault(const fs::path& file, const BakeIdentity& identity)
+{
+  if (file.empty() || !is_there(file)) return "";
+  try {
+    Header header;
+    const std::string fault = fault_of(*open_file(file), identity, header);
+    return fault.empty() ? std::nullopt : std::optional(fault);
+  } catch (const Error& error) {
+    return error.text();
+  }
+}
+
+Bake read_bake(const fs::path& file, const BakeIdentity& identity)
+{
+  const std::unique_ptr<ByteSource> source = open_file(file);
+  HashedSource from(*source);
+  Header header;
+  if (const std::string fault = fault_of(from, identity, header); !fault.empty()) throw bad_input(file, fault);
+  Bake bake;
+  bake.map.side = static_cast<int>(header.side);
+  bake.channels = static_cast<int>(header.channels);
+  bake.size = header.size;
+  read_items(from, bake.radii, header.spheres);
+  read_items(from, bake.baked, header.directions);
+  bake.directions = light_directions(static_cast<int>(header.directions));
+  read_items(from, bake.halves, items_of(header));
+  std::uint64_t hash = 0;
+  source->value(hash);
+  if (hash != from.hash()) throw bad_input(file, "is damaged: its checksum is wrong");
+  return bake;
+}
+
+void write_bake(const fs::path& file, const BakeIdentity& identity, const Bake& bake, std::uint64_t most)
+{
+  if (file.empty()) throw failed("bake", "there is no folder to keep it in: HOME is not set", "", "set XDG_CACHE_HOME");
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) throw failed(file.parent_path(), "cannot be made: " + error.message(), "", "set XDG_CACHE_HOME to another folder");
+  Header header;
+  header.program = hash_of(version());
+  header.kernels = identity.kernels;
+  header.key = identity.key;
+  header.directions = bake.baked.size();
+  header.spheres = bake.radii.size();
+  header.side = static_cast<std::uint64_t>(bake.map.side);
+  header.channels = static_cast<std::uint64_t>(bake.channels);
+  header.size = bake.size;
+  write_file_whole(file, [&](ByteSink& sink) {
+    HashedSink to(sink);
+    to.value(header);
+    to.write(std::as_bytes(std::span(bake.radii)));
+    to.write(std::as_bytes(std::span(bake.baked)));
+    to.write(std::as_bytes(std::span(bake.halves)));
+    sink.value(to.hash());
+  });
+  try {
+    remove_oldest(file, most);
+  } catch (const fs::filesystem_error&) {
+    // Another program may be removing them, too.
+  }
+}
+
+} // namespace nephroid::environment

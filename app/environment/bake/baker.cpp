@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/bake/baker.h"
+
+#include "base/parallel.h"
+#include "environment/bake/directions.h"
+#include "optics/colour.h"
+#include "optics/primary_spectra.h"
+#include "tracing/omissions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+namespace nephroid::environment {
+namespace {
+
+/// Quanta that a photon with an equal share of all power has: far more than rounding takes, and 2^30 photons of 2^6 times as much fit.
+constexpr double quanta_of_photon = 0x1p24;
+
+/// What each wavelength of white light is in linear sRGB. An environment's colours stand for spectra of the three primaries
+/// (optics/primary_spectra.h), so white is the sum of these; all wavelengths together are (1, 1, 1).
+std::vector<shared::float4> white_light()
+{
+  std::vector<shared::float4> light;
+  glm::dvec3 sum(0);
+  const auto colour_of = [](int w) {
+    optics::Spectrum one{};
+    const auto i = static_cast<std::size_t>(w);
+    for (const optics::Spectrum& primary : optics::primary_spectra()) one[i] += primary[i];
+    const optics::Colour rgb = optics::xyz_to_linear_srgb(optics::to_xyz(one));
+    return glm::dvec3(rgb[0], rgb[1], rgb[2]);
+  };
+  for (int w = 0; w < optics::wavelength_count; ++w) sum += colour_of(w);
+  for (int w = 0; w < optics::wavelength_count; ++w) {
+    const glm::dvec3 rgb = colour_of(w) / sum;
+    light.push_back({static_cast<float>(rgb.x), static_cast<float>(rgb.y), static_cast<float>(rgb.z), 0});
+  }
+  return light;
+}
+
+/// Whether two wavelengths go other ways, or lose more or less on the same.
+bool is_coloured(const tracing::WavelengthTables& tables)
+{
+  if (tables.clusters_spread) return true;
+  for (std::size_t i = 0; i < tables.coefficient.size(); ++i)
+    if (tables.coefficient[i] != tables.coefficient[i - i % WAVELENGTH_COUNT]) return true;
+  return false;
+}
+
+shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+
+} // namespace
+
+Bake BakeTask::empty_bake() const
+{
+  Bake bake;
+  bake.map.side = resolution;
+  bake.channels = coloured ? 3 : 1;
+  bake.size = caster.size;
+  bake.radii = radii;
+  bake.directions = directions;
+  return bake;
+}
+
+BakeTask make_task(const preset::Preset& preset)
+{
+  const Settings& s = settings(preset);
+  BakeTask task;
+  task.caster = make_caster(preset);
+  task.radii = sphere_radii(s, task.caster, preset.source);
+  task.directions = light_directions(s.directions);
+  task.resolution = s.resolution;
+  task.photons = static_cast<std::uint32_t>(s.photons);
+  task.seed = preset.seed;
+  const scene::Scene& scene = task.caster.scene;
+  task.bvh = scene::build_bvh(scene.geometry);
+  const tracing::LeaveOut leave_out = tracing::leave_out_all(preset.leave_out);
+  std::vector<int> all(optics::wavelength_count);
+  std::iota(all.begin(), all.end(), 0);
+  task.tables = tracing::make_scene_tables(scene, {all}, leave_out);
+  task.coloured = is_coloured(task.tables.wavelengths);
+  task.defines = tracing::code_omissions(leave_out, scene, task.tables.wavelengths.attenuator_count).defines;
+  task.defines["NEPHROID_CHANNELS"] = std::to_string(task.coloured ? 3 : 1);
+  task.defines["NEPHROID_JITTER"] = std::to_string(int(task.coloured));
+  task.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(0);
+  task.defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!task.bvh.ellipsoid_places.empty()));
+  task.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(task.bvh.stack, 1));
+  return task;
+}
+
+Baker::Baker(const BakeTask& task, const compute::Context& context)
+    : task_(task), world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
+      light_rgb_(tracing::upload_vector(context, "white light", white_light())),
+      radii_(tracing::upload_vector(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))), bake_(task.empty_bake())
+{
+  // As kernels/tracing/emission.h has it: photons are spread over the discs of all targets, which may overlap.
+  double discs = 0;
+  for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
+  watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2
+  bake_.halves.reserve(task.halves());
+  film_ = world_.zeroed("spheres of one direction", bake_.direction_items());
+  energy_ = world_.zeroed("energy", OUTCOME_COUNT);
+  kernel_ = compute::Program(context, "environment/bake.cl", world_.photon_defines()).kernel("bake");
+}
+
+void Baker::step()
+{
+  const auto count =
+      static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons_a_step_.amount()), 1, std::int64_t{task_.photons} - sent_));
+  const auto number = static_cast<std::uint32_t>(bake_.baked.size());
+  // The light of the tables has power_unit W/m^2 as its unit.
+  const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
+  photons_a_step_.timed(count, [&] {
+    world_.run_photons(kernel_, count,
+                       {{"targets", world_.buffers.targets},
+                        {"light_rgb", light_rgb_},
+                        {"radii", radii_},
+                        {"film", film_},
+                        {"energy", energy_},
+                        {"sphere_count", static_cast<int>(task_.radii.size())},
+                        {"side", task_.resolution},
+                        {"direction", to_float4(task_.directions[number])},
+                        {"number", number},
+                        {"seed", world_.seed},
+                        {"first", sent_},
+                        {"count", count},
+                        {"scale", scale}});
+  });
+  sent_ += count;
+  if (sent_ == task_.photons) finish_direction();
+}
+
+void Baker::finish_direction()
+{
+  const double size2 = std::pow(task_.caster.size * task_.caster.scene.metres_per_unit, 2);
+  const double area_of_quantum = watts_ / (quanta_of_photon * task_.photons * size2); // in size^2
+  const double scale = area_of_quantum / (bake_.map.solid_angle() * Bake::unit);
+  const std::size_t items = bake_.sphere_items(), begin = bake_.halves.size();
+  bake_.halves.resize(begin + bake_.direction_items());
+  std::vector<std::int64_t> sums(items);
+  for (std::size_t sphere = 0; sphere < task_.radii.size(); ++sphere) {
+    film_.RawBuffer::read(sums.data(), items * sizeof(std::int64_t), sphere * items * sizeof(std::int64_t));
+    std::uint16_t* const halves = bake_.halves.data() + begin + sphere * items;
+    for_ranges(items, 1 << 14, [&](std::size_t, const Range& range) {
+      for (std::size_t i = range.begin; i < range.end; ++i) halves[i] = to_half(scale * static_cast<double>(sums[i]));
+    });
+  }
+  const std::vector<std::int64_t> energy = energy_.read();
+  const auto area = [&](std::size_t outcome) { return area_of_quantum * static_cast<double>(energy[outcome]); };
+  bake_.baked.push_back({area(OUTCOME_EMITTED) - area(OUTCOME_MISSED), area(OUTCOME_ESCAPED), area(OUTCOME_ABSORBED), area(OUTCOME_LOST)});
+  film_.fill_zero();
+  energy_.fill_zero();
+  sent_ = 0;
+}
+
+void Baker::save(tracing::StateWriter& to) const
+{
+  to.value(sent_);
+  to.value(std::uint64_t{bake_.baked.size()});
+  for (const BakedDirection& direction : bake_.baked) to.value(direction);
+  to.bytes(std::as_bytes(std::span(bake_.halves)));
+  to.buffer(film_);
+  to.buffer(energy_);
+}
+
+void Baker::load(tracing::StateReader& from)
+{
+  from.value(sent_);
+  std::uint64_t baked = 0;
+  from.value(baked);
+  if (baked > task_.directions.size() || sent_ >= task_.photons) throw bad_input("checkpoint", "is of another run");
+  bake_.baked.resize(baked);
+  for (BakedDirection& direction : bake_.baked) from.value(direction);
+  bake_.halves.resize(baked * bake_.direction_items());
+  from.bytes(std::as_writable_bytes(std::span(bake_.halves)));
+  from.buffer(film_);
+  from.buffer(energy_);
+}
+
+} // namespace nephroid::environment

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bakes on a device: photons direction after direction, in steps of about 50 ms (kernels/environment/bake.cl).
+#pragma once
+#include "environment/bake/bake.h"
+#include "environment/bake/caster.h"
+#include "scene/bvh.h"
+#include "tracing/scene_tables.h"
+#include "tracing/step_size.h"
+#include "tracing/world.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace nephroid::environment {
+
+/// What is baked and how, worked out once.
+struct BakeTask {
+  Caster caster;
+  scene::Bvh bvh;
+  tracing::SceneTables tables;
+  bool coloured = false; ///< the object bends or takes away one wavelength otherwise than another
+  std::vector<double> radii;
+  std::vector<glm::dvec3> directions;
+  int resolution = 0;
+  std::uint32_t photons = 0; ///< from each direction
+  std::uint64_t seed = 0;
+  compute::Defines defines;
+
+  Bake empty_bake() const;
+  std::uint64_t halves() const { return static_cast<std::uint64_t>(empty_bake().direction_items()) * directions.size(); }
+  std::uint64_t film_bytes() const { return static_cast<std::uint64_t>(empty_bake().direction_items()) * sizeof(std::int64_t); }
+};
+
+/// task: without its seed and photons being 0. Throws bad_input as make_caster and sphere_radii.
+BakeTask make_task(const preset::Preset& preset);
+
+class Baker {
+public:
+  /// task outlives it. Throws failed where the device has not enough memory.
+  Baker(const BakeTask& task, const compute::Context& context);
+
+  /// Photons of the direction in hand; with its last ones the direction is added to the bake.
+  void step();
+  bool finished() const { return bake_.baked.size() == task_.directions.size(); }
+  /// Of the direction in hand, 0..1.
+  double part() const { return static_cast<double>(sent_) / task_.photons; }
+  /// Sent so far.
+  std::uint64_t photons() const { return bake_.baked.size() * std::uint64_t{task_.photons} + sent_; }
+  const Bake& bake() const { return bake_; }
+  /// Once finished.
+  Bake take() { return std::move(bake_); }
+
+  void save(tracing::StateWriter& to) const;
+  void load(tracing::StateReader& from);
+
+private:
+  void finish_direction();
+
+  const BakeTask& task_;
+  tracing::World world_;
+  double watts_; ///< that all photons of a direction have together
+  compute::Buffer<shared::float4> light_rgb_;
+  compute::Buffer<float> radii_;
+  compute::Buffer<std::int64_t> film_, energy_;
+  compute::Kernel kernel_;
+  tracing::StepSize photons_a_step_{8192};
+  std::uint32_t sent_ = 0; ///< of the direction in hand
+  Bake bake_;
+};
+
+} // namespace nephroid::environment

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of engine 2 described for visitors: preset/describe.h says what a visitor is.
+#pragma once
+#include "environment/settings.h"
+#include "preset/field.h"
+
+namespace nephroid::preset {
+
+template <>
+struct Choices<environment::Settings::Radii> {
+  using Radii = environment::Settings::Radii;
+  static constexpr Choice<Radii> all[] = {
+      {Radii::quadratic, "quadratic", "Close together near the object, where caustics change most: (3.1) of the thesis."},
+      {Radii::uniform, "uniform", "All as far apart."}};
+};
+
+template <>
+struct About<environment::Settings> {
+  static constexpr std::string_view name = "EnvironmentEngine", sentence = "Settings of the engine \"environment\".";
+};
+
+} // namespace nephroid::preset
+
+namespace nephroid::environment {
+
+template <class V, preset::Is<Settings> S>
+void describe(V& v, S& s)
+{
+  using preset::within;
+  v.field({.name = "object",
+           .sentence = "Name of the object whose caustics are baked; without, the only one of glass or a mirror.",
+           .text = preset::Text::line},
+          s.object);
+  v.field({.name = "directions",
+           .sentence = "How many directions light is baked from: 26, 98 or 386 points of a cube's faces.",
+           .bounds = within(26, 386)},
+          s.directions);
+  v.field({.name = "spheres", .sentence = "Caustic spheres about the object, for each direction.", .bounds = within(2, 64)}, s.spheres);
+  v.field({.name = "radii", .sentence = "How the radii of the spheres grow."}, s.radii);
+  v.field({.name = "reach",
+           .sentence = "Radius of the largest sphere; beyond it light goes on by the inverse square of the distance.",
+           .unit = "largest sides of the box about the object",
+           .bounds = within(0.5, 1000)},
+          s.reach);
+  v.field(
+      {.name = "resolution",
+       .sentence = "Texels across and down the square map of a sphere, which all have the same solid angle: 360 are as many as 512 x 256.",
+       .bounds = within(8, 1024)},
+      s.resolution);
+  v.field({.name = "photons", .sentence = "Photons from each direction.", .bounds = within(1, 1 << 30)}, s.photons);
+}
+
+} // namespace nephroid::environment

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Engine 2, caustics under environment light (thesis chapter 3): what one object does to light is baked once, from a few directions.
+#pragma once
+#include "compute/compute.h"
+#include "engine/engine.h"
+#include "environment/bake/baker.h"
+#include "environment/settings.h"
+#include "job/job.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace nephroid::environment {
+
+extern const engine::Engine engine;
+
+struct EnvironmentPlan : plan::Plan {
+  std::shared_ptr<const BakeTask> task;
+  std::uint64_t key = 0;           ///< of the bake
+  std::filesystem::path bake_file; ///< where it is kept
+  bool bakes = true;               ///< false: the file is there and looks right
+};
+
+/// Throws bad_input as make_task.
+EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scene);
+
+/// Reads the bake where the plan has one, else bakes until the preset's stop, of which a pass is a direction. Throws failed where the
+/// device has not enough memory.
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context);
+
+} // namespace nephroid::environment

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What engine 2 runs for a preset and what it leaves out.
+#include "plan/plan.h"
+
+#include "environment/bake/bake_file.h"
+#include "environment/describe_settings.h"
+#include "environment/engine.h"
+#include "environment/sheet.h"
+#include "tracing/omissions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace nephroid::environment {
+namespace {
+
+/// fault: bake_file_fault.
+plan::Pass bake_pass(const EnvironmentPlan& plan, const Settings& s, const std::optional<std::string>& fault)
+{
+  if (!fault) return {"bake", false, fmt::format("{} has it: the same object, material and settings", plan.bake_file.string())};
+  return {"bake", true,
+          fmt::format("{}{}: {} photons from each of {} directions onto {} spheres with {} radii", fault->empty() ? "" : "anew, ",
+                      plan.task->caster.name, s.photons, s.directions, s.spheres, preset::word(s.radii))};
+}
+
+plan::Pass colours_pass(const BakeTask& task)
+{
+  return {"colours", task.coloured,
+          task.coloured ? "each photon has one wavelength of white light" : "all wavelengths go the same way and lose alike: one channel"};
+}
+
+/// Of the omissions of kernels those that photons on their way through the object have.
+std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask& task)
+{
+  static constexpr std::array<std::string_view, 4> names{"mirrors", "bending", "attenuation", "smooth normals"};
+  std::vector<plan::Pass> passes =
+      tracing::code_omissions(tracing::leave_out_all(preset.leave_out), task.caster.scene, task.tables.wavelengths.attenuator_count).passes;
+  std::erase_if(passes, [](const plan::Pass& pass) { return !std::ranges::count(names, pass.name); });
+  return passes;
+}
+
+std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes)
+{
+  const auto bytes_of = [](const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); };
+  const auto mesh_bytes = [&](const scene::Scene& s) {
+    return bytes_of(s.geometry.triangles) + bytes_of(s.geometry.positions) + bytes_of(s.geometry.normals) + bytes_of(s.object_of_primitive);
+  };
+  const std::uint64_t tree = bytes_of(task.bvh.nodes) + bytes_of(task.bvh.blocks), object = mesh_bytes(task.caster.scene),
+                      item_bytes = std::uint64_t{task.empty_bake().sphere_items()} * sizeof(std::int64_t);
+  std::vector<plan::PlannedBuffer> list{{"scene (host)", mesh_bytes(scene) + tree + object, true},
+                                        {"caustic spheres (host)", sizeof(std::uint16_t) * task.halves(), true},
+                                        {"pictures of spheres (host)", picture_bytes(task), true}};
+  if (!bakes) return list;
+  list.push_back({"one sphere's sums (host)", item_bytes, true});
+  list.push_back({"tree", tree});
+  list.push_back({"triangles", object});
+  list.push_back({"spheres of one direction", task.film_bytes()});
+  return list;
+}
+
+} // namespace
+
+EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scene)
+{
+  const Settings& s = settings(preset);
+  EnvironmentPlan plan;
+  plan.task = std::make_shared<const BakeTask>(make_task(preset));
+  const BakeTask& task = *plan.task;
+  plan.engine = "environment";
+  plan.key = bake_key(preset, task.caster);
+  plan.bake_file = bake_path(plan.key);
+  const std::optional<std::string> fault = bake_file_fault(plan.bake_file, {plan.key, 0});
+  plan.bakes = fault.has_value();
+  plan.passes = {bake_pass(plan, s, fault), colours_pass(task)};
+  for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
+  plan.buffers = buffers_of(task, scene, plan.bakes);
+  plan.defines = task.defines;
+  plan.layers = 1;
+  plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";
+  plan.notes = scene.warnings;
+  if (fault && !fault->empty()) plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));
+  if (!task.caster.middle_inside)
+    plan.notes.push_back(fmt::format("{}: its middle, about which the spheres stand, is outside of it; the smallest sphere has the radius "
+                                     "{:.4g}, as the surface is {:.4g} from there",
+                                     task.caster.name, task.radii.front(), task.caster.nearest));
+  const scene::Object& object = task.caster.scene.objects.front();
+  if (!object.closed && material_of(task.caster.scene, object).type == scene::Material::Type::dielectric)
+    plan.notes.push_back(fmt::format("{}: its mesh is open: light that comes in by its surface and leaves by a hole marks spheres only on "
+                                     "its last way",
+                                     task.caster.name));
+  return plan;
+}
+
+} // namespace nephroid::environment

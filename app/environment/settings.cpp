@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of engine 2 as the preset knows them, and what one of their fields cannot say alone. What needs the scene is refused by the
+// plan (bake/caster.cpp).
+#include "environment/settings.h"
+
+#include "base/error.h"
+#include "environment/bake/directions.h"
+#include "environment/describe_settings.h"
+#include "preset/settings_type.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nephroid::environment {
+namespace {
+
+void check(const preset::Preset& preset, const preset::Where& where)
+{
+  const Settings& s = settings(preset);
+  if (!std::ranges::count(direction_counts(), s.directions))
+    throw bad_input(where("/environment/directions"), fmt::format("is {}", s.directions), "expected 26, 98 or 386",
+                    "they are the points of 3 x 3, 5 x 5 and 9 x 9 grids on a cube's faces");
+  if (preset.stop.error && !preset.reference)
+    throw bad_input(where("/stop/error"), "the engine 'environment' makes no estimate of its error",
+                    "expected 'stop.passes' or 'stop.seconds'");
+}
+
+} // namespace
+
+const preset::SettingsType& settings_type()
+{
+  static const preset::SettingsType type =
+      preset::settings_type<Settings>("environment", "Caustics of one object under an environment, baked once.", check);
+  return type;
+}
+
+} // namespace nephroid::environment

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The settings of engine 2: the section "environment" of a preset.
+#pragma once
+#include "preset/preset.h"
+
+#include <string>
+
+namespace nephroid::environment {
+
+struct Settings {
+  enum class Radii { quadratic, uniform };
+  std::string object{};           ///< that is baked; empty: the only one of glass or a mirror
+  int directions = 26;            ///< that light is baked from: 26, 98 or 386
+  int spheres = 16;               ///< about the object
+  Radii radii = Radii::quadratic; ///< how they grow
+  double reach = 4;               ///< radius of the largest, in largest sides of the box about the object
+  int resolution = 360;           ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
+  int photons = 1 << 19;          ///< that are sent from each direction
+  bool operator==(const Settings&) const = default;
+};
+
+/// The settings of this engine, as a preset knows them.
+const preset::SettingsType& settings_type();
+
+/// Of a preset of this engine.
+inline Settings& settings(preset::Preset& preset) { return preset.settings.as<Settings>(); }
+inline const Settings& settings(const preset::Preset& preset) { return preset.settings.as<Settings>(); }
+
+} // namespace nephroid::environment

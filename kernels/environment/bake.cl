@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Algorithm 3.1 of the thesis: photons of parallel light from one direction meet an object of glass or a mirror, and mark each sphere about
+// its middle that they cross afterwards, outside of it. Light that never met the object marks nothing: it is no caustic.
+#include "kernels/environment/sphere_map.h"
+#include "kernels/tracing/emission.h"
+#include "kernels/tracing/film.h"
+#include "kernels/tracing/low_discrepancy.h"
+#include "kernels/tracing/world.h"
+
+#ifndef NEPHROID_PHOTONS_PER_ITEM
+#define NEPHROID_PHOTONS_PER_ITEM 1
+#endif
+// Of a map: 3 for linear sRGB, 1 where all wavelengths go the same way and lose alike.
+#ifndef NEPHROID_CHANNELS
+#define NEPHROID_CHANNELS 3
+#endif
+
+typedef struct {
+  volatile __global long* film; // [sphere][texel][channel]
+  __global const float* radii;  // ascending
+  int count, side;              // of the spheres; of a map
+} Spheres;
+
+// What a photon carries in quanta, by channel.
+typedef struct {
+  long channels[NEPHROID_CHANNELS];
+} Carried;
+
+static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, const Carried* carried)
+{
+  const size_t texel = (size_t)sphere * (size_t)(spheres->side * spheres->side) + (size_t)sphere_texel(place, spheres->side);
+  for (int c = 0; c < NEPHROID_CHANNELS; ++c) add_exactly(spheres->film + NEPHROID_CHANNELS * texel + c, carried->channels[c]);
+}
+
+// Marks each crossing of the way from `origin` up to `distance` along the unit vector `direction`. The way is nearest to the middle at
+// `foot`, and a sphere of radius r is crossed sqrt(r^2 - foot^2) before and after that.
+static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 direction, float distance, const Carried* carried)
+{
+  const float to_foot = -dot(origin, direction);
+  const float3 foot = origin + to_foot * direction;
+  const float foot2 = dot(foot, foot);
+  for (int i = 0; i < spheres->count; ++i) {
+    const float half2 = spheres->radii[i] * spheres->radii[i] - foot2;
+    if (!(half2 > 0.0f)) continue;
+    const float half_chord = sqrt(half2);
+    const float enters = to_foot - half_chord, leaves = to_foot + half_chord;
+    if (enters > 0.0f && enters <= distance) mark_texel(spheres, i, foot - half_chord * direction, carried);
+    if (leaves > 0.0f && leaves <= distance) mark_texel(spheres, i, foot + half_chord * direction, carried);
+  }
+}
+
+// What is left of the path's power, 0..1.
+static inline float left_of(const World* world, const Path* path, const Band* band)
+{
+  return wavelength_left(&world->tables, &path->losses, band->wavelength < 0 ? 0 : band->wavelength);
+}
+
+// light_rgb: [401] what a wavelength of white light is in linear sRGB; all of them together are (1, 1, 1).
+static inline Carried carried_by(__global const float4* light_rgb, const Band* band, float power)
+{
+  Carried carried;
+#if NEPHROID_CHANNELS == 3
+  const float3 rgb = light_rgb[band->wavelength].xyz * (band->weight * power);
+  carried.channels[0] = convert_long_rte(rgb.x);
+  carried.channels[1] = convert_long_rte(rgb.y);
+  carried.channels[2] = convert_long_rte(rgb.z);
+#else
+  carried.channels[0] = convert_long_rte(power);
+#endif
+  return carried;
+}
+
+// Photons first .. first + count - 1 of a direction, whose number is its stream of random numbers. scale: quanta a watt. energy counts the
+// power, not its colour.
+__kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb, __global const float* radii,
+                   volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                   int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count, float scale)
+{
+  const World world = WORLD;
+  const Spheres spheres = {film, radii, sphere_count, side};
+  DeviceLight light = lights[0];
+  light.direction = direction;
+  long outcomes[OUTCOME_COUNT] = {0};
+  for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
+    const uint item = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
+    if (item >= count) break;
+    const uint photon = first + item;
+    const float4 start = sobol4(seed, (uint3)(number, 0u, 0u), 0u, photon);
+    const Emission emission = emit_directional(&light, targets + light.first_target, &scene, start.zxyw); // x and y are the best pair
+    const float power = emission.watts * scale;
+    const Band band = choose_band(&world, 0, 0, start.w);
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
+    bool met = false;
+    int outcome = OUTCOME_LOST;
+    float4 choices = (float4)(0.0f);
+    for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+      const Hit hit = next_hit(&world, &path);
+      const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
+      // What meets nothing more is outside, also of a mesh with a hole that it came in by its surface and out by the hole.
+      if (met && (leaves || path.media.count == 0)) {
+        const Carried carried = carried_by(light_rgb, &band, power * left_of(&world, &path, &band));
+        mark_spheres(&spheres, path.origin, path.direction, leaves ? INFINITY : hit.t, &carried);
+      }
+      if (leaves) {
+        outcome = met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
+        break;
+      }
+      if (surface_number == NEPHROID_MAX_SURFACES) break;
+      met = true;
+      const Surface surface = surface_at(&world.geometry, world.objects, hit);
+      const DeviceMaterial material = material_of(&world, surface.object);
+      lose_in_medium(&world, &path, hit.t);
+      if ((surface_number & 3) == 0) choices = random4(seed, number, photon, (uint)surface_number / 4u, STREAM_BAKE);
+      float n_ratio;
+      if (!bend_path(&world, &path, hit.primitive, &surface, &material, &band, choices.x, &n_ratio)) break;
+      choices = choices.yzwx;
+    }
+    const long quanta = convert_long_rte(power), left = convert_long_rte(power * left_of(&world, &path, &band));
+    outcomes[OUTCOME_EMITTED] += quanta;
+    outcomes[outcome] += left;
+    outcomes[OUTCOME_ABSORBED] += quanta - left;
+  }
+  for (int i = 0; i < OUTCOME_COUNT; ++i)
+    if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg (2008, "Fast
+// equal-area mapping of the (hemi)sphere using SIMD"). app/environment/bake/sphere_map.h has the same in double.
+#ifndef NEPHROID_SPHERE_MAP_H
+#define NEPHROID_SPHERE_MAP_H
+
+#include "kernels/tracing/light.h"
+
+// Place in the unit square of a direction of any length but 0.
+static inline float2 sphere_place(float3 direction)
+{
+  const float3 d = fabs(direction) / length(direction);
+  // sqrt(1 - |z|) without its cancellation near the poles.
+  const float r = sqrt((d.x * d.x + d.y * d.y) / (1.0f + d.z));
+  const float v = r * atan2(d.y, d.x) * (2.0f / PI_F), u = r - v;
+  const float2 folded = direction.z < 0.0f ? (float2)(1.0f - v, 1.0f - u) : (float2)(u, v);
+  return 0.5f + 0.5f * copysign(folded, direction.xy);
+}
+
+// The texel, row after row, of a map of side x side texels.
+static inline int sphere_texel(float3 direction, int side)
+{
+  const float2 place = sphere_place(direction) * (float)side;
+  const int column = clamp((int)place.x, 0, side - 1), row = clamp((int)place.y, 0, side - 1);
+  return row * side + column;
+}
+
+#endif

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+// Baked spheres against closed forms and against rays in double precision: a ball of glass, of nothing, a mirror; energy; a turned object;
+// colours.
+#include "environment/bake/baker.h"
+#include "environment/bake/directions.h"
+#include "optics/colour.h"
+#include "optics/fresnel.h"
+#include "optics/primary_spectra.h"
+#include "preset/read.h"
+#include "scene/scene.h"
+#include "tests/environment/bakes.h"
+#include "tests/support/ball.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::test;
+using environment::Bake;
+using std::numbers::pi;
+
+/// Of a half float, at most: 11 bits. Texels with one, two, ... photons are rounded alike, so that it does not average out.
+constexpr double half_rounding = 0x1p-12;
+
+const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
+
+/// Where a ray of the plane of BallRay crosses the sphere of radius r when it has left: from (x, y) at `angle`.
+glm::dvec2 crossing(const BallRay& ray, double r)
+{
+  const glm::dvec2 from(ray.x, ray.y), way(std::cos(ray.angle), std::sin(ray.angle));
+  const double along = glm::dot(from, way);
+  return from + (std::sqrt(along * along + r * r - glm::dot(from, from)) - along) * way;
+}
+
+/// E r^2 over size^2 in each texel, for a ball of radius 1 and index n in light along `light`: rays from rings of equal width, in double.
+std::vector<double> ball_map(const environment::SphereMap& map, const glm::dvec3& light, double n, double r, int inner_most)
+{
+  constexpr int rings = 1500, azimuths = 720;
+  const glm::dvec3 x = glm::normalize(glm::cross(light, glm::dvec3(0, 0, 1))), y = glm::cross(light, x);
+  std::vector<double> texels(map.texels());
+  for (int i = 0; i < rings; ++i) {
+    const double h = (i + 0.5) / rings, power = 2 * pi * h / rings / azimuths; // of 1 W/m^2
+    for (int inner = -1; inner <= inner_most; ++inner) {
+      const BallRay ray = ball_ray(h, n, inner);
+      const glm::dvec2 at = crossing(ray, r);
+      for (int k = 0; k < azimuths; ++k) {
+        const double azimuth = 2 * pi * (k + 0.5) / azimuths;
+        const glm::dvec3 place = at.x * light + at.y * (std::cos(azimuth) * x + std::sin(azimuth) * y);
+        texels[map.texel(place)] += power * ray.share / (map.solid_angle() * 4);
+      }
+    }
+  }
+  return texels;
+}
+
+TEST(Bake, AGlassBallIsAsSnellAndFresnelHaveIt)
+{
+  const preset::Preset p = bake_preset(glass_ball, {"environment.resolution=48", "environment.spheres=5", "environment.photons=2000000"});
+  const Bake bake = bake_of(p, {slanted});
+  ASSERT_EQ(bake.channels, 1);
+  EXPECT_EQ(bake.size, 2);
+  EXPECT_NEAR(bake.baked[0].met, pi / 4, 1e-5);
+  for (std::size_t i = 0; i < bake.radii.size(); ++i) {
+    const std::vector<double> expected = ball_map(bake.map, slanted, 1.5, bake.radii[i], 10);
+    const double distance = relative_distance(bake, 0, i, [&](std::size_t t) { return expected[t]; });
+    EXPECT_LT(distance, 0.02) << "radius " << bake.radii[i];
+    fmt::print("radius {:.3f}: {:.2f} % off\n", bake.radii[i], 100 * distance);
+  }
+}
+
+// All spheres beyond the surface get the same, which is what left the ball: E r^2 is a power per solid angle.
+TEST(Bake, EverySphereGetsTheSamePower)
+{
+  const Bake bake = bake_of(bake_preset(glass_ball, {"environment.spheres=8"}), {slanted});
+  for (std::size_t i = 0; i < bake.radii.size(); ++i)
+    EXPECT_NEAR(power_through(bake, 0, i).x, bake.baked[0].sent, half_rounding * bake.baked[0].sent) << i;
+  EXPECT_NEAR(bake.baked[0].sent + bake.baked[0].lost, bake.baked[0].met, 1e-9);
+}
+
+// The same for a box, whose corners the inner spheres cut: those beyond the corners get all of it, the inner ones less.
+TEST(Bake, SpheresInsideTheCornersGetWhatIsOutsideOfTheBox)
+{
+  const std::string box = R"({"name": "box", "shape": {"type": "box", "size": [2, 1, 1.5]}, "material": "glass"})";
+  const preset::Preset p = bake_preset(box, {"environment.radii=uniform", "environment.reach=1", "environment.spheres=9"});
+  const Bake bake = bake_of(p, {slanted});
+  EXPECT_NEAR(bake.radii.front(), 0.5, 0.001); // the nearest sides
+  const double corner = glm::length(glm::dvec3(1, 0.5, 0.75));
+  for (std::size_t i = 0; i < bake.radii.size(); ++i) {
+    const double power = power_through(bake, 0, i).x;
+    if (bake.radii[i] > corner)
+      EXPECT_NEAR(power, bake.baked[0].sent, half_rounding * bake.baked[0].sent) << bake.radii[i];
+    else
+      EXPECT_LT(power, 0.999 * bake.baked[0].sent) << bake.radii[i];
+  }
+}
+
+// Two walls of a mirror that stand on each other: light from one side meets both. What goes from wall to wall is outside of the spheres
+// that enclose both, so these get what leaves the mirror and no more.
+TEST(Bake, LightThatMeetsTheObjectAgainGoesNoFarther)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("walls.obj", "v 0 0 0\nv 0 2 0\nv 2 2 0\nv 2 0 0\nv 0 2 2\nv 0 0 2\nf 1 4 3 2\nf 1 2 5 6\n");
+  const std::string object = R"({"name": "walls", "mesh": ")" + file + R"(", "material": "mirror"})";
+  const Bake bake = bake_of(bake_preset(object, {"environment.spheres=4"}), {glm::normalize(glm::dvec3(-1, 0.1, -1))});
+  EXPECT_GT(bake.baked[0].met, 0.5);
+  for (std::size_t i = 2; i < 4; ++i) EXPECT_NEAR(power_through(bake, 0, i).x, bake.baked[0].sent, half_rounding * bake.baked[0].sent) << i;
+}
+
+// Light goes straight on through a ball with n = 1: on a sphere it meets with the cosine of the angle from its axis, so E is that cosine
+// for sin(angle) < 1 / r, and 0 elsewhere. The fluence would be 1.
+TEST(Bake, IsTheIrradianceOnTheSphere)
+{
+  preset::Preset p = bake_preset(glass_ball, {"scene.materials.glass.dispersion=1", "environment.resolution=64", "environment.spheres=3",
+                                              "environment.reach=1", "environment.photons=2000000"});
+  const Bake bake = bake_of(p, {slanted});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double r = bake.radii[i];
+    int texels = 0;
+    for (std::size_t t = 0; t < bake.map.texels(); ++t) {
+      const double cosine = glm::dot(bake.map.direction(t), slanted), sine = std::sqrt(1 - cosine * cosine);
+      if (cosine < 0.3 || std::abs(sine * r - 1) < 0.1) continue; // texels across the edge, or nearly along the light
+      const double expected = sine * r < 1 ? cosine * r * r / 4 : 0;
+      EXPECT_NEAR(bake.at(0, i, t).x, expected, 0.1 * expected) << "radius " << r << ", cosine " << cosine;
+      ++texels;
+    }
+    EXPECT_GT(texels, 100);
+  }
+}
+
+// Light straight down on a flat mirror below the middle goes straight up. On a sphere of radius r it is E = |cos psi| where it comes in
+// from below, which is farther from the axis than where the sphere cuts the mirror, and where it leaves above. A speck above the mirror's
+// corner makes the middle of the box about both the middle of the spheres.
+TEST(Bake, MarksWhereLightComesInAndWhereItLeaves)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("m.obj", "v -2 -2 -1\nv 2 -2 -1\nv 2 2 -1\nv -2 2 -1\nv 1.9 1.9 1\nv 1.91 1.9 1\nv 1.9 1.91 1\n"
+                                                 "f 1 2 3 4\nf 5 6 7\n");
+  const std::string object = R"({"name": "mirror", "mesh": ")" + file + R"(", "material": "mirror"})";
+  const Bake bake = bake_of(bake_preset(object, {"environment.resolution=32", "environment.spheres=5", "environment.radii=uniform",
+                                                 "environment.reach=1", "environment.photons=2000000"}),
+                            {{0, 0, -1}});
+  const double r = bake.radii[1], cut = std::sqrt(r * r - 1);
+  ASSERT_NEAR(r, 1.75, 0.01);
+  int below = 0, above = 0;
+  for (std::size_t t = 0; t < bake.map.texels(); ++t) {
+    const glm::dvec3 d = bake.map.direction(t);
+    const double from_axis = r * std::hypot(d.x, d.y);
+    if (std::abs(d.z) < 0.2 || (d.z < 0 && std::abs(from_axis - cut) < 0.25)) continue; // texels nearly along the light, or on the edge
+    const bool lit = d.z > 0 || from_axis > cut;
+    EXPECT_NEAR(bake.at(0, 1, t).x, lit ? std::abs(d.z) * r * r / 16 : 0, 0.02 * r * r / 16) << d.x << " " << d.y << " " << d.z;
+    if (lit) ++(d.z > 0 ? above : below);
+  }
+  EXPECT_GT(below, 50);
+  EXPECT_GT(above, 300);
+}
+
+// Parallel light on a mirror ball of radius 1 that meets it at the angle i from its axis is turned back at 2 i. From there the sphere of
+// radius r is crossed at psi = 2 i - gamma, sin(gamma) = sin(i) / r (law of sines), so of the power sin(i) cos(i) di through a ring of
+// azimuth 1, each solid angle sin(psi) dpsi gets sin(i) cos(i) / (sin(psi) (2 - cos(i) / (r cos(gamma)))): far away 1/4, the same
+// everywhere.
+TEST(Bake, AMirrorBallIsAsTheLawOfSinesHasIt)
+{
+  const std::string ball = R"({"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "mirror"})";
+  const Bake bake = bake_of(
+      bake_preset(ball, {"environment.resolution=40", "environment.spheres=4", "environment.reach=40", "environment.photons=2000000"}),
+      {slanted});
+  EXPECT_NEAR(bake.baked[0].sent, pi / 4, 1e-5);
+  for (std::size_t sphere = 1; sphere < 4; ++sphere) {
+    const double r = bake.radii[sphere];
+    const auto psi_of = [&](double i) { return 2 * i - std::asin(std::sin(i) / r); };
+    const auto expected = [&](std::size_t texel) {
+      const double psi = std::acos(-glm::dot(bake.map.direction(texel), slanted));
+      if (psi > psi_of(pi / 2)) return 0.0;
+      double low = 0, high = pi / 2;
+      for (int k = 0; k < 60; ++k) (psi_of((low + high) / 2) < psi ? low : high) = (low + high) / 2;
+      const double gamma = std::asin(std::sin(low) / r);
+      return std::sin(low) * std::cos(low) / (std::sin(psi) * (2 - std::cos(low) / (r * std::cos(gamma)))) / 4; // over size^2
+    };
+    EXPECT_LT(relative_distance(bake, 0, sphere, expected), 0.03) << r;
+  }
+}
+
+// A mirror that takes half of the light of every wavelength has one channel, a blue one three, and glass that does not disperse one.
+TEST(Bake, MirrorsTakeTheirPart)
+{
+  const auto mirror = [](const std::string& reflectance) {
+    const std::string ball = R"({"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "mirror"})";
+    return bake_of(bake_preset(ball, {"scene.materials.mirror.reflectance=" + reflectance, "environment.resolution=32"}), {slanted});
+  };
+  const Bake grey = mirror("0.5");
+  EXPECT_EQ(grey.channels, 1);
+  EXPECT_NEAR(grey.baked[0].sent, 0.5 * pi / 4, 1e-5);
+  EXPECT_NEAR(grey.baked[0].absorbed, 0.5 * pi / 4, 1e-5);
+  EXPECT_NEAR(power_through(grey, 0, 15).x, 0.5 * pi / 4, 1e-4);
+  const Bake blue = mirror(R"("blue")");
+  EXPECT_EQ(blue.channels, 3);
+  const glm::dvec3 rgb = power_through(blue, 0, 15);
+  EXPECT_GT(rgb.z, 1.5 * rgb.y);
+  EXPECT_GT(rgb.z, 2 * rgb.x);
+}
+
+// How far the light in front of a ball is spread about its axis, channel by channel: the sum of power times 1 - cos(angle) over the
+// directions whose cosine is above 0.2. For each wavelength from the rays of a ball of its index, in double.
+glm::dvec3 ball_spread(const optics::Spectrum& n, double r)
+{
+  constexpr int rings = 500, step_nm = 5;
+  glm::dvec3 spread(0), white(0);
+  for (int w = 0; w < optics::wavelength_count; w += step_nm) {
+    optics::Spectrum one{};
+    const auto i = static_cast<std::size_t>(w);
+    for (const optics::Spectrum& primary : optics::primary_spectra()) one[i] += primary[i];
+    const optics::Colour rgb = optics::xyz_to_linear_srgb(optics::to_xyz(one));
+    double of_wavelength = 0;
+    for (int k = 0; k < rings; ++k) {
+      const double h = (k + 0.5) / rings;
+      for (int inner = -1; inner <= 10; ++inner) {
+        const BallRay ray = ball_ray(h, n[i], inner);
+        const double cosine = crossing(ray, r).x / r;
+        if (cosine > 0.2) of_wavelength += 2 * pi * h / rings * ray.share / 4 * (1 - cosine);
+      }
+    }
+    white += glm::dvec3(rgb[0], rgb[1], rgb[2]);
+    spread += of_wavelength * glm::dvec3(rgb[0], rgb[1], rgb[2]);
+  }
+  return spread / white;
+}
+
+// White light stays white in all: each channel has all of the power, within the noise of wavelengths drawn by chance. Its colours lie where
+// the index of each wavelength says.
+TEST(Bake, DispersionMovesColoursAndKeepsTheirSum)
+{
+  const preset::Preset p = bake_preset(glass_ball, {R"(scene.materials.glass.dispersion={"type": "cauchy", "coefficients": [1.4, 0.05]})",
+                                                    "environment.resolution=64", "environment.photons=2000000"});
+  const environment::Caster caster = environment::make_caster(p);
+  const Bake bake = bake_of(p, {slanted});
+  ASSERT_EQ(bake.channels, 3);
+  const glm::dvec3 power = power_through(bake, 0, 15), expected = ball_spread(caster.scene.materials[0].n, bake.radii[15]);
+  glm::dvec3 spread(0);
+  for (std::size_t t = 0; t < bake.map.texels(); ++t)
+    if (const double cosine = glm::dot(bake.map.direction(t), slanted); cosine > 0.2)
+      spread += bake.at(0, 15, t) * bake.map.solid_angle() * (1 - cosine);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(power[c], pi / 4, 0.002) << c;
+    EXPECT_NEAR(spread[c], expected[c], 0.005 * expected[c]) << c;
+  }
+  EXPECT_GT(std::abs(expected.z - expected.x), 0.02 * expected.x); // far more than the channels may be off
+}
+
+// A tetrahedron with no symmetry, and the same turned by a quarter about z, which takes the 26 directions to each other and the map's
+// texels to each other.
+TEST(Bake, ATurnedMeshHasTurnedSpheres)
+{
+  const TemporaryFolder folder;
+  const std::vector<glm::dvec3> corners{{1, 0.2, -0.3}, {-0.5, 0.9, 0.1}, {-0.4, -0.8, 0.2}, {0.1, 0.1, 1}};
+  const auto turned = [](const glm::dvec3& v) { return glm::dvec3(-v.y, v.x, v.z); };
+  const auto mesh_of = [&](bool turns, const std::string& name) {
+    std::string text;
+    for (const glm::dvec3& c : corners) {
+      const glm::dvec3 v = turns ? turned(c) : c;
+      text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+    }
+    return folder.write(name, text + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  };
+  const auto bake = [&](const std::string& file, const glm::dvec3& light) {
+    const std::string object = R"({"name": "stone", "mesh": ")" + file + R"(", "material": "glass"})";
+    return bake_of(bake_preset(object, {"environment.resolution=12", "environment.spheres=4", "environment.photons=1000000"}), {light});
+  };
+  for (const std::size_t i : {std::size_t{0}, std::size_t{4}, std::size_t{17}}) {
+    const glm::dvec3 light = environment::light_directions(26)[i];
+    const Bake a = bake(mesh_of(false, "a.obj"), light), b = bake(mesh_of(true, "b.obj"), turned(light));
+    EXPECT_NEAR(a.baked[0].met, b.baked[0].met, 0.002 * a.baked[0].met);
+    for (std::size_t sphere = 1; sphere < 4; ++sphere)
+      EXPECT_LT(relative_distance(a, 0, sphere, [&](std::size_t t) { return b.at(0, sphere, b.map.texel(turned(a.map.direction(t)))).x; }),
+                0.03)
+          << "direction " << i << ", sphere " << sphere;
+    EXPECT_GT(relative_distance(a, 0, 3, [&](std::size_t t) { return b.at(0, 3, t).x; }), 0.2); // it is not all the same
+  }
+}
+
+// What the preset does to the object's place changes no bit; a scale does.
+TEST(Bake, IsOfTheObjectWhereverItStands)
+{
+  const auto key_and_bake = [](const std::string& transform) {
+    const std::string box =
+        R"({"name": "box", "shape": {"type": "box", "size": [2, 1, 1.5]}, "material": "glass", "transform": )" + transform + "}";
+    const preset::Preset p = bake_preset(box, {"environment.resolution=16", "environment.photons=10000"});
+    return std::pair(environment::bake_key(p, environment::make_caster(p)), bake_of(p, {slanted}));
+  };
+  const auto [key, bake] = key_and_bake("{}");
+  const auto [moved_key, moved] = key_and_bake(R"({"translate": [3, -70, 0.1], "rotate_deg": [10, 20, 30]})");
+  const auto [scaled_key, scaled] = key_and_bake(R"({"scale": [1, 1.1, 1]})");
+  EXPECT_EQ(key, moved_key);
+  EXPECT_EQ(bake.halves, moved.halves);
+  EXPECT_NE(key, scaled_key);
+  EXPECT_NE(bake.halves, scaled.halves);
+}
+
+} // namespace

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shipped presets of engine 2 through the program, small: their files, a second start, a run that is resumed.
+#include "base/files.h"
+#include "image/image.h"
+#include "tests/support/program_test.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+
+namespace {
+
+using namespace nephroid::test;
+using nlohmann::json;
+using testing::HasSubstr;
+
+class EnvironmentRun : public ProgramTest {
+protected:
+  Ended run_to(const std::string& preset, const std::string& name, std::vector<std::string> more = {}) const
+  {
+    more.insert(more.begin(), {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32", "--set",
+                               "environment.photons=30000", "--set", "scene.camera.resolution=[420, 220]"});
+    const char* home = std::getenv("HOME"); // compiled kernels stay where they are
+    return run(more, {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()},
+                      {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}});
+  }
+  json of(const std::string& file) const { return json::parse(nephroid::read_file(folder / file)); }
+};
+
+TEST_F(EnvironmentRun, BakesTheShippedPresets)
+{
+  for (const std::string name : {"ball", "bunny"}) {
+    SCOPED_TRACE(name);
+    const Ended ended = run_to(name, name);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("26 directions"));
+    const json all = of(name + "/run.json");
+    EXPECT_EQ(all.at("directions"), 26);
+    EXPECT_EQ(all.at("photons"), 26 * 30000);
+    EXPECT_EQ(all.at("bake").at("from_file"), 0);
+    EXPECT_LT(all.at("energy").at("lost").get<double>(), 1e-3);
+    EXPECT_EQ(nephroid::image::read_image(folder / name / "image.exr").width, 420);
+    EXPECT_EQ(nephroid::image::read_image(folder / name / "direction_001.exr").height, 256);
+    const Ended again = run_to(name, "again");
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(of("again/run.json").at("bake").at("from_file"), 1);
+    EXPECT_EQ(nephroid::image::read_image(folder / "again/image.exr").data, nephroid::image::read_image(folder / name / "image.exr").data);
+    std::filesystem::remove_all(folder / "again");
+  }
+}
+
+TEST_F(EnvironmentRun, GoesOnWhereItStopped)
+{
+  ASSERT_EQ(run_to("ball", "whole").exit_code, 0);
+  std::filesystem::remove_all(scratch.path() / "cache/nephroid");
+  const Ended part = run_to("ball", "part", {"--passes", "5"});
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  EXPECT_EQ(of("part/run.json").at("directions"), 5);
+  const Ended rest = run_to("ball", "part", {"--resume", "--passes", "26"});
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_EQ(of("part/run.json").at("directions"), 26);
+  EXPECT_EQ(nephroid::image::read_image(folder / "part/image.exr").data, nephroid::image::read_image(folder / "whole/image.exr").data);
+}
+
+} // namespace
