@@ -3,13 +3,13 @@
 #ifndef NEPHROID_WORLD_H
 #define NEPHROID_WORLD_H
 
+#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/bvh.h"
 #include "kernels/tracing/attenuation.h"
 #include "kernels/tracing/band.h"
-#include "kernels/tracing/bvh.h"
 #include "kernels/tracing/differential.h"
 #include "kernels/tracing/interface.h"
 #include "kernels/tracing/media.h"
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/surface.h"
 
 #ifndef NEPHROID_MAX_SURFACES
@@ -37,25 +37,25 @@ typedef struct {
 } World;
 
 // The buffers that a World is made of, as kernel arguments.
-#define WORLD_ARGUMENTS                                                                                                                    \
-  __global const float *nodes, __global const float *blocks, __global const uint *corners, __global const float *positions,                \
-      __global const float *normals, __global const uint *object_of_primitive, __global const DeviceObject *objects,                       \
-      __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_cluster,                \
-      __global const float *index_of_wavelength, __global const float *wavelength_cdf, __global const float *index_slope,                  \
-      __global const float4 *stretch_place, __global const float4 *stretch_span, __global const float4 *reflected_xyz,                     \
-      __global const int *cluster_first, __global const int *cluster_wavelengths, __global const float *coefficient,                       \
+#define WORLD_ARGUMENTS                                                                                                                  \
+  __global const float *nodes, __global const float *blocks, __global const uint *corners, __global const float *positions,             \
+      __global const float *normals, __global const uint *object_of_primitive, __global const DeviceObject *objects,                      \
+      __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_cluster,             \
+      __global const float *index_of_wavelength, __global const float *wavelength_cdf, __global const float *index_slope,               \
+      __global const float4 *stretch_place, __global const float4 *stretch_span, __global const float4 *reflected_xyz,                   \
+      __global const int *cluster_first, __global const int *cluster_wavelengths, __global const float *coefficient,                     \
       __global const float4 *light_xyz, __global const float *reflectance, int reflector_count, DeviceScene scene
-#define WORLD                                                                                                                              \
-  {                                                                                                                                        \
-    {nodes, blocks, corners, positions, normals, object_of_primitive, scene.root}, objects, materials, lights, index_of_cluster,           \
-        index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                      \
-        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, reflector_count, scene                                  \
+#define WORLD                                                                                                                            \
+  {                                                                                                                                      \
+    {nodes, blocks, corners, positions, normals, object_of_primitive, scene.root}, objects, materials, lights, index_of_cluster,          \
+        index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                    \
+        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, reflector_count, scene                                \
   }
 
 typedef struct {
   float3 origin, direction;
-  uint skip;   // the triangle that the path leaves
-  Media media; // that enclose it
+  uint skip;    // the triangle that the path leaves
+  Media media;  // that enclose it
   Losses losses;
   float behind; // the path begins this far behind `origin`: 0 but on its first way (Emission)
   Differential differential;
@@ -106,8 +106,7 @@ static inline Band choose_band(const World* world, int light, int cluster, float
 }
 
 // Carries the path's derivatives to a surface and across the bend there, before `path` itself goes on.
-static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface, const Band* band,
-                                     const Bend* bend)
+static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface, const Band* band, const Bend* bend)
 {
 #if NEPHROID_DIFFERENTIALS
   // From the path's origin: where that is not the light itself (Emission), nothing depends on the wavelength yet.
@@ -116,9 +115,9 @@ static inline void bend_differential(const World* world, Path* path, uint triang
   __global const float* n_of = index_of_band(world, band);
   __global const float* slope_of = world->index_slope + band->cluster * world->scene.material_count;
   const int near = bend->near_material, far = bend->far_material;
-  differential_through_bend(&path->differential, &world->geometry, triangle, surface, world->objects[surface->object].smooth != 0,
-                            path->direction, bend, near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far],
-                            near < 0 ? 0.0f : slope_of[near], far < 0 ? 0.0f : slope_of[far]);
+  differential_through_bend(&path->differential, &world->geometry, triangle, surface, world->objects[surface->object].smooth != 0, path->direction,
+                            bend, near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], near < 0 ? 0.0f : slope_of[near],
+                            far < 0 ? 0.0f : slope_of[far]);
 #endif
 }
 
@@ -137,8 +136,7 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   } else
 #endif
   {
-    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice, &bend, n_ratio))
-      return false;
+    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice, &bend, n_ratio)) return false;
   }
   bend_differential(world, path, triangle, surface, band, &bend);
   path->direction = bend.direction;
