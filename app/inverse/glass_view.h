@@ -8,11 +8,10 @@
 
 namespace nephroid::inverse {
 
-/// JSON of a preset that stands beside object.obj. The design's parallel light falls on as many copies of the object as there are
-/// receivers, side by side, each over one receiver at its distance. A lamp would light all copies. In its place is parallel light, as it
-/// falls on the middle of the front; so these pictures are not those that were judged. The camera looks at them from the front and
-/// above, where no object hides its receiver, as far as the distances allow. The glass has the index that the design was made with, at all
-/// wavelengths.
+/// JSON of a preset that stands beside object.obj. The design's light, which is parallel, falls on as many copies of the object as there
+/// are receivers, side by side, each over one receiver at its distance. A lamp would light all copies. The camera looks at them from the
+/// front and above, where no object hides its receiver, as far as the distances allow. The glass has the index that the design was made
+/// with, at all wavelengths.
 std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const std::string& name);
 
 } // namespace nephroid::inverse

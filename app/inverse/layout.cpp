@@ -188,8 +188,7 @@ Layout make_layout(const preset::Preset& preset)
     throw bad_input(where,
                     fmt::format("is {} mm, and facets of {:.4g} x {:.4g} mm can reach {:.4g} mm from their middle", value, l.facet().x,
                                 l.facet().y, relief),
-                    fmt::format("expected more than that, so that {}", what),
-                    "choose more facets, a larger value here or an index farther from 1");
+                    fmt::format("expected more than that, so that {}", what), "choose more facets, a larger value here or another index");
   };
   refuse(own / "thickness_mm", l.thickness, "the object holds together");
   refuse(own / "receivers" / 0 / "distance_mm", l.distances.front(), "the receiver is free of the object");

@@ -11,18 +11,18 @@
 #include "kernels/tracing/film.h"
 
 typedef struct {
-  __global const int* first;       // of each pixel in `cells`; one more at the end
-  __global const LayerCell* cells; // of each pixel, the reflector that it sees most at its beginning
+  __global const int* first;         // of each pixel in `cells`; one more at the end
+  __global const LayerCell* cells;   // of each pixel, the reflector that it sees most at its beginning
   volatile __global long* sums;
   int layer_count;
-  int image; // of the film, that this pass adds to
+  int image;                         // of the film, that this pass adds to
 } LayerFilm;
 
-#define LAYER_FILM_ARGUMENTS(name)                                                                                                         \
+#define LAYER_FILM_ARGUMENTS(name)                                                                                                       \
   __global const int *name##_first, __global const LayerCell *name##_cells, volatile __global long *name##_sums, int name##_layer_count
-#define LAYER_FILM(name, pass)                                                                                                             \
-  {                                                                                                                                        \
-    name##_first, name##_cells, name##_sums, name##_layer_count, (int)((pass) % NEPHROID_FILM_HALVES)                                      \
+#define LAYER_FILM(name, pass)                                                                                                           \
+  {                                                                                                                                      \
+    name##_first, name##_cells, name##_sums, name##_layer_count, (int)((pass) % NEPHROID_FILM_HALVES)                                    \
   }
 
 static inline bool has_cells(const LayerFilm* film, int pixel) { return film->first[pixel] < film->first[pixel + 1]; }
@@ -44,8 +44,7 @@ static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, in
   }
   if (!(fabs(quanta) <= limit)) return false;
   const int cell = film->cells[i].cell;
-  const size_t row =
-      (size_t)(cell / LAYER_BLOCK) * NEPHROID_FILM_HALVES * (size_t)film->layer_count + (size_t)(film->image * film->layer_count + layer);
+  const size_t row = (size_t)(cell / LAYER_BLOCK) * NEPHROID_FILM_HALVES * (size_t)film->layer_count + (size_t)(film->image * film->layer_count + layer);
   add_exactly(film->sums + row * LAYER_BLOCK + cell % LAYER_BLOCK, convert_long_rte(quanta + (dither - 0.5f)));
   return true;
 }

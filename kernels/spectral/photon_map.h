@@ -26,8 +26,7 @@ static inline int photon_group(int object, bool front, int cluster, int object_c
 
 static inline int3 grid_cell(float3 position, float inverse_cell) { return convert_int3_sat_rtn(position * inverse_cell); }
 
-// The first bucket of a block of cells, ix from a multiple of GRID_BLOCK on. The finalizer of MurmurHash3 (Appleby 2011) mixes odd
-// multiples.
+// The first bucket of a block of cells, ix from a multiple of GRID_BLOCK on. The finalizer of MurmurHash3 (Appleby 2011) mixes odd multiples.
 static inline uint grid_block_bucket(int group, int block, int iy, int iz, uint mask)
 {
   uint h = (uint)group * 0x9E3779B1u ^ (uint)block * 0x27D4EB2Fu ^ (uint)iy * 0x85EBCA77u ^ (uint)iz * 0xC2B2AE3Du;
@@ -50,12 +49,9 @@ typedef struct {
 } PhotonMap;
 
 // The buffers that a PhotonMap is made of, as kernel arguments.
-#define PHOTON_MAP_ARGUMENTS                                                                                                               \
+#define PHOTON_MAP_ARGUMENTS                                                                                                             \
   __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values, PhotonGrid grid
-#define PHOTON_MAP                                                                                                                         \
-  {                                                                                                                                        \
-    starts, sorted_positions, sorted_values, grid                                                                                          \
-  }
+#define PHOTON_MAP {starts, sorted_positions, sorted_values, grid}
 
 typedef struct {
   long3 xyz; // quanta
@@ -135,8 +131,8 @@ static inline Gathered gather_photons(const PhotonMap* map, float3 position, flo
   g.steps = 0;
   g.sum.xyz = (long3)(0);
   g.sum.count = 0;
-  // The spheroid's bounding box: with M = 1 + 16 n n^T it is d^T M d < r^2, and reaches r sqrt((M^-1)_aa) along axis a. A little is added,
-  // so that it holds every photon that passes the test, however that is rounded: what a run reads beyond its cells never counts.
+  // The spheroid's bounding box: with M = 1 + 16 n n^T it is d^T M d < r^2, and reaches r sqrt((M^-1)_aa) along axis a. A little is added, so that
+  // it holds every photon that passes the test, however that is rounded: what a run reads beyond its cells never counts.
   const float3 reach = radius * 1.000001f * sqrt(1.0f - 16.0f / 17.0f * normal * normal) + fabs(position) * 0x1p-22f;
   const int3 low = grid_cell(position - reach, map->grid.inverse_cell), high = grid_cell(position + reach, map->grid.inverse_cell);
   const int rows_y = min(high.y - low.y, GRID_ROWS - 1), rows_z = min(high.z - low.z, GRID_ROWS - 1);

@@ -3,8 +3,8 @@
 #ifndef NEPHROID_SPLAT_H
 #define NEPHROID_SPLAT_H
 
-#include "kernels/tracing/film.h"
 #include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/film.h"
 #include "kernels/tracing/world.h"
 
 // 0: nothing can stand between the camera and what it sees.

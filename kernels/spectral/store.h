@@ -6,10 +6,10 @@
 #include "kernels/spectral/photon_map.h"
 #include "kernels/tracing/surface.h"
 
-// band: pass_band.h. xyz: reflected power. scale: quanta of a unit of it. dither: uniform in [0, 1), so that rounding is right in the mean.
-// False, and the slot is empty, where a photon carries too much.
-static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band, int object_count,
-                                float3 xyz, float scale, float dither)
+// band: pass_band.h. xyz: reflected power. scale: quanta of a unit of it. dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot
+// is empty, where a photon carries too much.
+static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band, int object_count, float3 xyz,
+                                float scale, float dither)
 {
   const float3 quanta = xyz * scale;
   const bool fits = quanta.x <= PHOTON_LIMIT && quanta.y <= PHOTON_LIMIT && quanta.z <= PHOTON_LIMIT;

@@ -10,8 +10,8 @@
 #define NEPHROID_STRETCH_H
 
 #include "kernels/spectral/photon_path.h"
-#include "kernels/spectral/splat.h"
 #include "kernels/tracing/shared_types.h"
+#include "kernels/spectral/splat.h"
 
 // The most splats that a photon becomes, and the length in pixels below which it stays one.
 #define STRETCH_SPLATS 16

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a path loses on its way, wavelength by wavelength: Beer-Lambert absorption exp(-a s) in glass, a = 4 pi k / lambda in
-// 1/m and s in metres, and a mirror's reflectance as exp(-a s) with a = -ln(reflectance) and s the number of reflections. A path carries
-// the s of each. Where no material of the scene takes light away, NEPHROID_ATTENUATORS is 0 and all of this compiles to nothing.
+// 1/m and s in metres, and a mirror's reflectance as exp(-a s) with a = -ln(reflectance) and s the number of reflections. A path carries the s of each.
+// Where no material of the scene takes light away, NEPHROID_ATTENUATORS is 0 and all of this compiles to nothing.
 #ifndef NEPHROID_ATTENUATION_H
 #define NEPHROID_ATTENUATION_H
 

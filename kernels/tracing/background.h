@@ -5,12 +5,12 @@
 #ifndef NEPHROID_BACKGROUND_H
 #define NEPHROID_BACKGROUND_H
 
-#include "kernels/tracing/light.h"
 #include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/light.h"
 
 typedef struct {
-  __global const float* texels;       // [row][column][3]: linear sRGB
-  __global const float4* primary_xyz; // [401, all of them at the end][primary]: XYZ of the primary's spectrum
+  __global const float* texels;           // [row][column][3]: linear sRGB
+  __global const float4* primary_xyz;     // [401, all of them at the end][primary]: XYZ of the primary's spectrum
   DeviceBackground size;
 } Background;
 
@@ -33,8 +33,7 @@ static inline float3 background_rgb(const Background* b, float3 direction)
   const int row = (int)top, next_row = min(row + 1, b->size.height - 1);
   // a + t (b - a) is exact where a and b are the same.
   const float3 a = texel_at(b, row, column), c = texel_at(b, next_row, column);
-  const float3 upper = a + right_part * (texel_at(b, row, next_column) - a),
-               lower = c + right_part * (texel_at(b, next_row, next_column) - c);
+  const float3 upper = a + right_part * (texel_at(b, row, next_column) - a), lower = c + right_part * (texel_at(b, next_row, next_column) - c);
   return upper + lower_part * (lower - upper);
 }
 

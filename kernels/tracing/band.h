@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which wavelengths a path stands for: a whole cluster, at the cluster's mean index of refraction (thesis 4.1), or with NEPHROID_JITTER one
-// wavelength of it, drawn for each path (with photon maps few for a pass: pass_band.h), that speaks for all. The first is biased, the
-// second is not.
+// wavelength of it, drawn for each path (with photon maps few for a pass: pass_band.h), that speaks for all. The first is biased, the second is not.
 #ifndef NEPHROID_BAND_H
 #define NEPHROID_BAND_H
 
-#include "kernels/tracing/choice.h"
 #include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/choice.h"
 
 #ifndef NEPHROID_JITTER
 #define NEPHROID_JITTER 1

@@ -296,25 +296,24 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
 #endif
     }
 #if BVH_LEAF_ONLY
-    return hit;
+  return hit;
 #else
-next:
-  do {
-    if (top == 0) return hit;
-    --top;
-  } while (waiting_entry[top] > hit.t);
-  at = waiting[top];
-}
-#endif
+  next:
+    do {
+      if (top == 0) return hit;
+      --top;
+    } while (waiting_entry[top] > hit.t);
+    at = waiting[top];
   }
+#endif
+}
 
-  // Whether anything other than what bvh_closest skips is hit with t_min < t <= t_max.
-  static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max,
-                             uint skip)
-  {
+// Whether anything other than what bvh_closest skips is hit with t_min < t <= t_max.
+static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
+{
 #if BVH_LEAF_ONLY
-    {
-      const int at = root;
+  {
+    const int at = root;
 #else
   int waiting[NEPHROID_BVH_STACK];
   int top = 0;
@@ -329,71 +328,71 @@ next:
       continue;
     }
 #endif
-      const int first = ~at >> 4, count = ~at & 3;
-      for (int i = 0; i < count; ++i) {
-        global const float* block = blocks + 40 * (size_t)(first + i);
-        float4 t, u, v;
-        for (int mask = bvh_triangles(block, &ray, t_min, t_max, &t, &u, &v); mask; mask &= mask - 1)
-          if (((global const uint*)block)[36 + bvh_lowest_bit(mask)] != skip) return true;
-      }
-#if NEPHROID_ELLIPSOIDS
-      for (int i = 0; i < 3 * (~at >> 2 & 3); ++i) {
-        global const float* ellipsoid = blocks + 40 * (size_t)(first + count + i / 3) + 13 * (i % 3);
-        const uint id = ((global const uint*)ellipsoid)[12];
-        float t;
-        float3 unit;
-        if (id == NEPHROID_NO_PRIMITIVE) break;
-        if (bvh_ellipsoid(ellipsoid, &ray, t_min, t_max, id == skip, &t, &unit)) return true;
-      }
-#endif
+    const int first = ~at >> 4, count = ~at & 3;
+    for (int i = 0; i < count; ++i) {
+      global const float* block = blocks + 40 * (size_t)(first + i);
+      float4 t, u, v;
+      for (int mask = bvh_triangles(block, &ray, t_min, t_max, &t, &u, &v); mask; mask &= mask - 1)
+        if (((global const uint*)block)[36 + bvh_lowest_bit(mask)] != skip) return true;
     }
-    return false;
+#if NEPHROID_ELLIPSOIDS
+    for (int i = 0; i < 3 * (~at >> 2 & 3); ++i) {
+      global const float* ellipsoid = blocks + 40 * (size_t)(first + count + i / 3) + 13 * (i % 3);
+      const uint id = ((global const uint*)ellipsoid)[12];
+      float t;
+      float3 unit;
+      if (id == NEPHROID_NO_PRIMITIVE) break;
+      if (bvh_ellipsoid(ellipsoid, &ray, t_min, t_max, id == skip, &t, &unit)) return true;
+    }
+#endif
   }
+  return false;
+}
 
 // Both queries below trace a ray from afar in two parts that overlap: the first from its origin, the second from its point nearest to the
 // scene's middle, so that neither part sees rounding errors of the other's distance.
 #define BVH_FIRST_PART 0.75f
 #define BVH_SECOND_PART 0.5f
 
-  // The closest hit with t_min < t <= t_max, other than with `skip`, the triangle or ellipsoid that the ray leaves (NEPHROID_NO_PRIMITIVE:
-  // none); an ellipsoid is met again on its far side.
-  // The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from afar is known
-  // more exactly by a point of it near what it is sent to.
-  static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction,
-                                float t_min, float t_max, uint skip)
-  {
-    float3 nearest;
-    const float way = bvh_approach(origin, direction, &nearest);
-    float moved = 0.0f, to = way > 0.0f ? BVH_MIN(BVH_FIRST_PART * way, t_max) : t_max;
-    Hit hit;
-    while (true) {
-      hit = bvh_closest(nodes, blocks, root, bvh_ray(origin, direction), t_min - moved, to - moved, skip);
-      hit.t += moved;
-      if (hit.primitive != NEPHROID_NO_PRIMITIVE || !(to < t_max)) return hit;
-      origin = nearest;
-      moved = way;
-      t_min = BVH_SECOND_PART * way;
-      if (NEPHROID_ELLIPSOIDS) skip = NEPHROID_NO_PRIMITIVE; // it lies behind this part's beginning
-      to = t_max;
-    }
+// The closest hit with t_min < t <= t_max, other than with `skip`, the triangle or ellipsoid that the ray leaves (NEPHROID_NO_PRIMITIVE:
+// none); an ellipsoid is met again on its far side.
+// The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from afar is known
+// more exactly by a point of it near what it is sent to.
+static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_min,
+                              float t_max, uint skip)
+{
+  float3 nearest;
+  const float way = bvh_approach(origin, direction, &nearest);
+  float moved = 0.0f, to = way > 0.0f ? BVH_MIN(BVH_FIRST_PART * way, t_max) : t_max;
+  Hit hit;
+  while (true) {
+    hit = bvh_closest(nodes, blocks, root, bvh_ray(origin, direction), t_min - moved, to - moved, skip);
+    hit.t += moved;
+    if (hit.primitive != NEPHROID_NO_PRIMITIVE || !(to < t_max)) return hit;
+    origin = nearest;
+    moved = way;
+    t_min = BVH_SECOND_PART * way;
+    if (NEPHROID_ELLIPSOIDS) skip = NEPHROID_NO_PRIMITIVE; // it lies behind this part's beginning
+    to = t_max;
   }
+}
 
-  // Whether anything other than `skip`, as above, is hit with 0 < t <= t_max.
-  static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max,
-                             uint skip)
-  {
-    float3 nearest;
-    const float way = bvh_approach(origin, direction, &nearest);
-    float t_min = 0.0f, moved = 0.0f, to = way > 0.0f ? BVH_MIN(BVH_FIRST_PART * way, t_max) : t_max;
-    while (true) {
-      if (bvh_any(nodes, blocks, root, bvh_ray(origin, direction), t_min - moved, to - moved, skip)) return true;
-      if (!(to < t_max)) return false;
-      origin = nearest;
-      moved = way;
-      t_min = BVH_SECOND_PART * way;
-      if (NEPHROID_ELLIPSOIDS) skip = NEPHROID_NO_PRIMITIVE; // it lies behind this part's beginning
-      to = t_max;
-    }
+// Whether anything other than `skip`, as above, is hit with 0 < t <= t_max.
+static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max,
+                           uint skip)
+{
+  float3 nearest;
+  const float way = bvh_approach(origin, direction, &nearest);
+  float t_min = 0.0f, moved = 0.0f, to = way > 0.0f ? BVH_MIN(BVH_FIRST_PART * way, t_max) : t_max;
+  while (true) {
+    if (bvh_any(nodes, blocks, root, bvh_ray(origin, direction), t_min - moved, to - moved, skip)) return true;
+    if (!(to < t_max)) return false;
+    origin = nearest;
+    moved = way;
+    t_min = BVH_SECOND_PART * way;
+    if (NEPHROID_ELLIPSOIDS) skip = NEPHROID_NO_PRIMITIVE; // it lies behind this part's beginning
+    to = t_max;
   }
+}
 
 #endif

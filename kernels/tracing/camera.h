@@ -3,9 +3,9 @@
 #ifndef NEPHROID_CAMERA_H
 #define NEPHROID_CAMERA_H
 
+#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/choice.h"
 #include "kernels/tracing/random.h"
-#include "kernels/tracing/shared_types.h"
 
 // jitter: the place in the pixel's square, [0, 1) each way.
 static inline float3 primary_direction(const DeviceCamera* camera, int column, int row, float2 jitter)
@@ -25,8 +25,7 @@ static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, 
 }
 
 // Which cluster a path takes. cdf: [cluster + 1], the first 0.
-static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint frame, uint path, uint paths, uint pixel,
-                                 uint stream)
+static inline int choose_cluster(__global const float* cdf, int count, uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream)
 {
   return choose(cdf + 1, count, golden_place(seed, frame, path, paths, pixel, stream));
 }

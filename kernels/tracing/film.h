@@ -32,8 +32,8 @@ static inline volatile __global long* film_of_pass(volatile __global long* film,
   return film + 3 * (size_t)pixels * (pass % NEPHROID_FILM_HALVES);
 }
 
-// Adds xyz * scale to a pixel. dither: uniform in [0, 1); then a contribution of q quanta, however small, adds q in the mean, where
-// rounding to the nearest would lose all below a half. Returns false, and adds nothing, where that is not finite or above `limit` quanta.
+// Adds xyz * scale to a pixel. dither: uniform in [0, 1); then a contribution of q quanta, however small, adds q in the mean, where rounding
+// to the nearest would lose all below a half. Returns false, and adds nothing, where that is not finite or above `limit` quanta.
 static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit, float dither)
 {
   const float3 quanta = xyz * scale;

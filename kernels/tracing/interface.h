@@ -3,8 +3,8 @@
 #ifndef NEPHROID_INTERFACE_H
 #define NEPHROID_INTERFACE_H
 
-#include "kernels/tracing/media.h"
 #include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/media.h"
 #include "kernels/tracing/surface.h"
 
 // 0: every dielectric has n = 1, so nothing is bent or reflected.

@@ -18,8 +18,8 @@
 #define STREAM_SURVEY 24u                // relight_direct.cl, its survey: index is the pixel
 #define STREAM_VIEW 32u                  // view.cl, here and below: index is the pixel
 #define STREAM_VIEW_CLUSTER 33u
-#define STREAM_PASS_BAND 34u // pass_band.h: index is the cluster
-#define STREAM_BAKE 48u      // environment/bake.cl: pass is the direction, index the photon
+#define STREAM_PASS_BAND 34u             // pass_band.h: index is the cluster
+#define STREAM_BAKE 48u                  // environment/bake.cl: pass is the direction, index the photon
 
 static inline uint4 philox4x32(uint4 counter, uint2 key)
 {

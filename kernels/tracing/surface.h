@@ -3,9 +3,9 @@
 #ifndef NEPHROID_SURFACE_H
 #define NEPHROID_SURFACE_H
 
+#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/bvh.h"
 #include "kernels/tracing/fresnel.h"
-#include "kernels/tracing/shared_types.h"
 
 #ifndef NEPHROID_SMOOTH
 #define NEPHROID_SMOOTH 1
@@ -13,11 +13,11 @@
 
 // The scene's triangles and ellipsoids as kernels see them; every vertex has three floats a table.
 typedef struct {
-  __global const float* nodes;  // bvh.h
-  __global const float* blocks; // bvh.h
-  __global const uint* corners; // three vertex numbers a triangle; an ellipsoid: see is_ellipsoid
+  __global const float* nodes;    // bvh.h
+  __global const float* blocks;   // bvh.h
+  __global const uint* corners;   // three vertex numbers a triangle; an ellipsoid: see is_ellipsoid
   __global const float* positions;
-  __global const float* normals; // vertex normals, unit
+  __global const float* normals;  // vertex normals, unit
   __global const uint* object_of_primitive;
   int root;
 } Geometry;
@@ -93,17 +93,14 @@ static inline Surface surface_at(const Geometry* geometry, __global const Device
 }
 
 // A start for a ray that leaves on the outer (side 1) or inner (side -1) side.
-static inline float3 start_on_side(const Surface* surface, float side)
-{
-  return surface->position + side * surface->offset * surface->geometric;
-}
+static inline float3 start_on_side(const Surface* surface, float side) { return surface->position + side * surface->offset * surface->geometric; }
 
-// A photon near grazing may count as so many: where a facet gets next to nothing, and its shading normal says otherwise, single photons
-// would be bright specks. What is cut off is less than the light on a facet that arrives within 3.6 degrees of it.
+// A photon near grazing may count as so many: where a facet gets next to nothing, and its shading normal says otherwise, single photons would
+// be bright specks. What is cut off is less than the light on a facet that arrives within 3.6 degrees of it.
 #define SHADING_RATIO_LIMIT 16.0f
 
-// What makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl lights the surface: the ratio of
-// both cosines (Veach 1997, 5.3.2); 0 behind the shading normal's horizon.
+// What makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl lights the surface: the ratio of both
+// cosines (Veach 1997, 5.3.2); 0 behind the shading normal's horizon.
 static inline float shading_ratio(const Surface* surface, float3 arriving)
 {
 #if NEPHROID_SMOOTH
@@ -117,7 +114,7 @@ static inline float shading_ratio(const Surface* surface, float3 arriving)
 // What a mirror or dielectric does to a ray: the new direction, and whether the ray went through.
 typedef struct {
   float3 direction;
-  float3 normal;     // unit, on the side that the ray came from: what it was bent about
+  float3 normal;    // unit, on the side that the ray came from: what it was bent about
   int near_material; // of an interface, before it and beyond it; -1: air
   int far_material;
   bool transmitted;

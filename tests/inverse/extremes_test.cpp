@@ -61,7 +61,7 @@ Outcome same_picture_at(double factor)
   settings["size_mm"] = {100 * factor, 100 * factor};
   settings["thickness_mm"] = 10 * factor;
   for (Json& receiver : settings["receivers"]) receiver["distance_mm"] = receiver["distance_mm"].get<double>() * factor;
-  return near(judged(settings), judged(ring_and_disc()), 0.005);
+  return near(judged(settings), judged(ring_and_disc()), 1e-4);
 }
 /// The traced mesh casts what the search believes.
 Outcome as_believed(const Json& settings, double tolerance)
@@ -89,11 +89,11 @@ const std::vector<Extreme> objects{
      [] {
        return refuses(with(R"({"index": 1})"), "p.json#/inverse/index: is 1, which bends no light; expected another index, such as 1.5");
      }},
-    {"IndexOfFour", "n = 4", "footprints beside rays", [] { return as_believed(with(R"({"index": 4})"), 0.03); }},
+    {"IndexOfFour", "n = 4", "footprints beside rays", [] { return as_believed(with(R"({"index": 4})"), 0.005); }},
     {"IndexBelow", "n = 0.7, a hole in a block", "footprints beside rays",
      [] { return as_believed(with(R"({"index": 0.7, "thickness_mm": 40, "facets": [64, 64]})"), 0.03); }},
     {"TallFacets", "128 x 16 facets, 8 times as high as wide", "footprints beside rays",
-     [] { return as_believed(with(R"({"facets": [128, 16]})"), 0.03); }},
+     [] { return as_believed(with(R"({"facets": [128, 16]})"), 0.005); }},
     {"ThinRelief", "a relief of at most 1 um", "no facet fits that sends light to the picture",
      [] {
        return refuses(with(R"({"max_relief_mm": 0.001})"),
@@ -107,10 +107,10 @@ const std::vector<Extreme> screens{
        return refuses(alone(R"({"distance_mm": 0.01, "picture": {"type": "disc"}})"),
                       "p.json#/inverse/receivers/0/distance_mm: is 0.01 mm, and facets of 3.125 x 3.125 mm can reach 1.975 mm from their "
                       "middle; expected more than that, so that the receiver is free of the object; choose more facets, a larger value "
-                      "here or an index farther from 1");
+                      "here or another index");
      }},
     {"FiftyMetresAway", "a receiver of 100 mm at 50 m: slopes up to 1e-3", "footprints beside rays",
-     [] { return as_believed(alone(R"({"distance_mm": 5e4, "picture": {"type": "disc"}})"), 0.1); }},
+     [] { return as_believed(alone(R"({"distance_mm": 5e4, "picture": {"type": "disc"}})"), 0.06); }},
     {"AKilometreAway", "the same at 1 km: slopes of 5e-5", "the solid cannot aim so well",
      [] {
        return refuses(
@@ -126,7 +126,7 @@ const std::vector<Extreme> screens{
      [] {
        Json settings = with(R"({"receivers": []})");
        for (int j = 0; j < 16; ++j) settings["receivers"].push_back({{"distance_mm", 100 + 0.1 * j}, {"picture", {{"type", "disc"}}}});
-       return near(judged(settings, "rel_l2"), judged(alone(R"({"distance_mm": 100, "picture": {"type": "disc"}})"), "rel_l2"), 0.02);
+       return near(judged(settings, "rel_l2"), judged(alone(R"({"distance_mm": 100, "picture": {"type": "disc"}})"), "rel_l2"), 0.01);
      }},
     {"WeightOfNothing", "a weight of 0.01 beside 100", "no worse than the heavy picture alone",
      [] {
@@ -162,9 +162,9 @@ const std::vector<Extreme> lights{
                       "p.json#/inverse/light/tilt_deg: is 90 degrees, and light would not enter through the front; expected less than 90");
      }},
     {"SunOf20Degrees", "a disc of 20 degrees", "rays beside footprints, whose blur is a box",
-     [] { return as_believed(with(R"({"sun_deg": 20})"), 0.06); }},
+     [] { return as_believed(with(R"({"sun_deg": 20})"), 0.04); }},
     {"RoughBy10Degrees", "a surface that scatters by 10 degrees", "the same: a box has no tails",
-     [] { return as_believed(with(R"({"scatter_deg": 10})"), 0.15); }},
+     [] { return as_believed(with(R"({"scatter_deg": 10})"), 0.12); }},
 };
 
 class Inverse : public testing::TestWithParam<Extreme> {};
