@@ -15,6 +15,14 @@ struct Choices<environment::Settings::Radii> {
 };
 
 template <>
+struct Choices<environment::SegmentMethod> {
+  using Method = environment::SegmentMethod;
+  static constexpr Choice<Method> all[] = {
+      {Method::variance, "variance", "The region with most variance is cut where least is left (Viriyothai and Debevec 2009)."},
+      {Method::thesis, "thesis", "The brightest region is cut into halves of equal light (Algorithm 3.3)."}};
+};
+
+template <>
 struct About<environment::Settings> {
   static constexpr std::string_view name = "EnvironmentEngine", sentence = "Settings of the engine \"environment\".";
 };
@@ -48,6 +56,12 @@ void describe(V& v, S& s)
        .bounds = within(8, 1024)},
       s.resolution);
   v.field({.name = "photons", .sentence = "Photons from each direction.", .bounds = within(1, 1 << 30)}, s.photons);
+  v.field({.name = "lights", .sentence = "Directional lights that the environment is cut into.", .bounds = within(6, 4096)}, s.lights);
+  v.field({.name = "segmentation", .sentence = "How the environment is cut into lights."}, s.segmentation);
+  v.field({.name = "threshold",
+           .sentence = "A region with no more than this part of the environment's light is no light of its own.",
+           .bounds = within(0, 1)},
+          s.threshold);
 }
 
 } // namespace nephroid::environment

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The settings of engine 2: the section "environment" of a preset.
 #pragma once
+#include "environment/segment/segment.h"
 #include "preset/preset.h"
 
 #include <string>
@@ -16,6 +17,9 @@ struct Settings {
   double reach = 4;               ///< radius of the largest, in largest sides of the box about the object
   int resolution = 360;           ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
   int photons = 1 << 19;          ///< that are sent from each direction
+  int lights = 24;                ///< q: how many lights the map is cut into
+  SegmentMethod segmentation = SegmentMethod::variance;
+  double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
   bool operator==(const Settings&) const = default;
 };
 
