@@ -5,12 +5,13 @@ namespace nephroid::environment {
 
 constinit const engine::Engine engine{
     .settings = settings_type,
-    .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh&) -> std::unique_ptr<plan::Plan> {
-      return std::make_unique<EnvironmentPlan>(make_plan(preset, scene));
+    .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) -> std::unique_ptr<plan::Plan> {
+      return std::make_unique<EnvironmentPlan>(make_plan(preset, scene, bvh));
     },
     .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
               const compute::Context& context) { return make_job(preset, dynamic_cast<const EnvironmentPlan&>(plan), context); },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
-    .checks = [] { return std::vector<check::Check>{}; }};
+    .checks = [] { return std::vector<check::Check>{}; },
+    .adoptable = adoptable};
 
 } // namespace nephroid::environment

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of engine 2: the object is baked, or its bake is read.
+// A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
 #include "base/error.h"
 #include "base/hash.h"
 #include "environment/bake/bake_file.h"
 #include "environment/engine.h"
 #include "environment/sheet.h"
+#include "environment/view/renderer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,53 +22,66 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 1;
+constexpr std::uint32_t checkpoint_version = 2;
 
 class EnvironmentJob final : public job::Job {
 public:
   EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
-      : task_(plan.task), context_(context),
+      : preset_(preset), shown_(preset), task_(plan.task), render_(plan.render), context_(context),
         file_(plan.bake_file), identity_{plan.key, hash_of(compute::kernel_source(context, "environment/bake.cl"))},
-        width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]), white_(preset.white), stop_(preset.stop)
+        width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
+        sphere_white_(plan.render ? 0.2 : preset.white), stop_(preset.stop)
   {
+    if (render_ && (stop_.passes || !stop_.seconds)) passes_ = stop_.passes.value_or(preset::default_passes);
     if (!plan.bakes) read();
-    if (!bake_) baker_.emplace(*task_, context_);
+    if (!bake_)
+      baker_.emplace(*task_, context_);
+    else
+      begin_rendering();
   }
 
   void step() override
   {
     const auto begin = Clock::now();
-    baker_->step();
-    const bool complete = baker_->finished();
-    if (complete) {
-      photons_ = baker_->photons();
-      bake_ = baker_->take();
-    }
-    work_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
-    if (!complete) return;
-    baker_.reset(); // its device memory is for others
-    keep();
+    double& seconds = renderer_ ? render_seconds_ : bake_seconds_;
+    if (renderer_)
+      renderer_->step();
+    else
+      bake();
+    seconds += std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
   bool finished() const override
   {
-    if (bake_) return true;
-    if (stop_.seconds && work_seconds_ >= *stop_.seconds) return true;
-    return stop_.passes && directions_done() >= *stop_.passes;
+    if (stop_.seconds && work_seconds() >= *stop_.seconds) return true;
+    if (render_) return renderer_ && renderer_->passes() >= (passes_ >= 0 ? passes_ : preset::max_passes);
+    return bake_ || (stop_.passes && directions_done() >= *stop_.passes);
   }
   bool estimates_error() const override { return false; }
 
   job::Progress progress() const override
   {
     job::Progress p;
-    const auto all = static_cast<std::int64_t>(task_->directions.size());
-    p.steps = stop_.passes ? std::min<std::int64_t>(all, *stop_.passes) : all;
-    p.step = directions_done();
-    p.work = bake_ ? photons_ : baker_->photons();
-    p.work_seconds = work_seconds_;
-    const double done = bake_ ? 1 : (static_cast<double>(p.step) + baker_->part()) / static_cast<double>(p.steps);
-    p.fraction = finished() ? 1 : std::min(1.0, std::max(done, stop_.seconds ? work_seconds_ / *stop_.seconds : 0));
-    p.units = {.step = "direction", .steps = "directions", .work = "photon", .works = "photons"};
+    p.work_seconds = work_seconds();
+    const auto directions = static_cast<std::int64_t>(task_->directions.size());
+    const double baked = bake_ ? 1 : (static_cast<double>(directions_done()) + baker_->part()) / static_cast<double>(directions);
+    if (render_) {
+      p.step = renderer_ ? renderer_->passes() : 0;
+      p.steps = passes_;
+      p.work = static_cast<std::uint64_t>(renderer_ ? (static_cast<double>(p.step) + renderer_->part()) * width_ * height_ : 0);
+      p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
+      // A bake takes about as long as all passes.
+      const double rendered =
+          renderer_ && passes_ > 0 ? (static_cast<double>(p.step) + renderer_->part()) / static_cast<double>(passes_) : 0;
+      p.fraction = bake_seconds_ > 0 ? 0.5 * baked + 0.5 * rendered : rendered;
+    } else {
+      p.steps = stop_.passes ? std::min<std::int64_t>(directions, *stop_.passes) : directions;
+      p.step = directions_done();
+      p.work = bake_ ? photons_ : baker_->photons();
+      p.units = {.step = "direction", .steps = "directions", .work = "photon", .works = "photons"};
+      p.fraction = baked * static_cast<double>(directions) / static_cast<double>(p.steps);
+    }
+    p.fraction = finished() ? 1 : std::min(1.0, std::max(p.fraction, stop_.seconds ? work_seconds() / *stop_.seconds : 0));
     return p;
   }
 
@@ -74,13 +89,16 @@ public:
   {
     const Bake& bake = bake_ ? *bake_ : baker_->bake();
     job::Snapshot made;
-    show(bake);
-    made.picture = sheet_;
+    draw_spheres(bake);
+    made.picture = renderer_ ? renderer_->picture() : sheet_;
     made.pictures = spheres_;
+    if (renderer_) made.pictures.insert(made.pictures.begin(), {"spheres", sheet_});
     made.progress = progress();
     made.warnings = warnings_;
-    made.phases = {{"bake", work_seconds_}};
+    made.phases = {{"bake", bake_seconds_}};
+    if (render_) made.phases.emplace_back("render", render_seconds_);
     add_figures(bake, made);
+    if (renderer_) add_lights(made);
     return made;
   }
 
@@ -88,10 +106,12 @@ public:
   {
     tracing::StateWriter to(sink);
     to.value(checkpoint_version);
-    to.value(work_seconds_);
+    to.value(bake_seconds_);
+    to.value(render_seconds_);
     const std::uint8_t complete = bake_ ? 1 : 0;
     to.value(complete);
     if (baker_) baker_->save(to);
+    if (renderer_) renderer_->save(to);
   }
 
   /// A bake that was complete is in its file, or is baked again.
@@ -104,20 +124,69 @@ public:
     if (version != checkpoint_version)
       throw bad_input("checkpoint", fmt::format("is of version {}", version),
                       fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
-    double seconds = 0;
-    from.value(seconds);
+    double bake_seconds = 0, render_seconds = 0;
+    from.value(bake_seconds);
+    from.value(render_seconds);
     from.value(complete);
+    if (complete != 0 && !bake_) return;
     if (complete == 0) {
       bake_.reset();
+      renderer_.reset();
       if (!baker_) baker_.emplace(*task_, context_);
       baker_->load(from);
-      work_seconds_ = seconds;
-    } else if (bake_)
-      work_seconds_ = seconds;
+    } else if (renderer_)
+      renderer_->load(from);
+    bake_seconds_ = bake_seconds;
+    render_seconds_ = render_seconds;
     if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
   }
 
+  /// While the object is baked, the change waits until it is rendered.
+  bool adopt(const preset::Preset& preset) override
+  {
+    if (!render_ || !adoptable(preset_, preset)) return false;
+    if (renderer_) show(preset);
+    preset_ = preset;
+    return true;
+  }
+
 private:
+  double work_seconds() const { return bake_seconds_ + render_seconds_; }
+
+  void bake()
+  {
+    baker_->step();
+    if (!baker_->finished()) return;
+    photons_ = baker_->photons();
+    bake_ = baker_->take();
+    baker_.reset(); // its device memory is for others
+    keep();
+    begin_rendering();
+  }
+
+  void begin_rendering()
+  {
+    if (!render_) return;
+    renderer_.emplace(*render_, *bake_, preset_.white, preset_.seed, context_);
+    show(preset_);
+  }
+
+  /// Lets the renderer go from `shown_` to a preset that is adoptable.
+  void show(const preset::Preset& preset)
+  {
+    if (!(preset.scene.camera == shown_.scene.camera))
+      renderer_->set_camera(scene::make_camera(preset.scene.camera, *render_->scene), Place(preset.source) / "scene" / "camera");
+    const auto same_segmentation = [](const Settings& a, const Settings& b) {
+      return a.lights == b.lights && a.segmentation == b.segmentation && a.threshold == b.threshold;
+    };
+    if (render_->cube.size > 0 && !same_segmentation(settings(preset), settings(shown_)))
+      renderer_->set_segmentation(segment_by(preset, render_->cube));
+    if (preset.scene.environment && preset.scene.environment->rotate_deg != shown_.scene.environment->rotate_deg)
+      renderer_->turn_environment(preset.scene.environment->rotate_deg);
+    renderer_->set_white(preset.white);
+    shown_ = preset;
+  }
+
   std::int64_t directions_done() const { return static_cast<std::int64_t>((bake_ ? *bake_ : baker_->bake()).baked.size()); }
 
   void read()
@@ -140,17 +209,33 @@ private:
   }
 
   /// Makes what shows the directions that were baked since it was last made.
-  void show(const Bake& bake)
+  void draw_spheres(const Bake& bake)
   {
     const Shown shown = choose_shown(bake, width_, height_);
     const auto baked = static_cast<std::size_t>(
         std::ranges::count_if(shown.directions, [&](std::size_t direction) { return direction < bake.baked.size(); }));
     if (sheet_ && baked == spheres_.size()) return;
     if (baked < spheres_.size()) spheres_.clear(); // an earlier state was loaded
-    sheet_ = sheet(bake, shown, width_, height_, white_);
+    sheet_ = sheet(bake, shown, width_, height_, sphere_white_);
     for (std::size_t i = spheres_.size(); i < baked; ++i)
-      spheres_.push_back(
-          {fmt::format("direction_{:03}", shown.directions[i] + 1), spheres_picture(bake, shown.directions[i], shown.spheres, white_)});
+      spheres_.push_back({fmt::format("direction_{:03}", shown.directions[i] + 1),
+                          spheres_picture(bake, shown.directions[i], shown.spheres, sphere_white_)});
+  }
+
+  /// As the panel Environment has them.
+  void add_lights(job::Snapshot& made) const
+  {
+    made.curves.push_back({"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}});
+    const double rotate_deg = shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0;
+    const std::vector<Region>& lights = renderer_->segmentation().lights;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      const glm::dvec3 from = turned(lights[i].direction, rotate_deg), all = lights[i].flux, left = renderer_->flux()[i];
+      const double sum = all.x + all.y + all.z;
+      made.curves.back().rows.push_back({static_cast<double>(i + 1), glm::degrees(std::atan2(from.x, -from.z)),
+                                         glm::degrees(std::asin(from.y)), all.x, all.y, all.z,
+                                         sum > 0 ? (left.x + left.y + left.z) / sum : 1});
+    }
+    made.scalars.push_back({"lights", "count", static_cast<double>(lights.size())});
   }
 
   void add_figures(const Bake& bake, job::Snapshot& made) const
@@ -179,24 +264,46 @@ private:
                                              {"energy", "lost", sum.lost / sum.met}});
   }
 
+  preset::Preset preset_; ///< the newest
+  preset::Preset shown_;  ///< what the renderer shows
   std::shared_ptr<const BakeTask> task_;
+  std::shared_ptr<const RenderTask> render_; ///< null: only the bake is shown
   compute::Context context_;
   std::filesystem::path file_;
   BakeIdentity identity_;
   int width_, height_;
-  double white_;
+  double sphere_white_; ///< of the pictures of spheres
   preset::Stop stop_;
+  std::int64_t passes_ = -1;   ///< of the renderer; -1: until the time is over
   std::optional<Baker> baker_; ///< while it bakes
   std::optional<Bake> bake_;   ///< when that is done
+  std::optional<Renderer> renderer_;
   bool from_file_ = false;
   std::uint64_t photons_ = 0; ///< that the finished bake took here
-  double work_seconds_ = 0;
+  double bake_seconds_ = 0, render_seconds_ = 0;
   std::shared_ptr<const job::Picture> sheet_; ///< of the directions in spheres_
   std::vector<job::NamedPicture> spheres_;    ///< of each direction that is shown and baked
   std::vector<std::string> warnings_;
 };
 
 } // namespace
+
+bool adoptable(const preset::Preset& before, const preset::Preset& now)
+{
+  if (&before.settings.type() != &now.settings.type() || before.scene.environment.has_value() != now.scene.environment.has_value() ||
+      before.scene.camera.resolution != now.scene.camera.resolution)
+    return false;
+  preset::Preset same = before;
+  same.scene.camera = now.scene.camera;
+  if (same.scene.environment) same.scene.environment->rotate_deg = now.scene.environment->rotate_deg;
+  same.white = now.white;
+  Settings& s = settings(same);
+  const Settings& n = settings(now);
+  s.lights = n.lights;
+  s.segmentation = n.segmentation;
+  s.threshold = n.threshold;
+  return same == now;
+}
 
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
 {

@@ -62,12 +62,13 @@ std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::S
 
 } // namespace
 
-EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scene)
+EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   const Settings& s = settings(preset);
   EnvironmentPlan plan;
   plan.task = std::make_shared<const BakeTask>(make_task(preset));
   const BakeTask& task = *plan.task;
+  if (has_light(scene)) plan.render = std::make_shared<const RenderTask>(make_render_task(preset, scene, bvh, task.caster));
   plan.engine = "environment";
   plan.key = bake_key(preset, task.caster);
   plan.bake_file = bake_path(plan.key);

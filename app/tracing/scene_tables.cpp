@@ -48,21 +48,6 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
   return out;
 }
 
-shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where)
-{
-  shared::DeviceCamera out{};
-  out.position = to_float4(camera.position);
-  out.right = to_float4(camera.right);
-  out.up = to_float4(camera.up);
-  out.forward = to_float4(camera.forward);
-  out.tan_x = static_cast<float>(camera.tan_x);
-  out.tan_y = static_cast<float>(camera.tan_y);
-  out.width = camera.width;
-  out.height = camera.height;
-  out.inside = to_media(camera.inside, where / "position");
-  return out;
-}
-
 /// Appends the spheres to the table of targets, unless an earlier light has the very same ones.
 void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& spheres, SceneTables& tables)
 {
@@ -110,6 +95,21 @@ double choose_power_unit(const scene::Scene& scene)
 }
 
 } // namespace
+
+shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where)
+{
+  shared::DeviceCamera out{};
+  out.position = to_float4(camera.position);
+  out.right = to_float4(camera.right);
+  out.up = to_float4(camera.up);
+  out.forward = to_float4(camera.forward);
+  out.tan_x = static_cast<float>(camera.tan_x);
+  out.tan_y = static_cast<float>(camera.tan_y);
+  out.width = camera.width;
+  out.height = camera.height;
+  out.inside = to_media(camera.inside, where / "position");
+  return out;
+}
 
 int device_light_type(const scene::Light& light) { return is_environment(light) ? LIGHT_ENVIRONMENT : device_light_type(light.type); }
 

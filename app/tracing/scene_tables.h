@@ -30,6 +30,9 @@ struct SceneTables {
   double power_unit = 1;                 ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
 };
 
+/// where: FILE#/scene/camera. Throws bad_input there where it is inside more than MEDIA_DEPTH dielectrics.
+shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where);
+
 /// LIGHT_* of kernels/tracing/shared_types.h.
 int device_light_type(preset::Light::Type type);
 int device_light_type(const scene::Light& light);

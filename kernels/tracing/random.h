@@ -20,6 +20,8 @@
 #define STREAM_VIEW_CLUSTER 33u
 #define STREAM_PASS_BAND 34u             // pass_band.h: index is the cluster
 #define STREAM_BAKE 48u                  // environment/bake.cl: pass is the direction, index the photon
+#define STREAM_SEE 49u                   // environment/see.cl, here and below: index is the pixel
+#define STREAM_SEE_WAVELENGTH 50u        // where a pixel starts in the spectrum
 
 static inline uint4 philox4x32(uint4 counter, uint2 key)
 {

@@ -3,8 +3,7 @@
 
 #include "base/parallel.h"
 #include "environment/bake/directions.h"
-#include "optics/colour.h"
-#include "optics/primary_spectra.h"
+#include "environment/white_light.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>
@@ -19,28 +18,10 @@ namespace {
 /// Quanta that a photon with an equal share of all power has: far more than rounding takes, and 2^30 photons of 2^6 times as much fit.
 constexpr double quanta_of_photon = 0x1p24;
 
-/// What each wavelength of white light is in linear sRGB. An environment's colours stand for spectra of the three primaries
-/// (optics/primary_spectra.h), so white is the sum of these; all wavelengths together are (1, 1, 1).
-std::vector<shared::float4> white_light()
-{
-  std::vector<shared::float4> light;
-  glm::dvec3 sum(0);
-  const auto colour_of = [](int w) {
-    optics::Spectrum one{};
-    const auto i = static_cast<std::size_t>(w);
-    for (const optics::Spectrum& primary : optics::primary_spectra()) one[i] += primary[i];
-    const optics::Colour rgb = optics::xyz_to_linear_srgb(optics::to_xyz(one));
-    return glm::dvec3(rgb[0], rgb[1], rgb[2]);
-  };
-  for (int w = 0; w < optics::wavelength_count; ++w) sum += colour_of(w);
-  for (int w = 0; w < optics::wavelength_count; ++w) {
-    const glm::dvec3 rgb = colour_of(w) / sum;
-    light.push_back({static_cast<float>(rgb.x), static_cast<float>(rgb.y), static_cast<float>(rgb.z), 0});
-  }
-  return light;
-}
+shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
-/// Whether two wavelengths go other ways, or lose more or less on the same.
+} // namespace
+
 bool is_coloured(const tracing::WavelengthTables& tables)
 {
   if (tables.clusters_spread) return true;
@@ -48,10 +29,6 @@ bool is_coloured(const tracing::WavelengthTables& tables)
     if (tables.coefficient[i] != tables.coefficient[i - i % WAVELENGTH_COUNT]) return true;
   return false;
 }
-
-shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
-
-} // namespace
 
 Bake BakeTask::empty_bake() const
 {

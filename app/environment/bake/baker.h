@@ -13,6 +13,9 @@
 
 namespace nephroid::environment {
 
+/// Whether two wavelengths go other ways through the materials of the tables, or lose more or less on the same.
+bool is_coloured(const tracing::WavelengthTables& tables);
+
 /// What is baked and how, worked out once.
 struct BakeTask {
   Caster caster;

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/light/caustics.h"
+
+#include "base/parallel.h"
+#include "tracing/scene_buffers.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace nephroid::environment {
+namespace {
+
+constexpr std::size_t group = 32;
+
+shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+
+/// Half floats as the upper halves of floats.
+std::vector<std::uint16_t> upper_halves(const std::vector<std::uint16_t>& halves)
+{
+  std::vector<std::uint16_t> of(std::size_t{1} << 16);
+  for (std::size_t half = 0; half < of.size(); ++half) {
+    const auto bits = std::bit_cast<std::uint32_t>(glm::unpackHalf1x16(static_cast<std::uint16_t>(half)));
+    of[half] = static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16); // to the nearest, ties to even
+  }
+  std::vector<std::uint16_t> upper(halves.size());
+  for_ranges(halves.size(), 1 << 20, [&](std::size_t, const Range& range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) upper[i] = of[halves[i]];
+  });
+  return upper;
+}
+
+} // namespace
+
+Caustics::Caustics(const Bake& bake, const compute::Context& context)
+    : context_(context),
+      directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
+                                                                      static_cast<float>(Bake::unit * bake.size * bake.size), 0},
+      stored_(tracing::upload_vector(context, "caustic spheres", upper_halves(bake.halves))),
+      radii_(tracing::upload_vector(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end())))
+{
+  const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
+  const compute::Program program(context, "environment/cast.cl", defines);
+  direct_ = program.kernel("cast_direct");
+  compile_ = program.kernel("compile");
+  compiled_cast_ = program.kernel("cast_compiled");
+}
+
+void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
+{
+  const std::vector<shared::DeviceTurnedSet> sets = turned_sets(lights, rotation, directions_);
+  if (sets.size() > sets_.size())
+    sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", std::max<std::size_t>(sets.size(), 1));
+  if (!sets.empty()) sets_.write(sets);
+  used_sets_ = static_cast<int>(sets.size());
+  // Rows of the inverse: the images of the scene's axes are the columns of the transposed rotation.
+  object_x_ = to_float4(rotation[0]);
+  object_y_ = to_float4(rotation[1]);
+  object_z_ = to_float4(rotation[2]);
+}
+
+void Caustics::compile()
+{
+  const std::size_t texels = static_cast<std::size_t>(spheres_.side) * static_cast<std::size_t>(spheres_.side);
+  const std::size_t items = texels * static_cast<std::size_t>(spheres_.count);
+  if (compiled_.size() == 0) compiled_ = compute::Buffer<float>(context_, "compiled spheres", 3 * items);
+  const std::uint32_t first = 0, count = static_cast<std::uint32_t>(items);
+  compile_.run(count, group,
+               {{"stored", stored_},
+                {"sets", sets_},
+                {"set_count", used_sets_},
+                {"spheres", spheres_},
+                {"object_x", object_x_},
+                {"object_y", object_y_},
+                {"object_z", object_z_},
+                {"first", first},
+                {"count", count},
+                {"compiled", compiled_}});
+  context_.finish();
+}
+
+void Caustics::cast_direct(const CastTexels& texels, std::uint32_t first, std::uint32_t count)
+{
+  direct_.run(count, group,
+              {{"stored", stored_},
+               {"radii", radii_},
+               {"sets", sets_},
+               {"set_count", used_sets_},
+               {"spheres", spheres_},
+               {"list", *texels.list},
+               {"first", first},
+               {"count", count},
+               {"size", texels.size},
+               {"distances", *texels.distances},
+               {"caustics", *texels.caustics}});
+  context_.finish();
+}
+
+void Caustics::cast_compiled(const CastTexels& texels, std::uint32_t first, std::uint32_t count)
+{
+  compiled_cast_.run(count, group,
+                     {{"compiled", compiled_},
+                      {"radii", radii_},
+                      {"spheres", spheres_},
+                      {"object_x", object_x_},
+                      {"object_y", object_y_},
+                      {"object_z", object_z_},
+                      {"list", *texels.list},
+                      {"first", first},
+                      {"count", count},
+                      {"size", texels.size},
+                      {"distances", *texels.distances},
+                      {"caustics", *texels.caustics}});
+  context_.finish();
+}
+
+} // namespace nephroid::environment

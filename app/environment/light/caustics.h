@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A baked object under lights, on a device: E r^2 of all of them together, at points around it (kernels/environment/cast.cl).
+#pragma once
+#include "compute/compute.h"
+#include "environment/bake/bake.h"
+#include "environment/light/turned_sets.h"
+#include "tracing/step_size.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace nephroid::environment {
+
+/// Texels of a cube of receivers that are to be lit.
+struct CastTexels {
+  const compute::Buffer<std::uint32_t>* list; ///< numbers of texels
+  const compute::Buffer<float>* distances;    ///< [texel of the cube]
+  const compute::Buffer<float>* caustics;     ///< [texel of the cube][3], written: linear sRGB, W/m^2 of Y times squared units
+  int size;                                   ///< of the cube's faces
+};
+
+class Caustics {
+public:
+  /// unit: of the scene, in units of the bake's lengths it is 1. Throws failed where the device has not enough memory.
+  Caustics(const Bake& bake, const compute::Context& context);
+
+  /// rotation: from the bake's coordinates to the scene's.
+  void set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation);
+
+  /// Adds up the sets of all lights into one, all at once. About as much work as cast_direct has for half as many texels as all spheres
+  /// have.
+  void compile();
+
+  /// Texels first .. first + count - 1 of the list.
+  void cast_direct(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
+  /// The same after compile().
+  void cast_compiled(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
+
+  std::size_t set_count() const { return sets_.size(); }
+
+private:
+  compute::Context context_;
+  int directions_;
+  shared::DeviceSpheres spheres_{};
+  compute::Buffer<std::uint16_t> stored_;
+  compute::Buffer<float> radii_, compiled_;
+  compute::Buffer<shared::DeviceTurnedSet> sets_;
+  int used_sets_ = 0; ///< of the buffer's
+  shared::float4 object_x_{}, object_y_{}, object_z_{};
+  compute::Kernel direct_, compile_, compiled_cast_;
+};
+
+} // namespace nephroid::environment

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/light/distant_lights.h"
+
+#include "base/error.h"
+#include "optics/colour.h"
+
+namespace nephroid::environment {
+
+std::vector<DistantLight> environment_lights(const Segmentation& segmentation, const std::vector<glm::dvec3>& flux, double rotate_deg)
+{
+  std::vector<DistantLight> lights;
+  for (std::size_t i = 0; i < segmentation.lights.size(); ++i)
+    lights.push_back({-turned(segmentation.lights[i].direction, rotate_deg), flux[i]});
+  return lights;
+}
+
+std::vector<DistantLight> lamps(const scene::Scene& scene)
+{
+  std::vector<DistantLight> lights;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const scene::Light& light = scene.lights[i];
+    if (scene::is_environment(light)) continue;
+    if (light.type != preset::Light::Type::directional)
+      throw bad_input(Place(scene.source) / "scene" / "lights" / i / "type", "is no directional light",
+                      "expected \"directional\": the engine 'environment' knows light from far away only",
+                      "make it directional, or take the engine 'spectral'");
+    const optics::Colour rgb = optics::xyz_to_linear_srgb(optics::to_xyz(light.spectrum));
+    lights.push_back({glm::dvec3(light.direction), light.irradiance_w_m2 * glm::dvec3(rgb[0], rgb[1], rgb[2])});
+  }
+  return lights;
+}
+
+} // namespace nephroid::environment

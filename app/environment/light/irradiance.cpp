@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/light/irradiance.h"
+
+namespace nephroid::environment {
+
+IrradiancePolynomial irradiance_polynomial(const CubeMap& cube, double rotate_deg)
+{
+  // Moments of the map as it lies in its file; then they are turned.
+  glm::dvec3 flux(0);
+  std::array<glm::dvec3, 3> first{};  // by channel
+  std::array<glm::dmat3, 3> second{}; // by channel
+  for (glm::dmat3& m : second) m = glm::dmat3(0);
+  for (int face = 0; face < face_count; ++face)
+    for (int y = 0; y < cube.size; ++y)
+      for (int x = 0; x < cube.size; ++x) {
+        const glm::dvec3 from = glm::normalize(position({face, middle(x, cube.size), middle(y, cube.size)})),
+                         f = cube.flux_of(cube.texel(face, x, y));
+        flux += f;
+        for (int c = 0; c < 3; ++c) {
+          const auto i = static_cast<std::size_t>(c);
+          first[i] += f[c] * from;
+          second[i] += f[c] * glm::outerProduct(from, from);
+        }
+      }
+  const glm::dmat3 turn(turned({1, 0, 0}, rotate_deg), turned({0, 1, 0}, rotate_deg), turned({0, 0, 1}, rotate_deg));
+  IrradiancePolynomial polynomial{};
+  polynomial[0] = 3.0 / 32 * flux;
+  for (int c = 0; c < 3; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    const glm::dvec3 v = 0.5 * (turn * first[i]);
+    const glm::dmat3 m = 15.0 / 32 * (turn * second[i] * glm::transpose(turn));
+    const std::array<double, 9> factors{v.x, v.y, v.z, m[0][0], m[1][1], m[2][2], 2 * m[0][1], 2 * m[1][2], 2 * m[2][0]};
+    for (std::size_t k = 0; k < factors.size(); ++k) polynomial[k + 1][c] = factors[k];
+  }
+  return polynomial;
+}
+
+glm::dvec3 irradiance(const IrradiancePolynomial& p, const glm::dvec3& n)
+{
+  return p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] + n.z * n.z * p[6] + n.x * n.y * p[7] +
+         n.y * n.z * p[8] + n.z * n.x * p[9];
+}
+
+} // namespace nephroid::environment

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The smooth part of what an environment sends to a diffuse surface, for any normal at once.
+#pragma once
+#include "environment/segment/cube_map.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+
+namespace nephroid::environment {
+
+/// Irradiance as a polynomial of the unit normal (x, y, z): factors of 1, x, y, z, xx, yy, zz, xy, yz, zx; linear sRGB, W/m^2 of Y.
+using IrradiancePolynomial = std::array<glm::dvec3, 10>;
+
+/// The spherical harmonics of the irradiance up to the second degree, which leave out 1 % of it on the whole (Ramamoorthi and Hanrahan
+/// 2001, "An efficient representation for irradiance environment maps"). max(t, 0) up to that degree is 3/32 + t/2 + 15/32 t^2, so the
+/// irradiance is the sum of that over all light, with t its direction times the normal. rotate_deg: by how much the map is turned.
+IrradiancePolynomial irradiance_polynomial(const CubeMap& cube, double rotate_deg);
+
+/// Of a polynomial for a unit normal.
+glm::dvec3 irradiance(const IrradiancePolynomial& polynomial, const glm::dvec3& normal);
+
+} // namespace nephroid::environment

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#define GLM_ENABLE_EXPERIMENTAL
+#include "environment/light/turned_sets.h"
+
+#include "environment/bake/directions.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtx/quaternion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nephroid::environment {
+namespace {
+
+/// Cells along an edge of the cube.
+int cells_of(int count)
+{
+  const std::vector<glm::ivec3> points = cube_points(count);
+  return 2 * points.back().x;
+}
+
+shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+
+} // namespace
+
+std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count)
+{
+  const int cells = cells_of(count), half = cells / 2;
+  const glm::dvec3 from = -travel, size = glm::abs(from);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const glm::dvec3 place = from * (half / size[axis]); // on the cube from -half to half
+  const auto cell_of = [&](double at) { return std::clamp(static_cast<int>(std::floor(at)), -half, half - 1); };
+  const int first_u = cell_of(place[u]), first_v = cell_of(place[v]);
+  const double part_u = place[u] - first_u, part_v = place[v] - first_v;
+  const std::vector<glm::ivec3> points = cube_points(count);
+  std::vector<NearDirection> near;
+  for (const int right : {0, 1})
+    for (const int up : {0, 1}) {
+      const double weight = (right ? part_u : 1 - part_u) * (up ? part_v : 1 - part_v);
+      if (!(weight > 0)) continue;
+      glm::ivec3 point;
+      point[axis] = from[axis] > 0 ? half : -half;
+      point[u] = first_u + right;
+      point[v] = first_v + up;
+      near.push_back({static_cast<int>(std::ranges::find(points, point) - points.begin()), weight});
+    }
+  return near;
+}
+
+glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) { return glm::mat3_cast(glm::rotation(from, to)); }
+
+std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count)
+{
+  const std::vector<glm::dvec3> baked = light_directions(count);
+  const glm::dmat3 to_object = glm::transpose(rotation);
+  std::vector<shared::DeviceTurnedSet> sets;
+  for (const DistantLight& light : lights) {
+    if (light.irradiance == glm::dvec3(0)) continue;
+    const glm::dvec3 travel = to_object * light.direction;
+    for (const NearDirection& near : near_directions(travel, count)) {
+      const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked[static_cast<std::size_t>(near.direction)], travel)) * to_object;
+      const glm::dmat3 rows = glm::transpose(to_bake); // glm has columns
+      sets.push_back(
+          {{to_float4(rows[0]), to_float4(rows[1]), to_float4(rows[2])}, to_float4(near.weight * light.irradiance), near.direction, {}});
+    }
+  }
+  return sets;
+}
+
+} // namespace nephroid::environment

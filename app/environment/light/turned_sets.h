@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which baked directions stand for a light, and how their caustic spheres are turned to fit it (thesis 3.2.1).
+#pragma once
+#include "environment/light/distant_lights.h"
+#include "kernels/environment/render_types.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace nephroid::environment {
+
+struct NearDirection {
+  int direction = 0; ///< of light_directions(count)
+  double weight = 0; ///< above 0; all together 1
+};
+
+/// The baked directions about one that light goes in: where it comes from is a point of a face of the cube (directions.h), and those are
+/// the corners of its cell in the face's grid, with bilinear weights. 1 to 4; just itself of a baked direction. travel: of any length but
+/// 0.
+std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count);
+
+/// The shortest turn from one unit vector to another; half a turn about some axis across where they are opposite.
+glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
+
+/// The sets of all lights. rotation: from the bake's coordinates to the scene's. count: of baked directions. Black lights have none.
+std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count);
+
+} // namespace nephroid::environment

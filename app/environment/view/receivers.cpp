@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/view/receivers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace nephroid::environment {
+namespace {
+
+std::size_t texels_of(int size) { return 6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size); }
+
+} // namespace
+
+Receivers::Receivers(const compute::Context& context, int size)
+    : context_(context), size_(size), states_(context, "wanted receivers", texels_of(size)),
+      distances_(context, "receivers' distances", texels_of(size)), caustics_(context, "caustics on receivers", 3 * texels_of(size)),
+      list_(context, "list of receivers", texels_of(size))
+{
+  list_on_host_.reserve(texels_of(size));
+  forget();
+}
+
+void Receivers::forget()
+{
+  states_.fill_zero();
+  list_on_host_.clear();
+  known_ = lit_ = 0;
+}
+
+void Receivers::find_wanted(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle)
+{
+  states_read_ = states_.read();
+  for (std::size_t texel = 0; texel < states_read_.size(); ++texel)
+    if (states_read_[texel] == RECEIVER_WANTED) {
+      states_read_[texel] = RECEIVER_KNOWN;
+      list_on_host_.push_back(static_cast<std::uint32_t>(texel));
+    }
+  if (list_on_host_.size() == known_) return;
+  states_.write(states_read_);
+  const std::span<const std::uint32_t> added(list_on_host_.data() + known_, list_on_host_.size() - known_);
+  list_.write(added, known_);
+  const auto first = static_cast<std::uint32_t>(known_), count = static_cast<std::uint32_t>(added.size());
+  known_ = list_on_host_.size();
+  if (!surroundings) {
+    distances_.write(std::vector<float>(distances_.size(), std::numeric_limits<float>::infinity()));
+    return;
+  }
+  const shared::float4 from{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z), 0};
+  surroundings->run(*kernel, count, 32,
+                    {{"list", list_}, {"first", first}, {"count", count}, {"size", size_}, {"middle", from}, {"distances", distances_}});
+}
+
+bool Receivers::cast(Caustics& light)
+{
+  if (lit_ == known_) return true;
+  const auto count = static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(std::llround(texels_a_step_.amount()), 1, static_cast<std::int64_t>(known_ - lit_)));
+  const CastTexels texels{&list_, &distances_, &caustics_, size_};
+  texels_a_step_.timed(count, [&] { light.cast_direct(texels, static_cast<std::uint32_t>(lit_), count); });
+  lit_ += count;
+  return lit_ == known_;
+}
+
+} // namespace nephroid::environment

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands around the caustic object, as a cube seen from its middle, with the caustics on it. Only those texels are worked out that a
+// path from the eye has ended near (kernels/environment/see.cl), each once until something changes.
+#pragma once
+#include "environment/light/caustics.h"
+#include "tracing/world.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace nephroid::environment {
+
+class Receivers {
+public:
+  /// size: texels along an edge of a face.
+  Receivers(const compute::Context& context, int size);
+
+  int size() const { return size_; }
+  /// RECEIVER_*, [texel].
+  const compute::Buffer<int>& states() const { return states_; }
+  const compute::Buffer<float>& distances() const { return distances_; }
+  const compute::Buffer<float>& caustics() const { return caustics_; }
+
+  /// Lists the texels that paths have asked for since the last call, and works out their distances. surroundings: the scene without the
+  /// object; null where there is nothing.
+  void find_wanted(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle);
+  /// One step of about 50 ms of caustics on texels that lack them. True when all have theirs.
+  bool cast(Caustics& light);
+
+  /// Caustics are out of date: the light or the object's direction has changed.
+  void forget_caustics() { lit_ = 0; }
+  /// So is everything: the object or what stands around it has moved.
+  void forget();
+
+  std::size_t known() const { return known_; }
+
+private:
+  compute::Context context_;
+  int size_;
+  compute::Buffer<int> states_;
+  compute::Buffer<float> distances_, caustics_;
+  compute::Buffer<std::uint32_t> list_;
+  std::vector<int> states_read_;
+  std::vector<std::uint32_t> list_on_host_;
+  std::size_t known_ = 0, lit_ = 0; ///< of the list
+  tracing::StepSize texels_a_step_{4096};
+};
+
+} // namespace nephroid::environment

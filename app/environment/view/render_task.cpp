@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/view/render_task.h"
+
+#include "environment/bake/baker.h"
+#include "environment/occlusion/surroundings.h"
+#include "environment/settings.h"
+#include "scene/environment_light.h"
+#include "tracing/omissions.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace nephroid::environment {
+namespace {
+
+bool shines(const scene::Scene& scene) { return scene.environment && !scene.environment->is_black(); }
+
+/// One cluster of all wavelengths: a path has all of them, or one.
+std::vector<std::vector<int>> all_wavelengths()
+{
+  std::vector<int> all(optics::wavelength_count);
+  std::iota(all.begin(), all.end(), 0);
+  return {all};
+}
+
+/// Of the scene, whose environment is a light to this engine whatever `lights` says.
+std::shared_ptr<const scene::Scene> lit_scene(const scene::Scene& scene)
+{
+  auto lit = std::make_shared<scene::Scene>(scene);
+  if (shines(scene) && !scene.environment->lights) {
+    lit->environment->lights = true;
+    lit->lights.push_back(scene::make_environment_light(*scene.environment));
+  }
+  return lit;
+}
+
+} // namespace
+
+bool has_light(const scene::Scene& scene) { return shines(scene) || std::ranges::any_of(scene.lights, tracing::has_power); }
+
+Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube)
+{
+  const Settings& s = settings(preset);
+  return segment(cube, {.lights = s.lights, .method = s.segmentation, .threshold = s.threshold});
+}
+
+RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster)
+{
+  const tracing::LeaveOut leave_out = tracing::leave_out_all(preset.leave_out);
+  RenderTask task;
+  task.scene = lit_scene(scene);
+  task.bvh = std::make_shared<const scene::Bvh>(bvh);
+  task.lamps = lamps(scene);
+  task.placement = placement(preset, caster, scene);
+  task.tables = tracing::make_scene_tables(*task.scene, all_wavelengths(), leave_out);
+  task.coloured = is_coloured(task.tables.wavelengths);
+  task.defines = tracing::code_omissions(leave_out, *task.scene, task.tables.wavelengths.attenuator_count).defines;
+  task.defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!bvh.ellipsoid_places.empty()));
+  task.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(bvh.stack, 1));
+  task.defines["NEPHROID_JITTER"] = std::to_string(int(task.coloured));
+  task.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(0);
+
+  task.surroundings = without_caster(scene, caster_index(preset));
+  task.has_surroundings = !task.surroundings.object_of_primitive.empty();
+  if (shines(scene)) {
+    task.cube = make_cube_map(*scene.environment);
+    task.segmentation = segment_by(preset, task.cube);
+  }
+  return task;
+}
+
+} // namespace nephroid::environment

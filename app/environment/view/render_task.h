@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is to be shown and under which light, worked out once on the host.
+#pragma once
+#include "compute/compute.h"
+#include "environment/bake/placement.h"
+#include "environment/light/distant_lights.h"
+#include "environment/segment/cube_map.h"
+#include "preset/preset.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+#include "tracing/scene_tables.h"
+
+#include <memory>
+#include <vector>
+
+namespace nephroid::environment {
+
+struct RenderTask {
+  std::shared_ptr<const scene::Scene> scene; ///< its environment is a light
+  std::shared_ptr<const scene::Bvh> bvh;     ///< its tree
+  tracing::SceneTables tables;
+  compute::Defines defines; ///< of kernels that trace the scene
+  bool coloured = false;    ///< paths from the eye have one wavelength each
+  Placement placement;      ///< of the bake
+
+  bool has_surroundings = false; ///< whether there is more in the scene than the object
+  scene::Scene surroundings;     ///< the scene without it
+
+  CubeMap cube;              ///< of the environment; empty where there is none
+  Segmentation segmentation; ///< of the cube
+  std::vector<DistantLight> lamps;
+};
+
+/// Whether the scene has light: else only the bake is shown.
+bool has_light(const scene::Scene& scene);
+
+/// caster: of the preset. bvh: of the scene. Throws bad_input as `lamps`.
+RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster);
+
+/// The preset's lights of the cube, by its settings.
+Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube);
+
+} // namespace nephroid::environment

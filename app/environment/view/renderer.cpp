@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/view/renderer.h"
+
+#include "base/parallel.h"
+#include "environment/light/irradiance.h"
+#include "environment/occlusion/surroundings.h"
+#include "environment/white_light.h"
+#include "optics/colour.h"
+#include "optics/primary_spectra.h"
+#include "tracing/exact_cdf.h"
+#include "tracing/sky_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace nephroid::environment {
+namespace {
+
+constexpr int block_of_coarse = 4;                          ///< pixels across and down a square that has one path
+constexpr int coarse_receivers = 128, fine_receivers = 512; ///< texels along an edge of a face
+constexpr std::array<const char*, 3> layer_names{"background", "direct", "caustic"};
+
+shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+
+shared::float4 to_rgb(const optics::Colour& xyz)
+{
+  const optics::Colour rgb = optics::xyz_to_linear_srgb(xyz);
+  return to_float4({rgb[0], rgb[1], rgb[2]});
+}
+
+/// [row of the lights' tables][reflector]: what a reflector sends back of a light, linear sRGB.
+std::vector<shared::float4> lit_colours(const tracing::WavelengthTables& tables)
+{
+  std::vector<shared::float4> colours;
+  for (const shared::float4& xyz : tables.reflected_xyz_all) colours.push_back(to_rgb({xyz.x, xyz.y, xyz.z}));
+  return colours;
+}
+
+/// [reflector][primary]: what a reflector sends back of a primary's spectrum, linear sRGB.
+std::vector<shared::float4> reflected_primaries(const tracing::WavelengthTables& tables)
+{
+  std::vector<shared::float4> colours;
+  for (std::size_t r = 0; r < static_cast<std::size_t>(tables.reflector_count); ++r)
+    for (optics::Spectrum primary : optics::primary_spectra()) {
+      for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= tables.reflectance[r * primary.size() + w];
+      colours.push_back(to_rgb(optics::to_xyz(primary)));
+    }
+  return colours;
+}
+
+/// [channel][401]: chances of wavelengths, by how much white light of that wavelength is in the channel where that is positive. So what
+/// glass does not bend has no noise of colours.
+std::vector<float> channel_cdf()
+{
+  const std::vector<shared::float4> light = white_light();
+  std::vector<float> cdf;
+  for (const auto channel : {&shared::float4::x, &shared::float4::y, &shared::float4::z}) {
+    std::vector<double> chances;
+    for (const shared::float4& rgb : light) chances.push_back(std::max(rgb.*channel, 0.0F));
+    const std::vector<float> own = tracing::exact_cdf(chances);
+    cdf.insert(cdf.end(), own.begin(), own.end());
+  }
+  return cdf;
+}
+
+/// What is seen behind everything; black where there is no environment.
+const scene::Environment& backdrop(const scene::Scene& scene)
+{
+  static const scene::Environment black{1, 1, {0, 0, 0}, 0, 0, false};
+  return scene.environment ? *scene.environment : black;
+}
+
+} // namespace
+
+Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_t seed, const compute::Context& context)
+    : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
+      world_(tracing::make_world(context, *task_.scene, *task_.bvh, task_.tables, task_.defines, seed)),
+      channel_cdf_(tracing::upload_vector(context, "wavelengths of channels", channel_cdf())),
+      lit_rgb_(tracing::upload_vector(context, "colours of lit surfaces", lit_colours(task_.tables.wavelengths))),
+      reflected_rgb_(tracing::upload_vector(context, "colours of surfaces", reflected_primaries(task_.tables.wavelengths))),
+      irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
+      texels_(tracing::upload_vector(context, "environment", backdrop(*task_.scene).rgb)),
+      texels_size_(tracing::picture_size(backdrop(*task_.scene))),
+      ends_(context, "ends of paths", (task_.coloured ? 4 : 2) * static_cast<std::size_t>(pixels())),
+      sums_(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels())), caustics_(bake, context),
+      coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192)
+{
+  if (task_.has_surroundings) {
+    surroundings_ = surroundings_world(context, task_.surroundings);
+    receivers_kernel_ = compute::Program(context, "environment/receivers.cl", surroundings_->defines).kernel("receivers");
+  }
+  if (!task_.segmentation.lights.empty()) occlusion_.emplace(context, task_.segmentation, task_.cube);
+  see_ = compute::Program(context, "environment/see.cl", world_.defines).kernel("see");
+  shade_ = compute::Program(context, "environment/shade.cl", world_.defines).kernel("shade");
+  compute::Defines coarse = world_.defines;
+  coarse["NEPHROID_COARSE"] = std::to_string(1);
+  coarse_shade_ = compute::Program(context, "environment/shade.cl", coarse).kernel("shade");
+  light_up();
+  begin_anew();
+}
+
+void Renderer::light_up()
+{
+  world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
+  flux_.clear();
+  if (occlusion_ && surroundings_)
+    flux_ = occlusion_->visible_flux(*surroundings_, rotate_deg_, task_.placement.middle);
+  else
+    for (const Region& region : task_.segmentation.lights) flux_.push_back(region.flux);
+  std::vector<DistantLight> lights = environment_lights(task_.segmentation, flux_, rotate_deg_);
+  lights.insert(lights.end(), task_.lamps.begin(), task_.lamps.end());
+  caustics_.set_lights(lights, task_.placement.turn);
+  std::vector<shared::float4> polynomial;
+  for (const glm::dvec3& factor : irradiance_polynomial(task_.cube, rotate_deg_)) polynomial.push_back(to_float4(factor));
+  irradiance_.write(polynomial);
+  coarse_.forget_caustics();
+  fine_.forget_caustics();
+}
+
+void Renderer::begin_anew()
+{
+  pass_ = 0;
+  stage_ = Stage::see;
+  see_steps_ = shade_steps_ = tracing::PixelSteps(pixels(), 8192);
+  const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
+  const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
+  see(coarse_, block_of_coarse, 0, blocks);
+  find_wanted(coarse_);
+  while (!coarse_.cast(caustics_)) {
+  }
+  shade(coarse_, block_of_coarse, 0, blocks);
+}
+
+void Renderer::find_wanted(Receivers& receivers)
+{
+  receivers.find_wanted(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr,
+                        task_.placement.middle);
+}
+
+void Renderer::step()
+{
+  switch (stage_) {
+  case Stage::see:
+    if (!see_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); })) return;
+    find_wanted(fine_);
+    stage_ = Stage::cast;
+    return;
+  case Stage::cast:
+    if (fine_.cast(caustics_)) stage_ = Stage::shade;
+    return;
+  case Stage::shade:
+    if (!shade_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); })) return;
+    stage_ = Stage::see;
+    ++pass_;
+  }
+}
+
+double Renderer::part() const { return stage_ == Stage::see ? 0.5 * see_steps_.part() : 0.5 + 0.5 * shade_steps_.part(); }
+
+void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count)
+{
+  world_.run(see_, count, 32,
+             {{"channel_cdf", channel_cdf_},
+              {"ends", ends_},
+              {"states", receivers.states()},
+              {"size", receivers.size()},
+              {"middle", to_float4(task_.placement.middle)},
+              {"camera", task_.tables.camera},
+              {"seed", world_.seed},
+              {"pass", static_cast<std::uint32_t>(pass_)},
+              {"block", block},
+              {"first", first},
+              {"count", count}});
+}
+
+void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count)
+{
+  const scene::Environment& sky = backdrop(*task_.scene);
+  const int anew = pass_ == 0 ? 1 : 0;
+  world_.run(block == 1 ? shade_ : coarse_shade_, count, 32,
+             {{"ends", ends_},
+              {"texels", texels_},
+              {"texels_size", texels_size_},
+              {"radiance", static_cast<float>(sky.radiance)},
+              {"lit_rgb", lit_rgb_},
+              {"reflected_rgb", reflected_rgb_},
+              {"irradiance", irradiance_},
+              {"power_unit", static_cast<float>(task_.tables.power_unit)},
+              {"middle", to_float4(task_.placement.middle)},
+              {"size", receivers.size()},
+              {"distances", receivers.distances()},
+              {"caustics", receivers.caustics()},
+              {"sums", sums_},
+              {"width", task_.tables.camera.width},
+              {"height", task_.tables.camera.height},
+              {"seed", world_.seed},
+              {"pass", static_cast<std::uint32_t>(pass_)},
+              {"block", block},
+              {"anew", anew},
+              {"first", first},
+              {"count", count}});
+}
+
+std::shared_ptr<const job::Picture> Renderer::picture() const
+{
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = task_.tables.camera.width;
+  picture->height = task_.tables.camera.height;
+  const auto count = static_cast<std::size_t>(pixels());
+  picture->rgb.resize(3 * count);
+  for (const char* name : layer_names) picture->layers.push_back({name, std::vector<float>(3 * count)});
+  const std::vector<float> sums = sums_.read();
+  // The pixels before this one have had the pass in hand as well. The coarse picture is one sample.
+  const auto ahead = static_cast<std::size_t>(shade_steps_.done());
+  for_ranges(count, 1 << 14, [&](std::size_t, const Range& range) {
+    for (std::size_t pixel = range.begin; pixel < range.end; ++pixel) {
+      const double samples = std::max<double>(1, static_cast<double>(pass_) + (pixel < ahead ? 1 : 0));
+      const auto scale = static_cast<float>(1 / (white_ * samples));
+      for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+        float sum = 0;
+        for (std::size_t l = 0; l < layer_names.size(); ++l) sum += picture->layers[l].rgb[i] = scale * sums[3 * count * l + i];
+        picture->rgb[i] = sum;
+      }
+    }
+  });
+  return picture;
+}
+
+void Renderer::set_camera(const scene::Camera& camera, const Place& where)
+{
+  task_.tables.camera = tracing::device_camera(camera, where);
+  begin_anew();
+}
+
+void Renderer::set_white(double white) { white_ = white; }
+
+void Renderer::turn_environment(double rotate_deg)
+{
+  rotate_deg_ = rotate_deg;
+  light_up();
+  begin_anew();
+}
+
+void Renderer::set_segmentation(Segmentation segmentation)
+{
+  task_.segmentation = std::move(segmentation);
+  occlusion_.emplace(context_, task_.segmentation, task_.cube);
+  light_up();
+  begin_anew();
+}
+
+void Renderer::save(tracing::StateWriter& to) const
+{
+  to.value(pass_);
+  shade_steps_.save(to);
+  to.buffer(sums_);
+}
+
+void Renderer::load(tracing::StateReader& from)
+{
+  from.value(pass_);
+  shade_steps_.load(from);
+  from.buffer(sums_);
+  // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
+  stage_ = Stage::see;
+  see_steps_ = tracing::PixelSteps(pixels(), 8192);
+}
+
+} // namespace nephroid::environment

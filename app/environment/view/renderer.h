@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of a scene with a baked object under an environment: a coarse one at once, then pass after pass of one sample a pixel
+// (kernels/environment/see.cl, shade.cl). What a change does not touch stays.
+#pragma once
+#include "environment/bake/bake.h"
+#include "environment/light/caustics.h"
+#include "environment/occlusion/occlusion.h"
+#include "environment/view/receivers.h"
+#include "environment/view/render_task.h"
+#include "job/job.h"
+#include "tracing/state_bytes.h"
+#include "tracing/step_size.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace nephroid::environment {
+
+class Renderer {
+public:
+  /// bake: of task's caster. white: as preset::Preset has it. Throws failed where the device has not enough memory.
+  Renderer(RenderTask task, const Bake& bake, double white, std::uint64_t seed, const compute::Context& context);
+
+  /// One step of about 50 ms of the pass in hand.
+  void step();
+  std::int64_t passes() const { return pass_; } ///< complete ones
+  double part() const;                          ///< of the pass in hand, 0..1
+  /// Layers background, direct and caustic, the mean of all samples so far.
+  std::shared_ptr<const job::Picture> picture() const;
+
+  /// Each begins anew with a coarse picture. where: FILE#/scene/camera.
+  void set_camera(const scene::Camera& camera, const Place& where);
+  void turn_environment(double rotate_deg);
+  void set_segmentation(Segmentation segmentation);
+  /// Of the next picture().
+  void set_white(double white);
+
+  const Segmentation& segmentation() const { return task_.segmentation; }
+  /// What is left of the flux of each of the segmentation's lights where the object is.
+  const std::vector<glm::dvec3>& flux() const { return flux_; }
+  const CubeMap& cube() const { return task_.cube; }
+  const scene::Scene& scene() const { return *task_.scene; }
+
+  void save(tracing::StateWriter& to) const;
+  void load(tracing::StateReader& from);
+
+private:
+  enum class Stage { see, cast, shade };
+
+  void light_up(); ///< after a change of lights
+  void begin_anew();
+  void see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
+  void shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
+  void find_wanted(Receivers& receivers);
+  std::int64_t pixels() const { return std::int64_t{task_.tables.camera.width} * task_.tables.camera.height; }
+
+  RenderTask task_;
+  double white_, rotate_deg_;
+  compute::Context context_;
+  tracing::World world_;
+  std::optional<tracing::World> surroundings_;
+  std::optional<compute::Kernel> receivers_kernel_;
+  std::optional<Occlusion> occlusion_; ///< of the segmentation's lights
+  compute::Kernel see_, shade_, coarse_shade_;
+  compute::Buffer<float> channel_cdf_;
+  compute::Buffer<shared::float4> lit_rgb_, reflected_rgb_, irradiance_;
+  compute::Buffer<float> texels_;
+  shared::DeviceBackground texels_size_{};
+  compute::Buffer<shared::DeviceEnd> ends_;
+  compute::Buffer<float> sums_; ///< [layer][pixel][3]
+  Caustics caustics_;
+  Receivers coarse_, fine_;
+  std::vector<glm::dvec3> flux_;
+
+  std::int64_t pass_ = 0;
+  Stage stage_ = Stage::see;
+  tracing::PixelSteps see_steps_, shade_steps_;
+};
+
+} // namespace nephroid::environment

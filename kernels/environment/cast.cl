@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Caustics on what stands around the object (thesis 3.2): E r^2 of all lights in texels of the cube of receivers, by looking up the spheres
+// of every light there (`cast_direct`), or by adding them up into one set of spheres first (`compile`, Algorithm 3.5) and looking that up
+// (`cast_compiled`).
+#include "kernels/environment/cube.h"
+#include "kernels/environment/spheres.h"
+
+// caustics: [texel][3], linear sRGB.
+__kernel void cast_direct(__global const ushort* stored, __global const float* radii, __global const DeviceTurnedSet* sets, int set_count,
+                          DeviceSpheres spheres, __global const uint* list, uint first, uint count, int size, __global const float* distances,
+                          __global float* caustics)
+{
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint texel = list[first + index];
+  const float distance = distances[texel];
+  float3 caustic = (float3)(0.0f);
+  if (distance < INFINITY)
+    caustic = caustic_of_sets(stored, &spheres, sets, set_count, cube_texel_direction(texel, size), shell_at(radii, spheres.count, distance));
+  vstore3(caustic, (size_t)texel, caustics);
+}
+
+// Texels first .. first + count - 1 of all spheres together. object_rows: rows of the rotation from the object to the scene.
+__kernel void compile(__global const ushort* stored, __global const DeviceTurnedSet* sets, int set_count, DeviceSpheres spheres, float4 object_x,
+                      float4 object_y, float4 object_z, uint first, uint count, __global float* compiled)
+{
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint item = first + index, texels = (uint)(spheres.side * spheres.side);
+  const Shell shell = {(int)(item / texels), (int)(item / texels), 0.0f};
+  const float3 way = sphere_direction((int)(item % texels), spheres.side);
+  const float3 direction = way.x * object_x.xyz + way.y * object_y.xyz + way.z * object_z.xyz;
+  vstore3(caustic_of_sets(stored, &spheres, sets, set_count, direction, shell), (size_t)item, compiled);
+}
+
+__kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,
+                            float4 object_z, __global const uint* list, uint first, uint count, int size, __global const float* distances,
+                            __global float* caustics)
+{
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint texel = list[first + index];
+  const float distance = distances[texel];
+  float3 caustic = (float3)(0.0f);
+  if (distance < INFINITY) {
+    const float3 d = cube_texel_direction(texel, size);
+    const float3 in_object = (float3)(dot(object_x.xyz, d), dot(object_y.xyz, d), dot(object_z.xyz, d));
+    caustic = compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance));
+  }
+  vstore3(caustic, (size_t)texel, caustics);
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors. What light is there is
+// shade.cl's: while only light changes, ends stay.
+#include "kernels/environment/cube.h"
+#include "kernels/environment/render_types.h"
+#include "kernels/tracing/camera.h"
+#include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/world.h"
+
+static inline DeviceEnd nowhere(void)
+{
+  DeviceEnd end;
+  end.throughput = end.place = end.geometric = end.shading = (float4)(0.0f);
+  return end;
+}
+
+// Where a path that has met `hit` ends. weight: linear sRGB.
+static inline DeviceEnd end_of(const World* world, Path path, Hit hit, const Band* band, float3 weight, uint2 seed, uint sample, uint pixel)
+{
+  DeviceEnd end = nowhere();
+  Surface surface;
+  const float scale = reach_end(world, &path, &hit, band, seed, sample, pixel, STREAM_SEE, &surface);
+  if (scale == 0.0f) return end;
+  const float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
+    end.throughput = (float4)(throughput, (float)END_SKY);
+    end.place = (float4)(path.direction, 0.0f);
+    return end;
+  }
+  const float side = dot(path.direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
+  end.throughput = (float4)(throughput, (float)END_SURFACE);
+  end.place = (float4)(surface.position, surface.offset);
+  end.geometric = (float4)(side * surface.geometric, as_float(hit.primitive));
+  end.shading = (float4)(side * surface.shading, as_float(material_of(world, surface.object).reflector));
+  return end;
+}
+
+// The receiver's texels that shade.cl will look at.
+static inline void want(const DeviceEnd* end, float4 middle, int size, __global int* states)
+{
+  if (end->throughput.w != (float)END_SURFACE) return;
+  const CubeTexels four = cube_texels(end->place.xyz - middle.xyz, size);
+  for (int i = 0; i < 4; ++i)
+    if (states[four.texels[i]] == RECEIVER_UNSEEN) states[four.texels[i]] = RECEIVER_WANTED; // others may write the same
+}
+
+// How much of the light glass reflects where a path has met it: from the directions before and after. n_ratio: of indices, near over far.
+static inline float reflected_share(float3 direction, float3 reflected, float n_ratio)
+{
+  const float3 normal = normalize(reflected - direction);
+  const float cos_i = -dot(direction, normal), cos_t = refracted_cosine(cos_i, n_ratio);
+  return cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_ratio, 1.0f);
+}
+
+// The band of a path that is for one channel of the picture: a wavelength that is drawn by how much of white light of that channel it is.
+// channel_cdf: [channel][401].
+static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u)
+{
+#if NEPHROID_JITTER
+  const Band band = {0, choose(channel_cdf + channel * WAVELENGTH_COUNT, WAVELENGTH_COUNT, u), 1.0f};
+  return band;
+#else
+  return whole_cluster(0);
+#endif
+}
+
+// Paths for each square of block x block pixels, first .. first + count - 1 counted row after row; ends: ENDS_OF_PIXEL for each. A pixel
+// that first sees glass follows both what it reflects and what it lets through; that in three colours where glass parts them.
+__kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states, int size, float4 middle,
+                  DeviceCamera camera, uint2 seed, uint pass, int block, uint first, uint count)
+{
+  const World world = WORLD;
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint item = first + index;
+  const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block, row = (int)item / columns * block;
+  const uint pixel = (uint)(row * camera.width + column);
+  const float2 jitter = block > 1 ? (float2)(0.5f * (float)block) : random4(seed, pass, pixel, 0u, STREAM_SEE).xy;
+  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  const Hit hit = next_hit(&world, &path);
+  const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
+                    material_of(&world, (int)object_of_primitive[hit.primitive]).type != MATERIAL_DIFFUSE;
+  __global DeviceEnd* own = ends + ENDS_OF_PIXEL * item;
+  for (int i = 0; i < ENDS_OF_PIXEL; ++i) own[i] = nowhere();
+  if (!bent) {
+    const Band all = whole_cluster(0);
+    own[0] = end_of(&world, path, hit, &all, (float3)(1.0f), seed, ENDS_OF_PIXEL * pass, pixel);
+  } else {
+    const float u = golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
+    const Surface surface = surface_at(&world.geometry, objects, hit);
+    const DeviceMaterial material = material_of(&world, surface.object);
+    for (int c = 0; c < ENDS_OF_PIXEL - 1; ++c) {
+      const Band band = band_of_channel(channel_cdf, c, u);
+      const float3 channel = ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(c == 0, c == 1, c == 2);
+      Path through = path;
+      lose_in_medium(&world, &through, hit.t);
+      Path reflected = through;
+      float n_through = 1.0f, n_reflected = 1.0f;
+      const bool goes_on = bend_path(&world, &through, hit.primitive, &surface, &material, &band, 1.0f, &n_through);
+      const bool reflects = bend_path(&world, &reflected, hit.primitive, &surface, &material, &band, 0.0f, &n_reflected);
+      // A mirror, total reflection and glass that does not bend have one way on.
+      const bool two_ways = dot(through.direction, surface.geometric) * dot(reflected.direction, surface.geometric) < 0.0f;
+      const float share = two_ways ? reflected_share(path.direction, reflected.direction, n_through) : 0.0f;
+      if (goes_on)
+        own[c] = end_of(&world, through, next_hit(&world, &through), &band, (1.0f - share) * n_through * n_through * channel, seed,
+                        ENDS_OF_PIXEL * pass + (uint)c, pixel);
+      // All colours are reflected alike, nearly as much, so one of them is followed.
+      if (two_ways && reflects && c == (ENDS_OF_PIXEL - 1) / 2)
+        own[ENDS_OF_PIXEL - 1] = end_of(&world, reflected, next_hit(&world, &reflected), &band, share * (float3)(1.0f), seed,
+                                        ENDS_OF_PIXEL * pass + ENDS_OF_PIXEL - 1, pixel);
+    }
+  }
+  for (int i = 0; i < ENDS_OF_PIXEL; ++i) {
+    const DeviceEnd end = own[i];
+    want(&end, middle, size, states);
+  }
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// What light the pixels' paths bring from their ends (see.cl): the environment itself; on a surface its direct light and that of lamps, and
+// caustics from the cube of receivers.
+#include "kernels/environment/cube.h"
+#include "kernels/environment/render_types.h"
+#include "kernels/tracing/background.h"
+#include "kernels/tracing/eye_path.h"
+#include "kernels/tracing/world.h"
+
+// 1: the environment lights surfaces by its smooth part, without shadows.
+#ifndef NEPHROID_COARSE
+#define NEPHROID_COARSE 0
+#endif
+
+#define LAYERS 3
+#define LAYER_BACKGROUND 0
+#define LAYER_DIRECT 1
+#define LAYER_CAUSTIC 2
+
+// A part of the expected distance, and of a texel's width, by which a receiver's distance may differ from what it should be were the
+// surface flat there.
+#define DISTANCE_TOLERANCE 0.02f
+
+typedef struct {
+  float4 middle;
+  int size; // of the cube's faces, in texels
+  __global const float* distances;
+  __global const float* caustics; // E r^2: [texel][3]
+} Receivers;
+
+// Irradiance on a surface by the caustics: linear sRGB, 0 where something else hides it from the object. Of the four texels about it those
+// count that see the same surface.
+static inline float3 caustic_irradiance(const Receivers* receivers, const DeviceEnd* end)
+{
+  const float3 way = end->place.xyz - receivers->middle.xyz;
+  const float distance = length(way);
+  const float3 direction = way / distance;
+  const float cosine = -dot(end->shading.xyz, direction), facing = -dot(end->geometric.xyz, direction);
+  if (!(cosine > 0.0f) || !(facing > 0.0f)) return (float3)(0.0f);
+  const CubeTexels four = cube_texels(direction, receivers->size);
+  float3 sum = (float3)(0.0f);
+  float weights = 0.0f;
+  for (int i = 0; i < 4; ++i) {
+    const float along = -dot(end->geometric.xyz, cube_texel_direction(four.texels[i], receivers->size));
+    const float expected = along > 0.0f ? distance * facing / along : INFINITY, found = receivers->distances[four.texels[i]];
+    if (!(fabs(found - expected) <= DISTANCE_TOLERANCE * expected + 4.0f * distance / (float)receivers->size)) continue;
+    sum += four.weights[i] * vload3((size_t)four.texels[i], receivers->caustics);
+    weights += four.weights[i];
+  }
+  return weights > 0.0f ? sum * (cosine / (weights * distance * distance)) : (float3)(0.0f);
+}
+
+// Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of app/environment/light/irradiance.h.
+// polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
+static inline float3 smooth_irradiance(__global const float4* polynomial, float3 n)
+{
+  __global const float4* p = polynomial;
+  const float4 sum = p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] + n.z * n.z * p[6] +
+                     n.x * n.y * p[7] + n.y * n.z * p[8] + n.z * n.x * p[9];
+  return max(sum.xyz, 0.0f);
+}
+
+// Linear sRGB that a reflector sends back of light of a colour. reflected_rgb: [reflector][primary].
+static inline float3 reflected_colour(__global const float4* reflected_rgb, int reflector, float3 rgb)
+{
+  __global const float4* of = reflected_rgb + 3 * reflector;
+  return rgb.x * of[0].xyz + rgb.y * of[1].xyz + rgb.z * of[2].xyz;
+}
+
+// Radiance of a surface by what reaches it unbent, linear sRGB. lit_rgb: [row of the lights' tables][reflector]. sequence: of the numbers
+// that places in the environment are drawn by, of which a pass takes one.
+static inline float3 direct_radiance(const World* world, const DeviceEnd* end, __global const float4* lit_rgb,
+                                     __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit, uint2 seed,
+                                     uint pass, uint sequence)
+{
+  const int reflector = as_int(end->shading.w);
+  const uint primitive = as_uint(end->geometric.w);
+  Surface surface;
+  surface.position = end->place.xyz;
+  surface.offset = end->place.w;
+  surface.geometric = end->geometric.xyz;
+  surface.shading = end->shading.xyz;
+  Path path;
+  path.direction = -surface.geometric; // all that is asked of the path is on which side it arrives
+  float3 sum = (float3)(0.0f);
+  for (int l = 0; l < world->scene.light_count; ++l) {
+    __global const float4* row = lit_rgb + l * world->reflector_count + reflector;
+    if (is_of_environment(world, l)) {
+#if NEPHROID_COARSE
+      sum += reflected_colour(reflected_rgb, reflector, smooth_irradiance(irradiance, surface.shading));
+#else
+      const float3 rgb = power_unit * sky_irradiance(world, l, &path, &surface, primitive, seed, pass, 1u, sequence);
+      sum += rgb.x * row[0].xyz + rgb.y * row[world->reflector_count].xyz + rgb.z * row[2 * world->reflector_count].xyz;
+#endif
+    } else
+      sum += row->xyz * (power_unit * irradiance_of(world, l, &path, &surface, primitive, seed, pass, sequence));
+  }
+  return sum / PI_F;
+}
+
+// Adds to the sums of the pixels of each square, or begins them anew. sums: [layer][pixel][3], of the half that the pass is of.
+__kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels, DeviceBackground texels_size, float radiance,
+                    __global const float4* lit_rgb, __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit,
+                    float4 middle, int size, __global const float* distances, __global const float* caustics, __global float* sums, int width,
+                    int height, uint2 seed, uint pass, int block, int anew, uint first, uint count)
+{
+  const World world = WORLD;
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const Background background = {texels, 0, texels_size};
+  const Receivers receivers = {middle, size, distances, caustics};
+  const uint item = first + index;
+  const int columns = (width + block - 1) / block, column = (int)item % columns * block, row = (int)item / columns * block;
+  const uint pixel = (uint)(row * width + column);
+  float3 layers[LAYERS] = {(float3)(0.0f), (float3)(0.0f), (float3)(0.0f)};
+  for (uint i = 0; i < ENDS_OF_PIXEL; ++i) {
+    const DeviceEnd end = ends[ENDS_OF_PIXEL * item + i];
+    const float3 throughput = end.throughput.xyz;
+    if (end.throughput.w == (float)END_SKY) layers[LAYER_BACKGROUND] += throughput * (radiance * background_rgb(&background, end.place.xyz));
+    if (end.throughput.w != (float)END_SURFACE) continue;
+    layers[LAYER_DIRECT] += throughput * direct_radiance(&world, &end, lit_rgb, reflected_rgb, irradiance, power_unit, seed,
+                                                         pass, pixel * ENDS_OF_PIXEL + i);
+    layers[LAYER_CAUSTIC] += throughput * reflected_colour(reflected_rgb, as_int(end.shading.w), caustic_irradiance(&receivers, &end)) / PI_F;
+  }
+  const size_t pixels = (size_t)width * (size_t)height;
+  for (int l = 0; l < LAYERS; ++l)
+    for (int y = row; y < min(row + block, height); ++y)
+      for (int x = column; x < min(column + block, width); ++x) {
+        const size_t place = (size_t)l * pixels + (size_t)(y * width + x);
+        vstore3(anew ? layers[l] : vload3(place, sums) + layers[l], place, sums);
+      }
+}
