@@ -5,7 +5,9 @@
 #include "environment/bake/bake_file.h"
 #include "environment/describe_settings.h"
 #include "environment/engine.h"
+#include "environment/occlusion/samples.h"
 #include "environment/sheet.h"
+#include "environment/view/renderer.h"
 #include "tracing/omissions.h"
 
 #include <fmt/format.h>
@@ -39,6 +41,42 @@ std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask
       tracing::code_omissions(tracing::leave_out_all(preset.leave_out), task.caster.scene, task.tables.wavelengths.attenuator_count).passes;
   std::erase_if(passes, [](const plan::Pass& pass) { return !std::ranges::count(names, pass.name); });
   return passes;
+}
+
+/// Whether a person can see caustics at all, and by what light.
+std::vector<plan::Pass> view_passes(const RenderTask* render, const Settings& s)
+{
+  if (!render) return {{"view", false, "the scene has no light: only the spheres are shown"}};
+  const std::size_t lights = render->segmentation.lights.size();
+  const bool sky = render->cube.size > 0;
+  std::vector<plan::Pass> passes;
+  passes.push_back({"segments", sky,
+                    sky ? fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))
+                        : "there is no environment, only lamps"});
+  passes.push_back({"occlusion", sky && render->has_surroundings,
+                    !sky                       ? "there is no environment"
+                    : render->has_surroundings ? fmt::format("{} rays a light from the object's middle", samples_per_light)
+                                               : "nothing stands around the object"});
+  const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
+  passes.push_back({"cast", receivers, receivers ? "caustics on diffuse surfaces, where a path ends" : "no surface is diffuse"});
+  passes.push_back({"colours of the view", render->coloured,
+                    render->coloured ? "glass is looked through in three colours" : "all wavelengths go the same way and lose alike"});
+  return passes;
+}
+
+std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake)
+{
+  const auto bytes_of = [](const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); };
+  const scene::Scene& s = *render.scene;
+  const auto pixels = static_cast<std::uint64_t>(s.camera.width) * static_cast<std::uint64_t>(s.camera.height);
+  const std::uint64_t sky = s.environment ? bytes_of(s.environment->rgb) : 0;
+  return {{"caustic spheres", sizeof(std::uint16_t) * bake.halves()},
+          {"whole scene", bytes_of(render.bvh->nodes) + bytes_of(render.bvh->blocks) + bytes_of(s.geometry.triangles) +
+                              bytes_of(s.geometry.positions) + bytes_of(s.geometry.normals)},
+          {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
+          {"receivers", Renderer::receiver_bytes()},
+          {"paths of the view", Renderer::bytes_a_pixel(render) * pixels},
+          {"environment (host)", 2 * sky + bytes_of(render.cube.flux), true}};
 }
 
 std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes)
@@ -75,10 +113,13 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   const std::optional<std::string> fault = bake_file_fault(plan.bake_file, {plan.key, 0});
   plan.bakes = fault.has_value();
   plan.passes = {bake_pass(plan, s, fault), colours_pass(task)};
+  for (plan::Pass& pass : view_passes(plan.render.get(), s)) plan.passes.push_back(std::move(pass));
   for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
   plan.buffers = buffers_of(task, scene, plan.bakes);
+  if (plan.render)
+    for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task)) plan.buffers.push_back(std::move(buffer));
   plan.defines = task.defines;
-  plan.layers = 1;
+  plan.layers = plan.render ? Renderer::layers : 1;
   plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";
   plan.notes = scene.warnings;
   if (fault && !fault->empty()) plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));

@@ -13,6 +13,8 @@ std::size_t texels_of(int size) { return 6 * static_cast<std::size_t>(size) * st
 
 } // namespace
 
+std::uint64_t Receivers::bytes(int size) { return texels_of(size) * (sizeof(int) + 4 * sizeof(float) + sizeof(std::uint32_t)); }
+
 Receivers::Receivers(const compute::Context& context, int size)
     : context_(context), size_(size), states_(context, "wanted receivers", texels_of(size)),
       distances_(context, "receivers' distances", texels_of(size)), caustics_(context, "caustics on receivers", 3 * texels_of(size)),

@@ -15,6 +15,9 @@ public:
   /// size: texels along an edge of a face.
   Receivers(const compute::Context& context, int size);
 
+  /// On the device.
+  static std::uint64_t bytes(int size);
+
   int size() const { return size_; }
   /// RECEIVER_*, [texel].
   const compute::Buffer<int>& states() const { return states_; }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int block_of_coarse = 4;                          ///< pixels across and down a square that has one path
 constexpr int coarse_receivers = 128, fine_receivers = 512; ///< texels along an edge of a face
-constexpr std::array<const char*, 3> layer_names{"background", "direct", "caustic"};
+constexpr std::array<const char*, Renderer::layers> layer_names{"background", "direct", "caustic"};
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
@@ -64,6 +64,8 @@ std::vector<float> channel_cdf()
   return cdf;
 }
 
+std::size_t ends_of_pixel(const RenderTask& task) { return task.coloured ? 4 : 2; } // ENDS_OF_PIXEL
+
 /// What is seen behind everything; black where there is no environment.
 const scene::Environment& backdrop(const scene::Scene& scene)
 {
@@ -72,6 +74,13 @@ const scene::Environment& backdrop(const scene::Scene& scene)
 }
 
 } // namespace
+
+std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task)
+{
+  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) + 3 * sizeof(float) * layers;
+}
+
+std::uint64_t Renderer::receiver_bytes() { return Receivers::bytes(coarse_receivers) + Receivers::bytes(fine_receivers); }
 
 Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_t seed, const compute::Context& context)
     : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
@@ -82,7 +91,7 @@ Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_
       irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
       texels_(tracing::upload_vector(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
-      ends_(context, "ends of paths", (task_.coloured ? 4 : 2) * static_cast<std::size_t>(pixels())),
+      ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
       sums_(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels())), caustics_(bake, context),
       coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192)
 {

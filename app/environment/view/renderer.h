@@ -20,6 +20,11 @@ namespace nephroid::environment {
 
 class Renderer {
 public:
+  static constexpr int layers = 3; ///< background, direct, caustic
+  /// Of its buffers on the device: of one pixel, and of the cubes of receivers.
+  static std::uint64_t bytes_a_pixel(const RenderTask& task);
+  static std::uint64_t receiver_bytes();
+
   /// bake: of task's caster. white: as preset::Preset has it. Throws failed where the device has not enough memory.
   Renderer(RenderTask task, const Bake& bake, double white, std::uint64_t seed, const compute::Context& context);
 
