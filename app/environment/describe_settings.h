@@ -23,6 +23,14 @@ struct Choices<environment::SegmentMethod> {
 };
 
 template <>
+struct Choices<environment::Settings::Phase> {
+  using Phase = environment::Settings::Phase;
+  static constexpr Choice<Phase> all[] = {
+      {Phase::henyey_greenstein, "henyey_greenstein", "By 'anisotropy', as mist and smoke do."},
+      {Phase::rayleigh, "rayleigh", "As clear air does: as much back as on, half of that to the sides."}};
+};
+
+template <>
 struct About<environment::Settings> {
   static constexpr std::string_view name = "EnvironmentEngine", sentence = "Settings of the engine \"environment\".";
 };
@@ -62,6 +70,17 @@ void describe(V& v, S& s)
            .sentence = "A region with no more than this part of the environment's light is no light of its own.",
            .bounds = within(0, 1)},
           s.threshold);
+  v.field({.name = "extinction",
+           .sentence = "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",
+           .unit = "1 / unit",
+           .bounds = within(0, 1000)},
+          s.extinction);
+  v.field({.name = "albedo", .sentence = "Which part of that light the medium scatters.", .bounds = within(0, 1)}, s.albedo);
+  v.field({.name = "phase", .sentence = "Where the medium scatters light."}, s.phase);
+  v.field({.name = "anisotropy",
+           .sentence = "Mean cosine between light's ways before and after scattering: 0 all around, towards 1 straight on.",
+           .bounds = within(-0.95, 0.95)},
+          s.anisotropy);
 }
 
 } // namespace nephroid::environment

@@ -59,6 +59,9 @@ std::vector<plan::Pass> view_passes(const RenderTask* render, const Settings& s)
                                                : "nothing stands around the object"});
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
   passes.push_back({"cast", receivers, receivers ? "caustics on diffuse surfaces, where a path ends" : "no surface is diffuse"});
+  passes.push_back(
+      {"volume", render->has_medium,
+       render->has_medium ? "caustics in the air: 128 steps a path" : "there is no medium: environment.extinction or albedo is 0"});
   passes.push_back({"colours of the view", render->coloured,
                     render->coloured ? "glass is looked through in three colours" : "all wavelengths go the same way and lose alike"});
   return passes;
@@ -76,6 +79,7 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
           {"receivers", Renderer::receiver_bytes()},
           {"paths of the view", Renderer::bytes_a_pixel(render) * pixels},
+          {"medium", render.has_medium ? Renderer::medium_bytes(bake.empty_bake()) : 0},
           {"environment (host)", 2 * sky + bytes_of(render.cube.flux), true}};
 }
 
@@ -119,7 +123,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   if (plan.render)
     for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task)) plan.buffers.push_back(std::move(buffer));
   plan.defines = task.defines;
-  plan.layers = plan.render ? Renderer::layers : 1;
+  plan.layers = plan.render ? Renderer::layers(*plan.render) : 1;
   plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";
   plan.notes = scene.warnings;
   if (fault && !fault->empty()) plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));

@@ -20,15 +20,16 @@ __kernel void cast_direct(__global const ushort* stored, __global const float* r
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Texels first .. first + count - 1 of all spheres together. object_rows: rows of the rotation from the object to the scene.
+// Texels first .. first + count - 1 of all spheres together, whose maps have side x side texels. object_x, y, z: the object's axes in the
+// scene.
 __kernel void compile(__global const ushort* stored, __global const DeviceTurnedSet* sets, int set_count, DeviceSpheres spheres, float4 object_x,
-                      float4 object_y, float4 object_z, uint first, uint count, __global float* compiled)
+                      float4 object_y, float4 object_z, int side, uint first, uint count, __global float* compiled)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
-  const uint item = first + index, texels = (uint)(spheres.side * spheres.side);
+  const uint item = first + index, texels = (uint)(side * side);
   const Shell shell = {(int)(item / texels), (int)(item / texels), 0.0f};
-  const float3 way = sphere_direction((int)(item % texels), spheres.side);
+  const float3 way = sphere_direction((int)(item % texels), side);
   const float3 direction = way.x * object_x.xyz + way.y * object_y.xyz + way.z * object_z.xyz;
   vstore3(caustic_of_sets(stored, &spheres, sets, set_count, direction, shell), (size_t)item, compiled);
 }

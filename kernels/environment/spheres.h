@@ -98,7 +98,7 @@ static inline float3 caustic_of_sets(__global const ushort* stored, const Device
     const SphereTexels four = sphere_texels(to_bake(set, direction), spheres->side);
     __global const ushort* maps = stored + (size_t)(set->direction * spheres->count) * map_items;
     const Caustic lower = sphere_caustic(maps + (size_t)shell.lower * map_items, &four);
-    const Caustic upper = sphere_caustic(maps + (size_t)shell.upper * map_items, &four);
+    const Caustic upper = shell.part > 0.0f ? sphere_caustic(maps + (size_t)shell.upper * map_items, &four) : lower;
     sum += set->flux.xyz * (lower + shell.part * (upper - lower));
   }
   return spheres->scale * sum;

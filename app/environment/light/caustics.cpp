@@ -55,29 +55,30 @@ void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dm
     sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", std::max<std::size_t>(sets.size(), 1));
   if (!sets.empty()) sets_.write(sets);
   used_sets_ = static_cast<int>(sets.size());
-  // Rows of the inverse: the images of the scene's axes are the columns of the transposed rotation.
-  object_x_ = to_float4(rotation[0]);
-  object_y_ = to_float4(rotation[1]);
-  object_z_ = to_float4(rotation[2]);
+  compiled_.object_x = to_float4(rotation[0]);
+  compiled_.object_y = to_float4(rotation[1]);
+  compiled_.object_z = to_float4(rotation[2]);
 }
 
-void Caustics::compile()
+void Caustics::compile(int side)
 {
-  const std::size_t texels = static_cast<std::size_t>(spheres_.side) * static_cast<std::size_t>(spheres_.side);
-  const std::size_t items = texels * static_cast<std::size_t>(spheres_.count);
-  if (compiled_.size() == 0) compiled_ = compute::Buffer<float>(context_, "compiled spheres", 3 * items);
-  const std::uint32_t first = 0, count = static_cast<std::uint32_t>(items);
+  compiled_.spheres = {spheres_.count, side, 1, 0};
+  const std::size_t items = static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * static_cast<std::size_t>(spheres_.count);
+  if (compiled_.texels.size() < 3 * items) compiled_.texels = compute::Buffer<float>(context_, "compiled spheres", 3 * items);
+  const std::uint32_t first = 0;
+  const auto count = static_cast<std::uint32_t>(items);
   compile_.run(count, group,
                {{"stored", stored_},
                 {"sets", sets_},
                 {"set_count", used_sets_},
                 {"spheres", spheres_},
-                {"object_x", object_x_},
-                {"object_y", object_y_},
-                {"object_z", object_z_},
+                {"object_x", compiled_.object_x},
+                {"object_y", compiled_.object_y},
+                {"object_z", compiled_.object_z},
+                {"side", side},
                 {"first", first},
                 {"count", count},
-                {"compiled", compiled_}});
+                {"compiled", compiled_.texels}});
   context_.finish();
 }
 
@@ -101,12 +102,12 @@ void Caustics::cast_direct(const CastTexels& texels, std::uint32_t first, std::u
 void Caustics::cast_compiled(const CastTexels& texels, std::uint32_t first, std::uint32_t count)
 {
   compiled_cast_.run(count, group,
-                     {{"compiled", compiled_},
+                     {{"compiled", compiled_.texels},
                       {"radii", radii_},
-                      {"spheres", spheres_},
-                      {"object_x", object_x_},
-                      {"object_y", object_y_},
-                      {"object_z", object_z_},
+                      {"spheres", compiled_.spheres},
+                      {"object_x", compiled_.object_x},
+                      {"object_y", compiled_.object_y},
+                      {"object_z", compiled_.object_z},
                       {"list", *texels.list},
                       {"first", first},
                       {"count", count},

@@ -21,32 +21,39 @@ struct CastTexels {
 
 class Caustics {
 public:
-  /// unit: of the scene, in units of the bake's lengths it is 1. Throws failed where the device has not enough memory.
+  /// Throws failed where the device has not enough memory.
   Caustics(const Bake& bake, const compute::Context& context);
 
   /// rotation: from the bake's coordinates to the scene's.
   void set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation);
 
-  /// Adds up the sets of all lights into one, all at once. About as much work as cast_direct has for half as many texels as all spheres
-  /// have.
-  void compile();
+  /// Adds up the sets of all lights into one (Algorithm 3.5), whose maps have side x side texels. As much work as cast_direct has for half
+  /// as many texels as all those spheres have.
+  void compile(int side);
 
   /// Texels first .. first + count - 1 of the list.
   void cast_direct(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
   /// The same after compile().
   void cast_compiled(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
 
-  std::size_t set_count() const { return sets_.size(); }
+  /// What compile() made, for kernels that look it up (compiled_caustic in kernels/environment/spheres.h).
+  struct Compiled {
+    compute::Buffer<float> texels;
+    shared::DeviceSpheres spheres{};
+    shared::float4 object_x{}, object_y{}, object_z{}; ///< the object's axes in the scene
+  };
+  const Compiled& compiled() const { return compiled_; }
+  const compute::Buffer<float>& radii() const { return radii_; }
 
 private:
   compute::Context context_;
   int directions_;
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_;
-  compute::Buffer<float> radii_, compiled_;
+  compute::Buffer<float> radii_;
+  Compiled compiled_;
   compute::Buffer<shared::DeviceTurnedSet> sets_;
   int used_sets_ = 0; ///< of the buffer's
-  shared::float4 object_x_{}, object_y_{}, object_z_{};
   compute::Kernel direct_, compile_, compiled_cast_;
 };
 

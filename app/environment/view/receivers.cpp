@@ -54,6 +54,12 @@ void Receivers::find_wanted(tracing::World* surroundings, compute::Kernel* kerne
                     {{"list", list_}, {"first", first}, {"count", count}, {"size", size_}, {"middle", from}, {"distances", distances_}});
 }
 
+void Receivers::find_all(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle)
+{
+  states_.write(std::vector<int>(states_.size(), RECEIVER_WANTED));
+  find_wanted(surroundings, kernel, middle);
+}
+
 bool Receivers::cast(Caustics& light)
 {
   if (lit_ == known_) return true;

@@ -27,6 +27,8 @@ public:
   /// Lists the texels that paths have asked for since the last call, and works out their distances. surroundings: the scene without the
   /// object; null where there is nothing.
   void find_wanted(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle);
+  /// Works out the distances of all texels.
+  void find_all(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle);
   /// One step of about 50 ms of caustics on texels that lack them. True when all have theirs.
   bool cast(Caustics& light);
 

@@ -62,6 +62,12 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
 
   task.surroundings = without_caster(scene, caster_index(preset));
   task.has_surroundings = !task.surroundings.object_of_primitive.empty();
+  const Settings& s = settings(preset);
+  task.has_medium = s.extinction > 0 && s.albedo > 0;
+  task.extinction = static_cast<float>(s.extinction);
+  task.albedo = static_cast<float>(s.albedo);
+  task.anisotropy = static_cast<float>(s.anisotropy);
+  task.rayleigh = s.phase == Settings::Phase::rayleigh ? 1 : 0;
   if (shines(scene)) {
     task.cube = make_cube_map(*scene.environment);
     task.segmentation = segment_by(preset, task.cube);

@@ -29,6 +29,10 @@ struct RenderTask {
   CubeMap cube;              ///< of the environment; empty where there is none
   Segmentation segmentation; ///< of the cube
   std::vector<DistantLight> lamps;
+
+  bool has_medium = false; ///< whether caustics are seen in the air
+  float extinction = 0, albedo = 0, anisotropy = 0;
+  int rayleigh = 0; ///< 1: the phase function is Rayleigh's
 };
 
 /// Whether the scene has light: else only the bake is shown.

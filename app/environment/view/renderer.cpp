@@ -19,7 +19,7 @@ namespace {
 
 constexpr int block_of_coarse = 4;                          ///< pixels across and down a square that has one path
 constexpr int coarse_receivers = 128, fine_receivers = 512; ///< texels along an edge of a face
-constexpr std::array<const char*, Renderer::layers> layer_names{"background", "direct", "caustic"};
+constexpr std::array<const char*, 3> layer_names{"background", "direct", "caustic"};
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
@@ -66,6 +66,10 @@ std::vector<float> channel_cdf()
 
 std::size_t ends_of_pixel(const RenderTask& task) { return task.coloured ? 4 : 2; } // ENDS_OF_PIXEL
 
+/// Of compiled spheres for a medium, by the bake's: what is added up along a path is soft.
+int fine_side(int side) { return std::max(side / 2, 8); }
+int coarse_side(int side) { return std::max(side / 4, 8); }
+
 /// What is seen behind everything; black where there is no environment.
 const scene::Environment& backdrop(const scene::Scene& scene)
 {
@@ -77,10 +81,16 @@ const scene::Environment& backdrop(const scene::Scene& scene)
 
 std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task)
 {
-  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) + 3 * sizeof(float) * layers;
+  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) + 3 * sizeof(float) * static_cast<std::uint64_t>(layers(task));
 }
 
 std::uint64_t Renderer::receiver_bytes() { return Receivers::bytes(coarse_receivers) + Receivers::bytes(fine_receivers); }
+
+std::uint64_t Renderer::medium_bytes(const Bake& bake)
+{
+  const auto side = static_cast<std::uint64_t>(fine_side(bake.map.side));
+  return Receivers::bytes(coarse_receivers) + 3 * sizeof(float) * side * side * bake.radii.size();
+}
 
 Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_t seed, const compute::Context& context)
     : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
@@ -93,7 +103,8 @@ Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
       ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
       sums_(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels())), caustics_(bake, context),
-      coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192)
+      coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192),
+      volume_steps_(pixels(), 8192)
 {
   if (task_.has_surroundings) {
     surroundings_ = surroundings_world(context, task_.surroundings);
@@ -105,6 +116,13 @@ Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_
   compute::Defines coarse = world_.defines;
   coarse["NEPHROID_COARSE"] = std::to_string(1);
   coarse_shade_ = compute::Program(context, "environment/shade.cl", coarse).kernel("shade");
+  if (task_.has_medium) {
+    volume_ = compute::Program(context, "environment/volume.cl", world_.defines).kernel("volume");
+    volume_sums_ = compute::Buffer<float>(context, "light in the air", 3 * static_cast<std::size_t>(pixels()));
+    around_.emplace(context, coarse_receivers);
+    around_->find_all(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr, task_.placement.middle);
+    side_ = bake.map.side;
+  }
   light_up();
   begin_anew();
 }
@@ -125,13 +143,14 @@ void Renderer::light_up()
   irradiance_.write(polynomial);
   coarse_.forget_caustics();
   fine_.forget_caustics();
+  compiled_side_ = 0;
 }
 
 void Renderer::begin_anew()
 {
   pass_ = 0;
   stage_ = Stage::see;
-  see_steps_ = shade_steps_ = tracing::PixelSteps(pixels(), 8192);
+  see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
   see(coarse_, block_of_coarse, 0, blocks);
@@ -139,6 +158,15 @@ void Renderer::begin_anew()
   while (!coarse_.cast(caustics_)) {
   }
   shade(coarse_, block_of_coarse, 0, blocks);
+  if (!task_.has_medium) return;
+  if (compiled_side_ == 0) compile(coarse_side(side_));
+  scatter(block_of_coarse, 0, blocks);
+}
+
+void Renderer::compile(int side)
+{
+  caustics_.compile(side);
+  compiled_side_ = side;
 }
 
 void Renderer::find_wanted(Receivers& receivers)
@@ -160,9 +188,26 @@ void Renderer::step()
     return;
   case Stage::shade:
     if (!shade_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); })) return;
-    stage_ = Stage::see;
-    ++pass_;
+    shaded_ = true;
+    if (task_.has_medium)
+      stage_ = Stage::compile;
+    else
+      end_pass();
+    return;
+  case Stage::compile:
+    if (const int side = fine_side(side_); compiled_side_ != side) compile(side);
+    stage_ = Stage::volume;
+    return;
+  case Stage::volume:
+    if (volume_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); })) end_pass();
   }
+}
+
+void Renderer::end_pass()
+{
+  stage_ = Stage::see;
+  shaded_ = false;
+  ++pass_;
 }
 
 double Renderer::part() const { return stage_ == Stage::see ? 0.5 * see_steps_.part() : 0.5 + 0.5 * shade_steps_.part(); }
@@ -211,6 +256,34 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
               {"count", count}});
 }
 
+void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
+{
+  const Caustics::Compiled& compiled = caustics_.compiled();
+  const int anew = pass_ == 0 ? 1 : 0;
+  world_.run(volume_, count, 32,
+             {{"compiled", compiled.texels},
+              {"radii", caustics_.radii()},
+              {"spheres", compiled.spheres},
+              {"object_x", compiled.object_x},
+              {"object_y", compiled.object_y},
+              {"object_z", compiled.object_z},
+              {"distances", around_->distances()},
+              {"size", around_->size()},
+              {"middle", to_float4(task_.placement.middle)},
+              {"camera", task_.tables.camera},
+              {"extinction", task_.extinction},
+              {"albedo", task_.albedo},
+              {"rayleigh", task_.rayleigh},
+              {"anisotropy", task_.anisotropy},
+              {"sums", volume_sums_},
+              {"seed", world_.seed},
+              {"pass", static_cast<std::uint32_t>(pass_)},
+              {"block", block},
+              {"anew", anew},
+              {"first", first},
+              {"count", count}});
+}
+
 std::shared_ptr<const job::Picture> Renderer::picture() const
 {
   auto picture = std::make_shared<job::Picture>();
@@ -219,19 +292,24 @@ std::shared_ptr<const job::Picture> Renderer::picture() const
   const auto count = static_cast<std::size_t>(pixels());
   picture->rgb.resize(3 * count);
   for (const char* name : layer_names) picture->layers.push_back({name, std::vector<float>(3 * count)});
-  const std::vector<float> sums = sums_.read();
-  // The pixels before this one have had the pass in hand as well. The coarse picture is one sample.
-  const auto ahead = static_cast<std::size_t>(shade_steps_.done());
+  std::vector<float> sums = sums_.read();
+  if (task_.has_medium) {
+    picture->layers.push_back({"volume", std::vector<float>(3 * count)});
+    const std::vector<float> air = volume_sums_.read();
+    sums.insert(sums.end(), air.begin(), air.end());
+  }
+  // The pixels before these have had the pass in hand as well. The coarse picture is one sample.
+  const std::size_t shaded = shaded_ ? count : static_cast<std::size_t>(shade_steps_.done()),
+                    scattered = static_cast<std::size_t>(volume_steps_.done());
   for_ranges(count, 1 << 14, [&](std::size_t, const Range& range) {
-    for (std::size_t pixel = range.begin; pixel < range.end; ++pixel) {
-      const double samples = std::max<double>(1, static_cast<double>(pass_) + (pixel < ahead ? 1 : 0));
-      const auto scale = static_cast<float>(1 / (white_ * samples));
-      for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
-        float sum = 0;
-        for (std::size_t l = 0; l < layer_names.size(); ++l) sum += picture->layers[l].rgb[i] = scale * sums[3 * count * l + i];
-        picture->rgb[i] = sum;
+    for (std::size_t pixel = range.begin; pixel < range.end; ++pixel)
+      for (std::size_t l = 0; l < picture->layers.size(); ++l) {
+        const std::size_t ahead = l < layer_names.size() ? shaded : scattered;
+        const double samples = std::max<double>(1, static_cast<double>(pass_) + (pixel < ahead ? 1 : 0));
+        const auto scale = static_cast<float>(1 / (white_ * samples));
+        for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
+          picture->rgb[i] += picture->layers[l].rgb[i] = scale * sums[3 * count * l + i];
       }
-    }
   });
   return picture;
 }
@@ -262,17 +340,25 @@ void Renderer::set_segmentation(Segmentation segmentation)
 void Renderer::save(tracing::StateWriter& to) const
 {
   to.value(pass_);
+  to.value(static_cast<std::uint8_t>(shaded_));
   shade_steps_.save(to);
+  volume_steps_.save(to);
   to.buffer(sums_);
+  if (task_.has_medium) to.buffer(volume_sums_);
 }
 
 void Renderer::load(tracing::StateReader& from)
 {
+  std::uint8_t shaded = 0;
   from.value(pass_);
+  from.value(shaded);
   shade_steps_.load(from);
+  volume_steps_.load(from);
   from.buffer(sums_);
+  if (task_.has_medium) from.buffer(volume_sums_);
+  shaded_ = shaded != 0;
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
-  stage_ = Stage::see;
+  stage_ = shaded_ ? Stage::compile : Stage::see;
   see_steps_ = tracing::PixelSteps(pixels(), 8192);
 }
 

@@ -20,10 +20,12 @@ namespace nephroid::environment {
 
 class Renderer {
 public:
-  static constexpr int layers = 3; ///< background, direct, caustic
+  static int layers(const RenderTask& task) { return task.has_medium ? 4 : 3; }
   /// Of its buffers on the device: of one pixel, and of the cubes of receivers.
   static std::uint64_t bytes_a_pixel(const RenderTask& task);
   static std::uint64_t receiver_bytes();
+  /// And of compiled spheres and of all directions.
+  static std::uint64_t medium_bytes(const Bake& bake);
 
   /// bake: of task's caster. white: as preset::Preset has it. Throws failed where the device has not enough memory.
   Renderer(RenderTask task, const Bake& bake, double white, std::uint64_t seed, const compute::Context& context);
@@ -32,7 +34,7 @@ public:
   void step();
   std::int64_t passes() const { return pass_; } ///< complete ones
   double part() const;                          ///< of the pass in hand, 0..1
-  /// Layers background, direct and caustic, the mean of all samples so far.
+  /// Layers background, direct, caustic and, in a medium, volume: the mean of all samples so far.
   std::shared_ptr<const job::Picture> picture() const;
 
   /// Each begins anew with a coarse picture. where: FILE#/scene/camera.
@@ -52,12 +54,15 @@ public:
   void load(tracing::StateReader& from);
 
 private:
-  enum class Stage { see, cast, shade };
+  enum class Stage { see, cast, compile, shade, volume };
 
   void light_up(); ///< after a change of lights
+  void end_pass();
   void begin_anew();
   void see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
+  void scatter(int block, std::uint32_t first, std::uint32_t count);
+  void compile(int side);
   void find_wanted(Receivers& receivers);
   std::int64_t pixels() const { return std::int64_t{task_.tables.camera.width} * task_.tables.camera.height; }
 
@@ -68,20 +73,25 @@ private:
   std::optional<tracing::World> surroundings_;
   std::optional<compute::Kernel> receivers_kernel_;
   std::optional<Occlusion> occlusion_; ///< of the segmentation's lights
-  compute::Kernel see_, shade_, coarse_shade_;
+  compute::Kernel see_, shade_, coarse_shade_, volume_;
   compute::Buffer<float> channel_cdf_;
   compute::Buffer<shared::float4> lit_rgb_, reflected_rgb_, irradiance_;
   compute::Buffer<float> texels_;
   shared::DeviceBackground texels_size_{};
   compute::Buffer<shared::DeviceEnd> ends_;
-  compute::Buffer<float> sums_; ///< [layer][pixel][3]
+  compute::Buffer<float> sums_;        ///< [layer][pixel][3]
+  compute::Buffer<float> volume_sums_; ///< [pixel][3]
   Caustics caustics_;
   Receivers coarse_, fine_;
+  std::optional<Receivers> around_; ///< of all directions, for what hides a medium
+  int side_ = 0;                    ///< of the bake's maps, where there is a medium
+  int compiled_side_ = 0;           ///< of the spheres that are compiled for the lights as they are; 0: none
   std::vector<glm::dvec3> flux_;
 
   std::int64_t pass_ = 0;
   Stage stage_ = Stage::see;
-  tracing::PixelSteps see_steps_, shade_steps_;
+  bool shaded_ = false; ///< all pixels, in the pass in hand
+  tracing::PixelSteps see_steps_, shade_steps_, volume_steps_;
 };
 
 } // namespace nephroid::environment

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Caustics in the air: light that the object sends out and that a thin medium scatters once, towards the eye (thesis 3.2.1). Each path from the eye
+// is walked in steps up to the first surface that it meets, within the largest caustic sphere. What the medium takes of a step's light on the
+// way to the eye is lost; surfaces and the environment keep theirs.
+#include "kernels/environment/cube.h"
+#include "kernels/environment/spheres.h"
+#include "kernels/tracing/camera.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/world.h"
+
+#define VOLUME_STEPS 128
+
+// Part of the light that is scattered into a steradian, by the cosine between the ways before and after.
+static inline float phase_function(float cosine, int rayleigh, float g)
+{
+  if (rayleigh) return 3.0f / (16.0f * PI_F) * (1.0f + cosine * cosine);
+  const float base = 1.0f + g * g - 2.0f * g * cosine; // Henyey and Greenstein 1941
+  return (1.0f - g * g) / (4.0f * PI_F * base * sqrt(base));
+}
+
+// Of each square of block x block pixels. distances: of the whole cube of receivers. extinction: 1 / unit. sums: [pixel][3].
+__kernel void volume(WORLD_ARGUMENTS, __global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x,
+                     float4 object_y, float4 object_z, __global const float* distances, int size, float4 middle, DeviceCamera camera,
+                     float extinction, float albedo, int rayleigh, float anisotropy, __global float* sums, uint2 seed, uint pass, int block, int anew,
+                     uint first, uint count)
+{
+  const World world = WORLD;
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint item = first + index;
+  const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block, row = (int)item / columns * block;
+  const uint pixel = (uint)(row * camera.width + column);
+  const float4 random = random4(seed, pass, pixel, 0u, STREAM_SEE);
+  const float2 jitter = block > 1 ? (float2)(0.5f * (float)block) : random.xy;
+  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  const Hit hit = next_hit(&world, &path);
+
+  // Where the path is within the largest sphere.
+  const float3 from_middle = path.origin - middle.xyz;
+  const float largest = radii[spheres.count - 1], foot = -dot(from_middle, path.direction);
+  const float3 nearest = from_middle + foot * path.direction;
+  const float half2 = largest * largest - dot(nearest, nearest), half_chord = sqrt(fmax(half2, 0.0f));
+  const float begin = fmax(foot - half_chord, 0.0f), end = fmin(foot + half_chord, hit.primitive == NEPHROID_NO_PRIMITIVE ? INFINITY : hit.t);
+  float3 sum = (float3)(0.0f);
+  if (end > begin) {
+    const float step = (end - begin) / VOLUME_STEPS;
+    for (int i = 0; i < VOLUME_STEPS; ++i) {
+      const float way = begin + ((float)i + (block > 1 ? 0.5f : random.z)) * step;
+      const float3 place = from_middle + way * path.direction;
+      const float distance = length(place);
+      if (distance < radii[0]) continue;
+      const float3 outwards = place / distance;
+      const CubeTexels four = cube_texels(outwards, size);
+      if (distance > distances[four.texels[0]]) continue; // something stands before it
+      const float3 in_object = (float3)(dot(object_x.xyz, outwards), dot(object_y.xyz, outwards), dot(object_z.xyz, outwards));
+      const float3 irradiance = compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance)) / (distance * distance);
+      sum += irradiance * (phase_function(-dot(outwards, path.direction), rayleigh, anisotropy) * exp(-extinction * way));
+    }
+    sum *= extinction * albedo * step;
+  }
+  for (int y = row; y < min(row + block, camera.height); ++y)
+    for (int x = column; x < min(column + block, camera.width); ++x) {
+      const size_t place = (size_t)(y * camera.width + x);
+      vstore3(anew ? sum : vload3(place, sums) + sum, place, sums);
+    }
+}
