@@ -167,13 +167,22 @@ private:
   void begin_rendering()
   {
     if (!render_) return;
-    renderer_.emplace(*render_, *bake_, preset_.white, preset_.seed, context_);
+    caustics_.emplace(*bake_, context_);
+    renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
     show(preset_);
   }
 
   /// Lets the renderer go from `shown_` to a preset that is adoptable.
   void show(const preset::Preset& preset)
   {
+    if (preset.scene.objects != shown_.scene.objects) {
+      const scene::Scene scene = scene::load_scene(preset);
+      render_ = std::make_shared<const RenderTask>(make_render_task(preset, scene, scene::build_bvh(scene.geometry), task_->caster));
+      renderer_.reset(); // its device memory is for the next
+      renderer_.emplace(*render_, *caustics_, preset.white, preset.seed, context_);
+      shown_ = preset;
+      return;
+    }
     if (!(preset.scene.camera == shown_.scene.camera))
       renderer_->set_camera(scene::make_camera(preset.scene.camera, *render_->scene), Place(preset.source) / "scene" / "camera");
     const auto same_segmentation = [](const Settings& a, const Settings& b) {
@@ -277,6 +286,7 @@ private:
   std::int64_t passes_ = -1;   ///< of the renderer; -1: until the time is over
   std::optional<Baker> baker_; ///< while it bakes
   std::optional<Bake> bake_;   ///< when that is done
+  std::optional<Caustics> caustics_;
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
   std::uint64_t photons_ = 0; ///< that the finished bake took here
@@ -302,6 +312,12 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now)
   s.lights = n.lights;
   s.segmentation = n.segmentation;
   s.threshold = n.threshold;
+  // Objects that are moved and turned; whether one is scaled is the bake's concern.
+  if (same.scene.objects.size() != now.scene.objects.size()) return false;
+  for (std::size_t i = 0; i < same.scene.objects.size(); ++i) {
+    same.scene.objects[i].transform.rotate_deg = now.scene.objects[i].transform.rotate_deg;
+    same.scene.objects[i].transform.translate = now.scene.objects[i].transform.translate;
+  }
   return same == now;
 }
 

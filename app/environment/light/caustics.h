@@ -44,6 +44,7 @@ public:
   };
   const Compiled& compiled() const { return compiled_; }
   const compute::Buffer<float>& radii() const { return radii_; }
+  int side() const { return spheres_.side; } ///< of the bake's maps
 
 private:
   compute::Context context_;

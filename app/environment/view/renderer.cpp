@@ -92,7 +92,7 @@ std::uint64_t Renderer::medium_bytes(const Bake& bake)
   return Receivers::bytes(coarse_receivers) + 3 * sizeof(float) * side * side * bake.radii.size();
 }
 
-Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_t seed, const compute::Context& context)
+Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint64_t seed, const compute::Context& context)
     : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
       world_(tracing::make_world(context, *task_.scene, *task_.bvh, task_.tables, task_.defines, seed)),
       channel_cdf_(tracing::upload_vector(context, "wavelengths of channels", channel_cdf())),
@@ -102,7 +102,7 @@ Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_
       texels_(tracing::upload_vector(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
       ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
-      sums_(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels())), caustics_(bake, context),
+      sums_(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels())), caustics_(caustics),
       coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192),
       volume_steps_(pixels(), 8192)
 {
@@ -121,7 +121,6 @@ Renderer::Renderer(RenderTask task, const Bake& bake, double white, std::uint64_
     volume_sums_ = compute::Buffer<float>(context, "light in the air", 3 * static_cast<std::size_t>(pixels()));
     around_.emplace(context, coarse_receivers);
     around_->find_all(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr, task_.placement.middle);
-    side_ = bake.map.side;
   }
   light_up();
   begin_anew();
@@ -159,7 +158,7 @@ void Renderer::begin_anew()
   }
   shade(coarse_, block_of_coarse, 0, blocks);
   if (!task_.has_medium) return;
-  if (compiled_side_ == 0) compile(coarse_side(side_));
+  if (compiled_side_ == 0) compile(coarse_side(caustics_.side()));
   scatter(block_of_coarse, 0, blocks);
 }
 
@@ -195,7 +194,7 @@ void Renderer::step()
       end_pass();
     return;
   case Stage::compile:
-    if (const int side = fine_side(side_); compiled_side_ != side) compile(side);
+    if (const int side = fine_side(caustics_.side()); compiled_side_ != side) compile(side);
     stage_ = Stage::volume;
     return;
   case Stage::volume:

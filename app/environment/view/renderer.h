@@ -2,7 +2,6 @@
 // Pictures of a scene with a baked object under an environment: a coarse one at once, then pass after pass of one sample a pixel
 // (kernels/environment/see.cl, shade.cl). What a change does not touch stays.
 #pragma once
-#include "environment/bake/bake.h"
 #include "environment/light/caustics.h"
 #include "environment/occlusion/occlusion.h"
 #include "environment/view/receivers.h"
@@ -27,8 +26,9 @@ public:
   /// And of compiled spheres and of all directions.
   static std::uint64_t medium_bytes(const Bake& bake);
 
-  /// bake: of task's caster. white: as preset::Preset has it. Throws failed where the device has not enough memory.
-  Renderer(RenderTask task, const Bake& bake, double white, std::uint64_t seed, const compute::Context& context);
+  /// caustics: of task's caster; they outlive the renderer. white: as preset::Preset has it. Throws failed where the device has not enough
+  /// memory.
+  Renderer(RenderTask task, Caustics& caustics, double white, std::uint64_t seed, const compute::Context& context);
 
   /// One step of about 50 ms of the pass in hand.
   void step();
@@ -81,10 +81,9 @@ private:
   compute::Buffer<shared::DeviceEnd> ends_;
   compute::Buffer<float> sums_;        ///< [layer][pixel][3]
   compute::Buffer<float> volume_sums_; ///< [pixel][3]
-  Caustics caustics_;
+  Caustics& caustics_;
   Receivers coarse_, fine_;
   std::optional<Receivers> around_; ///< of all directions, for what hides a medium
-  int side_ = 0;                    ///< of the bake's maps, where there is a medium
   int compiled_side_ = 0;           ///< of the spheres that are compiled for the lights as they are; 0: none
   std::vector<glm::dvec3> flux_;
 
