@@ -26,7 +26,7 @@ using measure::LinearPicture;
 using measure::Metrics;
 
 struct CompareOptions {
-  std::string image, reference, mask, difference;
+  std::string image, reference, mask, layer, difference;
   std::string metric = "lab";
   std::optional<double> scale;
   bool json = false;
@@ -114,7 +114,10 @@ void print_comparison(const CompareOptions& options)
 {
   check_difference_options(options);
   for (const std::string* name : {&options.image, &options.reference}) refuse_folder(*name);
-  const LinearPicture image = measure::read_linear_rgb(options.image), reference = measure::read_linear_rgb(options.reference);
+  const auto read = [&](const std::string& file) {
+    return options.layer.empty() ? measure::read_linear_rgb(file) : measure::read_linear_layer(file, options.layer);
+  };
+  const LinearPicture image = read(options.image), reference = read(options.reference);
   refuse_other_channels(image, reference);
   std::vector<unsigned char> mask;
   if (!options.mask.empty()) mask = measure::read_mask(options.mask, reference.width, reference.height);
@@ -134,6 +137,8 @@ void add_compare(CLI::App& program, Session&)
   verb->add_option("IMAGE", options->image, "A picture: EXR, HDR, PFM (linear), PNG, JPEG, TIFF (sRGB-encoded)")->required();
   verb->add_option("REFERENCE", options->reference, "The picture that is right, of the same size")->required();
   verb->add_option("--mask", options->mask, "A picture of the same size: also compare where it is not black alone")->type_name("FILE");
+  verb->add_option("--layer", options->layer, "Compare this layer of both, of image.exr of two runs: caustic, direct, ...")
+      ->type_name("NAME");
   CLI::Option* difference = verb->add_option("-o,--output", options->difference, "Write a PNG of the difference, with its colour scale");
   difference->type_name("FILE");
   verb->add_option("--metric", options->metric, "What -o shows: lab (default), absolute, relative, square, luminance or flip")

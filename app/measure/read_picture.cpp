@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/read_picture.h"
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "image/image.h"
 #include "measure/metrics.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
 #include <utility>
 
 namespace nephroid::measure {
@@ -17,14 +22,43 @@ void decode(std::vector<float>& rgb)
   });
 }
 
-} // namespace
-
-LinearPicture read_linear_rgb(const std::filesystem::path& file)
+/// The picture's channels of that name, as R, G, B.
+image::Image layer_of(const image::Image& picture, const std::string& layer, const std::string& file)
 {
-  image::Image picture = image::read_image(file);
+  std::vector<std::string> layers;
+  std::array<std::size_t, 3> at{};
+  std::size_t found = 0;
+  for (std::size_t c = 0; c < picture.channels.size(); ++c) {
+    const std::string& channel = picture.channels[c];
+    if (channel.ends_with(".R")) layers.push_back(channel.substr(0, channel.size() - 2));
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (channel == layer + "." + "RGB"[i]) at[i] = c, ++found;
+  }
+  if (found != at.size())
+    throw bad_input(file, fmt::format("has no layer '{}'", layer),
+                    layers.empty() ? "expected a picture with layers" : fmt::format("expected one of {}", fmt::join(layers, ", ")),
+                    "compare image.exr of a run");
+  const std::size_t stride = picture.channels.size();
+  image::Image made{picture.width, picture.height, {"R", "G", "B"}, {}, picture.attributes, picture.integers};
+  for (std::size_t first = 0; first < picture.data.size(); first += stride)
+    for (const std::size_t c : at) made.data.push_back(picture.data[first + c]);
+  return made;
+}
+
+LinearPicture linear(image::Image picture, const std::filesystem::path& file)
+{
   image::Rgb rgb = image::rgb_of(picture, file.string());
   if (picture.integers) decode(rgb.values);
   return {picture.width, picture.height, std::move(rgb.values), file.string(), rgb.grey, std::move(picture.attributes)};
+}
+
+} // namespace
+
+LinearPicture read_linear_rgb(const std::filesystem::path& file) { return linear(image::read_image(file), file); }
+
+LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer)
+{
+  return linear(layer_of(image::read_image(file), layer, file.string()), file);
 }
 
 std::vector<unsigned char> read_mask(const std::filesystem::path& file, int width, int height)

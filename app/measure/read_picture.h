@@ -22,6 +22,8 @@ struct LinearPicture {
 /// channels R, G, B or, alone or with alpha, Y; alpha and further layers are left out. Values may be NaN or infinite: comparisons
 /// refuse them. Throws bad_input naming the file: no picture, or its channels where they are others.
 LinearPicture read_linear_rgb(const std::filesystem::path& file);
+/// The same of one of its layers, whose channels are LAYER.R, LAYER.G, LAYER.B. Throws bad_input naming the layers there are.
+LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer);
 
 /// One value a pixel: 1 where any of R, G, B (or Y) is not 0, else 0. Throws bad_input naming the file: as above, another size than
 /// width x height, NaN, or no pixel that counts.

@@ -103,6 +103,17 @@ TEST_F(Compare, AMaskAddsItsPixels)
   EXPECT_THAT(run({"a.exr", "b.exr", "--mask", "m.exr"}).out, testing::AllOf(HasSubstr("mask\n"), HasSubstr("200           2")));
 }
 
+TEST_F(Compare, ALayerIsComparedAlone)
+{
+  const auto write_layers = [&](const char* name, float caustic) {
+    image::write_exr(folder / name, {1, 1, {"R", "G", "B", "caustic.R", "caustic.G", "caustic.B"}, {9, 9, 9, caustic, 0.5f, 0.5f}, {}});
+  };
+  write_layers("a.exr", 0.75f);
+  write_layers("b.exr", 0.5f);
+  EXPECT_NEAR(compared({"a.exr", "b.exr", "--layer", "caustic"})["mse"].get<double>(), 0.0625 / 3, 1e-9);
+  EXPECT_EQ(compared({"a.exr", "b.exr"})["mse"], 0);
+}
+
 // The PNG holds codes of 8 bits: half a code is .0025 of linear grey at most there.
 TEST_F(Compare, IntegersAndFloatsAreOnOneScale)
 {
@@ -168,6 +179,7 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
       {{"good.exr", "none.exr"}, "none.exr: cannot be read: No such file"},
       {{"good.exr", "/"}, "/: is a folder; expected a picture\n"},
       {{"run", "good.exr"}, "run: is a folder; expected a picture; did you mean 'run/image.exr'?"},
+      {{"good.exr", "good.exr", "--layer", "caustic"}, "good.exr: has no layer 'caustic'; expected a picture with layers"},
       {{"text.png", "good.exr"}, "text.png: is no picture that can be read"},
       {{"good.exr", "cut.exr"}, "cut.exr: is no picture that can be read"},
       {{"cut.png", "good.exr"}, "cut.png: is no picture that can be read: its end is missing"},

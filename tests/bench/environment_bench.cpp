@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Engine 2 while something moves: from an edit of the preset to the picture that shows it, as the window has it (Job::adopt and a
+// snapshot), and how long it takes then until the first full picture. The bunny at 512 x 512 with 24 lights; NEPHROID_BENCH_PRESET names
+// another preset. Its bake is read where there is one.
+#include "compute/compute.h"
+#include "environment/engine.h"
+#include "preset/read.h"
+#include "scene/scene.h"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+namespace {
+
+using namespace nephroid;
+
+preset::Preset benched_preset()
+{
+  const char* name = std::getenv("NEPHROID_BENCH_PRESET");
+  return preset::read_preset(name ? name : NEPHROID_SOURCE_DIR "/presets/environment/bunny.json", {"scene.camera.resolution=[512, 512]"});
+}
+
+/// Set up once for all benches.
+struct Bench {
+  preset::Preset preset = benched_preset();
+  compute::Context context = compute::Context::open();
+  std::unique_ptr<job::Job> job;
+
+  Bench()
+  {
+    const scene::Scene scene = scene::load_scene(preset);
+    const environment::EnvironmentPlan plan = environment::make_plan(preset, scene, scene::build_bvh(scene.geometry));
+    job = environment::make_job(preset, plan, context);
+    while (job->progress().step < 2) job->step();
+  }
+};
+
+double seconds_since(std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// change(preset, how far): what moves.
+template <class Change>
+void move(benchmark::State& state, const Change& change)
+{
+  static Bench bench;
+  preset::Preset moved = bench.preset;
+  double pass_s = 0;
+  int frame = 0;
+  for (auto _ : state) {
+    change(moved, ++frame);
+    if (!bench.job->adopt(moved)) state.SkipWithError("is not adopted");
+    benchmark::DoNotOptimize(bench.job->snapshot());
+    state.PauseTiming();
+    const auto begin = std::chrono::steady_clock::now();
+    while (bench.job->progress().step < 1) bench.job->step();
+    pass_s += seconds_since(begin);
+    state.ResumeTiming();
+  }
+  state.counters["full_picture_ms"] = 1e3 * pass_s / frame;
+  bench.job->adopt(bench.preset);
+}
+
+void camera_moves(benchmark::State& state)
+{
+  move(state, [](preset::Preset& p, int frame) { p.scene.camera.position[0] += 0.02 * (frame % 2 ? 1 : -1) * frame; });
+}
+void light_turns(benchmark::State& state)
+{
+  move(state, [](preset::Preset& p, int) { p.scene.environment->rotate_deg += 3; });
+}
+void object_turns(benchmark::State& state)
+{
+  move(state, [](preset::Preset& p, int) { p.scene.objects.front().transform.rotate_deg[1] += 3; });
+}
+void receiver_moves(benchmark::State& state)
+{
+  move(state, [](preset::Preset& p, int) { p.scene.objects.back().transform.translate[1] -= 0.01; });
+}
+
+BENCHMARK(camera_moves)->Unit(benchmark::kMillisecond)->Iterations(8);
+BENCHMARK(light_turns)->Unit(benchmark::kMillisecond)->Iterations(8);
+BENCHMARK(object_turns)->Unit(benchmark::kMillisecond)->Iterations(8);
+BENCHMARK(receiver_moves)->Unit(benchmark::kMillisecond)->Iterations(8);
+
+} // namespace
