@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/occlusion/surroundings.h"
+
+#include "scene/corners.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace nephroid::environment {
+namespace {
+
+/// Adds objects to a scene, each with the vertices that its triangles use.
+class Copier {
+public:
+  Copier(const scene::Scene& from, scene::Scene& to) : from_(from), to_(to), places_(from.geometry.positions.size(), nowhere) {}
+
+  void add(const scene::Object& object)
+  {
+    scene::Object added = object;
+    added.first_triangle = static_cast<std::uint32_t>(to_.geometry.triangles.size());
+    added.first_ellipsoid = static_cast<std::uint32_t>(to_.geometry.ellipsoids.size());
+    for (const glm::uvec3& triangle : triangles_of(from_, object))
+      to_.geometry.triangles.emplace_back(place_of(triangle.x), place_of(triangle.y), place_of(triangle.z));
+    for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(from_, object)) to_.geometry.ellipsoids.push_back(ellipsoid);
+    to_.objects.push_back(added);
+  }
+
+private:
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t place_of(std::uint32_t vertex)
+  {
+    std::uint32_t& place = places_[vertex];
+    if (place == nowhere) {
+      place = static_cast<std::uint32_t>(to_.geometry.positions.size());
+      to_.geometry.positions.push_back(from_.geometry.positions[vertex]);
+      to_.geometry.normals.push_back(from_.geometry.normals[vertex]);
+    }
+    return place;
+  }
+
+  const scene::Scene& from_;
+  scene::Scene& to_;
+  std::vector<std::uint32_t> places_; ///< of each vertex in the new scene
+};
+
+/// Without the caster, and with the others' new numbers.
+std::vector<int> renumbered(const std::vector<int>& objects, int caster)
+{
+  std::vector<int> result;
+  for (const int object : objects)
+    if (object != caster) result.push_back(object < caster ? object : object - 1);
+  return result;
+}
+
+} // namespace
+
+scene::Scene without_caster(const scene::Scene& scene, std::size_t caster)
+{
+  scene::Scene result;
+  result.source = scene.source;
+  result.metres_per_unit = scene.metres_per_unit;
+  result.origin = scene.origin;
+  result.camera = scene.camera;
+  result.camera.inside = renumbered(scene.camera.inside, static_cast<int>(caster));
+  result.materials = scene.materials;
+  Copier copier(scene, result);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (i != caster) copier.add(scene.objects[i]);
+  for (const auto count : {&scene::Object::triangle_count, &scene::Object::ellipsoid_count})
+    for (std::uint32_t i = 0; i < result.objects.size(); ++i)
+      result.object_of_primitive.insert(result.object_of_primitive.end(), result.objects[i].*count, i);
+  return result;
+}
+
+} // namespace nephroid::environment
