@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/occlusion/surroundings.h"
 
+#include "optics/wavelength.h"
+#include "scene/bvh.h"
 #include "scene/corners.h"
 
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <string>
 #include <vector>
 
 namespace nephroid::environment {
@@ -72,6 +76,18 @@ scene::Scene without_caster(const scene::Scene& scene, std::size_t caster)
     for (std::uint32_t i = 0; i < result.objects.size(); ++i)
       result.object_of_primitive.insert(result.object_of_primitive.end(), result.objects[i].*count, i);
   return result;
+}
+
+tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings)
+{
+  const scene::Bvh bvh = scene::build_bvh(surroundings.geometry);
+  std::vector<int> all(optics::wavelength_count);
+  std::iota(all.begin(), all.end(), 0);
+  compute::Defines defines;
+  defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!bvh.ellipsoid_places.empty()));
+  // A kernel takes a second to compile, and trees of moving objects need now more, now less.
+  defines["NEPHROID_BVH_STACK"] = std::to_string(64 * (bvh.stack / 64 + 1));
+  return tracing::make_world(context, surroundings, bvh, tracing::make_scene_tables(surroundings, {all}, tracing::LeaveOut{}), defines, 0);
 }
 
 } // namespace nephroid::environment

@@ -2,6 +2,7 @@
 // What stands around the object whose caustics are shown: what hides the environment from it, and what its caustics fall on.
 #pragma once
 #include "scene/scene.h"
+#include "tracing/world.h"
 
 #include <cstddef>
 
@@ -11,5 +12,9 @@ namespace nephroid::environment {
 /// lights, no environment and no warnings, which may be large and which nobody asks of it. caster: an index into scene.objects, as
 /// caster_index gives; objects after it have numbers lower by one.
 scene::Scene without_caster(const scene::Scene& scene, std::size_t caster);
+
+/// The surroundings on a device, with their tree. An object that moves changes the tree, but hardly ever the kernels that are run in it.
+/// Throws failed where the device has not enough memory.
+tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings);
 
 } // namespace nephroid::environment

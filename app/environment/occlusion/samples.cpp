@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/occlusion/samples.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::environment {
+namespace {
+
+constexpr int halvings = 10; // 2^10 cells
+
+/// Of a face, in texels; the borders need not be whole.
+struct Cell {
+  glm::dvec2 low{0}, high{0};
+  double length(int axis) const { return high[axis] - low[axis]; }
+};
+
+/// Which of all cells it is: how often it was cut across and down, and its number from the left and from the top among cells cut like that.
+struct CellPlace {
+  unsigned number[2] = {0, 0};
+  int cuts[2] = {0, 0};
+};
+
+/// The lowest bits of a number in the opposite order.
+unsigned mirrored(unsigned number, int bits)
+{
+  unsigned result = 0;
+  for (int i = 0; i < bits; ++i) result |= (number >> i & 1) << (bits - 1 - i);
+  return result;
+}
+
+class Sampler {
+public:
+  /// light: with the flux of dropped regions. to: its samples.
+  Sampler(const CubeMap& cube, const Region& light, LightSample* to) : cube_(cube), light_(light), to_(to)
+  {
+    const Rect& r = light.rect;
+    const glm::dvec3 own = flux_of({{r.x0, r.y0}, {r.x1, r.y1}});
+    of_dropped_ = glm::max(light.flux - own, glm::dvec3(0)) / static_cast<double>(samples_per_light);
+    for (int c = 0; c < 3; ++c)
+      if (own[c] > 0) parts_[c] = 1 / own[c];
+    halve({{r.x0, r.y0}, {r.x1, r.y1}}, {});
+  }
+
+private:
+  double weight(int x, int y) const { return glm::dot(parts_, cube_.flux_of(cube_.texel(light_.face, x, y))); }
+
+  /// visit(x, y, how much of it lies in the cell) for each texel of it.
+  template <class Visit>
+  static void for_each_texel(const Cell& cell, const Visit& visit)
+  {
+    const auto overlap = [&](int i, int axis) { return std::min(cell.high[axis], i + 1.0) - std::max(cell.low[axis], double(i)); };
+    const glm::ivec2 first(cell.low), end(glm::ceil(cell.high));
+    for (int y = first.y; y < end.y; ++y) {
+      const double height = overlap(y, 1);
+      for (int x = first.x; x < end.x; ++x) visit(x, y, height * overlap(x, 0));
+    }
+  }
+
+  glm::dvec3 flux_of(const Cell& cell) const
+  {
+    glm::dvec3 sum(0);
+    for_each_texel(cell, [&](int x, int y, double part) { sum += part * cube_.flux_of(cube_.texel(light_.face, x, y)); });
+    return sum;
+  }
+
+  /// Where along an axis (0: x) the given part of the cell's weight lies before.
+  double quantile(const Cell& cell, int axis, double part) const
+  {
+    const int first = static_cast<int>(cell.low[axis]);
+    std::vector<double> sums(static_cast<std::size_t>(std::ceil(cell.high[axis])) - static_cast<std::size_t>(first), 0.0);
+    double rest = 0;
+    for_each_texel(cell, [&](int x, int y, double area) {
+      const double added = area * weight(x, y);
+      sums[static_cast<std::size_t>((axis == 0 ? x : y) - first)] += added;
+      rest += added;
+    });
+    rest *= part;
+    std::size_t i = 0;
+    for (; i + 1 < sums.size() && sums[i] < rest; ++i) rest -= sums[i];
+    const double from = std::max(cell.low[axis], first + static_cast<double>(i)),
+                 to = std::min(cell.high[axis], first + static_cast<double>(i) + 1);
+    return sums[i] > 0 ? from + (to - from) * std::min(rest / sums[i], 1.0) : from;
+  }
+
+  /// Cuts the cell across its longer side into two of equal weight, and those again.
+  void halve(const Cell& cell, const CellPlace& place)
+  {
+    if (place.cuts[0] + place.cuts[1] == halvings) {
+      *to_++ = sample(cell, place);
+      return;
+    }
+    const int axis = cell.length(0) >= cell.length(1) ? 0 : 1;
+    Cell before = cell, behind = cell;
+    before.high[axis] = behind.low[axis] = quantile(cell, axis, 0.5);
+    CellPlace next = place;
+    ++next.cuts[axis];
+    next.number[axis] *= 2;
+    halve(before, next);
+    ++next.number[axis];
+    halve(behind, next);
+  }
+
+  /// Counted by weight, the samples of a rectangle are Hammersley's points: each cell has one, and no two have the same place across or
+  /// the same place down. So an edge that moves over the rectangle meets them one by one. (With a cuts across and b down, the highest a
+  /// bits of the point's place across and the highest b bits of its place down say which cell it is in. The lower bits of one place are the
+  /// higher bits of the other, mirrored.)
+  LightSample sample(const Cell& cell, const CellPlace& place) const
+  {
+    const auto part = [&](int axis) {
+      return (mirrored(place.number[1 - axis], place.cuts[1 - axis]) + 0.5) / std::exp2(place.cuts[1 - axis]);
+    };
+    const double x = quantile(cell, 0, part(0));
+    Cell column = cell; // of texels, so that the sample is never in the dark between two lights
+    column.low.x = std::max(cell.low.x, std::floor(x));
+    column.high.x = std::min(cell.high.x, std::floor(x) + 1);
+    const double y = quantile(column, 1, part(1));
+    return {glm::normalize(position({light_.face, 2 * x / cube_.size - 1, 2 * y / cube_.size - 1})), flux_of(cell) + of_dropped_};
+  }
+
+  const CubeMap& cube_;
+  const Region& light_;
+  LightSample* to_;
+  glm::dvec3 of_dropped_{0};
+  glm::dvec3 parts_{0}; ///< what a texel weighs for its flux in each channel
+};
+
+} // namespace
+
+std::vector<LightSample> sample_lights(const Segmentation& segmentation, const CubeMap& cube)
+{
+  std::vector<LightSample> samples(samples_per_light * segmentation.lights.size());
+  for_blocks(segmentation.lights.size(),
+             [&](std::size_t i) { Sampler(cube, segmentation.lights[i], samples.data() + samples_per_light * i); });
+  return samples;
+}
+
+} // namespace nephroid::environment

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// What reaches the object of each light, on a device: against closed forms of what a ball, a rectangle and a floor hide.
+#include "environment/occlusion/occlusion.h"
+#include "environment/occlusion/surroundings.h"
+#include "tests/environment/bakes.h"
+#include "tests/environment/maps.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::environment;
+using test::pi;
+
+/// The glass ball at the origin, and these objects beside it. The middle of all that is not diffuse is the scene's (0, 0, 0), so that the
+/// ball's is too where the others are diffuse.
+scene::Scene scene_with(const std::string& others)
+{
+  return without_caster(scene::load_scene(test::bake_preset(test::glass_ball + (others.empty() ? "" : ", " + others))), 0);
+}
+
+std::string ball(const glm::dvec3& place, double radius, const std::string& material = "wall")
+{
+  return fmt::format(R"({{"shape": {{"type": "sphere", "radius": {}}}, "material": "{}", "transform": {{"translate": [{}, {}, {}]}}}})",
+                     radius, material, place.x, place.y, place.z);
+}
+
+/// A rectangle that faces +y before it is turned about the axes.
+std::string quad(const glm::dvec3& place, double width, double length, const glm::dvec3& rotate_deg = glm::dvec3(0))
+{
+  return fmt::format(R"({{"shape": {{"type": "quad", "size": [{}, 1, {}]}}, "material": "wall",
+                          "transform": {{"translate": [{}, {}, {}], "rotate_deg": [{}, {}, {}]}}}})",
+                     width, length, place.x, place.y, place.z, rotate_deg.x, rotate_deg.y, rotate_deg.z);
+}
+
+/// A map as few lights, and what is seen of them.
+struct Sky {
+  CubeMap cube;
+  Segmentation lights;
+  Occlusion occlusion;
+
+  explicit Sky(const scene::Environment& map, int q = 24)
+      : cube(make_cube_map(map)), lights(segment(cube, {.lights = q})), occlusion(test::bake_context(), lights, cube)
+  {
+  }
+  std::vector<glm::dvec3> seen_past(const scene::Scene& surroundings, double rotate_deg = 0, const glm::dvec3& from = glm::dvec3(0))
+  {
+    tracing::World world = surroundings_world(test::bake_context(), surroundings);
+    return occlusion.visible_flux(world, rotate_deg, from);
+  }
+  std::vector<glm::dvec3> seen_past(const std::string& others, double rotate_deg = 0) { return seen_past(scene_with(others), rotate_deg); }
+};
+
+Sky even_sky() { return Sky(test::uniform_map(256, 128)); }
+
+double sum_y(const std::vector<glm::dvec3>& fluxes)
+{
+  return std::accumulate(fluxes.begin(), fluxes.end(), 0.0, [](double sum, const glm::dvec3& flux) { return sum + flux.y; });
+}
+
+std::vector<glm::dvec3> all_flux(const Segmentation& lights)
+{
+  std::vector<glm::dvec3> fluxes;
+  for (const Region& light : lights.lights) fluxes.push_back(light.flux);
+  return fluxes;
+}
+
+double cap_sr(double half_angle) { return 2 * pi * (1 - std::cos(half_angle)); }
+
+/// What a light's texels have in directions that `is_seen` is true of; each texel in parts x parts.
+template <class IsSeen>
+double flux_seen(const CubeMap& cube, const Region& light, int parts, const IsSeen& is_seen)
+{
+  double sum = 0;
+  for (int y = parts * light.rect.y0; y < parts * light.rect.y1; ++y)
+    for (int x = parts * light.rect.x0; x < parts * light.rect.x1; ++x)
+      if (is_seen(glm::normalize(position({light.face, middle(x, parts * cube.size), middle(y, parts * cube.size)}))))
+        sum += cube.flux_of(cube.texel(light.face, x / parts, y / parts)).y / (parts * parts);
+  return sum;
+}
+
+TEST(Occlusion, WithoutOtherObjectsEveryLightIsWhole)
+{
+  Sky sky(test::synthetic_maps().front().map);
+  EXPECT_EQ(sky.seen_past(""), all_flux(sky.lights));
+}
+
+TEST(Occlusion, WhatStandsBeforeNoLightTakesNothing)
+{
+  // Black above 30 degrees, where the ball is.
+  Sky sky(test::made_map(256, 128,
+                         [](const glm::dvec3& d) { return glm::dvec3(d.y > 0.5 ? 0.0 : 1.0, 1 + d.x, 2) * (d.y > 0.5 ? 0.0 : 1.0); }));
+  EXPECT_EQ(sky.seen_past(ball({0, 5, 0}, 2)), all_flux(sky.lights));
+}
+
+TEST(Occlusion, AClosedRoomHidesAll)
+{
+  Sky sky(test::synthetic_maps().front().map);
+  for (const glm::dvec3& flux : sky.seen_past(ball({0.5, 0, 0}, 4))) EXPECT_EQ(flux, glm::dvec3(0));
+}
+
+TEST(Occlusion, ABlackMapHasNoLights)
+{
+  Sky sky(test::uniform_map(64, 32, glm::dvec3(0)));
+  EXPECT_TRUE(sky.seen_past(ball({0, 5, 0}, 2)).empty());
+}
+
+/// A ball of radius r at distance d hides 2 pi (1 - sqrt(1 - r^2 / d^2)). Whatever it is of.
+TEST(Occlusion, ABallHidesItsSolidAngle)
+{
+  Sky sky = even_sky();
+  for (const std::string material : {"wall", "mirror"})
+    for (const double radius : {0.3, 1.0, 2.0, 2.9}) {
+      const glm::dvec3 place = 3.0 * glm::normalize(glm::dvec3(0.3, 0.8, -0.52));
+      const scene::Scene scene = scene_with(ball(place, radius, material));
+      // A mirror moves the scene's middle.
+      const double seen = sum_y(sky.seen_past(scene, 0, -scene.origin));
+      EXPECT_NEAR(4 * pi - seen, cap_sr(std::asin(radius / 3)), 0.003) << material << ' ' << radius;
+    }
+}
+
+/// Of a triangle, by van Oosterom and Strackee 1983.
+double triangle_sr(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+  const double x = glm::length(a), y = glm::length(b), z = glm::length(c);
+  return std::abs(2 * std::atan2(glm::dot(a, glm::cross(b, c)), x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y));
+}
+
+TEST(Occlusion, ARectangleHidesItsSolidAngle)
+{
+  Sky sky = even_sky();
+  for (const auto& [x, y, z] : {std::array{0.0, 1.5, 0.0}, std::array{2.0, 1.5, -1.0}, std::array{0.5, -1.2, 3.0}}) {
+    const glm::dvec3 place(x, y, z), across(2, 0, 0), along(0, 0, 1);
+    const double expected = triangle_sr(place - across - along, place + across - along, place + across + along) +
+                            triangle_sr(place - across - along, place + across + along, place - across + along);
+    EXPECT_NEAR(4 * pi - sum_y(sky.seen_past(quad(place, 4, 2))), expected, 0.003) << x;
+  }
+}
+
+/// Under the horizon nothing is left, above it everything: of a light that it crosses, what its texels have above.
+TEST(Occlusion, AHugeFloorHidesTheLowerHalf)
+{
+  for (const test::NamedMap& map : test::synthetic_maps()) {
+    Sky sky(map.map);
+    const std::vector<glm::dvec3> seen = sky.seen_past(quad({0, -1.5, 0}, 1e6, 1e6));
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const Region& light = sky.lights.lights[i];
+      const int half = sky.cube.size / 2;
+      const bool side = light.face != 2 && light.face != 3, above = light.face == 2 || (side && light.rect.y1 <= half);
+      if (above)
+        EXPECT_EQ(seen[i], light.flux) << map.name << ' ' << i;
+      else if (light.face == 3 || light.rect.y0 >= half)
+        EXPECT_EQ(seen[i], glm::dvec3(0)) << map.name << ' ' << i;
+      else
+        EXPECT_NEAR(seen[i].y / light.flux.y, flux_seen(sky.cube, light, 1, [](const glm::dvec3& d) { return d.y > 0; }) / light.flux.y,
+                    0.005)
+            << map.name << ' ' << i;
+    }
+  }
+}
+
+TEST(Occlusion, ASmallBallBeforeTheSunHidesJustThat)
+{
+  const glm::dvec3 sun = test::direction_of(40, 70);
+  Sky sky(test::made_map(512, 256, [&](const glm::dvec3& d) {
+    return test::sky_with_lamps(d, glm::dvec3(1), glm::dvec3(0.5), {{40, 70, 1, glm::dvec3(3e4)}});
+  }));
+  const double edge = std::cos(2.5 * pi / 180);
+  const std::vector<glm::dvec3> seen = sky.seen_past(ball(8.0 * sun, 8 * std::sin(2.5 * pi / 180)));
+  double lost = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Region& light = sky.lights.lights[i];
+    const double expected = flux_seen(sky.cube, light, 4, [&](const glm::dvec3& d) { return glm::dot(d, sun) < edge; });
+    EXPECT_NEAR(seen[i].y / light.flux.y, expected / light.flux.y, 0.01) << i;
+    if (expected > 0.999999 * light.flux.y) {
+      EXPECT_EQ(seen[i], light.flux) << i;
+    }
+    lost += light.flux.y - seen[i].y;
+  }
+  EXPECT_GT(lost, 0.99 * 3e4 * cap_sr(pi / 180));
+}
+
+/// Before an even sky the ball's edge passes over at most 2 sin(radius) step of solid angle on its leading side and as much on the other,
+/// so no light changes by more, but for the samples that are a sample's width off.
+TEST(Occlusion, AMovingBallChangesEveryLightSmoothly)
+{
+  Sky sky = even_sky();
+  const double radius = 20 * pi / 180, step_deg = 0.5;
+  std::vector<glm::dvec3> before;
+  double largest = 0;
+  for (int frame = 0; frame < 240; ++frame) {
+    const glm::dvec3 place = 6.0 * test::direction_of(-25 + 0.2 * frame, step_deg * frame / std::cos(0.3));
+    const std::vector<glm::dvec3> seen = sky.seen_past(ball(place, 6 * std::sin(radius)));
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const double sample = sky.lights.lights[i].flux.y / 1024;
+      largest = std::max(largest, (std::abs(seen[i].y - before[i].y) - 12 * sample));
+    }
+    before = seen;
+  }
+  const double moved = std::hypot(0.2, step_deg / std::cos(0.3)) * pi / 180;
+  EXPECT_LT(largest, 2 * std::sin(radius) * moved);
+}
+
+/// A wall's edge across a sun of three degrees, which holds nearly all light: the steps are those of the sun's own texels, not of a sample
+/// that holds all of it.
+TEST(Occlusion, AnEdgeBeforeTheSunDoesNotPop)
+{
+  Sky sky(test::made_map(256, 128, [&](const glm::dvec3& d) {
+    return test::sky_with_lamps(d, glm::dvec3(1), glm::dvec3(0.5), {{10, 5, 1.5, glm::dvec3(2e4)}});
+  }));
+  double largest = 0, largest_error = 0, before = -1;
+  for (int frame = 0; frame <= 80; ++frame) {
+    const double edge_deg = 7.5 + 5.0 * frame / 80, edge = 5 * std::tan(edge_deg * pi / 180);
+    // It stands at z = -5 and hides what is lower than its upper edge.
+    const std::vector<glm::dvec3> seen = sky.seen_past(quad({0, edge - 50, -5}, 100, 100, {90, 0, 0}));
+    const auto above = [&](const glm::dvec3& d) { return !(d.z < 0 && d.y < -d.z * edge / 5 && std::abs(d.x) < -10 * d.z); };
+    double truth = 0;
+    for (const Region& light : sky.lights.lights) truth += flux_seen(sky.cube, light, 2, above);
+    const double left = sum_y(seen) / sky.lights.total_flux.y;
+    largest_error = std::max(largest_error, std::abs(left - truth / sky.lights.total_flux.y));
+    if (before >= 0) largest = std::max(largest, std::abs(left - before));
+    before = left;
+  }
+  RecordProperty("largest_step", std::to_string(largest));
+  RecordProperty("largest_error", std::to_string(largest_error));
+  // A disc's middle passes 2 / (pi r) of its area a unit: 2.65 % of the sun in 1/16 of a degree; texels are a third of the sun wide, so
+  // steps are up to twice as large.
+  EXPECT_LT(largest, 0.055);
+  EXPECT_LT(largest_error, 0.02);
+}
+
+/// The map turned to the left by so much, past a ball at rest, is the map at rest past a ball turned to the right.
+TEST(Occlusion, ATurnedMapIsATurnedBall)
+{
+  Sky sky(test::synthetic_maps()[3].map);
+  for (const double rotate_deg : {37.0, -150.0, 90.0}) {
+    const glm::dvec3 place = 4.0 * test::direction_of(30, 20);
+    const std::vector<glm::dvec3> a = sky.seen_past(ball(place, 1.5), rotate_deg), b = sky.seen_past(ball(turned(place, -rotate_deg), 1.5));
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_NEAR(a[i].y, b[i].y, 4.0 / 1024 * sky.lights.lights[i].flux.y) << rotate_deg << ' ' << i;
+  }
+}
+
+/// A lamp at -z is at -x after a quarter turn to the left (environment.h).
+TEST(Occlusion, TheMapTurnsToTheLeft)
+{
+  Sky sky(test::made_map(256, 128, [](const glm::dvec3& d) { return glm::dvec3(d.z < -0.99 ? 100.0 : 0.0); }));
+  EXPECT_LT(sum_y(sky.seen_past(ball({-5, 0, 0}, 2), 90)), 1e-6 * sky.lights.total_flux.y);
+  EXPECT_EQ(sky.seen_past(ball({5, 0, 0}, 2), 90), all_flux(sky.lights));
+  EXPECT_EQ(sky.seen_past(ball({-5, 0, 0}, 2), 0), all_flux(sky.lights));
+}
+
+/// Seen from another place, the ball is elsewhere.
+TEST(Occlusion, IsOfThePointThatLooks)
+{
+  Sky sky = even_sky();
+  const scene::Scene scene = scene_with(ball({0, 3, 0}, 1));
+  EXPECT_NEAR(4 * pi - sum_y(sky.seen_past(scene, 0, {0, 1, 0})), cap_sr(std::asin(0.5)), 0.003);
+  EXPECT_NEAR(4 * pi - sum_y(sky.seen_past(scene, 0, {4, 3, 0})), cap_sr(std::asin(0.25)), 0.003);
+}
+
+} // namespace
