@@ -22,7 +22,7 @@ Segmentation cut(const CubeMap& cube, int lights) { return segment(cube, {.light
 
 std::span<const LightSample> samples_of(const std::vector<LightSample>& samples, std::size_t light)
 {
-  return std::span(samples).subspan(samples_per_light * light, samples_per_light);
+  return std::span(samples).subspan(1024 * light, 1024);
 }
 
 /// A cube of grey noise over some decades, some texels of it black.
@@ -44,7 +44,7 @@ TEST(Samples, AddUpToTheLightsFlux)
     for (const SegmentSettings& settings : {SegmentSettings{.lights = 24}, SegmentSettings{.lights = 64, .threshold = 1e-3}}) {
       const Segmentation lights = segment(cube, settings);
       const std::vector<LightSample> samples = sample_lights(lights, cube);
-      ASSERT_EQ(samples.size(), samples_per_light * lights.lights.size());
+      ASSERT_EQ(samples.size(), 1024 * lights.lights.size());
       for (std::size_t i = 0; i < lights.lights.size(); ++i) {
         glm::dvec3 sum(0);
         for (const LightSample& sample : samples_of(samples, i)) sum += sample.flux;
@@ -94,6 +94,25 @@ TEST(Samples, AreAtMostThreeThousandthsOfAChannel)
   }
 }
 
+/// 4096 lights of 1024 samples would be 4 million rays.
+TEST(Samples, OfVeryManyLightsAreFewerEach)
+{
+  EXPECT_EQ(samples_per_light(0), 1024u);
+  EXPECT_EQ(samples_per_light(256), 1024u);
+  EXPECT_EQ(samples_per_light(257), 512u);
+  EXPECT_EQ(samples_per_light(4096), 64u);
+  const CubeMap cube = make_cube_map(test::synthetic_maps().front().map);
+  const Segmentation lights = cut(cube, 1000);
+  const std::vector<LightSample> samples = sample_lights(lights, cube);
+  ASSERT_EQ(lights.lights.size(), 1000u);
+  ASSERT_EQ(samples.size(), 256u * 1000);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 256; ++k) sum += samples[256 * i + k].flux.y;
+    EXPECT_NEAR(sum / lights.lights[i].flux.y, 1, 1e-12) << i;
+  }
+}
+
 /// An even face: 32 x 32 cells, and 1024 columns and rows that each have one sample. An edge along s or t meets them one by one.
 TEST(Samples, OfAnEvenSquareHaveARowAndAColumnEach)
 {
@@ -121,7 +140,8 @@ std::vector<LightSample> even_samples(const Segmentation& lights, const CubeMap&
   for (const Region& light : lights.lights) {
     const double width = light.rect.width() / 32.0, height = light.rect.height() / 32.0;
     for (int i = 0; i < 1024; ++i) {
-      const double left = light.rect.x0 + width * (i % 32), top = light.rect.y0 + height * (i / 32);
+      const int column = i % 32, row = i / 32;
+      const double left = light.rect.x0 + width * column, top = light.rect.y0 + height * row;
       LightSample sample;
       sample.direction =
           glm::normalize(position({light.face, 2 * (left + width / 2) / cube.size - 1, 2 * (top + height / 2) / cube.size - 1}));
@@ -180,7 +200,7 @@ TEST(Samples, FindWhatABallHides)
     for (int k = 0; k < 48; ++k) {
       // Spread over the sphere; every fourth is before the strongest light.
       const auto strongest = std::ranges::max_element(lights.lights, {}, [](const Region& light) { return light.flux.y; });
-      const double height = 1 - (2 * k + 1) / 48.0, turn = 2.4 * k, radius_deg = 2 + 4 * (k % 7);
+      const double height = 1 - (2 * k + 1) / 48.0, turn = 2.4 * k, radius_deg = 2.0 + 4 * (k % 7);
       const glm::dvec3 spread(std::sqrt(1 - height * height) * std::cos(turn), height, std::sqrt(1 - height * height) * std::sin(turn));
       const glm::dvec3 ball = k % 4 == 0 ? glm::normalize(strongest->direction + 0.05 * spread) : spread;
       double all = 0, even_all = 0;

@@ -157,6 +157,7 @@ inline preset::Preset random_preset(std::uint64_t seed)
     s.estimator = spectral::Settings::Estimator::splat;
     s.effort = spectral::Settings::Effort::power;
     s.differentials = s.indirect = false;
+    if (p.scene.environment) p.scene.environment->lights = false;
   }
   const bool estimates = p.measure.estimate && spectral::settings(p).estimator != spectral::Settings::Estimator::sppm;
   if (!estimates && !p.reference) p.stop.error.reset(); // nothing would measure it

@@ -29,11 +29,12 @@ std::vector<glm::dvec3> Occlusion::visible_flux(tracing::World& surroundings, do
   const bool empty = surroundings.buffers.object_of_primitive.size() == 0;
   if (empty || light_flux_.empty()) return light_flux_;
   const std::vector<std::uint8_t> seen = trace(surroundings, rotate_deg, from);
+  const std::size_t samples = samples_per_light(light_flux_.size());
   std::vector<glm::dvec3> flux;
   for (std::size_t light = 0; light < light_flux_.size(); ++light) {
     glm::dvec3 sum(0);
     bool whole = true;
-    for (std::size_t i = samples_per_light * light; i < samples_per_light * (light + 1); ++i)
+    for (std::size_t i = samples * light; i < samples * (light + 1); ++i)
       if (seen[i])
         sum += sample_flux_[i];
       else

@@ -4,12 +4,13 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace nephroid::environment {
 namespace {
 
-constexpr int halvings = 10; // 2^10 cells
+constexpr std::size_t most_samples = std::size_t{1} << 18, most_samples_of_light = 1024;
 
 /// Of a face, in texels; the borders need not be whole.
 struct Cell {
@@ -33,12 +34,13 @@ unsigned mirrored(unsigned number, int bits)
 
 class Sampler {
 public:
-  /// light: with the flux of dropped regions. to: its samples.
-  Sampler(const CubeMap& cube, const Region& light, LightSample* to) : cube_(cube), light_(light), to_(to)
+  /// to: 2^halvings samples.
+  Sampler(const CubeMap& cube, const Region& light, int halvings, LightSample* to)
+      : cube_(cube), light_(light), halvings_(halvings), to_(to)
   {
     const Rect& r = light.rect;
     const glm::dvec3 own = flux_of({{r.x0, r.y0}, {r.x1, r.y1}});
-    of_dropped_ = glm::max(light.flux - own, glm::dvec3(0)) / static_cast<double>(samples_per_light);
+    of_dropped_ = glm::max(light.flux - own, glm::dvec3(0)) / std::exp2(halvings);
     for (int c = 0; c < 3; ++c)
       if (own[c] > 0) parts_[c] = 1 / own[c];
     halve({{r.x0, r.y0}, {r.x1, r.y1}}, {});
@@ -88,7 +90,7 @@ private:
   /// Cuts the cell across its longer side into two of equal weight, and those again.
   void halve(const Cell& cell, const CellPlace& place)
   {
-    if (place.cuts[0] + place.cuts[1] == halvings) {
+    if (place.cuts[0] + place.cuts[1] == halvings_) {
       *to_++ = sample(cell, place);
       return;
     }
@@ -122,6 +124,7 @@ private:
 
   const CubeMap& cube_;
   const Region& light_;
+  int halvings_;
   LightSample* to_;
   glm::dvec3 of_dropped_{0};
   glm::dvec3 parts_{0}; ///< what a texel weighs for its flux in each channel
@@ -129,11 +132,16 @@ private:
 
 } // namespace
 
+std::size_t samples_per_light(std::size_t lights)
+{
+  return std::min(most_samples_of_light, std::bit_floor(most_samples / std::max<std::size_t>(lights, 1)));
+}
+
 std::vector<LightSample> sample_lights(const Segmentation& segmentation, const CubeMap& cube)
 {
-  std::vector<LightSample> samples(samples_per_light * segmentation.lights.size());
-  for_blocks(segmentation.lights.size(),
-             [&](std::size_t i) { Sampler(cube, segmentation.lights[i], samples.data() + samples_per_light * i); });
+  const std::size_t lights = segmentation.lights.size(), count = samples_per_light(lights);
+  std::vector<LightSample> samples(count * lights);
+  for_blocks(lights, [&](std::size_t i) { Sampler(cube, segmentation.lights[i], std::countr_zero(count), samples.data() + count * i); });
   return samples;
 }
 

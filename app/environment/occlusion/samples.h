@@ -8,19 +8,19 @@
 
 namespace nephroid::environment {
 
-/// Cells of a light's rectangle: 32 x 32.
-inline constexpr std::size_t samples_per_light = 1024;
+/// 32 x 32, of up to 256 lights. Of more there are fewer each, a power of 2, so that all together are at most 2^18.
+std::size_t samples_per_light(std::size_t lights);
 
 struct LightSample {
   glm::dvec3 direction{0}; ///< unit; where the light comes from, as the cube has it
   glm::dvec3 flux{0};      ///< of its cell; as Region::flux
 };
 
-/// samples_per_light of each light, light after light. Their sum is the light's flux; regions that were dropped count in each sample of the
-/// light that has their flux. The cells of a light tile its rectangle, and all have the same flux: where the map is grey that of each is
-/// 1/1024, else the mean of its parts of red, green and blue is. So few samples look at the dark, many at a sun, and no occluder that
-/// hides one more changes the light by more than 3/1024 of a channel. A texel's flux is even in its s and t.
-/// cube: that the segmentation was made of.
+/// samples_per_light(lights) of each light, light after light. Their sum is the light's flux; what it has of regions that were dropped is
+/// even among them. The cells of a light tile its rectangle, and all have the same flux: each has 1/1024 of that where the map is grey,
+/// else the mean of its parts of red, green and blue is 1/1024. So few samples look at the dark, many at a sun, and an occluder that hides
+/// one more changes no channel of the light by more than 3/1024. A texel's flux is even in s and t. cube: that the segmentation was made
+/// of.
 std::vector<LightSample> sample_lights(const Segmentation& segmentation, const CubeMap& cube);
 
 } // namespace nephroid::environment
