@@ -33,7 +33,7 @@ PROGRAMS = [
     "physics_refraction_test", "physics_radiometry_test", "kernels_trace_test", "images_error_estimate_test", "kernels_photons_test",
     "physics_background_test", "physics_indirect_test", "physics_wavelength_jitter_test", "physics_photon_maps_test",
     "physics_map_bands_test", "physics_smooth_receiver_test", "physics_spectral_differentials_test", "kernels_relighting_test",
-    "environment_bake_test",
+    "physics_environment_light_test", "environment_bake_test",
 ]
 
 

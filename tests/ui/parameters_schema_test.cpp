@@ -185,7 +185,8 @@ protected:
     for (const auto& [name, property] : properties.items()) {
       if (HasFatalFailure()) return;
       if (pointer.empty() && !panel().draft().value().contains(name)) continue; // of the file, not of the preset
-      if (is_engine(name) && name != drafted("/engine")) continue;              // a reference has settings of its run's engine
+      // A preset and its reference have settings of the run's engine only; a scene's environment is no settings.
+      if (owner != "Scene" && is_engine(name) && name != drafted("/engine")) continue;
       visit(property, child_of(pointer, name), owner, owner + "." + name);
     }
   }

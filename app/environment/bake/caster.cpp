@@ -63,7 +63,7 @@ void measure(Caster& caster)
   }
 }
 
-/// The preset of the object alone. Photons of white light have the wavelengths of D65, and what each counts is bake/white_light.h's.
+/// The preset of the object alone. Photons of white light have the wavelengths of D65, and what each counts baker.cpp's white_light says.
 preset::Preset alone(const preset::Preset& preset, std::size_t index)
 {
   preset::Preset made;
