@@ -238,7 +238,7 @@ private:
     const double rotate_deg = shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0;
     const std::vector<Region>& lights = renderer_->segmentation().lights;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      const glm::dvec3 from = turned(lights[i].direction, rotate_deg), all = lights[i].flux, left = renderer_->flux()[i];
+      const glm::dvec3 from = turned(lights[i].direction, rotate_deg), all = lights[i].flux, left = renderer_->visible()[i].flux;
       const double sum = all.x + all.y + all.z;
       made.curves.back().rows.push_back({static_cast<double>(i + 1), glm::degrees(std::atan2(from.x, -from.z)),
                                          glm::degrees(std::asin(from.y)), all.x, all.y, all.z,

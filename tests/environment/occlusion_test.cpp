@@ -57,7 +57,9 @@ struct Sky {
   std::vector<glm::dvec3> seen_past(const scene::Scene& surroundings, double rotate_deg = 0, const glm::dvec3& from = glm::dvec3(0))
   {
     tracing::World world = surroundings_world(test::bake_context(), surroundings);
-    return occlusion.visible_flux(world, rotate_deg, from);
+    std::vector<glm::dvec3> flux;
+    for (const environment::VisibleLight& light : occlusion.visible_lights(world, rotate_deg, from)) flux.push_back(light.flux);
+    return flux;
   }
   std::vector<glm::dvec3> seen_past(const std::string& others, double rotate_deg = 0) { return seen_past(scene_with(others), rotate_deg); }
 };
@@ -102,6 +104,25 @@ TEST(Occlusion, WhatStandsBeforeNoLightTakesNothing)
   Sky sky(test::made_map(256, 128,
                          [](const glm::dvec3& d) { return glm::dvec3(d.y > 0.5 ? 0.0 : 1.0, 1 + d.x, 2) * (d.y > 0.5 ? 0.0 : 1.0); }));
   EXPECT_EQ(sky.seen_past(ball({0, 5, 0}, 2)), all_flux(sky.lights));
+}
+
+// A floor hides the lower half of the faces at the sides. What is left of +x comes from the mean of its upper half.
+TEST(Occlusion, AHalfHiddenLightShinesFromWhatIsSeen)
+{
+  Sky sky(test::uniform_map(256, 128), 6);
+  tracing::World world = surroundings_world(test::bake_context(), scene_with(quad({0, -0.01, 0}, 1000, 1000)));
+  const std::vector<environment::VisibleLight> lights = sky.occlusion.visible_lights(world, 0, glm::dvec3(0));
+  glm::dvec3 mean(0);
+  for (int y = 0; y < sky.cube.size / 2; ++y)
+    for (int x = 0; x < sky.cube.size; ++x)
+      mean +=
+          sky.cube.flux_of(sky.cube.texel(0, x, y)).y * glm::normalize(position({0, middle(x, sky.cube.size), middle(y, sky.cube.size)}));
+  mean = glm::normalize(mean);
+  ASSERT_EQ(lights.size(), 6u);
+  EXPECT_GT(mean.y, 0.3);
+  EXPECT_LT(glm::distance(lights[0].direction, mean), 0.01);
+  EXPECT_EQ(lights[2].direction, sky.lights.lights[2].direction); // from above: whole
+  EXPECT_EQ(lights[3].flux, glm::dvec3(0));                       // from below: nothing
 }
 
 TEST(Occlusion, AClosedRoomHidesAll)

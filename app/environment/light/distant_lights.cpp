@@ -6,12 +6,11 @@
 
 namespace nephroid::environment {
 
-std::vector<DistantLight> environment_lights(const Segmentation& segmentation, const std::vector<glm::dvec3>& flux, double rotate_deg)
+std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg)
 {
-  std::vector<DistantLight> lights;
-  for (std::size_t i = 0; i < segmentation.lights.size(); ++i)
-    lights.push_back({-turned(segmentation.lights[i].direction, rotate_deg), flux[i]});
-  return lights;
+  std::vector<DistantLight> distant;
+  for (const VisibleLight& light : lights) distant.push_back({-turned(light.direction, rotate_deg), light.flux});
+  return distant;
 }
 
 std::vector<DistantLight> lamps(const scene::Scene& scene)

@@ -2,7 +2,7 @@
 // All light that engine 2 knows: parallel light from far away. That is what an environment is cut into (segment/), and the directional
 // lights of a scene.
 #pragma once
-#include "environment/segment/segment.h"
+#include "environment/occlusion/occlusion.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
@@ -16,8 +16,8 @@ struct DistantLight {
   glm::dvec3 irradiance{0};       ///< on a plane that faces it: linear sRGB, W/m^2 of Y
 };
 
-/// Of each of segmentation.lights, in their order. flux: what is left of each (Region::flux where nothing is in the way).
-std::vector<DistantLight> environment_lights(const Segmentation& segmentation, const std::vector<glm::dvec3>& flux, double rotate_deg);
+/// Of each light of the environment, in their order.
+std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg);
 
 /// The scene's directional lights. Throws bad_input at FILE#/scene/lights/INDEX for a light of another type: it has no one direction.
 std::vector<DistantLight> lamps(const scene::Scene& scene);

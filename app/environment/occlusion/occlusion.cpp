@@ -12,36 +12,49 @@ shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x),
 
 } // namespace
 
+std::vector<VisibleLight> whole_lights(const Segmentation& segmentation)
+{
+  std::vector<VisibleLight> lights;
+  for (const Region& region : segmentation.lights) lights.push_back({region.flux, region.direction});
+  return lights;
+}
+
 Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube)
+    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube))
 {
   std::vector<shared::float4> directions;
-  for (const Region& light : segmentation.lights) light_flux_.push_back(light.flux);
-  for (const LightSample& sample : sample_lights(segmentation, cube)) {
-    directions.push_back(to_float4(sample.direction));
-    sample_flux_.push_back(sample.flux);
-  }
+  for (const LightSample& sample : samples_) directions.push_back(to_float4(sample.direction));
   directions_ = tracing::upload_vector(context, "directions of the environment's light", directions);
   seen_ = compute::Buffer<std::uint8_t>(context, "what is seen of the environment", directions.size());
 }
 
-std::vector<glm::dvec3> Occlusion::visible_flux(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
+std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
 {
   const bool empty = surroundings.buffers.object_of_primitive.size() == 0;
-  if (empty || light_flux_.empty()) return light_flux_;
+  if (empty || whole_.empty()) return whole_;
   const std::vector<std::uint8_t> seen = trace(surroundings, rotate_deg, from);
-  const std::size_t samples = samples_per_light(light_flux_.size());
-  std::vector<glm::dvec3> flux;
-  for (std::size_t light = 0; light < light_flux_.size(); ++light) {
-    glm::dvec3 sum(0);
-    bool whole = true;
-    for (std::size_t i = samples * light; i < samples * (light + 1); ++i)
+  const std::size_t samples = samples_per_light(whole_.size());
+  std::vector<VisibleLight> visible = whole_;
+  for (std::size_t light = 0; light < visible.size(); ++light) {
+    glm::dvec3 flux(0), all(0), hidden(0);
+    for (std::size_t i = samples * light; i < samples * (light + 1); ++i) {
+      const LightSample& sample = samples_[i];
+      const glm::dvec3 way = (sample.flux.x + sample.flux.y + sample.flux.z) * sample.direction;
+      all += way;
       if (seen[i])
-        sum += sample_flux_[i];
+        flux += sample.flux;
       else
-        whole = false;
-    flux.push_back(whole ? light_flux_[light] : glm::min(sum, light_flux_[light]));
+        hidden += way;
+    }
+    if (hidden == glm::dvec3(0)) continue;
+    VisibleLight& left = visible[light];
+    left.flux = glm::min(flux, left.flux);
+    // The samples' mean stands for the region's only nearly. So the difference that hiding makes is added to the region's own direction.
+    const glm::dvec3 shift =
+        all - hidden != glm::dvec3(0) && flux != glm::dvec3(0) ? glm::normalize(all - hidden) - glm::normalize(all) : glm::dvec3(0);
+    left.direction = glm::normalize(left.direction + shift);
   }
-  return flux;
+  return visible;
 }
 
 std::vector<std::uint8_t> Occlusion::trace(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)

@@ -9,23 +9,33 @@
 
 namespace nephroid::environment {
 
-/// Regions and directions are the segmentation's, whatever stands before them: only flux changes, so no caustic jumps.
+/// What is seen of a light.
+struct VisibleLight {
+  glm::dvec3 flux{0};      ///< as Region::flux, which it is where nothing stands before the light
+  glm::dvec3 direction{0}; ///< as Region::direction: the mean of what is seen, as the cube has it. Where nothing is seen, the region's own
+};
+
+/// All lights of a segmentation as they are where nothing is in the way.
+std::vector<VisibleLight> whole_lights(const Segmentation& segmentation);
+
+/// Regions are the segmentation's, whatever stands before them. Flux and direction change with what is hidden, little by little, so no
+/// caustic jumps. (The thesis keeps directions. A light that the horizon halves then shines from too low.)
 class Occlusion {
 public:
   /// cube: that the segmentation was made of. Both may go afterwards. Throws failed where the device has not enough memory.
   Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube);
 
-  /// Of each light, what is seen from a point: as Region::flux, which it is where nothing stands before the light. Glass and mirrors hide
-  /// light as everything does.
+  /// Of each light, what is seen from a point. Glass and mirrors hide light as everything does.
   /// surroundings: surroundings_world, on the same device. rotate_deg: how the map is turned. from: in the scene's coordinates, best the
   /// middle of the object.
-  std::vector<glm::dvec3> visible_flux(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
+  std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
 
 private:
   /// Of each sample, whether nothing stands before it.
   std::vector<std::uint8_t> trace(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
 
-  std::vector<glm::dvec3> light_flux_, sample_flux_;
+  std::vector<VisibleLight> whole_;
+  std::vector<LightSample> samples_;
   compute::Buffer<shared::float4> directions_;
   compute::Buffer<std::uint8_t> seen_;
   compute::Defines defines_; ///< that the kernel is made with

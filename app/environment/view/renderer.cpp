@@ -129,12 +129,9 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
 void Renderer::light_up()
 {
   world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
-  flux_.clear();
-  if (occlusion_ && surroundings_)
-    flux_ = occlusion_->visible_flux(*surroundings_, rotate_deg_, task_.placement.middle);
-  else
-    for (const Region& region : task_.segmentation.lights) flux_.push_back(region.flux);
-  std::vector<DistantLight> lights = environment_lights(task_.segmentation, flux_, rotate_deg_);
+  visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(*surroundings_, rotate_deg_, task_.placement.middle)
+                                         : whole_lights(task_.segmentation);
+  std::vector<DistantLight> lights = environment_lights(visible_, rotate_deg_);
   lights.insert(lights.end(), task_.lamps.begin(), task_.lamps.end());
   caustics_.set_lights(lights, task_.placement.turn);
   std::vector<shared::float4> polynomial;

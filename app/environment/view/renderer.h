@@ -45,8 +45,8 @@ public:
   void set_white(double white);
 
   const Segmentation& segmentation() const { return task_.segmentation; }
-  /// What is left of the flux of each of the segmentation's lights where the object is.
-  const std::vector<glm::dvec3>& flux() const { return flux_; }
+  /// What is left of each of the segmentation's lights where the object is.
+  const std::vector<VisibleLight>& visible() const { return visible_; }
   const CubeMap& cube() const { return task_.cube; }
   const scene::Scene& scene() const { return *task_.scene; }
 
@@ -85,7 +85,7 @@ private:
   Receivers coarse_, fine_;
   std::optional<Receivers> around_; ///< of all directions, for what hides a medium
   int compiled_side_ = 0;           ///< of the spheres that are compiled for the lights as they are; 0: none
-  std::vector<glm::dvec3> flux_;
+  std::vector<VisibleLight> visible_;
 
   std::int64_t pass_ = 0;
   Stage stage_ = Stage::see;
