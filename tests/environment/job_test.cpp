@@ -46,7 +46,11 @@ protected:
     overrides.insert(overrides.end(), more.begin(), more.end());
     return bake_preset(glass_ball, overrides);
   }
-  static EnvironmentPlan plan_of(const preset::Preset& p) { return environment::make_plan(p, scene::load_scene(p)); }
+  static EnvironmentPlan plan_of(const preset::Preset& p)
+  {
+    const scene::Scene scene = scene::load_scene(p);
+    return environment::make_plan(p, scene, scene::build_bvh(scene.geometry));
+  }
   static std::unique_ptr<job::Job> job_of(const preset::Preset& p, const EnvironmentPlan& plan)
   {
     return environment::make_job(p, plan, bake_context());
