@@ -24,6 +24,21 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t checkpoint_version = 2;
 
+/// The preset with what a renderer takes on as it goes: camera, turn of the environment, segmentation and white of another.
+preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other)
+{
+  preset::Preset made = preset;
+  made.scene.camera = other.scene.camera;
+  if (made.scene.environment && other.scene.environment) made.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
+  made.white = other.white;
+  Settings& s = settings(made);
+  const Settings& o = settings(other);
+  s.lights = o.lights;
+  s.segmentation = o.segmentation;
+  s.threshold = o.threshold;
+  return made;
+}
+
 class EnvironmentJob final : public job::Job {
 public:
   EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
@@ -175,9 +190,10 @@ private:
   /// Lets the renderer go from `shown_` to a preset that is adoptable.
   void show(const preset::Preset& preset)
   {
-    if (preset.scene.objects != shown_.scene.objects) {
+    if (!(with_view_of(shown_, preset) == preset)) {
       const scene::Scene scene = scene::load_scene(preset);
-      render_ = std::make_shared<const RenderTask>(make_render_task(preset, scene, scene::build_bvh(scene.geometry), task_->caster));
+      render_ = std::make_shared<const RenderTask>(
+          make_render_task(preset, scene, scene::build_bvh(scene.geometry), task_->caster, render_.get()));
       renderer_.reset(); // its device memory is for the next
       renderer_.emplace(*render_, *caustics_, preset.white, preset.seed, context_);
       shown_ = preset;
@@ -300,24 +316,22 @@ private:
 
 bool adoptable(const preset::Preset& before, const preset::Preset& now)
 {
-  if (&before.settings.type() != &now.settings.type() || before.scene.environment.has_value() != now.scene.environment.has_value() ||
-      before.scene.camera.resolution != now.scene.camera.resolution)
+  if (&before.settings.type() != &now.settings.type() || before.scene.camera.resolution != now.scene.camera.resolution ||
+      before.scene.objects.size() != now.scene.objects.size())
     return false;
-  preset::Preset same = before;
-  same.scene.camera = now.scene.camera;
-  if (same.scene.environment) same.scene.environment->rotate_deg = now.scene.environment->rotate_deg;
-  same.white = now.white;
-  Settings& s = settings(same);
-  const Settings& n = settings(now);
-  s.lights = n.lights;
-  s.segmentation = n.segmentation;
-  s.threshold = n.threshold;
-  // Objects that are moved and turned; whether one is scaled is the bake's concern.
-  if (same.scene.objects.size() != now.scene.objects.size()) return false;
+  preset::Preset same = with_view_of(before, now);
+  same.scene.environment = now.scene.environment;
+  same.scene.lights = now.scene.lights;
   for (std::size_t i = 0; i < same.scene.objects.size(); ++i) {
     same.scene.objects[i].transform.rotate_deg = now.scene.objects[i].transform.rotate_deg;
     same.scene.objects[i].transform.translate = now.scene.objects[i].transform.translate;
   }
+  Settings& s = settings(same);
+  const Settings& n = settings(now);
+  s.extinction = n.extinction;
+  s.albedo = n.albedo;
+  s.phase = n.phase;
+  s.anisotropy = n.anisotropy;
   return same == now;
 }
 

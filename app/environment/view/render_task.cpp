@@ -34,6 +34,11 @@ std::shared_ptr<const scene::Scene> lit_scene(const scene::Scene& scene)
   return lit;
 }
 
+bool same_light(const scene::Environment& a, const scene::Environment& b)
+{
+  return a.width == b.width && a.radiance == b.radiance && a.rgb == b.rgb;
+}
+
 } // namespace
 
 bool has_light(const scene::Scene& scene) { return shines(scene) || std::ranges::any_of(scene.lights, tracing::has_power); }
@@ -44,7 +49,8 @@ Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube)
   return segment(cube, {.lights = s.lights, .method = s.segmentation, .threshold = s.threshold});
 }
 
-RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster)
+RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster,
+                            const RenderTask* before)
 {
   const tracing::LeaveOut leave_out = tracing::leave_out_all(preset.leave_out);
   RenderTask task;
@@ -69,7 +75,7 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   task.anisotropy = static_cast<float>(s.anisotropy);
   task.rayleigh = s.phase == Settings::Phase::rayleigh ? 1 : 0;
   if (shines(scene)) {
-    task.cube = make_cube_map(*scene.environment);
+    task.cube = before && same_light(*before->scene->environment, *scene.environment) ? before->cube : make_cube_map(*scene.environment);
     task.segmentation = segment_by(preset, task.cube);
   }
   return task;

@@ -38,8 +38,9 @@ struct RenderTask {
 /// Whether the scene has light: else only the bake is shown.
 bool has_light(const scene::Scene& scene);
 
-/// caster: of the preset. bvh: of the scene. Throws bad_input as `lamps`.
-RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster);
+/// caster: of the preset. bvh: of the scene. before: a task whose environment is kept where it is the same. Throws bad_input as `lamps`.
+RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster,
+                            const RenderTask* before = nullptr);
 
 /// The preset's lights of the cube, by its settings.
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube);
