@@ -39,7 +39,8 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context)
       directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
                                                                       static_cast<float>(Bake::unit * bake.size * bake.size), 0},
       stored_(tracing::upload_vector(context, "caustic spheres", upper_halves(bake.halves))),
-      radii_(tracing::upload_vector(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end())))
+      radii_(tracing::upload_vector(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))),
+      sets_(context, "turned sets", 1)
 {
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
@@ -51,8 +52,7 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context)
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
 {
   const std::vector<shared::DeviceTurnedSet> sets = turned_sets(lights, rotation, directions_);
-  if (sets.size() > sets_.size())
-    sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", std::max<std::size_t>(sets.size(), 1));
+  if (sets.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", sets.size());
   if (!sets.empty()) sets_.write(sets);
   used_sets_ = static_cast<int>(sets.size());
   compiled_.object_x = to_float4(rotation[0]);
