@@ -70,6 +70,10 @@ void describe(V& v, S& s)
            .sentence = "A region with no more than this part of the environment's light is no light of its own.",
            .bounds = within(0, 1)},
           s.threshold);
+  v.field({.name = "refine",
+           .sentence = "Whether passes take other directions of each light's region, so that the picture goes towards that of the whole "
+                       "environment; false: a light keeps its one direction, as in the thesis."},
+          s.refine);
   v.field({.name = "extinction",
            .sentence = "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",
            .unit = "1 / unit",

@@ -20,6 +20,7 @@ struct Settings {
   int lights = 24;                ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
+  bool refine = true;      ///< each pass takes other directions of each light's region
   enum class Phase { henyey_greenstein, rayleigh };
   double extinction = 0;                  ///< of the medium around the object, 1 / unit; 0: there is none
   double albedo = 1;                      ///< which part of what is taken is scattered, 0..1

@@ -4,7 +4,7 @@
 
     tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--size N] [--reference-seconds S] [TABLE...]
 
-Tables: lights (3.1: how many, by which segmentation), spheres (3.2: how many, with which radii), directions. Engine 1 traces photons from every
+Tables: lights (3.1: how many, by which segmentation), spheres (3.2: how many, with which radii), directions, refining. Engine 1 traces photons from every
 texel of the same environment through the same objects: no spheres, no segments. Two of its runs with different seeds tell the noise floor.
 """
 import argparse
@@ -57,11 +57,13 @@ def row(label, values):
     print("| " + label + " | " + " | ".join("-" if v is None else f"{v:.3g}" for v in values) + " |", flush=True)
 
 
+ONE = {"environment.refine": False}  # a light keeps its one direction, as in the thesis
 TABLES = {
-    "lights": [({"environment.lights": q, "environment.segmentation": way}, f"{way}, q = {q}")
+    "lights": [({**ONE, "environment.lights": q, "environment.segmentation": way}, f"{way}, q = {q}")
                for q in (8, 16, 24, 32, 48, 64) for way in ("thesis", "variance")],
-    "spheres": [({"environment.spheres": s, "environment.radii": way}, f"{way}, s = {s}") for way in ("quadratic", "uniform") for s in (8, 16, 32)],
-    "directions": [({"environment.directions": n}, f"{n} directions") for n in (26, 98)],
+    "spheres": [({**ONE, "environment.spheres": s, "environment.radii": way}, f"{way}, s = {s}") for way in ("quadratic", "uniform") for s in (8, 16, 32)],
+    "directions": [({**ONE, "environment.directions": n}, f"{n} directions") for n in (26, 98)],
+    "refining": [({"stop.passes": n}, f"refined, {n} passes") for n in (1, 4, 16, 64)],
 }
 
 

@@ -51,7 +51,16 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context)
 
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
 {
-  const std::vector<shared::DeviceTurnedSet> sets = turned_sets(lights, rotation, directions_);
+  upload(turned_sets(lights, rotation, directions_), rotation);
+}
+
+void Caustics::draw_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, std::uint32_t pass)
+{
+  upload(drawn_sets(lights, rotation, directions_, pass), rotation);
+}
+
+void Caustics::upload(const std::vector<shared::DeviceTurnedSet>& sets, const glm::dmat3& rotation)
+{
   if (sets.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", sets.size());
   if (!sets.empty()) sets_.write(sets);
   used_sets_ = static_cast<int>(sets.size());

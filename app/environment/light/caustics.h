@@ -26,6 +26,8 @@ public:
 
   /// rotation: from the bake's coordinates to the scene's.
   void set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation);
+  /// The same by drawn_sets, with a quarter of the work.
+  void draw_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, std::uint32_t pass);
 
   /// Adds up the sets of all lights into one (Algorithm 3.5), whose maps have side x side texels. As much work as cast_direct has for half
   /// as many texels as all those spheres have.
@@ -47,6 +49,8 @@ public:
   int side() const { return spheres_.side; } ///< of the bake's maps
 
 private:
+  void upload(const std::vector<shared::DeviceTurnedSet>& sets, const glm::dmat3& rotation);
+
   compute::Context context_;
   int directions_;
   shared::DeviceSpheres spheres_{};

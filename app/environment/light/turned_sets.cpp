@@ -23,6 +23,25 @@ int cells_of(int count)
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
+/// For lights in the scene and a bake that is turned by `rotation`.
+class SetMaker {
+public:
+  SetMaker(const glm::dmat3& rotation, int count) : to_object_(glm::transpose(rotation)), baked_(light_directions(count)) {}
+
+  /// The way a light goes in the bake's coordinates.
+  glm::dvec3 travel(const DistantLight& light) const { return to_object_ * light.direction; }
+  shared::DeviceTurnedSet set(const DistantLight& light, const NearDirection& near) const
+  {
+    const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked_[static_cast<std::size_t>(near.direction)], travel(light))) * to_object_;
+    const glm::dmat3 rows = glm::transpose(to_bake); // glm has columns
+    return {{to_float4(rows[0]), to_float4(rows[1]), to_float4(rows[2])}, to_float4(near.weight * light.irradiance), near.direction, {}};
+  }
+
+private:
+  glm::dmat3 to_object_;
+  std::vector<glm::dvec3> baked_;
+};
+
 } // namespace
 
 std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count)
@@ -53,18 +72,28 @@ glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) { return 
 
 std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count)
 {
-  const std::vector<glm::dvec3> baked = light_directions(count);
-  const glm::dmat3 to_object = glm::transpose(rotation);
+  const SetMaker maker(rotation, count);
   std::vector<shared::DeviceTurnedSet> sets;
   for (const DistantLight& light : lights) {
     if (light.irradiance == glm::dvec3(0)) continue;
-    const glm::dvec3 travel = to_object * light.direction;
-    for (const NearDirection& near : near_directions(travel, count)) {
-      const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked[static_cast<std::size_t>(near.direction)], travel)) * to_object;
-      const glm::dmat3 rows = glm::transpose(to_bake); // glm has columns
-      sets.push_back(
-          {{to_float4(rows[0]), to_float4(rows[1]), to_float4(rows[2])}, to_float4(near.weight * light.irradiance), near.direction, {}});
-    }
+    for (const NearDirection& near : near_directions(maker.travel(light), count)) sets.push_back(maker.set(light, near));
+  }
+  return sets;
+}
+
+std::vector<shared::DeviceTurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                                std::uint32_t pass)
+{
+  const SetMaker maker(rotation, count);
+  std::vector<shared::DeviceTurnedSet> sets;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].irradiance == glm::dvec3(0)) continue;
+    const std::vector<NearDirection> near = near_directions(maker.travel(lights[i]), count);
+    // The Kronecker sequence of sqrt 2, which has nothing to do with the golden ratio that lights are drawn by.
+    double left = std::fmod(0.4142135624 * pass + 0.7548776662 * static_cast<double>(i), 1.0);
+    std::size_t chosen = 0;
+    while (chosen + 1 < near.size() && left >= near[chosen].weight) left -= near[chosen++].weight;
+    sets.push_back(maker.set(lights[i], {near[chosen].direction, 1}));
   }
   return sets;
 }

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace nephroid::environment {
@@ -25,5 +26,9 @@ glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
 
 /// The sets of all lights. rotation: from the bake's coordinates to the scene's. count: of baked directions. Black lights have none.
 std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count);
+
+/// The same with one set a light, which stands for all of its near directions: each has its turn in as many passes as its weight asks for.
+std::vector<shared::DeviceTurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                                std::uint32_t pass);
 
 } // namespace nephroid::environment

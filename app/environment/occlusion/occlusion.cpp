@@ -31,8 +31,9 @@ Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmen
 std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
 {
   const bool empty = surroundings.buffers.object_of_primitive.size() == 0;
+  is_seen_.clear();
   if (empty || whole_.empty()) return whole_;
-  const std::vector<std::uint8_t> seen = trace(surroundings, rotate_deg, from);
+  is_seen_ = trace(surroundings, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> visible = whole_;
   for (std::size_t light = 0; light < visible.size(); ++light) {
@@ -41,7 +42,7 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
       const LightSample& sample = samples_[i];
       const glm::dvec3 way = (sample.flux.x + sample.flux.y + sample.flux.z) * sample.direction;
       all += way;
-      if (seen[i])
+      if (is_seen_[i])
         flux += sample.flux;
       else
         hidden += way;
@@ -55,6 +56,20 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
     left.direction = glm::normalize(left.direction + shift);
   }
   return visible;
+}
+
+std::vector<VisibleLight> Occlusion::drawn_lights(std::uint32_t pass) const
+{
+  const std::size_t samples = samples_per_light(whole_.size());
+  std::vector<VisibleLight> drawn;
+  for (std::size_t light = 0; light < whole_.size(); ++light) {
+    // Steps of the golden ratio over the cells; an odd step meets each of a power of 2 once.
+    const std::size_t step = static_cast<std::size_t>(0.6180339887 * static_cast<double>(samples)) | 1;
+    const std::size_t i = samples * light + (pass * step + light * 7919) % samples;
+    const bool seen = is_seen_.empty() || is_seen_[i] != 0;
+    drawn.push_back({seen ? static_cast<double>(samples) * samples_[i].flux : glm::dvec3(0), samples_[i].direction});
+  }
+  return drawn;
 }
 
 std::vector<std::uint8_t> Occlusion::trace(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)

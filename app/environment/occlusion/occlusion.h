@@ -30,12 +30,18 @@ public:
   /// middle of the object.
   std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
 
+  /// A part of each light instead of all of it: the cell of its region that is the `pass`th of a sequence over all of them, with as much
+  /// light as all cells would have were they like this one; none where visible_lights() found the cell hidden. The mean over passes is all
+  /// light that is seen, each part from its own direction.
+  std::vector<VisibleLight> drawn_lights(std::uint32_t pass) const;
+
 private:
   /// Of each sample, whether nothing stands before it.
   std::vector<std::uint8_t> trace(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
 
   std::vector<VisibleLight> whole_;
   std::vector<LightSample> samples_;
+  std::vector<std::uint8_t> is_seen_; ///< of each sample; empty: all are
   compute::Buffer<shared::float4> directions_;
   compute::Buffer<std::uint8_t> seen_;
   compute::Defines defines_; ///< that the kernel is made with

@@ -29,6 +29,7 @@ struct RenderTask {
   CubeMap cube;              ///< of the environment; empty where there is none
   Segmentation segmentation; ///< of the cube
   std::vector<DistantLight> lamps;
+  bool refine = true; ///< Settings::refine
 
   bool has_medium = false; ///< whether caustics are seen in the air
   float extinction = 0, albedo = 0, anisotropy = 0;

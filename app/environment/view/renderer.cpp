@@ -131,21 +131,33 @@ void Renderer::light_up()
   world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
   visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(*surroundings_, rotate_deg_, task_.placement.middle)
                                          : whole_lights(task_.segmentation);
-  std::vector<DistantLight> lights = environment_lights(visible_, rotate_deg_);
-  lights.insert(lights.end(), task_.lamps.begin(), task_.lamps.end());
-  caustics_.set_lights(lights, task_.placement.turn);
   std::vector<shared::float4> polynomial;
   for (const glm::dvec3& factor : irradiance_polynomial(task_.cube, rotate_deg_)) polynomial.push_back(to_float4(factor));
   irradiance_.write(polynomial);
+  compiled_side_ = 0;
+}
+
+void Renderer::light_pass()
+{
+  const bool drawn = pass_ > 0 && occlusion_ && task_.refine;
+  if (pass_ > 1 && !drawn) return; // as the pass before
+  std::vector<DistantLight> lights =
+      environment_lights(drawn ? occlusion_->drawn_lights(static_cast<std::uint32_t>(pass_)) : visible_, rotate_deg_);
+  lights.insert(lights.end(), task_.lamps.begin(), task_.lamps.end());
+  if (drawn)
+    caustics_.draw_lights(lights, task_.placement.turn, static_cast<std::uint32_t>(pass_));
+  else
+    caustics_.set_lights(lights, task_.placement.turn);
   coarse_.forget_caustics();
   fine_.forget_caustics();
-  compiled_side_ = 0;
 }
 
 void Renderer::begin_anew()
 {
   pass_ = 0;
   stage_ = Stage::see;
+  shaded_ = false;
+  light_pass();
   see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
@@ -204,6 +216,7 @@ void Renderer::end_pass()
   stage_ = Stage::see;
   shaded_ = false;
   ++pass_;
+  light_pass();
 }
 
 double Renderer::part() const { return stage_ == Stage::see ? 0.5 * see_steps_.part() : 0.5 + 0.5 * shade_steps_.part(); }
@@ -356,6 +369,8 @@ void Renderer::load(tracing::StateReader& from)
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
   stage_ = shaded_ ? Stage::compile : Stage::see;
   see_steps_ = tracing::PixelSteps(pixels(), 8192);
+  if (task_.has_medium) compile(fine_side(caustics_.side())); // of the first pass's lights, as always
+  light_pass();
 }
 
 } // namespace nephroid::environment

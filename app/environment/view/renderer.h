@@ -56,7 +56,8 @@ public:
 private:
   enum class Stage { see, cast, compile, shade, volume };
 
-  void light_up(); ///< after a change of lights
+  void light_up();   ///< after a change of lights
+  void light_pass(); ///< for the pass in hand: the first has each light as it is, later ones parts of each
   void end_pass();
   void begin_anew();
   void see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
