@@ -51,8 +51,8 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context)
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
 {
   const std::vector<shared::DeviceTurnedSet> sets = turned_sets(lights, rotation, directions_);
-  if (sets.size() > sets_.size())
-    sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", std::max<std::size_t>(sets.size(), 1));
+  const std::size_t room = std::max<std::size_t>(sets.size(), 1); // a kernel's buffer is never empty
+  if (room > sets_.size()) sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", room);
   if (!sets.empty()) sets_.write(sets);
   used_sets_ = static_cast<int>(sets.size());
   compiled_.object_x = to_float4(rotation[0]);
