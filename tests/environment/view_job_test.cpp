@@ -105,6 +105,10 @@ TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn)
       {"more lights", [](preset::Preset& p) { environment::settings(p).lights = 60; }},
       {"segmentation", [](preset::Preset& p) { environment::settings(p).segmentation = environment::SegmentMethod::thesis; }},
       {"white", [](preset::Preset& p) { p.white = 3; }},
+      {"object",
+       [](preset::Preset& p) {
+         p.scene.objects[0].transform = {.rotate_deg = {10, 20, 30}, .translate = {0.2, 0.1, -0.3}};
+       }},
       {"all", [](preset::Preset& p) {
          look(p, {-3, 1, 2}, {0, -1, 0}, 40);
          p.scene.environment->rotate_deg = -20;
@@ -138,6 +142,28 @@ TEST_F(EnvironmentViewJob, AdoptsWhileItBakes)
   expect_same(run(*job), run(p), "while it bakes");
 }
 
+// Saved right after a change that came in the middle of a pass: where the surfaces had theirs, but not yet the air.
+TEST_F(EnvironmentViewJob, GoesOnAfterAChange)
+{
+  preset::Preset before = lit();
+  environment::settings(before).extinction = 0.1;
+  before.stop.passes = 1;
+  preset::Preset now = before;
+  look(now, {-3, 1, 2}, {0, -1, 0}, 40);
+  const job::Snapshot whole = run(now);
+  EXPECT_GT(mean(layer(whole, "volume")).y, 0.001);
+  const auto job = job_of(before);
+  for (const int steps : {4, 6, 7}) {
+    ASSERT_TRUE(job->adopt(before));
+    for (int step = 0; step < steps && !job->finished(); ++step) job->step();
+    ASSERT_TRUE(job->adopt(now));
+    const auto bytes = saved(*job);
+    const auto resumed = job_of(now);
+    EXPECT_TRUE(load(*resumed, bytes));
+    expect_same(run(*resumed), whole, fmt::format("changed after {} steps", steps));
+  }
+}
+
 TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt)
 {
   const preset::Preset p = lit();
@@ -149,7 +175,7 @@ TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt)
                                                                   [](preset::Preset& q) { q.scene.environment->radiance = 2; },
                                                                   [](preset::Preset& q) { q.scene.lights[0].irradiance_w_m2 = 2; },
                                                                   [](preset::Preset& q) { q.scene.lights.clear(); },
-                                                                  [](preset::Preset& q) { q.scene.objects[0].transform.translate[0] = 1; },
+                                                                  [](preset::Preset& q) { q.scene.objects[0].transform.scale[0] = 1.5; },
                                                                   [](preset::Preset& q) { environment::settings(q).photons = 7; },
                                                                   [](preset::Preset& q) { q.seed = 9; }};
   for (std::size_t i = 0; i < changes.size(); ++i) {

@@ -45,7 +45,8 @@ preset::Preset furnace_scene(const preset::Overrides& more = {})
   std::string quads;
   for (int i = 0; i < around; ++i) {
     const glm::dvec3 way = scene::even_direction(i, around);
-    quads += (i ? ", " : "") + facing_quad(fmt::format("receiver {}", i), receivers_at * way, -way, 0.1); // so small that they hardly see each other
+    quads += (i ? ", " : "") +
+             facing_quad(fmt::format("receiver {}", i), receivers_at * way, -way, 0.1); // so small that they hardly see each other
   }
   preset::Preset p = ball_and(quads, more);
   even_light(p);

@@ -146,6 +146,7 @@ void Renderer::begin_anew()
 {
   pass_ = 0;
   stage_ = Stage::see;
+  shaded_ = false;
   see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
