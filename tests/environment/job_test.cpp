@@ -4,21 +4,16 @@
 #include "base/bytes.h"
 #include "base/files.h"
 #include "environment/bake/bake_file.h"
-#include "environment/engine.h"
-#include "job/job.h"
 #include "plan/plan.h"
 #include "preset/read.h"
-#include "scene/scene.h"
-#include "tests/environment/bakes.h"
+#include "tests/environment/jobs.h"
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 
 namespace {
@@ -31,44 +26,20 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class EnvironmentJob : public testing::Test {
+class EnvironmentJob : public EnvironmentJobs {
 protected:
-  /// OpenCL has caches of its own in that folder, which it looks for once.
-  EnvironmentJob()
-  {
-    bake_context();
-    setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
-  }
-
   static preset::Preset small(const preset::Overrides& more = {})
   {
     preset::Overrides overrides{"environment.resolution=16", "environment.spheres=3", "environment.photons=40000"};
     overrides.insert(overrides.end(), more.begin(), more.end());
     return bake_preset(glass_ball, overrides);
   }
-  static EnvironmentPlan plan_of(const preset::Preset& p)
-  {
-    const scene::Scene scene = scene::load_scene(p);
-    return environment::make_plan(p, scene, scene::build_bvh(scene.geometry));
-  }
-  static std::unique_ptr<job::Job> job_of(const preset::Preset& p, const EnvironmentPlan& plan)
-  {
-    return environment::make_job(p, plan, bake_context());
-  }
-  static job::Snapshot run(job::Job& job)
-  {
-    while (!job.finished()) job.step();
-    return job.snapshot();
-  }
-  static job::Snapshot run(const preset::Preset& p) { return run(*job_of(p, plan_of(p))); }
   static bool runs(const EnvironmentPlan& plan, std::string_view pass)
   {
     const auto found = std::ranges::find(plan.passes, pass, &plan::Pass::name);
     EXPECT_NE(found, plan.passes.end()) << pass;
     return found != plan.passes.end() && found->runs;
   }
-
-  TemporaryFolder cache;
 };
 
 TEST_F(EnvironmentJob, BakesAndShowsItsSpheres)

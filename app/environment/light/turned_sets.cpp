@@ -68,7 +68,8 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count)
   return near;
 }
 
-glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) { return glm::mat3_cast(glm::rotation(from, to)); }
+// The real part of glm's quaternion is rounded off where the vectors are nearly opposite: its length is wrong there, but its axis is right.
+glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) { return glm::mat3_cast(glm::normalize(glm::rotation(from, to))); }
 
 std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count)
 {

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which baked directions stand for a light, and how their spheres are turned.
+#include "environment/light/turned_sets.h"
+
+#include "environment/bake/directions.h"
+#include "scene/ray.h"
+#include "scene/rotation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::environment;
+
+constexpr int some = 300; ///< directions, even on the sphere
+
+glm::dvec3 vector_of(const shared::float4& v) { return {v.x, v.y, v.z}; }
+
+/// What a set does to a direction of the scene.
+glm::dvec3 to_bake(const shared::DeviceTurnedSet& set, const glm::dvec3& direction)
+{
+  return {glm::dot(vector_of(set.to_bake[0]), direction), glm::dot(vector_of(set.to_bake[1]), direction),
+          glm::dot(vector_of(set.to_bake[2]), direction)};
+}
+
+/// The largest element of m m^T - 1, and how far the determinant is from 1.
+double off_a_rotation(const glm::dmat3& m)
+{
+  const glm::dmat3 rest = m * glm::transpose(m) - glm::dmat3(1);
+  double off = std::abs(glm::determinant(m) - 1);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) off = std::max(off, std::abs(rest[i][k]));
+  return off;
+}
+
+class NearDirections : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Counts, NearDirections, testing::Values(26, 98, 386));
+
+TEST_P(NearDirections, ABakedDirectionIsNearToItselfAlone)
+{
+  const std::vector<glm::dvec3> baked = light_directions(GetParam());
+  for (std::size_t i = 0; i < baked.size(); ++i) {
+    // A direction is rounded, so a neighbour may have some 1e-16 as well.
+    double own = 0;
+    for (const NearDirection& near : near_directions(baked[i], GetParam()))
+      if (near.direction == static_cast<int>(i))
+        own += near.weight;
+      else
+        EXPECT_LT(near.weight, 1e-14) << i;
+    EXPECT_NEAR(own, 1, 1e-14) << i;
+  }
+}
+
+// The point where the light comes through the cube is the mean of the corners of its cell, by their weights.
+TEST_P(NearDirections, TheirWeightedMeanIsTheDirection)
+{
+  const std::vector<glm::ivec3> points = cube_points(GetParam());
+  for (int i = 0; i < some; ++i) {
+    const glm::dvec3 travel = scene::even_direction(i, some);
+    glm::dvec3 mean(0);
+    double sum = 0;
+    const std::vector<NearDirection> near = near_directions(3.0 * travel, GetParam());
+    ASSERT_LE(near.size(), 4u);
+    for (const NearDirection& n : near) {
+      ASSERT_GE(n.direction, 0);
+      ASSERT_LT(n.direction, GetParam());
+      EXPECT_GT(n.weight, 0);
+      sum += n.weight;
+      mean += n.weight * glm::dvec3(points[static_cast<std::size_t>(n.direction)]);
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_LT(glm::distance(glm::normalize(mean), -travel), 1e-12) << i;
+  }
+}
+
+// Across the borders of cells and faces the weights go on without a jump: a step of 1e-6 changes them by a few 1e-6.
+TEST_P(NearDirections, WeightsAreContinuous)
+{
+  const auto weights = [&](const glm::dvec3& travel) {
+    std::vector<double> all(static_cast<std::size_t>(GetParam()));
+    for (const NearDirection& n : near_directions(travel, GetParam())) all[static_cast<std::size_t>(n.direction)] += n.weight;
+    return all;
+  };
+  const auto step = [&](const glm::dvec3& at, const glm::dvec3& by) {
+    const std::vector<double> a = weights(glm::normalize(at - 5e-7 * by)), b = weights(glm::normalize(at + 5e-7 * by));
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+  };
+  for (const glm::dvec3& baked : light_directions(GetParam()))
+    for (int k = 0; k < 16; ++k) EXPECT_LT(step(baked, scene::even_direction(k, 16)), 2e-5);
+  for (int i = 0; i < some; ++i) { // on the cube's edges
+    const glm::dvec3 d = scene::even_direction(i, some);
+    EXPECT_LT(step(glm::normalize(glm::dvec3(1, std::copysign(1, d.x), d.z)), d), 2e-5);
+  }
+}
+
+TEST(ShortestTurn, TakesOneToTheOther)
+{
+  for (int i = 0; i < some; ++i) {
+    const glm::dvec3 from = scene::even_direction(i, some), to = scene::even_direction((7 * i + 3) % some, some);
+    const glm::dmat3 turn = shortest_turn(from, to);
+    EXPECT_LT(glm::distance(turn * from, to), 1e-14);
+    EXPECT_LT(off_a_rotation(turn), 1e-13);
+    // The shortest leaves what is across both where it is.
+    const glm::dvec3 across = glm::cross(from, to);
+    EXPECT_LT(glm::distance(turn * across, across), 1e-14);
+  }
+}
+
+// Opposite vectors, equal ones, and those that are so within any small angle.
+TEST(ShortestTurn, IsARotationOfNearlyOppositeAndNearlyEqualVectors)
+{
+  for (int i = 0; i < 20; ++i)
+    for (const double sign : {-1.0, 1.0})
+      for (const double angle : {0.0, 1e-16, 1e-12, 1e-9, 7e-9, 1e-8, 2e-8, 3e-8, 5e-8, 1e-7, 3e-7, 1e-6, 1e-4}) {
+        const glm::dvec3 from = scene::even_direction(i, 20);
+        const glm::dvec3 across = glm::normalize(glm::cross(from, scene::even_direction((i + 7) % 20, 20)));
+        const glm::dvec3 to = glm::normalize(sign * from + angle * across);
+        const glm::dmat3 turn = shortest_turn(from, to);
+        EXPECT_LT(off_a_rotation(turn), 1e-13) << sign << " " << angle;
+        EXPECT_LT(glm::distance(turn * from, to), 1e-7) << sign << " " << angle; // 1 - cos of less is rounded off
+      }
+}
+
+TEST(TurnedSets, TakeTheLightToItsBakedDirections)
+{
+  const glm::dmat3 rotation = scene::rotation({20, -70, 130});
+  for (const int count : {26, 98, 386}) {
+    const std::vector<glm::dvec3> baked = light_directions(count);
+    for (int i = 0; i < some; ++i) {
+      const DistantLight light{scene::even_direction(i, some), {1, 2, 0.5}};
+      glm::dvec3 flux(0);
+      for (const shared::DeviceTurnedSet& set : turned_sets({light}, rotation, count)) {
+        EXPECT_LT(glm::distance(to_bake(set, light.direction), baked[static_cast<std::size_t>(set.direction)]), 1e-6);
+        const glm::dmat3 rows(vector_of(set.to_bake[0]), vector_of(set.to_bake[1]), vector_of(set.to_bake[2]));
+        EXPECT_LT(off_a_rotation(rows), 1e-6);
+        flux += vector_of(set.flux);
+      }
+      EXPECT_LT(glm::distance(flux, light.irradiance), 1e-6);
+    }
+  }
+}
+
+// A light that was baked, on an object that stands as it was baked, is not turned.
+TEST(TurnedSets, ABakedLightIsNotTurned)
+{
+  const std::vector<glm::dvec3> baked = light_directions(26);
+  for (const glm::dvec3& direction : baked)
+    for (const shared::DeviceTurnedSet& set : turned_sets({{direction, glm::dvec3(1)}}, glm::dmat3(1), 26)) {
+      if (set.flux.x < 1e-6F) continue;
+      EXPECT_EQ(glm::dvec3(set.flux.x), glm::dvec3(1));
+      for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
+        EXPECT_LT(glm::distance(to_bake(set, axis), axis), 1e-6);
+    }
+}
+
+// The object turned with its light has the same sets, which only see the scene turned.
+TEST(TurnedSets, TheObjectTurnedWithItsLight)
+{
+  const glm::dmat3 turn = scene::rotation({-40, 15, 77}), before = scene::rotation({5, 50, 0});
+  for (int i = 0; i < some; ++i) {
+    const glm::dvec3 direction = scene::even_direction(i, some);
+    const auto a = turned_sets({{direction, glm::dvec3(1)}}, before, 98),
+               b = turned_sets({{turn * direction, glm::dvec3(1)}}, turn * before, 98);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_EQ(a[k].direction, b[k].direction);
+      EXPECT_NEAR(a[k].flux.x, b[k].flux.x, 1e-6);
+      for (int n = 0; n < 10; ++n) {
+        const glm::dvec3 d = scene::even_direction(n, 10);
+        EXPECT_LT(glm::distance(to_bake(a[k], d), to_bake(b[k], turn * d)), 1e-6);
+      }
+    }
+  }
+}
+
+TEST(TurnedSets, BlackLightsHaveNone)
+{
+  EXPECT_TRUE(turned_sets({{{0, -1, 0}, glm::dvec3(0)}}, glm::dmat3(1), 26).empty());
+  EXPECT_FALSE(turned_sets({{{0, -1, 0}, {0, 0, 1}}}, glm::dmat3(1), 26).empty());
+}
+
+} // namespace

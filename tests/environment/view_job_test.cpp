@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs of engine 2 that show a scene: going on after a save, adopting another camera, another turn and other lights, with the bits of a run
+// of its own; what cannot be adopted; scenes without light, and with light of no one direction.
+#include "environment/sheet.h"
+#include "image/image.h"
+#include "tests/environment/maps.h"
+#include "tests/environment/views.h"
+#include "tests/support/errors.h"
+#include "tests/support/saved_jobs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <vector>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::test;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class EnvironmentViewJob : public EnvironmentJobs {
+protected:
+  EnvironmentViewJob()
+  {
+    const scene::Environment map = synthetic_maps(64)[1].map;
+    image::write_exr(cache.path() / "map.exr", {map.width, map.height, {"R", "G", "B"}, map.rgb, {}});
+  }
+
+  /// The ball on a floor under a map and a lamp, of more pixels than a step has.
+  preset::Preset lit() const
+  {
+    preset::Preset p = ball_and(facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 8), {"scene.camera.resolution=[128, 96]", "stop.passes=2"});
+    p.scene.environment.emplace();
+    p.scene.environment->file = (cache.path() / "map.exr").string();
+    p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
+    look(p, {2, 2, 4}, {0, -0.5, 0}, 50);
+    return p;
+  }
+
+  static void expect_same(const job::Snapshot& a, const job::Snapshot& b, const std::string& what)
+  {
+    ASSERT_EQ(a.picture->layers.size(), b.picture->layers.size());
+    for (std::size_t i = 0; i < a.picture->layers.size(); ++i)
+      EXPECT_EQ(a.picture->layers[i].rgb, b.picture->layers[i].rgb) << what << ": " << a.picture->layers[i].name;
+  }
+};
+
+TEST_F(EnvironmentViewJob, ShowsItsLayers)
+{
+  const auto job = job_of(lit());
+  while (job->progress().work == 0) job->step(); // the bake
+  const job::Snapshot coarse = job->snapshot(), made = run(*job);
+  EXPECT_EQ(made.progress.step, 2);
+  EXPECT_EQ(made.progress.steps, 2);
+  EXPECT_EQ(made.progress.fraction, 1);
+  EXPECT_EQ(made.progress.work, 2u * 128 * 96);
+  EXPECT_THAT(made.warnings, IsEmpty());
+  ASSERT_EQ(made.pictures.front().name, "spheres");
+  for (const char* name : {"background", "direct", "caustic"}) {
+    EXPECT_GT(mean(layer(made, name)).y, 0.01) << name;
+    // The first picture has one path for 4 x 4 pixels and no shadows of the map, but it is the same scene.
+    EXPECT_NEAR(mean(layer(coarse, name)).y, mean(layer(made, name)).y, 0.25 * mean(layer(made, name)).y) << name;
+  }
+  const auto found = std::ranges::find(made.curves, "lights", &job::Curve::name);
+  ASSERT_NE(found, made.curves.end());
+  EXPECT_EQ(found->rows.size(), 24u);
+}
+
+// Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded.
+TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits)
+{
+  const preset::Preset p = lit();
+  const job::Snapshot whole = run(p);
+  const auto begun = job_of(p);
+  for (int step = 0; !begun->finished(); ++step) {
+    // A pass has about five steps: each kind once, of either pass.
+    if (step % 3 == 1) {
+      const auto bytes = saved(*begun);
+      const auto resumed = job_of(p);
+      EXPECT_TRUE(load(*resumed, bytes));
+      EXPECT_EQ(resumed->progress().step, begun->progress().step);
+      EXPECT_EQ(resumed->snapshot().picture->rgb, begun->snapshot().picture->rgb) << "after step " << step;
+      expect_same(run(*resumed), whole, fmt::format("saved after step {}", step));
+      for (const std::size_t cut : {std::size_t{0}, std::size_t{10}, bytes.size() / 2, bytes.size() - 1})
+        EXPECT_THAT(refusal_of([&] { load(*resumed, std::span(bytes).first(cut)); }), HasSubstr("checkpoint"));
+    }
+    begun->step();
+  }
+}
+
+// In the middle of a pass and after the last one. The job that adopts has seen other pixels and had other lights before.
+TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn)
+{
+  const std::map<std::string, std::function<void(preset::Preset&)>> changes{
+      {"camera",
+       [](preset::Preset& p) {
+         look(p, {-3, 1, 2}, {0, -1, 0}, 40);
+       }},
+      {"turn", [](preset::Preset& p) { p.scene.environment->rotate_deg = 75; }},
+      {"fewer lights", [](preset::Preset& p) { environment::settings(p).lights = 8; }},
+      {"more lights", [](preset::Preset& p) { environment::settings(p).lights = 60; }},
+      {"segmentation", [](preset::Preset& p) { environment::settings(p).segmentation = environment::SegmentMethod::thesis; }},
+      {"white", [](preset::Preset& p) { p.white = 3; }},
+      {"object",
+       [](preset::Preset& p) {
+         p.scene.objects[0].transform = {.rotate_deg = {10, 20, 30}, .translate = {0.2, 0.1, -0.3}};
+       }},
+      {"all", [](preset::Preset& p) {
+         look(p, {-3, 1, 2}, {0, -1, 0}, 40);
+         p.scene.environment->rotate_deg = -20;
+         environment::settings(p).lights = 12;
+         environment::settings(p).threshold = 0.01;
+         p.white = 0.5;
+       }}};
+  const preset::Preset before = lit();
+  run(before); // bakes
+  const auto job = job_of(before);
+  for (const auto& [name, change] : changes) {
+    preset::Preset now = before;
+    change(now);
+    ASSERT_TRUE(job->adopt(before)) << name;
+    for (int step = 0; step < 2; ++step) job->step();
+    ASSERT_TRUE(job->adopt(now)) << name;
+    expect_same(run(*job), run(now), name);
+  }
+}
+
+// A change while the object is still baked is shown when it is.
+TEST_F(EnvironmentViewJob, AdoptsWhileItBakes)
+{
+  preset::Preset p = lit();
+  const auto job = job_of(p);
+  job->step();
+  p.scene.environment->rotate_deg = 75;
+  environment::settings(p).lights = 8;
+  look(p, {-3, 1, 2}, {0, -1, 0}, 40);
+  ASSERT_TRUE(job->adopt(p));
+  expect_same(run(*job), run(p), "while it bakes");
+}
+
+// Saved right after a change that came in the middle of a pass: where the surfaces had theirs, but not yet the air.
+TEST_F(EnvironmentViewJob, GoesOnAfterAChange)
+{
+  preset::Preset before = lit();
+  environment::settings(before).extinction = 0.1;
+  before.stop.passes = 1;
+  preset::Preset now = before;
+  look(now, {-3, 1, 2}, {0, -1, 0}, 40);
+  const job::Snapshot whole = run(now);
+  EXPECT_GT(mean(layer(whole, "volume")).y, 0.001);
+  const auto job = job_of(before);
+  for (const int steps : {4, 6, 7}) {
+    ASSERT_TRUE(job->adopt(before));
+    for (int step = 0; step < steps && !job->finished(); ++step) job->step();
+    ASSERT_TRUE(job->adopt(now));
+    const auto bytes = saved(*job);
+    const auto resumed = job_of(now);
+    EXPECT_TRUE(load(*resumed, bytes));
+    expect_same(run(*resumed), whole, fmt::format("changed after {} steps", steps));
+  }
+}
+
+TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt)
+{
+  const preset::Preset p = lit();
+  const auto job = job_of(p);
+  const std::vector<std::function<void(preset::Preset&)>> changes{[](preset::Preset& q) {
+                                                                    q.scene.camera.resolution = {80, 60};
+                                                                  },
+                                                                  [](preset::Preset& q) { q.scene.environment.reset(); },
+                                                                  [](preset::Preset& q) { q.scene.environment->radiance = 2; },
+                                                                  [](preset::Preset& q) { q.scene.lights[0].irradiance_w_m2 = 2; },
+                                                                  [](preset::Preset& q) { q.scene.lights.clear(); },
+                                                                  [](preset::Preset& q) { q.scene.objects[0].transform.scale[0] = 1.5; },
+                                                                  [](preset::Preset& q) { environment::settings(q).photons = 7; },
+                                                                  [](preset::Preset& q) { q.seed = 9; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    preset::Preset now = p;
+    changes[i](now);
+    EXPECT_FALSE(job->adopt(now)) << i;
+    EXPECT_FALSE(environment::adoptable(p, now)) << i;
+  }
+  EXPECT_TRUE(job->adopt(p));
+}
+
+// Without light the bake is all there is: its sheet.
+TEST_F(EnvironmentViewJob, WithoutLightTheBakeIsShown)
+{
+  preset::Preset dark = lit();
+  dark.scene.lights.clear();
+  dark.scene.environment.reset();
+  preset::Preset black = dark;
+  even_light(black, 0);
+  black.scene.lights = {lamp({0, -1, 0}, 0)};
+  for (preset::Preset* p : {&dark, &black}) {
+    p->stop.passes.reset();
+    const environment::EnvironmentPlan plan = plan_of(*p);
+    EXPECT_EQ(plan.render, nullptr);
+    const auto job = job_of(*p, plan);
+    const job::Snapshot made = run(*job);
+    const environment::Bake bake = bake_of(*p);
+    EXPECT_EQ(made.picture->rgb, sheet(bake, choose_shown(bake, 128, 96), 128, 96, p->white)->rgb);
+    EXPECT_FALSE(job->adopt(lit()));
+  }
+}
+
+TEST_F(EnvironmentViewJob, RefusesLightOfNoOneDirection)
+{
+  preset::Preset p = lit();
+  for (const preset::Light::Type type : {preset::Light::Type::point, preset::Light::Type::spot, preset::Light::Type::area}) {
+    p.scene.lights.resize(2);
+    p.scene.lights[1] = {};
+    p.scene.lights[1].type = type;
+    const std::string line = refusal_of([&] { plan_of(p); });
+    EXPECT_THAT(line, testing::StartsWith("own.json#/scene/lights/1/type: is no directional light; expected \"directional\""));
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+}
+
+} // namespace
