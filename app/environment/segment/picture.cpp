@@ -61,15 +61,7 @@ void make_small_range(std::vector<glm::dvec3>& pixels)
 
 class Painter {
 public:
-  explicit Painter(const scene::Environment& map)
-  {
-    std::vector<glm::dvec3> pixels = scaled_map(map);
-    make_small_range(pixels);
-    for (const glm::dvec3& rgb : pixels) {
-      for (int c = 0; c < 3; ++c) picture_.rgba.push_back(image::shown(static_cast<float>(rgb[c]), 1));
-      picture_.rgba.push_back(255);
-    }
-  }
+  explicit Painter(SegmentPicture picture) : picture_(std::move(picture)) {}
 
   void borders(const Segmentation& segmentation)
   {
@@ -125,14 +117,26 @@ private:
     return of_pixel;
   }
 
-  SegmentPicture picture_{width, height, {}};
+  SegmentPicture picture_;
 };
 
 } // namespace
 
+SegmentPicture shown_map(const scene::Environment& map)
+{
+  std::vector<glm::dvec3> pixels = scaled_map(map);
+  make_small_range(pixels);
+  SegmentPicture picture{width, height, {}};
+  for (const glm::dvec3& rgb : pixels) {
+    for (int c = 0; c < 3; ++c) picture.rgba.push_back(image::shown(static_cast<float>(rgb[c]), 1));
+    picture.rgba.push_back(255);
+  }
+  return picture;
+}
+
 SegmentPicture segment_picture(const scene::Environment& map, const Segmentation& segmentation)
 {
-  Painter painter(map);
+  Painter painter(shown_map(map));
   painter.borders(segmentation);
   for (const Region& light : segmentation.lights) painter.disc(light.direction);
   return painter.result();
