@@ -316,8 +316,9 @@ private:
 
 bool adoptable(const preset::Preset& before, const preset::Preset& now)
 {
+  const auto may_be_lit = [](const preset::Preset& preset) { return preset.scene.environment || !preset.scene.lights.empty(); };
   if (&before.settings.type() != &now.settings.type() || before.scene.camera.resolution != now.scene.camera.resolution ||
-      before.scene.objects.size() != now.scene.objects.size())
+      before.scene.objects.size() != now.scene.objects.size() || may_be_lit(before) != may_be_lit(now))
     return false;
   preset::Preset same = with_view_of(before, now);
   same.scene.environment = now.scene.environment;

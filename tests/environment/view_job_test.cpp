@@ -168,16 +168,13 @@ TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt)
 {
   const preset::Preset p = lit();
   const auto job = job_of(p);
-  const std::vector<std::function<void(preset::Preset&)>> changes{[](preset::Preset& q) {
-                                                                    q.scene.camera.resolution = {80, 60};
-                                                                  },
-                                                                  [](preset::Preset& q) { q.scene.environment.reset(); },
-                                                                  [](preset::Preset& q) { q.scene.environment->radiance = 2; },
-                                                                  [](preset::Preset& q) { q.scene.lights[0].irradiance_w_m2 = 2; },
-                                                                  [](preset::Preset& q) { q.scene.lights.clear(); },
-                                                                  [](preset::Preset& q) { q.scene.objects[0].transform.scale[0] = 1.5; },
-                                                                  [](preset::Preset& q) { environment::settings(q).photons = 7; },
-                                                                  [](preset::Preset& q) { q.seed = 9; }};
+  const std::vector<std::function<void(preset::Preset&)>> changes{
+      [](preset::Preset& q) {
+        q.scene.camera.resolution = {80, 60};
+      },
+      [](preset::Preset& q) { q.scene.environment.reset(), q.scene.lights.clear(); },
+      [](preset::Preset& q) { q.scene.objects[0].transform.scale[0] = 1.5; },
+      [](preset::Preset& q) { environment::settings(q).photons = 7; }, [](preset::Preset& q) { q.seed = 9; }};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     preset::Preset now = p;
     changes[i](now);
