@@ -120,6 +120,10 @@ TEST(NotLeftOut, WhereTheSceneNeedsIt)
     p.scene.lights.push_back(p.scene.lights[0]);
     p.scene.lights.back().type = type;
   }
+  EXPECT_FALSE(pass_of(p, "light_types").runs);
+  p.scene.environment.emplace().type = preset::Environment::Type::constant;
+  EXPECT_FALSE(pass_of(p, "light_types").runs);
+  p.scene.environment->lights = true;
   EXPECT_TRUE(pass_of(p, "light_types").runs);
 }
 
