@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 2, caustics under environment light (thesis chapter 3): what one object does to light is baked once, from a few directions.
+// Engine 2, caustics under environment light (thesis chapter 3): what glass and mirrors do to light is baked once, from a few directions.
 #pragma once
+#include "check/check.h"
 #include "compute/compute.h"
 #include "engine/engine.h"
 #include "environment/bake/baker.h"
@@ -13,6 +14,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace nephroid::environment {
 
@@ -36,5 +38,8 @@ std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const Environme
 /// Whether a job of `before` goes on with `now`, with the same bake: only the camera, light, where objects stand, the medium, the
 /// segmentation or white differ.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
+
+/// For `nephroid check`, through the kernels that bake.
+std::vector<check::Check> closed_forms();
 
 } // namespace nephroid::environment

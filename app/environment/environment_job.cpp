@@ -320,6 +320,11 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now)
   if (&before.settings.type() != &now.settings.type() || before.scene.camera.resolution != now.scene.camera.resolution ||
       before.scene.objects.size() != now.scene.objects.size() || may_be_lit(before) != may_be_lit(now))
     return false;
+  // What is baked together may not move apart.
+  const std::vector<std::size_t> caster = caster_objects(before);
+  if (caster.size() > 1 &&
+      std::ranges::any_of(caster, [&](std::size_t i) { return before.scene.objects[i].transform != now.scene.objects[i].transform; }))
+    return false;
   preset::Preset same = with_view_of(before, now);
   same.scene.environment = now.scene.environment;
   same.scene.lights = now.scene.lights;

@@ -123,6 +123,7 @@ private:
     Json one = number("number", f.bounds), several = list(one, f.count);
     return f.bare_number ? Json{{"anyOf", {several, one}}} : several;
   }
+  Json schema_of(const Field& f, const std::vector<std::string>&) { return list(schema_of(f, std::string()), f.count); }
   Json schema_of(const Field& f, const std::vector<std::array<double, 2>>&)
   {
     Json columns = Json::array();

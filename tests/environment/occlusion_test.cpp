@@ -27,7 +27,7 @@ using test::pi;
 /// ball's is too where the others are diffuse.
 scene::Scene scene_with(const std::string& others)
 {
-  return without_caster(scene::load_scene(test::bake_preset(test::glass_ball + (others.empty() ? "" : ", " + others))), 0);
+  return without_caster(scene::load_scene(test::bake_preset(test::glass_ball + (others.empty() ? "" : ", " + others))), {0});
 }
 
 std::string ball(const glm::dvec3& place, double radius, const std::string& material = "wall")

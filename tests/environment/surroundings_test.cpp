@@ -48,7 +48,7 @@ TEST_P(Without, TheRestIsWhatAPresetWithoutItMakes)
 {
   preset::Preset preset = crowd();
   const scene::Scene whole = scene::load_scene(preset);
-  const scene::Scene rest = without_caster(whole, GetParam());
+  const scene::Scene rest = without_caster(whole, {GetParam()});
   preset.scene.objects.erase(preset.scene.objects.begin() + static_cast<std::ptrdiff_t>(GetParam()));
   const scene::Scene expected = scene::load_scene(preset);
 
@@ -72,17 +72,19 @@ TEST(WithoutCaster, TheCameraKnowsTheOthersByTheirNewNumbers)
 {
   const scene::Scene whole = scene::load_scene(crowd());
   ASSERT_THAT(whole.camera.inside, ElementsAre(0, 3));
-  EXPECT_THAT(without_caster(whole, 0).camera.inside, ElementsAre(2));
-  EXPECT_THAT(without_caster(whole, 2).camera.inside, ElementsAre(0, 2));
-  EXPECT_THAT(without_caster(whole, 3).camera.inside, ElementsAre(0));
-  EXPECT_THAT(without_caster(whole, 4).camera.inside, ElementsAre(0, 3));
+  EXPECT_THAT(without_caster(whole, {0}).camera.inside, ElementsAre(2));
+  EXPECT_THAT(without_caster(whole, {2}).camera.inside, ElementsAre(0, 2));
+  EXPECT_THAT(without_caster(whole, {3}).camera.inside, ElementsAre(0));
+  EXPECT_THAT(without_caster(whole, {4}).camera.inside, ElementsAre(0, 3));
+  EXPECT_THAT(without_caster(whole, {0, 2}).camera.inside, testing::IsEmpty());
+  EXPECT_THAT(without_caster(whole, {1, 4}).camera.inside, ElementsAre(0, 2));
 }
 
 TEST(WithoutCaster, OfOneObjectNothingIsLeft)
 {
   preset::Preset preset = test::ball_over_floor();
   preset.scene.objects.resize(1);
-  const scene::Scene rest = without_caster(scene::load_scene(preset), 0);
+  const scene::Scene rest = without_caster(scene::load_scene(preset), {0});
   EXPECT_THAT(rest.objects, IsEmpty());
   EXPECT_THAT(rest.object_of_primitive, IsEmpty());
   EXPECT_THAT(rest.geometry.positions, IsEmpty());

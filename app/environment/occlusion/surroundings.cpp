@@ -5,6 +5,7 @@
 #include "scene/bvh.h"
 #include "scene/corners.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -49,29 +50,34 @@ private:
   std::vector<std::uint32_t> places_; ///< of each vertex in the new scene
 };
 
+bool is_one_of(const std::vector<std::size_t>& caster, std::size_t object) { return std::ranges::count(caster, object) > 0; }
+
 /// Without the caster, and with the others' new numbers.
-std::vector<int> renumbered(const std::vector<int>& objects, int caster)
+std::vector<int> renumbered(const std::vector<int>& objects, const std::vector<std::size_t>& caster)
 {
   std::vector<int> result;
-  for (const int object : objects)
-    if (object != caster) result.push_back(object < caster ? object : object - 1);
+  for (const int object : objects) {
+    const auto index = static_cast<std::size_t>(object);
+    if (!is_one_of(caster, index))
+      result.push_back(object - static_cast<int>(std::ranges::count_if(caster, [&](std::size_t c) { return c < index; })));
+  }
   return result;
 }
 
 } // namespace
 
-scene::Scene without_caster(const scene::Scene& scene, std::size_t caster)
+scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::size_t>& caster)
 {
   scene::Scene result;
   result.source = scene.source;
   result.metres_per_unit = scene.metres_per_unit;
   result.origin = scene.origin;
   result.camera = scene.camera;
-  result.camera.inside = renumbered(scene.camera.inside, static_cast<int>(caster));
+  result.camera.inside = renumbered(scene.camera.inside, caster);
   result.materials = scene.materials;
   Copier copier(scene, result);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (i != caster) copier.add(scene.objects[i]);
+    if (!is_one_of(caster, i)) copier.add(scene.objects[i]);
   for (const auto count : {&scene::Object::triangle_count, &scene::Object::ellipsoid_count})
     for (std::uint32_t i = 0; i < result.objects.size(); ++i)
       result.object_of_primitive.insert(result.object_of_primitive.end(), result.objects[i].*count, i);

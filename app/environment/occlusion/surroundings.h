@@ -5,13 +5,14 @@
 #include "tracing/world.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace nephroid::environment {
 
-/// The scene without one object, in the same coordinates: the other objects with their geometry, the materials and the camera. It has no
-/// lights, no environment and no warnings, which may be large and which nobody asks of it. caster: an index into scene.objects, as
-/// caster_index gives; objects after it have numbers lower by one.
-scene::Scene without_caster(const scene::Scene& scene, std::size_t caster);
+/// The scene without the caster, in the same coordinates: the other objects with their geometry, the materials and the camera. It has no
+/// lights, no environment and no warnings, which may be large and which nobody asks of it. caster: indices into scene.objects, as
+/// Caster::objects; the others keep their order.
+scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::size_t>& caster);
 
 /// The surroundings on a device, with their tree. An object that moves changes the tree, but hardly ever the kernels that are run in it.
 /// Throws failed where the device has not enough memory.

@@ -66,7 +66,7 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   task.defines["NEPHROID_JITTER"] = std::to_string(int(task.coloured));
   task.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(0);
 
-  task.surroundings = without_caster(scene, caster_index(preset));
+  task.surroundings = without_caster(scene, caster.objects);
   task.has_surroundings = !task.surroundings.object_of_primitive.empty();
   const Settings& s = settings(preset);
   task.refine = s.refine;
