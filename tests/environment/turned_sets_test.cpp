@@ -180,6 +180,34 @@ TEST(TurnedSets, TheObjectTurnedWithItsLight)
   }
 }
 
+// One set a pass for each light: in the mean over passes the near directions have their weights.
+TEST(DrawnSets, InTheMeanAreTheTurnedSets)
+{
+  constexpr int count = 26, passes = 2000;
+  const glm::dmat3 rotation = scene::rotation({20, -70, 130});
+  std::vector<DistantLight> lights;
+  for (int i = 0; i < 7; ++i) lights.push_back({scene::even_direction(i, 7), {1.0 + i, 2, 0.5}});
+  const auto add = [](std::vector<glm::dvec3>& sums, const std::vector<shared::DeviceTurnedSet>& sets, double weight) {
+    for (const shared::DeviceTurnedSet& set : sets) sums[static_cast<std::size_t>(set.direction)] += weight * vector_of(set.flux);
+  };
+  for (const DistantLight& light : lights) {
+    std::vector<glm::dvec3> all(count), drawn(count);
+    add(all, turned_sets({light}, rotation, count), 1);
+    for (std::uint32_t pass = 0; pass < passes; ++pass) {
+      const std::vector<shared::DeviceTurnedSet> one = drawn_sets({light}, rotation, count, pass);
+      ASSERT_EQ(one.size(), 1u);
+      add(drawn, one, 1.0 / passes);
+    }
+    for (std::size_t i = 0; i < count; ++i) EXPECT_LT(glm::distance(all[i], drawn[i]), 0.003 * glm::length(light.irradiance));
+  }
+  // Together as each alone, and black ones are left out.
+  lights[2].irradiance = glm::dvec3(0);
+  const std::vector<shared::DeviceTurnedSet> sets = drawn_sets(lights, rotation, count, 5);
+  ASSERT_EQ(sets.size(), 6u);
+  EXPECT_LT(glm::distance(to_bake(sets[3], lights[4].direction), light_directions(count)[static_cast<std::size_t>(sets[3].direction)]),
+            1e-6);
+}
+
 TEST(TurnedSets, BlackLightsHaveNone)
 {
   EXPECT_TRUE(turned_sets({{{0, -1, 0}, glm::dvec3(0)}}, glm::dmat3(1), 26).empty());

@@ -101,7 +101,6 @@ TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn)
          look(p, {-3, 1, 2}, {0, -1, 0}, 40);
        }},
       {"turn", [](preset::Preset& p) { p.scene.environment->rotate_deg = 75; }},
-      {"fewer lights", [](preset::Preset& p) { environment::settings(p).lights = 8; }},
       {"more lights", [](preset::Preset& p) { environment::settings(p).lights = 60; }},
       {"segmentation", [](preset::Preset& p) { environment::settings(p).segmentation = environment::SegmentMethod::thesis; }},
       {"white", [](preset::Preset& p) { p.white = 3; }},
@@ -109,6 +108,12 @@ TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn)
        [](preset::Preset& p) {
          p.scene.objects[0].transform = {.rotate_deg = {10, 20, 30}, .translate = {0.2, 0.1, -0.3}};
        }},
+      {"lamps",
+       [](preset::Preset& p) {
+         p.scene.lights = {lamp({-0.5, -1, 0}), lamp({0.3, -1, 0.2}, 2)};
+       }},
+      {"no map", [](preset::Preset& p) { p.scene.environment.reset(); }},
+      {"brighter map", [](preset::Preset& p) { p.scene.environment->radiance = 2; }},
       {"all", [](preset::Preset& p) {
          look(p, {-3, 1, 2}, {0, -1, 0}, 40);
          p.scene.environment->rotate_deg = -20;
@@ -174,7 +179,9 @@ TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt)
       },
       [](preset::Preset& q) { q.scene.environment.reset(), q.scene.lights.clear(); },
       [](preset::Preset& q) { q.scene.objects[0].transform.scale[0] = 1.5; },
-      [](preset::Preset& q) { environment::settings(q).photons = 7; }, [](preset::Preset& q) { q.seed = 9; }};
+      [](preset::Preset& q) { q.scene.objects.pop_back(); },
+      [](preset::Preset& q) { environment::settings(q).photons = 7; },
+      [](preset::Preset& q) { q.seed = 9; }};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     preset::Preset now = p;
     changes[i](now);
@@ -182,6 +189,18 @@ TEST_F(EnvironmentViewJob, WhatItDoesNotAdopt)
     EXPECT_FALSE(environment::adoptable(p, now)) << i;
   }
   EXPECT_TRUE(job->adopt(p));
+}
+
+// What is refused changes nothing.
+TEST_F(EnvironmentViewJob, RefusesToAdoptLightOfNoOneDirection)
+{
+  const preset::Preset p = lit();
+  const auto job = job_of(p);
+  while (job->progress().step == 0) job->step();
+  preset::Preset now = p;
+  now.scene.lights = {preset::Light{}};
+  EXPECT_THAT(refusal_of([&] { job->adopt(now); }), testing::StartsWith("own.json#/scene/lights/0/type: is no directional light"));
+  expect_same(run(*job), run(p), "after a refusal");
 }
 
 // Without light the bake is all there is: its sheet.
