@@ -205,6 +205,7 @@ public:
     }
     history_.rows.clear();
     history_.measuring_seconds = 0;
+    if (job_->progress().work_seconds == 0) began_ = Clock::now(), wall_before_ = 0; // it begins anew
     next_ = 0;
     last_seconds_ = 0;
     shown_.reset();

@@ -2,6 +2,7 @@
 #include "optics/dispersion.h"
 
 #include "base/error.h"
+#include "base/monotone_cubic.h"
 #include "optics/formulas.h"
 #include "optics/interpolation.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interpolation between rows of (wavelength in nm, value): linear, and a cubic that never overshoots its control points.
+// Rows of (wavelength in nm, value): put in order, and straight lines between them.
 #pragma once
 #include "base/place.h"
 #include "optics/dispersion.h"
@@ -40,17 +40,5 @@ private:
 
 /// A table as a curve of n or k, with its range and its gap.
 Curve curve_of(LinearTable table);
-
-/// The monotone piecewise cubic of Fritsch and Carlson (SIAM J. Numer. Anal. 17, 1980): continuous slope, and between two
-/// control points never above the higher or below the lower one. End values are held outside.
-class MonotoneCubic {
-public:
-  explicit MonotoneCubic(std::vector<Row> sorted);
-  double operator()(double nm) const;
-
-private:
-  std::vector<Row> rows_;
-  std::vector<double> slopes_; ///< one a control point, value per nm
-};
 
 } // namespace nephroid::optics

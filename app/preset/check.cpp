@@ -125,6 +125,13 @@ void check_stop(const Preset& preset, const Where& where)
                     "expected a 'reference', or 'measure.estimate' true");
 }
 
+/// Each frame has another picture.
+void check_animation(const Preset& preset, const Where& where)
+{
+  if (preset.animation && preset.reference && preset.reference->type == Reference::Type::file)
+    throw bad_input(where("/reference"), "is one picture for all frames of the animation", "expected a recipe, or no reference");
+}
+
 /// A reference that shares a seed with the run would share its noise, and call it right.
 void check_reference(const Preset& preset, const Where& where)
 {
@@ -147,6 +154,7 @@ void check(const Preset& preset, const Where& where)
   for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], child("/scene/lights", i), where);
   check_stop(preset, where);
   check_reference(preset, where);
+  check_animation(preset, where);
   preset.settings.type().check(preset, where);
 }
 

@@ -16,6 +16,7 @@
 // cubes fit single precision; scales between 1e-6 and 1e6.
 #pragma once
 #include "preset/choices.h"
+#include "preset/describe_animation.h"
 #include "preset/field.h"
 #include "preset/preset.h"
 
@@ -351,6 +352,7 @@ void describe(V& v, S& p)
   v.field({.name = "stop", .sentence = "When the run is done."}, p.stop);
   v.field({.name = "reference", .sentence = "What the picture is measured against while it is rendered."}, p.reference);
   v.field({.name = "measure", .sentence = "What a run notes about its error."}, p.measure);
+  v.field({.name = "animation", .sentence = "Frames in which fields of the preset change."}, p.animation);
   v.field({.name = "leave_out", .sentence = "Leave out what the scene does not need: it takes time and changes no picture."}, p.leave_out);
 }
 

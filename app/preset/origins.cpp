@@ -3,6 +3,8 @@
 
 #include "base/files.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace nephroid::preset {
@@ -60,6 +62,14 @@ Error at_origin(const Origins& origins, const std::string& pointer, const Error&
 /// At an item of the sweep's list, which says already what runs it is about.
 bool is_at_swept_value(const Error& error) { return error.place().pointer.value_or("").starts_with("/sweep/"); }
 
+/// "in frame 3 of the run 'lens,seed=2' of the sweep"; empty of a preset that stands alone.
+std::string part_of(const Provenance& provenance)
+{
+  const std::string frame = provenance.frame ? fmt::format("in frame {}", *provenance.frame) : std::string();
+  if (provenance.run.empty()) return frame;
+  return fmt::format("{} the run '{}' of the sweep", frame.empty() ? "in" : frame + " of", provenance.run);
+}
+
 } // namespace
 
 std::string field_of(const Preset& preset, const Place& place)
@@ -69,13 +79,13 @@ std::string field_of(const Preset& preset, const Place& place)
 
 void rethrow_at_origin(const Preset& preset, const Error& error)
 {
-  const std::string pointer = is_as_read(preset) ? field_of(preset, error.place()) : std::string(), &run = preset.provenance.run;
-  if (pointer.empty() && run.empty()) throw;
+  const std::string pointer = is_as_read(preset) ? field_of(preset, error.place()) : std::string(), part = part_of(preset.provenance);
+  if (pointer.empty() && part.empty()) throw;
   const Error told = pointer.empty() ? error : at_origin(*preset.provenance.origins, pointer, error);
   // A missing device is missing for every run, and what is interrupted names the run's folder.
   const bool may_be_of_one_run = error.kind() == ErrorKind::bad_input || error.kind() == ErrorKind::failed;
-  if (run.empty() || is_at_swept_value(told) || !may_be_of_one_run) throw told;
-  throw told.noting("in the run '" + run + "' of the sweep");
+  if (part.empty() || is_at_swept_value(told) || !may_be_of_one_run) throw told;
+  throw told.noting(part);
 }
 
 } // namespace nephroid::preset

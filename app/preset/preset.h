@@ -180,12 +180,40 @@ struct Measure {
   bool operator==(const Measure&) const = default;
 };
 
+/// A value of a field at a frame.
+struct Key {
+  int frame = 0;
+  std::vector<double> value; ///< as many numbers as the field has
+  bool operator==(const Key&) const = default;
+};
+
+/// How one field changes over the frames. Before its first key and after its last one it is held.
+struct Track {
+  enum class Interpolation { linear, smooth };
+  std::string path; ///< of the field, as for --set: "scene.objects.0.transform.translate"
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<Key> keys; ///< by rising frame, each frame once
+  bool operator==(const Track&) const = default;
+};
+
+/// The most frames an animation may have.
+inline constexpr int max_frames = 10000;
+
+/// Frames of one scene that changes (animation.h). The preset's own fields are those of frame 0.
+struct Animation {
+  int frames = 24; ///< frame 0 to frame frames - 1
+  double fps = 24; ///< frames a second
+  std::vector<Track> tracks;
+  bool operator==(const Animation&) const = default;
+};
+
 class Origins;
 
 /// Where a preset came from, for messages (origins.h). It changes no picture: any two are equal.
 struct Provenance {
   std::shared_ptr<const Origins> origins; ///< who gave each value; null where nothing was read
   std::string run;                        ///< its name as one of a sweep's runs; empty where there is no sweep
+  std::optional<int> frame;               ///< which one of an animation it is (animation.h)
   bool operator==(const Provenance&) const { return true; }
 };
 
@@ -201,6 +229,7 @@ struct Preset {
   Stop stop;
   std::optional<Reference> reference;
   Measure measure;
+  std::optional<Animation> animation;
   bool leave_out = true; ///< what the scene does not need; false: everything is computed, which takes longer and changes no picture
 
   std::string source;    ///< the file it came from, for messages and look-ups; not a field of the JSON

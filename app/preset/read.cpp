@@ -2,6 +2,7 @@
 #include "preset/read.h"
 
 #include "base/error.h"
+#include "preset/animation.h"
 #include "preset/document.h"
 #include "preset/origins.h"
 #include "preset/reader_visitor.h"
@@ -31,7 +32,7 @@ Preset finish(const SweptDocument& run)
 {
   const Document& document = run.document;
   const std::string name = base_name(document) + run.suffix;
-  const Provenance provenance{std::make_shared<const Origins>(document.origins()), run.suffix.empty() ? std::string() : name};
+  const Provenance provenance{std::make_shared<const Origins>(document.origins()), run.suffix.empty() ? std::string() : name, std::nullopt};
   Preset unread;
   unread.provenance = provenance;
   return at_origins(unread, [&] {
@@ -39,7 +40,8 @@ Preset finish(const SweptDocument& run)
     preset.name = name;
     preset.source = document.origins().main().place.name;
     preset.provenance = provenance;
-    check(preset, [&](const std::string& pointer) { return document.where(pointer); });
+    if (preset.animation) preset = at_start(preset);
+    check(preset, [&](const std::string& pointer) { return preset.provenance.origins->where(pointer); });
     return preset;
   });
 }

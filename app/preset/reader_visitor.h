@@ -219,6 +219,10 @@ private:
 
   void read_value(const Json& json, const std::string& pointer, const Field& f, std::vector<double>& value) const
   {
+    if (f.bare_number && json.is_number()) {
+      read_number(json, pointer, f.bounds, f.unit, value.emplace_back());
+      return;
+    }
     read_items(json, pointer, f, expected_number(f.bounds, f.unit), value,
                [&](const Json& item, const std::string& at, double& x) { read_number(item, at, f.bounds, f.unit, x); });
   }

@@ -118,7 +118,11 @@ private:
   {
     return list(schema_of(f, T{}), {N, N});
   }
-  Json schema_of(const Field& f, const std::vector<double>&) { return list(number("number", f.bounds), f.count); }
+  Json schema_of(const Field& f, const std::vector<double>&)
+  {
+    Json one = number("number", f.bounds), several = list(one, f.count);
+    return f.bare_number ? Json{{"anyOf", {several, one}}} : several;
+  }
   Json schema_of(const Field& f, const std::vector<std::array<double, 2>>&)
   {
     Json columns = Json::array();

@@ -27,6 +27,7 @@ preset::Preset settings_only(preset::Preset preset)
   preset.name = preset.description = preset.source = "";
   preset.stop = {};
   preset.reference = {};
+  preset.animation.reset(); // its fields are in their places
   preset.measure.perceptual = false;
   preset.measure.mask.reset();
   for (preset::Object& object : preset.scene.objects)

@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "plan/plan.h"
 #include "preset/read.h"
+#include "run/animation.h"
 #include "run/picture.h"
 #include "run/run.h"
 
@@ -95,6 +96,7 @@ void begin_run(const fs::path& folder, const Prepared& prepared)
     fs::remove(folder / name, ignored);
   }
   remove_pictures_after(folder, -1);
+  remove_frames(folder, 0);
   write_settings(folder, prepared);
 }
 

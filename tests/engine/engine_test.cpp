@@ -5,6 +5,7 @@
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -74,6 +75,22 @@ TEST_F(GradientEngine, ResumesToTheSameBits)
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("going on in"));
   EXPECT_EQ(nephroid::image::read_image(folder / "whole/image.exr").data, nephroid::image::read_image(folder / "parts/image.exr").data);
+}
+
+// One job renders all frames, as it begins anew with each: the bits are those of runs of their own.
+TEST_F(GradientEngine, KeepsItsJobFromFrameToFrame)
+{
+  const Ended film = run_to("film", {"--passes", "3", "--set",
+                                     R"(animation={"frames": 3, "tracks": [{"path": "gradient.level",
+                                       "keys": [{"frame": 0, "value": 0.25}, {"frame": 2, "value": 0.75}]}]})"});
+  ASSERT_EQ(film.exit_code, 0) << film.err;
+  for (int frame = 0; frame < 3; ++frame) {
+    const std::string own = fmt::format("film/frames/000{}", frame);
+    EXPECT_EQ(of(own + "/run.json").at("gradient").at("adopted"), frame);
+    EXPECT_EQ(of(own + "/run.json").at("sweeps"), 3);
+    ASSERT_EQ(run({"run", own + "/preset.json", "-o", "alone"}).exit_code, 0);
+    EXPECT_TRUE(bytes("alone/image.exr") == bytes(fmt::format("film/frame_000{}.exr", frame))) << frame;
+  }
 }
 
 TEST_F(GradientEngine, IsPlannedAndInTheSchema)

@@ -96,12 +96,23 @@ public:
     snapshot.pictures.push_back({"upside_down", picture});
     snapshot.progress = progress();
     snapshot.scalars.push_back({"gradient", "level", settings_.level});
+    snapshot.scalars.push_back({"gradient", "adopted", static_cast<double>(adopted_)});
     snapshot.curves.push_back({"settling",
                                {"sweep", "standard_deviation"},
                                {{1, settings_.noise}, {static_cast<double>(done_), settings_.noise / std::sqrt(a + b)}}});
     const std::string size = fmt::format("{} {}\n", width_, height_);
     snapshot.files.push_back({"gradient.txt", [size](ByteSink& to) { to.write(std::as_bytes(std::span(size))); }});
     return snapshot;
+  }
+
+  /// Begins anew.
+  bool adopt(const preset::Preset& preset) override
+  {
+    settings_ = settings(preset);
+    for (auto& half : sums_) std::fill(half.begin(), half.end(), 0);
+    done_ = 0;
+    ++adopted_;
+    return true;
   }
 
   void save(ByteSink& to) override
@@ -126,6 +137,7 @@ private:
   int width_, height_;
   std::int64_t passes_, done_ = 0;
   bool estimates_;
+  int adopted_ = 0;                         ///< presets after the first
   std::array<std::vector<double>, 2> sums_; ///< [half][pixel]
 };
 
@@ -173,6 +185,13 @@ check::Result rises(const compute::Context&, std::uint64_t seed)
   return {{}, (mean - 7.5 / 8) / error, 5.5, "sigma", "the rightmost column against its closed form"};
 }
 
+bool only_level(const preset::Preset& before, const preset::Preset& now)
+{
+  preset::Preset same = now;
+  same.settings.as<Settings>().level = settings(before).level;
+  return same == before;
+}
+
 std::vector<check::Check> checks() { return {{"gradient: it rises", rises}}; }
 
 } // namespace
@@ -184,6 +203,7 @@ constinit const engine::Engine engine{.settings = settings_type,
                                         return std::make_unique<GradientJob>(preset, dynamic_cast<const GradientPlan&>(plan));
                                       },
                                       .reference = reference,
-                                      .checks = checks};
+                                      .checks = checks,
+                                      .adoptable = only_level};
 
 } // namespace nephroid::gradient

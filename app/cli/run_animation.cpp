@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run_animation.h"
+
+#include "base/counted.h"
+#include "base/error.h"
+#include "base/json_output.h"
+#include "cli/numbers.h"
+#include "preset/animation.h"
+#include "preset/origins.h"
+#include "run/animation.h"
+#include "run/video.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+namespace nephroid::cli {
+namespace {
+
+/// The first and the last frame to render.
+std::pair<int, int> frames_of(const std::string& text, int frames)
+{
+  if (text.empty()) return {0, frames - 1};
+  const std::size_t dash = text.find('-');
+  const std::string_view all = text;
+  const auto first = typed_number<int>(all.substr(0, dash)),
+             last = dash == std::string::npos ? first : typed_number<int>(all.substr(dash + 1));
+  if (!first || !last || *first < 0 || *last < *first)
+    throw bad_input("--frames " + text, "names no frames", "expected one, such as 12, or the first and the last, such as 3-40");
+  if (*last >= frames)
+    throw bad_input("--frames " + text, fmt::format("the animation has no frame {}", *last),
+                    fmt::format("its frames are 0 to {}", frames - 1));
+  return {*first, *last};
+}
+
+class Frames {
+public:
+  Frames(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)
+      : options_(options), target_(target), interrupted_(interrupted), shared_(shared), animation_(target.preset.animation.value()),
+        range_(frames_of(options.frames, animation_.frames))
+  {
+  }
+
+  void operator()()
+  {
+    for (int frame = range_.first; frame <= range_.second; ++frame)
+      preset::at_frame(target_.preset, frame); // what cannot be is said at once
+    begin();
+    for (int frame = range_.first; frame <= range_.second; ++frame) render_one(frame);
+    end();
+  }
+
+private:
+  /// The folder is of the animation as a whole: its preset, and the plan of frame 0.
+  void begin()
+  {
+    preset::at_origins(target_.preset, [&] {
+      shared_.prepared = run::prepare(target_.preset, shared_.prepared ? &*shared_.prepared : nullptr);
+      run::require_memory(*shared_.prepared, device_of(options_, shared_)); // what cannot be leaves no folder
+    });
+    run::claim_folder(target_.folder);
+    if (options_.resume || !options_.frames.empty()) {
+      run::remove_frames(target_.folder, animation_.frames);
+      run::write_settings(target_.folder, *shared_.prepared);
+    } else
+      run::begin_run(target_.folder, *shared_.prepared);
+  }
+
+  void render_one(int frame)
+  {
+    const std::filesystem::path own = run::frame_folder(target_.folder, frame);
+    const Target target{preset::at_frame(target_.preset, frame), own, fmt::format("{}/{:04}", target_.label, frame), target_.folder};
+    if (const auto done = options_.resume ? run::finished_frame(target_.folder, frame, target.preset) : std::nullopt) {
+      run::show_frame(target_.folder, frame);
+      if (options_.json) report_result(options_, target, *done, true);
+      return;
+    }
+    run::hide_frame(target_.folder, frame);
+    preset::at_origins(target.preset, [&] { render(options_, target, interrupted_, shared_); });
+    ++rendered_;
+  }
+
+  void end() const
+  {
+    const std::vector<int> finished = run::finished_frames(target_.folder, target_.preset);
+    run::write_frame_figures(target_.folder, finished);
+    const auto missing = static_cast<std::size_t>(animation_.frames) - finished.size();
+    const std::optional<std::string> why_none =
+        missing > 0 ? counted(missing, "frame") + (missing == 1 ? " is" : " are") + " missing; go on with --resume"
+                    : run::make_video(target_.folder, animation_.frames, animation_.fps);
+    if (options_.json) {
+      nlohmann::ordered_json all{{"type", "animation"},
+                                 {"name", target_.preset.name},
+                                 {"folder", target_.folder.string()},
+                                 {"frames", animation_.frames},
+                                 {"rendered", rendered_},
+                                 {"finished", missing == 0},
+                                 {"files", {"preset.json", "plan.json", "frames.csv"}}};
+      if (!why_none) all["files"].push_back("animation.mp4");
+      fmt::print("{}\n", json_text(all));
+    } else {
+      if (rendered_ == 0) fmt::print(stderr, "{}: these frames are finished\n", target_.label);
+      if (!why_none)
+        fmt::print("{}: {}, {} a second\n", (target_.folder / "animation.mp4").string(), counted(finished.size(), "frame"), animation_.fps);
+    }
+    std::fflush(stdout);
+    if (why_none) fmt::print(stderr, "note: {}: there is no video: {}\n", target_.label, *why_none);
+  }
+
+  const RunOptions& options_;
+  const Target& target_;
+  std::stop_token interrupted_;
+  Shared& shared_;
+  const preset::Animation& animation_;
+  std::pair<int, int> range_;
+  int rendered_ = 0;
+};
+
+} // namespace
+
+void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)
+{
+  Frames(options, target, interrupted, shared)();
+}
+
+} // namespace nephroid::cli

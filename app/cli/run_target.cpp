@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run_target.h"
+
+#include "base/counted.h"
+#include "base/error.h"
+#include "base/json_output.h"
+#include "cli/progress.h"
+#include "engine/engine.h"
+#include "measure/measured_job.h"
+#include "run/animation.h"
+#include "run/picture.h"
+#include "run/reference.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+namespace nephroid::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// Beside the engine's own.
+constexpr const char* result_files[] = {"preset.json", "plan.json",     "run.json",      "history.csv",
+                                        "report.html", "pictures.json", "checkpoint.bin"};
+
+/// Which is shown to people.
+fs::path picture_of(const Target& target)
+{
+  return target.animation.empty() ? target.folder / "image.png"
+                                  : run::frame_picture(target.animation, target.preset.provenance.frame.value());
+}
+
+} // namespace
+
+void report_result(const RunOptions& options, const Target& target, const job::Progress& progress, bool finished)
+{
+  std::vector<std::string> files = run::engine_files(target.folder);
+  for (const char* name : result_files)
+    if (fs::exists(target.folder / name)) files.emplace_back(name);
+  for (const auto& made : run::pictures_at(target.folder)) {
+    const fs::path picture = made["picture"].get<std::string>();
+    files.insert(files.end(), {picture.string(), fs::path(picture).replace_extension(".exr").string()});
+  }
+  if (options.json) {
+    nlohmann::ordered_json all{{"type", "result"},
+                               {"name", target.preset.name},
+                               {"folder", target.folder.string()},
+                               {"files", files},
+                               {"finished", finished},
+                               {std::string(progress.units.steps), progress.step},
+                               {std::string(progress.units.works), progress.work},
+                               {"work_seconds", progress.work_seconds}};
+    if (target.preset.provenance.frame) all["frame"] = *target.preset.provenance.frame;
+    fmt::print("{}\n", json_text(all));
+  } else {
+    const job::Units& units = progress.units;
+    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", picture_of(target).string(),
+               counted(progress.step, std::string(units.step), std::string(units.steps)), static_cast<double>(progress.work) * 1e-6,
+               units.works, progress.work_seconds);
+  }
+  std::fflush(stdout);
+  if (!finished || options.pictures_at.empty() || options.pictures_at.back() <= progress.work_seconds) return;
+  const auto beyond = std::upper_bound(options.pictures_at.begin(), options.pictures_at.end(), progress.work_seconds);
+  fmt::print(stderr, "note: {}: the run ended after {:.1f} s of work: no picture at {} s\n", target.label, progress.work_seconds,
+             fmt::join(beyond, options.pictures_at.end(), ", "));
+}
+
+namespace {
+
+/// Renders one target on a device that is open for all of them.
+class Run {
+public:
+  Run(const RunOptions& options, const Target& target, const std::stop_token& interrupted)
+      : options_(options), target_(target), interrupted_(interrupted)
+  {
+  }
+
+  void operator()(Shared& shared)
+  {
+    shared.prepared = run::prepare(target_.preset, shared.prepared ? &*shared.prepared : nullptr);
+    const run::Prepared& prepared = *shared.prepared;
+    for (const std::string& note : prepared.plan->notes)
+      if (!is_frame() || shared.notes.insert(note).second) fmt::print(stderr, "note: {}\n", note);
+    const compute::Context& context = device_of(options_, shared);
+    compute::tell_of_compiling(context, [this] { activity_.show("compiling kernels"); });
+    std::unique_ptr<job::Job> job = taken_on(shared);
+    if (!job) run::require_memory(prepared, context); // a run that cannot be leaves no folder
+    run::claim_folder(target_.folder);
+    try {
+      reference_ = reference(prepared, context);
+      if (!job) {
+        job = measure::measured(run::make_job(prepared, context), prepared.preset, reference_, began_, options_.pictures_at);
+        shared.of_job = target_.preset;
+      }
+      activity_.clear();
+      compute::tell_of_compiling(context, [] {}); // the context outlives this
+      stop_if_interrupted_early();
+      begin_or_resume(prepared, context, *job);
+      stop_if_interrupted_early();
+      work(prepared, context, *job);
+      save(prepared, context, *job);
+      if (is_frame()) shared.job = std::move(job);
+    } catch (...) {
+      run::release_folder(target_.folder);
+      throw;
+    }
+  }
+
+private:
+  bool is_frame() const { return !target_.animation.empty(); }
+
+  /// The job of the frame before, where it can be this one's; else it is gone, with its memory.
+  std::unique_ptr<job::Job> taken_on(Shared& shared) const
+  {
+    std::unique_ptr<job::Job> before = std::move(shared.job);
+    if (!before || target_.preset.reference) return nullptr; // a reference is of one frame
+    preset::Preset now = target_.preset;
+    now.name = shared.of_job.name; // the name is a frame's, and changes nothing
+    const auto adoptable = engine::engine_of(now).adoptable;
+    if (!adoptable || !adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
+    shared.of_job = std::move(now);
+    const job::Progress progress = before->progress();
+    if (progress.step != 0 || progress.work != 0 || progress.work_seconds != 0) return nullptr;
+    return before;
+  }
+
+  void stop_if_interrupted_early() const
+  {
+    if (interrupted_.stop_requested()) throw Error(ErrorKind::interrupted, target_.folder.string(), "interrupted before rendering began");
+  }
+
+  /// A frame whose preset has changed starts anew: the other frames may be as they were.
+  bool load_checkpoint(const run::Prepared& prepared, const compute::Context& context, job::Job& job) const
+  {
+    try {
+      return run::load_checkpoint(target_.folder, prepared, context, job);
+    } catch (const Error& error) {
+      if (!is_frame() || error.kind() != ErrorKind::bad_input) throw;
+      fmt::print(stderr, "note: {}: its checkpoint cannot be used, the frame starts anew\n", target_.label);
+      return false;
+    }
+  }
+
+  void begin_or_resume(const run::Prepared& prepared, const compute::Context& context, job::Job& job) const
+  {
+    if (options_.resume && load_checkpoint(prepared, context, job)) {
+      const job::Progress progress = job.progress();
+      fmt::print(stderr, "{}: going on in {} {} ({:.1f} s of work so far)\n", target_.label, progress.units.step, progress.step + 1,
+                 progress.work_seconds);
+      run::write_settings(target_.folder, prepared);
+      run::remove_pictures_after(target_.folder, progress.work_seconds);
+      return;
+    }
+    if (options_.resume && !is_frame())
+      fmt::print(stderr, "{}: no checkpoint in {}, starting from the beginning\n", target_.label, target_.folder.string());
+    run::begin_run(target_.folder, prepared);
+  }
+
+  /// The preset's reference, rendered now where it is a recipe that was not rendered before.
+  std::shared_ptr<const measure::Reference> reference(const run::Prepared& prepared, const compute::Context& context) const
+  {
+    const auto& wanted = prepared.preset.reference;
+    std::shared_ptr<const measure::Reference> found = run::find_reference(prepared, context);
+    if (found || !wanted) return found;
+    fmt::print(stderr, "{}: rendering the reference, 2 x {}; it is kept for later runs\n", target_.label,
+               counted(wanted->passes, "pass", "passes"));
+    job::Progress progress;
+    progress.steps = 2 * static_cast<std::int64_t>(wanted->passes);
+    ProgressDisplay display(progress_style(options_.json), {target_.label + " reference", target_.preset.name, "reference"}, progress);
+    found = run::make_reference(prepared, context, interrupted_, [&](double fraction, double seconds) {
+      progress.fraction = fraction;
+      progress.step = static_cast<std::int64_t>(fraction * static_cast<double>(progress.steps));
+      progress.work_seconds = seconds;
+      display.update(progress);
+    });
+    display.finish(progress);
+    return found;
+  }
+
+  void work(const run::Prepared& prepared, const compute::Context& context, job::Job& job)
+  {
+    skip_pictures(job.progress().work_seconds);
+    ProgressDisplay display(progress_style(options_.json), {target_.label, target_.preset.name}, job.progress());
+    double saved_at = job.progress().work_seconds;
+    while (!job.finished() && !interrupted_.stop_requested()) {
+      job.step();
+      const job::Progress progress = job.progress();
+      display.update(progress);
+      note_history(job, display);
+      if (!take_pictures(prepared, context.device(), job, display)) continue;
+      if (progress.work_seconds - saved_at < options_.checkpoint_seconds) continue;
+      saved_at = progress.work_seconds;
+      on_disk(display, [&] { run::write_checkpoint(target_.folder, prepared, context, job); });
+    }
+    display.finish(job.progress());
+  }
+
+  /// A resumed run has those of the time before, or cannot have them any more.
+  void skip_pictures(double work_seconds)
+  {
+    const auto& times = options_.pictures_at;
+    std::set<double> made;
+    for (const auto& picture : run::pictures_at(target_.folder)) made.insert(picture["seconds"].get<double>());
+    for (; next_picture_ < times.size() && times[next_picture_] <= work_seconds; ++next_picture_)
+      if (work_seconds > 0 && !made.contains(times[next_picture_]))
+        fmt::print(stderr, "note: {}: {} s of work are past: no picture of then\n", target_.label, times[next_picture_]);
+  }
+
+  /// The pictures whose time has come, once their error is measured. False where that is the next step: a checkpoint in between would be of
+  /// a run that never takes them.
+  bool take_pictures(const run::Prepared& prepared, const compute::DeviceInfo& device, job::Job& job, ProgressDisplay& display)
+  {
+    const auto& times = options_.pictures_at;
+    const double work_seconds = job.progress().work_seconds;
+    for (; next_picture_ < times.size() && times[next_picture_] <= work_seconds; ++next_picture_) {
+      const auto history = job.history();
+      if (history && !history->rows.empty() && history->rows.back().seconds < times[next_picture_]) return false;
+      on_disk(display, [&] {
+        const auto made = run::write_picture_at(target_.folder, times[next_picture_], prepared, device, job.snapshot());
+        display.clear();
+        say_picture(made, history ? history->error_column : "");
+      });
+    }
+    return true;
+  }
+
+  void say_picture(nlohmann::ordered_json made, const std::string& error_column) const
+  {
+    if (options_.json) {
+      nlohmann::ordered_json line{{"type", "picture"}, {"name", target_.preset.name}};
+      line.update(made);
+      fmt::print("{}\n", json_text(line));
+      std::fflush(stdout);
+      return;
+    }
+    const auto error = made["errors"].find(error_column);
+    const bool is_known = error != made["errors"].end() && error->is_number();
+    fmt::print(stderr, "{}: {} after {:.1f} s of work{}\n", target_.label, (target_.folder / made["picture"].get<std::string>()).string(),
+               made["work_seconds"].get<double>(), is_known ? fmt::format(", {} {:.3g}", error_column, error->get<double>()) : "");
+  }
+
+  void note_history(const job::Job& job, ProgressDisplay& display)
+  {
+    const auto history = job.history();
+    if (!history || history->rows.size() == rows_written_) return;
+    rows_written_ = history->rows.size();
+    on_disk(display, [&] { run::write_history(target_.folder, *history); });
+  }
+
+  /// A disk that is full now may not be when the run ends: the work in hand is worth more than its checkpoint.
+  template <class Write>
+  void on_disk(ProgressDisplay& display, Write write)
+  {
+    try {
+      write();
+    } catch (const Error& error) {
+      if (std::exchange(warned_, true)) return;
+      display.clear();
+      fmt::print(stderr, "warning: {}; going on without checkpoints\n", error.line());
+    }
+  }
+
+  /// The picture first: where the disk has room for one of the two only, it is what the run was for.
+  void save(const run::Prepared& prepared, const compute::Context& context, job::Job& job) const
+  {
+    const bool finished = job.finished();
+    job::Snapshot snapshot = job.snapshot();
+    run::write_run(target_.folder, prepared, context.device(), snapshot, reference_.get(), finished);
+    snapshot.picture.reset(); // the report reads the files
+    if (!is_frame() || !finished)
+      run::write_checkpoint(target_.folder, prepared, context, job);
+    else { // a film for each frame would fill the disk, and so would a page
+      fs::remove(target_.folder / "checkpoint.bin");
+      run::show_frame(target_.animation, target_.preset.provenance.frame.value());
+    }
+    if (finished && snapshot.history && !is_frame()) write_report();
+    report_result(options_, target_, snapshot.progress, finished);
+    for (const std::string& warning : snapshot.warnings) fmt::print(stderr, "note: {}: {}\n", target_.label, warning);
+    if (!finished)
+      throw Error(ErrorKind::interrupted, target_.folder.string(),
+                  fmt::format("interrupted in {} {}", snapshot.progress.units.step, snapshot.progress.step + 1),
+                  "the image and a checkpoint are saved", "go on with --resume");
+  }
+
+  /// The picture is what the run was for: where a report cannot be made there is one file less.
+  void write_report() const
+  {
+    try {
+      run::write_report(target_.folder);
+    } catch (const Error& error) {
+      fmt::print(stderr, "warning: there is no report.html: {}\n", error.line());
+    }
+  }
+
+  const RunOptions& options_;
+  const Target& target_;
+  std::stop_token interrupted_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  ActivityLine activity_{progress_style(options_.json), target_.label};
+  std::shared_ptr<const measure::Reference> reference_;
+  std::size_t rows_written_ = 0; ///< of the history
+  std::size_t next_picture_ = 0; ///< of RunOptions::pictures_at
+  bool warned_ = false;
+};
+
+} // namespace
+
+const compute::Context& device_of(const RunOptions& options, Shared& shared)
+{
+  if (!shared.context) {
+    if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
+    shared.context = compute::Context::open(options.device);
+  }
+  return *shared.context;
+}
+
+void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)
+{
+  Run(options, target, interrupted)(shared);
+}
+
+} // namespace nephroid::cli

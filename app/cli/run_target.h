@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// One run of `nephroid run`: a preset of its own, one of a sweep, or a frame of an animation.
+#pragma once
+#include "compute/compute.h"
+#include "job/job.h"
+#include "preset/preset.h"
+#include "run/run.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace nephroid::cli {
+
+struct RunOptions {
+  std::string preset;
+  std::filesystem::path folder;
+  std::vector<std::string> overrides;
+  std::optional<double> seconds;
+  std::optional<int> passes;
+  std::optional<double> until_error;
+  std::optional<std::uint64_t> seed;
+  compute::DeviceOptions device;
+  double checkpoint_seconds = 10;
+  std::vector<double> pictures_at; ///< seconds of work, in order, each once
+  std::string frames;              ///< which of an animation to render, "12" or "3-40"; empty: all
+  bool resume = false, json = false;
+};
+
+struct Target {
+  preset::Preset preset;
+  std::filesystem::path folder;
+  std::string label;               ///< what progress and notes call it
+  std::filesystem::path animation; ///< of a frame: the folder of all frames
+};
+
+/// What the runs of one command share.
+struct Shared {
+  /// Of the frame before. Where it takes the next frame's preset on (job::Job::adopt) and its progress then is at 0, it is as a new job of
+  /// that preset, bit for bit, and keeps what does not change, such as a bake. A job that goes on with what it has would give other bits
+  /// after a resume.
+  std::unique_ptr<job::Job> job;
+  preset::Preset of_job; ///< what it is of
+
+  std::optional<compute::Context> context; ///< the device, opened by the first run that needs it
+  std::optional<run::Prepared> prepared;   ///< the run before: its scene may do for the next one
+  std::set<std::string> notes;             ///< that were printed: frames are much alike
+};
+
+/// The device of this command: opens it at the first call.
+const compute::Context& device_of(const RunOptions& options, Shared& shared);
+
+/// Renders the target into its folder. Throws interrupted once its picture and a checkpoint are saved.
+void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared);
+
+/// The last words about a run, on standard output: its picture, or with --json its files and figures.
+void report_result(const RunOptions& options, const Target& target, const job::Progress& progress, bool finished);
+
+} // namespace nephroid::cli

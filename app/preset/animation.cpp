@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values go into the preset as JSON, as those of --set and of a sweep do: what a field takes is said once, by its description.
+#include "preset/animation.h"
+
+#include "base/counted.h"
+#include "base/error.h"
+#include "base/monotone_cubic.h"
+#include "preset/document.h"
+#include "preset/origins.h"
+#include "preset/read.h"
+#include "preset/reader_visitor.h"
+#include "preset/writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace nephroid::preset {
+namespace {
+
+using Path = std::vector<std::string>;
+
+/// For messages: whoever gave the value at pointer.
+Place where(const Preset& preset, const std::string& pointer)
+{
+  return preset.provenance.origins ? preset.provenance.origins->where(pointer) : Place(preset.source, pointer);
+}
+
+std::string pointer_of(std::size_t track) { return child("/animation/tracks", track); }
+
+std::string pointer_of(const Path& path)
+{
+  std::string pointer;
+  for (const std::string& key : path) pointer = child(pointer, key);
+  return pointer;
+}
+
+/// The value at the path; null where there is none.
+const Json* find(const Json& json, const Path& path)
+{
+  const Json* at = &json;
+  for (const std::string& key : path) {
+    if (at->is_object() && at->contains(key))
+      at = &(*at)[key];
+    else if (const bool digits = at->is_array() && key.size() < 9 && key.find_first_not_of("0123456789") == std::string::npos;
+             digits && static_cast<std::size_t>(std::stoi(key)) < at->size())
+      at = &(*at)[static_cast<std::size_t>(std::stoi(key))];
+    else
+      return nullptr;
+  }
+  return at;
+}
+
+bool is_numbers(const Json& json)
+{
+  return json.is_number() || (json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& item) { return item.is_number(); }));
+}
+
+/// Numbers as the field's `before` has them: one or a list. Where it has whole ones they are rounded if asked for.
+Json as_field(const Json& before, const std::vector<double>& numbers, bool rounds)
+{
+  const bool list = before.is_array();
+  const auto one = [&](std::size_t i) -> Json {
+    const Json& item = list && i < before.size() ? before[i] : before;
+    const double x = rounds && item.is_number_integer() ? std::round(numbers[i]) : numbers[i];
+    if (std::abs(x) < 0x1p53 && x == std::trunc(x)) return static_cast<std::int64_t>(x); // as people write it
+    return x;
+  };
+  if (!list && numbers.size() == 1) return one(0);
+  Json all = Json::array();
+  for (std::size_t i = 0; i < numbers.size(); ++i) all.push_back(one(i));
+  return all;
+}
+
+/// A preset as JSON, into which values of tracks are put.
+class Stage {
+public:
+  explicit Stage(const Preset& preset)
+      : preset_(preset), json_(Writer::json(preset)),
+        document_(json_, Origin{preset.source, true, std::filesystem::path(preset.source).parent_path()})
+  {
+  }
+
+  /// Null where the preset has no such field, and where it has no value.
+  Json field(const Path& path) const
+  {
+    const Json* found = find(json_, path);
+    return found ? *found : Json();
+  }
+  bool has(const Path& path) const { return find(json_, path) != nullptr; }
+
+  /// origin: of the value, for messages.
+  void put(const Path& path, Json value, const Place& origin)
+  {
+    document_.set(path, std::move(value), Origin{origin, false, document_.origins().main().folder});
+    pointers_.emplace_back(pointer_of(path), origin);
+  }
+
+  /// The preset as it now is. Throws bad_input at the origin of a value that its field does not take.
+  Preset read() const
+  {
+    Preset made;
+    Reader::read(document_, document_.value(), "", made);
+    made.source = preset_.source;
+    made.provenance = preset_.provenance;
+    auto origins = preset_.provenance.origins ? std::make_shared<Origins>(*preset_.provenance.origins) : nullptr;
+    for (const auto& [pointer, origin] : pointers_)
+      if (origins) origins->set_whole(pointer, std::make_shared<const Origin>(Origin{origin, false, origins->at(pointer).folder}));
+    made.provenance.origins = std::move(origins);
+    return made;
+  }
+
+private:
+  const Preset& preset_;
+  Json json_;
+  Document document_;
+  std::vector<std::pair<std::string, Place>> pointers_;
+};
+
+Preset made_at(const Preset& preset, int frame)
+{
+  Stage stage(preset);
+  for (std::size_t i = 0; i < preset.animation->tracks.size(); ++i) {
+    const Track& track = preset.animation->tracks[i];
+    const Path path = split_path(track.path);
+    stage.put(path, as_field(stage.field(path), value_at(track, frame), true), where(preset, pointer_of(i)));
+  }
+  return stage.read();
+}
+
+/// A word for what a path leads to that cannot be animated.
+std::string kind_of(const Json& json)
+{
+  if (json.is_object()) return "a section";
+  if (json.is_boolean()) return "true or false";
+  return json.is_array() ? "a list of something else than numbers" : "a word";
+}
+
+Path check_path(const Preset& preset, const Stage& stage, std::size_t index)
+{
+  const Track& track = preset.animation->tracks[index];
+  const Place place = where(preset, child(pointer_of(index), "path"));
+  const Path path = split_path(track.path);
+  if (path.empty() || track.path.starts_with('/'))
+    throw bad_input(place, in_quotes(track.path) + " is no path",
+                    "expected keys joined by dots, for instance scene.objects.0.transform.translate");
+  if (path.front() == "animation")
+    throw bad_input(place, in_quotes(track.path) + " cannot be animated", "expected a field outside of the animation");
+  if (track.path.starts_with("scene.camera.resolution"))
+    throw bad_input(place, in_quotes(track.path) + " cannot be animated", "frames of one size make a video");
+  const Json field = stage.field(path);
+  if (!stage.has(path)) { // the reader knows which fields there may be
+    Stage other = stage;
+    other.put(path, as_field(field, track.keys.front().value, false), place);
+    other.read();
+  } else if (!field.is_null() && !is_numbers(field))
+    throw bad_input(place, fmt::format("{} is {}", in_quotes(track.path), kind_of(field)),
+                    "expected a field with a number or a list of numbers");
+  return path;
+}
+
+void check_keys(const Preset& preset, std::size_t index)
+{
+  const std::vector<Key>& keys = preset.animation->tracks[index].keys;
+  for (std::size_t k = 1; k < keys.size(); ++k) {
+    const std::string pointer = child(child(pointer_of(index), "keys"), k);
+    if (keys[k].frame <= keys[k - 1].frame)
+      throw bad_input(where(preset, child(pointer, "frame")),
+                      fmt::format("is {}, and the key before it is at {}", keys[k].frame, keys[k - 1].frame),
+                      "expected keys by rising frame");
+    if (keys[k].value.size() != keys[0].value.size())
+      throw bad_input(where(preset, child(pointer, "value")),
+                      fmt::format("has {}, and the first key has {}", counted(keys[k].value.size(), "number"), keys[0].value.size()),
+                      "expected as many in each key");
+  }
+}
+
+void check_overlaps(const Preset& preset, const std::vector<Path>& paths)
+{
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::size_t common = std::min(paths[i].size(), paths[j].size());
+      if (std::equal(paths[i].begin(), paths[i].begin() + static_cast<std::ptrdiff_t>(common), paths[j].begin()))
+        throw bad_input(where(preset, child(pointer_of(i), "path")),
+                        fmt::format("{} has a track already, {}", in_quotes(preset.animation->tracks[i].path),
+                                    in_quotes(preset.animation->tracks[j].path)),
+                        "expected one track for a field");
+    }
+}
+
+/// The first key's values of all tracks, then the second one's, and so on: what lies between two keys is in range where they are.
+void check_values(const Preset& preset, const Stage& unchanged, const std::vector<Path>& paths)
+{
+  const std::vector<Track>& tracks = preset.animation->tracks;
+  std::size_t most = 0;
+  for (const Track& track : tracks) most = std::max(most, track.keys.size());
+  for (std::size_t k = 0; k < most; ++k) {
+    Stage stage = unchanged;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      const std::size_t key = std::min(k, tracks[i].keys.size() - 1);
+      const std::string pointer = child(child(child(pointer_of(i), "keys"), key), "value");
+      stage.put(paths[i], as_field(unchanged.field(paths[i]), tracks[i].keys[key].value, false), where(preset, pointer));
+    }
+    stage.read();
+  }
+}
+
+} // namespace
+
+std::vector<double> value_at(const Track& track, int frame)
+{
+  const std::vector<Key>& keys = track.keys;
+  std::vector<double> value;
+  if (track.interpolation == Track::Interpolation::smooth) {
+    for (std::size_t i = 0; i < keys.front().value.size(); ++i) {
+      std::vector<MonotoneCubic::Row> rows;
+      for (const Key& key : keys) rows.push_back({static_cast<double>(key.frame), key.value[i]});
+      value.push_back(MonotoneCubic(std::move(rows))(frame));
+    }
+    return value;
+  }
+  const auto after = std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return key.frame > frame; });
+  if (after == keys.begin()) return keys.front().value;
+  const Key& before = *(after - 1);
+  if (after == keys.end()) return before.value;
+  const double part = static_cast<double>(frame - before.frame) / (after->frame - before.frame);
+  for (std::size_t i = 0; i < before.value.size(); ++i) value.push_back(std::lerp(before.value[i], after->value[i], part));
+  return value;
+}
+
+Preset at_frame(const Preset& preset, int frame)
+{
+  Preset made = made_at(preset, frame);
+  made.name += fmt::format(",frame={}", frame);
+  made.animation.reset();
+  made.provenance.frame = frame;
+  at_origins(made, [&] { check(made, [&](const std::string& pointer) { return where(made, pointer); }); });
+  return made;
+}
+
+Preset at_start(const Preset& preset)
+{
+  const Stage stage(preset);
+  std::vector<Path> paths;
+  for (std::size_t i = 0; i < preset.animation->tracks.size(); ++i) {
+    check_keys(preset, i);
+    paths.push_back(check_path(preset, stage, i));
+  }
+  check_overlaps(preset, paths);
+  check_values(preset, stage, paths);
+  return made_at(preset, 0);
+}
+
+} // namespace nephroid::preset
