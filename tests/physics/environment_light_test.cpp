@@ -112,7 +112,7 @@ glm::dvec3 colour_under(const std::vector<float>& rgb, int width)
   return sum / M_PI;
 }
 
-/// Saturated colours, black texels, a sun.
+/// Saturated colours, black texels, a yellow sun.
 std::vector<float> coloured_map(int width)
 {
   std::vector<float> rgb;
@@ -120,7 +120,7 @@ std::vector<float> coloured_map(int width)
     const int kind = (i * 7 + i / width * 3) % 5;
     for (int c = 0; c < 3; ++c) rgb.push_back(kind == c ? 1.5f : kind == 3 ? 0.0f : 0.2f);
   }
-  for (int c = 0; c < 3; ++c) rgb[static_cast<std::size_t>(3 * (width + 3) + c)] = 200;
+  for (int c = 0; c < 3; ++c) rgb[static_cast<std::size_t>(3 * (width + 3) + c)] = static_cast<float>(200 - 60 * c);
   return rgb;
 }
 
