@@ -31,6 +31,8 @@ preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& 
   made.scene.camera = other.scene.camera;
   if (made.scene.environment && other.scene.environment) made.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
   made.white = other.white;
+  made.name = other.name;
+  made.description = other.description;
   Settings& s = settings(made);
   const Settings& o = settings(other);
   s.lights = o.lights;
@@ -160,7 +162,10 @@ public:
   bool adopt(const preset::Preset& preset) override
   {
     if (!render_ || !adoptable(preset_, preset)) return false;
-    if (renderer_) show(preset);
+    if (renderer_) {
+      show(preset);
+      bake_seconds_ = render_seconds_ = 0; // another picture begins
+    }
     preset_ = preset;
     return true;
   }
