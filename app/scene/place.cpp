@@ -4,6 +4,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "scene/directions.h"
+#include "scene/rotation.h"
 
 #include <fmt/format.h>
 
@@ -15,22 +16,6 @@ namespace nephroid::scene {
 namespace {
 
 constexpr double min_extent = 1e-6; ///< smaller triangles have squared areas near the smallest floats
-
-/// About x, then y, then z, each counter-clockwise seen from the axis' positive end.
-glm::dmat3 rotation(const preset::Vec3& degrees)
-{
-  glm::dmat3 result(1);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double angle = degrees[static_cast<std::size_t>(axis)] * std::numbers::pi / 180;
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    glm::dmat3 turn(1); // columns are the images of the axes
-    turn[u][u] = turn[v][v] = std::cos(angle);
-    turn[u][v] = std::sin(angle);
-    turn[v][u] = -std::sin(angle);
-    result = turn * result;
-  }
-  return result;
-}
 
 /// The scale is along the shape's axes, before the turn, so the half axes stay perpendicular. All of one length: a sphere, whose axes may
 /// be any, so that a turn moves nothing.
@@ -150,6 +135,21 @@ void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
 }
 
 } // namespace
+
+glm::dmat3 rotation(const preset::Vec3& rotate_deg)
+{
+  glm::dmat3 result(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double angle = rotate_deg[static_cast<std::size_t>(axis)] * std::numbers::pi / 180;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    glm::dmat3 turn(1); // columns are the images of the axes
+    turn[u][u] = turn[v][v] = std::cos(angle);
+    turn[u][v] = std::sin(angle);
+    turn[v][u] = -std::sin(angle);
+    result = turn * result;
+  }
+  return result;
+}
 
 Placement make_placement(const preset::Transform& transform, const Place& where)
 {

@@ -122,6 +122,7 @@ Caster make_caster(const preset::Preset& preset)
 {
   const std::size_t index = caster_index(preset);
   Caster caster;
+  caster.objects = {index};
   caster.scene = scene::load_scene(alone(preset, index));
   const scene::Object& object = caster.scene.objects.front();
   caster.name = object.name.empty() ? fmt::format("object {}", index) : fmt::format("object '{}'", object.name);

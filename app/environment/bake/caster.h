@@ -14,11 +14,12 @@ namespace nephroid::environment {
 
 struct Caster {
   std::string name;
-  scene::Scene scene;        ///< the object and one light, white; the middle of the box about the object is at (0, 0, 0)
-  double size = 1;           ///< largest side of that box, here and below in units of the preset
-  double nearest = 0;        ///< from the middle to the nearest point of the surface
-  double farthest = 1;       ///< and to the farthest
-  bool middle_inside = true; ///< whether the object encloses its middle
+  std::vector<std::size_t> objects; ///< their indices in the preset and in its scene, ascending
+  scene::Scene scene;               ///< the object and one light, white; the middle of the box about the object is at (0, 0, 0)
+  double size = 1;                  ///< largest side of that box, here and below in units of the preset
+  double nearest = 0;               ///< from the middle to the nearest point of the surface
+  double farthest = 1;              ///< and to the farthest
+  bool middle_inside = true;        ///< whether the object encloses its middle
 };
 
 /// The index into preset.scene.objects. Throws bad_input at FILE#/environment/object, with the candidates, where environment.object names
