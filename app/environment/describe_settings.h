@@ -35,10 +35,11 @@ template <class V, preset::Is<Settings> S>
 void describe(V& v, S& s)
 {
   using preset::within;
-  v.field({.name = "object",
-           .sentence = "Name of the object whose caustics are baked; without, the only one of glass or a mirror.",
+  v.field({.name = "objects",
+           .sentence = "Names of the objects whose caustics are baked, all together; without, all of glass and all mirrors.",
+           .count = {0, 100},
            .text = preset::Text::line},
-          s.object);
+          s.objects);
   v.field({.name = "directions",
            .sentence = "How many directions light is baked from: 26, 98 or 386 points of a cube's faces.",
            .bounds = within(26, 386)},

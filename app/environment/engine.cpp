@@ -11,6 +11,6 @@ constinit const engine::Engine engine{
     .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
               const compute::Context& context) { return make_job(preset, dynamic_cast<const EnvironmentPlan&>(plan), context); },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
-    .checks = [] { return std::vector<check::Check>{}; }};
+    .checks = closed_forms};
 
 } // namespace nephroid::environment

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Engine 2, caustics under environment light (thesis chapter 3): what one object does to light is baked once, from a few directions.
 #pragma once
+#include "check/check.h"
 #include "compute/compute.h"
 #include "engine/engine.h"
 #include "environment/bake/baker.h"
@@ -12,6 +13,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace nephroid::environment {
 
@@ -30,5 +32,8 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
 /// Reads the bake where the plan has one, else bakes until the preset's stop, of which a pass is a direction. Throws failed where the
 /// device has not enough memory.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context);
+
+/// For `nephroid check`, through the kernels that bake.
+std::vector<check::Check> closed_forms();
 
 } // namespace nephroid::environment

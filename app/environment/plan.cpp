@@ -81,15 +81,15 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";
   plan.notes = scene.warnings;
   if (fault && !fault->empty()) plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));
-  if (!task.caster.middle_inside)
+  if (!task.caster.extent.middle_inside)
     plan.notes.push_back(fmt::format("{}: its middle, about which the spheres stand, is outside of it; the smallest sphere has the radius "
                                      "{:.4g}, as the surface is {:.4g} from there",
-                                     task.caster.name, task.radii.front(), task.caster.nearest));
-  const scene::Object& object = task.caster.scene.objects.front();
-  if (!object.closed && material_of(task.caster.scene, object).type == scene::Material::Type::dielectric)
-    plan.notes.push_back(fmt::format("{}: its mesh is open: light that comes in by its surface and leaves by a hole marks spheres only on "
-                                     "its last way",
-                                     task.caster.name));
+                                     task.caster.name, task.radii.front(), task.caster.extent.nearest));
+  for (const scene::Object& object : task.caster.scene.objects)
+    if (!object.closed && material_of(task.caster.scene, object).type == scene::Material::Type::dielectric)
+      plan.notes.push_back(fmt::format("object '{}': its mesh is open: light that comes in by its surface and leaves by a hole marks "
+                                       "spheres only on its last way",
+                                       object.name));
   return plan;
 }
 

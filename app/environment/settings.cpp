@@ -31,7 +31,7 @@ void check(const preset::Preset& preset, const preset::Where& where)
 const preset::SettingsType& settings_type()
 {
   static const preset::SettingsType type =
-      preset::settings_type<Settings>("environment", "Caustics of one object under an environment, baked once.", check);
+      preset::settings_type<Settings>("environment", "Caustics of glass and mirrors under an environment, baked once.", check);
   return type;
 }
 

@@ -5,19 +5,20 @@
 #include "preset/preset.h"
 
 #include <string>
+#include <vector>
 
 namespace nephroid::environment {
 
 struct Settings {
   enum class Radii { quadratic, uniform };
-  std::string object{};           ///< that is baked; empty: the only one of glass or a mirror
-  int directions = 26;            ///< that light is baked from: 26, 98 or 386
-  int spheres = 16;               ///< about the object
-  Radii radii = Radii::quadratic; ///< how they grow
-  double reach = 4;               ///< radius of the largest, in largest sides of the box about the object
-  int resolution = 360;           ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
-  int photons = 1 << 19;          ///< that are sent from each direction
-  int lights = 24;                ///< q: how many lights the map is cut into
+  std::vector<std::string> objects{}; ///< that are baked together; empty: all of glass and all mirrors
+  int directions = 26;                ///< that light is baked from: 26, 98 or 386
+  int spheres = 16;                   ///< about the objects
+  Radii radii = Radii::quadratic;     ///< how they grow
+  double reach = 4;                   ///< radius of the largest, in largest sides of the box about the object
+  int resolution = 360;               ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
+  int photons = 1 << 19;              ///< that are sent from each direction
+  int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
   bool operator==(const Settings&) const = default;

@@ -6,8 +6,8 @@
 //                       returns, because describe() goes on with the fields of that type only. To see the fields of
 //                       another type, set `type` of a struct to it and describe that struct (see for_each_type).
 //   v.field(field, x)   any other field. x is a bool, int, std::uint64_t, double, std::string, an enumeration, a std::array
-//                       or std::vector of numbers, a table (vector of pairs), a described struct, a vector of them, a map
-//                       from names to them, or a std::optional of any of these.
+//                       or std::vector of numbers, a std::vector of std::string, a table (vector of pairs), a described struct, a
+//                       vector of them, a map from names to them, or a std::optional of any of these.
 //   v.engine(field, s)  the word that names the preset's engine. A reader gives the preset::Settings s that engine's type.
 //   v.settings(s)       the section of settings that is called as their engine; of a std::optional, that of the preset's engine.
 // Fields come in the order in which files are written. A described struct inside is visited by calling describe again.

@@ -80,6 +80,8 @@ std::string expected(const Outline& o)
   }
   case Kind::numbers:
     return o.size > 0 ? expected_list(o.size, number) : expected_list(f.count, number);
+  case Kind::texts:
+    return expected_list(f.count, "a text");
   case Kind::table:
     return expected_list(f.count, fmt::format("[{}, {}]", f.columns[0].name, f.columns[1].name));
   case Kind::list:

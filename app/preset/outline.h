@@ -12,8 +12,8 @@ namespace nephroid::preset {
 
 /// One field.
 struct Outline {
-  /// numbers: a list of numbers; table: rows of two numbers; list and map: of objects.
-  enum class Kind { boolean, integer, number, text, word, numbers, table, object, list, map };
+  /// numbers: a list of numbers; texts: of texts; table: rows of two numbers; list and map: of objects.
+  enum class Kind { boolean, integer, number, text, word, numbers, texts, table, object, list, map };
   struct Word {
     std::string_view name, sentence;
   };

@@ -76,6 +76,7 @@ private:
     o.size = N;
   }
   static void shape(Outline& o, const std::vector<double>&) { o.kind = Kind::numbers; }
+  static void shape(Outline& o, const std::vector<std::string>&) { o.kind = Kind::texts; }
   static void shape(Outline& o, const std::vector<std::array<double, 2>>&) { o.kind = Kind::table; }
   template <Described S>
   static void shape(Outline& o, const S&)

@@ -223,6 +223,12 @@ private:
                [&](const Json& item, const std::string& at, double& x) { read_number(item, at, f.bounds, f.unit, x); });
   }
 
+  void read_value(const Json& json, const std::string& pointer, const Field& f, std::vector<std::string>& value) const
+  {
+    read_items(json, pointer, f, "a string", value,
+               [&](const Json& item, const std::string& at, std::string& text) { read_value(item, at, f, text); });
+  }
+
   void read_value(const Json& json, const std::string& pointer, const Field& f, std::vector<std::array<double, 2>>& value) const
   {
     const std::string row = fmt::format("[{}, {}]", f.columns[0].name, f.columns[1].name);

@@ -119,6 +119,7 @@ private:
     return list(schema_of(f, T{}), {N, N});
   }
   Json schema_of(const Field& f, const std::vector<double>&) { return list(number("number", f.bounds), f.count); }
+  Json schema_of(const Field& f, const std::vector<std::string>&) { return list(schema_of(f, std::string()), f.count); }
   Json schema_of(const Field& f, const std::vector<std::array<double, 2>>&)
   {
     Json columns = Json::array();

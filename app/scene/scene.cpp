@@ -8,6 +8,7 @@
 #include "scene/directions.h"
 #include "scene/environment_light.h"
 #include "scene/materials.h"
+#include "scene/mesh_cache.h"
 #include "scene/place.h"
 #include "scene/shapes.h"
 
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -46,33 +48,34 @@ void check_names(const std::vector<preset::Object>& objects, const Place& where)
   }
 }
 
-/// Reads each file once, however many objects name it.
+/// Reads each file once, however many objects name it and however large it is.
 class Meshes {
 public:
   explicit Meshes(const FileFinder& finder) : finder_(finder) {}
-  const Mesh& get(const std::string& name, const Place& where)
+  std::shared_ptr<const Mesh> get(const std::string& name, const Place& where)
   {
     const std::filesystem::path file = finder_.find(name, where);
     auto found = meshes_.find(file);
-    if (found == meshes_.end()) found = meshes_.emplace(file, load_mesh(file)).first;
+    if (found == meshes_.end()) found = meshes_.emplace(file, load_mesh_once(file)).first;
     return found->second;
   }
 
 private:
   const FileFinder& finder_;
-  std::map<std::filesystem::path, Mesh> meshes_;
+  std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
 };
 
-Mesh object_mesh(const preset::Object& object, Meshes& meshes, const Place& where)
+std::shared_ptr<const Mesh> object_mesh(const preset::Object& object, Meshes& meshes, const Place& where)
 {
   if (object.mesh.has_value() == object.shape.has_value())
     throw bad_input(where, object.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'", "exactly one of them");
-  return object.mesh ? meshes.get(*object.mesh, where / "mesh") : make_shape(*object.shape, where / "shape");
+  if (object.mesh) return meshes.get(*object.mesh, where / "mesh");
+  return std::make_shared<const Mesh>(make_shape(*object.shape, where / "shape"));
 }
 
 /// An object on its way: still in its own coordinates.
 struct Pending {
-  Mesh mesh;
+  std::shared_ptr<const Mesh> mesh;
   Placement placement;
   int material = 0;
   Place where;
@@ -83,7 +86,7 @@ glm::dvec3 choose_origin(const std::vector<Pending>& pending, const Scene& scene
 {
   std::optional<Bounds> bending, all;
   for (const Pending& object : pending) {
-    const Bounds bounds = placed_bounds(object.mesh, object.placement, object.where);
+    const Bounds bounds = placed_bounds(*object.mesh, object.placement, object.where);
     all = all ? enclosing(*all, bounds) : bounds;
     if (scene.materials[static_cast<std::size_t>(object.material)].type != Material::Type::diffuse)
       bending = bending ? enclosing(*bending, bounds) : bounds;
@@ -125,7 +128,7 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
 {
   const std::string label = object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
   const bool dielectric = scene.materials[static_cast<std::size_t>(pending.material)].type == Material::Type::dielectric;
-  Placed placed = place(pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
+  Placed placed = place(*pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
   tell_damages(scene, placed.damages, damaged, label, pending.where);
   if (scene.geometry.triangles.size() + placed.mesh.triangles.size() > max_triangles)
@@ -248,7 +251,7 @@ Scene load_scene(const preset::Preset& preset)
   scene.origin = choose_origin(pending, scene, preset.scene.camera);
   for (std::size_t i = 0; i < pending.size(); ++i) {
     add_object(scene, preset.scene.objects[i], pending[i], preset.scene.damaged_meshes);
-    pending[i].mesh = {}; // a large scene is not held twice
+    pending[i].mesh.reset(); // a large scene is not held twice
   }
   number_primitives(scene);
   part_touching(scene);

@@ -3,13 +3,13 @@
 // colours.
 #include "environment/bake/baker.h"
 #include "environment/bake/directions.h"
+#include "environment/ball_map.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"
 #include "optics/primary_spectra.h"
 #include "preset/read.h"
 #include "scene/scene.h"
 #include "tests/environment/bakes.h"
-#include "tests/support/ball.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -30,35 +30,6 @@ constexpr double half_rounding = 0x1p-12;
 
 const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
 
-/// Where a ray of the plane of BallRay crosses the sphere of radius r when it has left: from (x, y) at `angle`.
-glm::dvec2 crossing(const BallRay& ray, double r)
-{
-  const glm::dvec2 from(ray.x, ray.y), way(std::cos(ray.angle), std::sin(ray.angle));
-  const double along = glm::dot(from, way);
-  return from + (std::sqrt(along * along + r * r - glm::dot(from, from)) - along) * way;
-}
-
-/// E r^2 over size^2 in each texel, for a ball of radius 1 and index n in light along `light`: rays from rings of equal width, in double.
-std::vector<double> ball_map(const environment::SphereMap& map, const glm::dvec3& light, double n, double r, int inner_most)
-{
-  constexpr int rings = 1500, azimuths = 720;
-  const glm::dvec3 x = glm::normalize(glm::cross(light, glm::dvec3(0, 0, 1))), y = glm::cross(light, x);
-  std::vector<double> texels(map.texels());
-  for (int i = 0; i < rings; ++i) {
-    const double h = (i + 0.5) / rings, power = 2 * pi * h / rings / azimuths; // of 1 W/m^2
-    for (int inner = -1; inner <= inner_most; ++inner) {
-      const BallRay ray = ball_ray(h, n, inner);
-      const glm::dvec2 at = crossing(ray, r);
-      for (int k = 0; k < azimuths; ++k) {
-        const double azimuth = 2 * pi * (k + 0.5) / azimuths;
-        const glm::dvec3 place = at.x * light + at.y * (std::cos(azimuth) * x + std::sin(azimuth) * y);
-        texels[map.texel(place)] += power * ray.share / (map.solid_angle() * 4);
-      }
-    }
-  }
-  return texels;
-}
-
 TEST(Bake, AGlassBallIsAsSnellAndFresnelHaveIt)
 {
   const preset::Preset p = bake_preset(glass_ball, {"environment.resolution=48", "environment.spheres=5", "environment.photons=2000000"});
@@ -67,7 +38,7 @@ TEST(Bake, AGlassBallIsAsSnellAndFresnelHaveIt)
   EXPECT_EQ(bake.size, 2);
   EXPECT_NEAR(bake.baked[0].met, pi / 4, 1e-5);
   for (std::size_t i = 0; i < bake.radii.size(); ++i) {
-    const std::vector<double> expected = ball_map(bake.map, slanted, 1.5, bake.radii[i], 10);
+    const std::vector<double> expected = environment::ball_map(bake.map, slanted, bake.radii[i], environment::ball_rays(1.5));
     const double distance = relative_distance(bake, 0, i, [&](std::size_t t) { return expected[t]; });
     EXPECT_LT(distance, 0.02) << "radius " << bake.radii[i];
     fmt::print("radius {:.3f}: {:.2f} % off\n", bake.radii[i], 100 * distance);
@@ -219,9 +190,8 @@ glm::dvec3 ball_spread(const optics::Spectrum& n, double r)
     double of_wavelength = 0;
     for (int k = 0; k < rings; ++k) {
       const double h = (k + 0.5) / rings;
-      for (int inner = -1; inner <= 10; ++inner) {
-        const BallRay ray = ball_ray(h, n[i], inner);
-        const double cosine = crossing(ray, r).x / r;
+      for (const optics::BallRay& ray : environment::ball_rays(n[i])(h)) {
+        const double cosine = environment::crossing(ray, r).x / r;
         if (cosine > 0.2) of_wavelength += 2 * pi * h / rings * ray.share / 4 * (1 - cosine);
       }
     }

@@ -49,7 +49,7 @@ TEST(Placement, TakesTheBakesVerticesToTheScenes)
                                 R"({"scale": [1, 2, 0.5], "rotate_deg": [170, -85, 95], "translate": [1, 2, 3]})",
                                 R"({"scale": [-1, 1, 1], "rotate_deg": [0, 90, 0], "translate": [100, 0, 0]})"}) {
     const std::string stone = R"({"name": "stone", "mesh": ")" + file + R"(", "material": "glass", "transform": )" + transform + "}";
-    EXPECT_LT(largest_distance(bake_preset(wall + ", " + stone + ", " + mirror, {"environment.object=stone"})), 1e-5) << transform;
+    EXPECT_LT(largest_distance(bake_preset(wall + ", " + stone + ", " + mirror, {"environment.objects=[\"stone\"]"})), 1e-5) << transform;
   }
 }
 

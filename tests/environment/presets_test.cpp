@@ -30,7 +30,7 @@ protected:
 
 TEST_F(EnvironmentRun, BakesTheShippedPresets)
 {
-  for (const std::string name : {"ball", "bunny"}) {
+  for (const std::string name : {"ball", "bunny", "glass", "ring", "brilliant"}) {
     SCOPED_TRACE(name);
     const Ended ended = run_to(name, name);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;

@@ -6,10 +6,10 @@
 // geometrical optics (van de Hulst, Light Scattering by Small Particles, 12.3). For n = 1 the chords are distributed like l / (2 R^2), and
 //   Q = 1 - 2 (1 - (1 + tau) exp(-tau)) / tau^2, tau = 2 R a.
 #include "compute/compute.h"
+#include "optics/ball.h"
 #include "scene/scene.h"
 #include "spectral/energy.h"
 #include "spectral/engine.h"
-#include "tests/support/ball.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/temporary_folder.h"
 
@@ -34,8 +34,8 @@ double efficiency(double n, double per_metre)
   constexpr int steps = 100'000; // midpoints in h^2, which 2 sin(i) cos(i) di is the step of
   double q = 0;
   for (int i = 0; i < steps; ++i) {
-    const double h = std::sqrt((i + 0.5) / steps), f = ball_ray(h, n, -1).share,
-                 e = std::exp(-per_metre * radius * ball_ray(h, n, 0).chord);
+    const double h = std::sqrt((i + 0.5) / steps), f = optics::ball_ray(h, n, -1).share,
+                 e = std::exp(-per_metre * radius * optics::ball_ray(h, n, 0).chord);
     q += (1 - f) * (1 - e) / (1 - f * e) / steps;
   }
   return q;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glass ball as a lens: its focus, and what it makes of parallel light on a screen.
 #include "compute/compute.h"
+#include "optics/ball.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
-#include "tests/support/ball.h"
 #include "tests/support/closed_form.h"
 
 #include <fmt/format.h>
@@ -46,12 +46,12 @@ std::vector<double> truth(const Screen& screen, double distance, double aperture
     // A ray from a near point, at h before the ball's centre, is one at h' = h cos(tilt), with everything turned by the tilt.
     const double tilt = std::isinf(source) ? 0 : std::atan(h / source);
     for (int inner = -1; inner <= 3; ++inner) {
-      BallRay ray = ball_ray(h * std::cos(tilt), n, inner);
+      optics::BallRay ray = optics::ball_ray(h * std::cos(tilt), n, inner);
       const double x = ray.x, y = ray.y;
       ray.x = x * std::cos(tilt) - y * std::sin(tilt);
       ray.y = x * std::sin(tilt) + y * std::cos(tilt);
       ray.angle += tilt;
-      const double r = height_on_screen(ray, distance);
+      const double r = optics::height_on_screen(ray, distance);
       if (std::isnan(r)) continue;
       const double power = M_PI * aperture * aperture / rings / each * ray.share;
       for (int j = 0; j < each; ++j) {

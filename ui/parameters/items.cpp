@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has any number of items: lists and maps of objects, tables, lists of numbers.
+// What has any number of items: lists and maps of objects, tables, lists of numbers and of texts.
 #include "base/counted.h"
 #include "ui/parameters/panel.h"
 #include "ui/widgets/theme.h"
@@ -32,6 +32,7 @@ double clamped(double value, const preset::Bounds& bounds) { return std::clamp(v
 /// After the last row as far as that is from the one before.
 Json next_row(const Outline& o, const Json& rows)
 {
+  if (o.kind == Kind::texts) return "";
   if (o.kind == Kind::numbers) return clamped(0, o.field.bounds);
   const preset::Column &first = o.field.columns[0], &second = o.field.columns[1];
   if (rows.empty()) return {clamped(first.unit == "nm" ? 550 : 0, first.bounds), clamped(1, second.bounds)};
@@ -173,7 +174,7 @@ void ParametersPanel::rename(const std::string& map, const std::string& name, co
   ask(fmt::format("rename {} to {}", name, to), "", std::move(whole));
 }
 
-/// A table's rows, or the numbers of a list.
+/// A table's rows, or the numbers or texts of a list.
 void ParametersPanel::draw_rows(const Outline& o, const Json& value, const std::string& pointer)
 {
   const bool pairs = o.kind == Kind::table;
@@ -196,6 +197,8 @@ void ParametersPanel::draw_rows(const Outline& o, const Json& value, const std::
         if (c > 0) ImGui::SameLine(0, gap);
         draw_number({o.field.columns[c].bounds, false, (width - gap) / 2}, value[i].at(c), child_of(at, std::to_string(c)));
       }
+    else if (o.kind == Kind::texts)
+      draw_text(at, value[i], width, [](const std::string& text) { return Json(text); });
     else
       draw_number({o.field.bounds, o.whole, width}, value[i], at);
     draw_item_buttons(value, std::to_string(i), pointer);

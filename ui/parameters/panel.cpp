@@ -18,8 +18,8 @@ using Kind = Outline::Kind;
 
 bool is_leaf(const Outline& o)
 {
-  const bool several = o.kind == Kind::object || o.kind == Kind::list || o.kind == Kind::map || o.kind == Kind::table;
-  return !several && !(o.kind == Kind::numbers && o.size == 0);
+  const bool objects = o.kind == Kind::object || o.kind == Kind::list || o.kind == Kind::map;
+  return !objects && o.kind != Kind::table && o.kind != Kind::texts && !(o.kind == Kind::numbers && o.size == 0);
 }
 
 const Json& part(const Json& object, const Outline& o)

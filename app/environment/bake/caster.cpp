@@ -5,18 +5,22 @@
 #include "base/hash.h"
 #include "base/nearest.h"
 #include "scene/corners.h"
+#include "scene/rotation.h"
 
+#define GLM_ENABLE_EXPERIMENTAL
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/gtx/euler_angles.hpp>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <numbers>
 #include <type_traits>
 
 namespace nephroid::environment {
 namespace {
 
-Place object_place(const std::string& source) { return Place(source) / "environment" / "object"; }
+Place objects_place(const std::string& source) { return Place(source) / "environment" / "objects"; }
 
 bool casts(const preset::Preset& preset, const preset::Object& object)
 {
@@ -24,61 +28,79 @@ bool casts(const preset::Preset& preset, const preset::Object& object)
   return material != preset.scene.materials.end() && material->second.type != preset::Material::Type::diffuse;
 }
 
-/// Squared distance of the origin from a triangle: to its plane where the foot lies in it, else to the nearest edge.
-double distance2(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+[[noreturn]] void refuse_name(const preset::Preset& preset, const std::string& name, const Place& where)
 {
-  const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const auto beyond = [&](const glm::dvec3& p, const glm::dvec3& q) { return glm::dot(glm::cross(q - p, -p), normal) < 0; };
-  if (glm::dot(normal, normal) > 0 && !beyond(a, b) && !beyond(b, c) && !beyond(c, a)) {
-    const double height = glm::dot(a, normal);
-    return height * height / glm::dot(normal, normal);
-  }
-  const auto edge2 = [](const glm::dvec3& p, const glm::dvec3& q) {
-    const glm::dvec3 way = q - p;
-    const double length2 = glm::dot(way, way), along = length2 > 0 ? std::clamp(-glm::dot(p, way) / length2, 0.0, 1.0) : 0;
-    const glm::dvec3 foot = p + along * way;
-    return glm::dot(foot, foot);
-  };
-  return std::min({edge2(a, b), edge2(b, c), edge2(c, a)});
+  std::vector<std::string> candidates;
+  for (const preset::Object& object : preset.scene.objects)
+    if (casts(preset, object) && !object.name.empty()) candidates.push_back(object.name);
+  const bool diffuse = std::ranges::any_of(preset.scene.objects, [&](const preset::Object& o) { return o.name == name; });
+  const std::string near = nearest(name, candidates);
+  throw bad_input(where, fmt::format("'{}' is {}", name, diffuse ? "neither of glass nor a mirror" : "no object of the scene"),
+                  candidates.empty() ? "expected an object of glass or a mirror with a name"
+                                     : fmt::format("expected one of {}", fmt::join(candidates, ", ")),
+                  near.empty() ? "" : fmt::format("did you mean '{}'?", near));
 }
 
-/// Fills nearest, farthest, middle_inside. An ellipsoid is an object of its own, so its centre is the middle.
-void measure(Caster& caster)
+std::size_t index_of(const preset::Preset& preset, const std::string& name, const Place& where)
 {
-  const scene::Scene& s = caster.scene;
-  const scene::Object& object = s.objects.front();
-  double nearest2 = std::numeric_limits<double>::max(), farthest2 = 0;
-  const auto corner = [&](std::uint32_t vertex) { return glm::dvec3(s.geometry.positions[vertex]); };
-  for (const glm::uvec3& t : triangles_of(s, object)) {
-    nearest2 = std::min(nearest2, distance2(corner(t.x), corner(t.y), corner(t.z)));
-    for (int i = 0; i < 3; ++i) farthest2 = std::max(farthest2, glm::dot(corner(t[i]), corner(t[i])));
-  }
-  caster.nearest = std::sqrt(nearest2);
-  caster.farthest = std::sqrt(farthest2);
-  caster.middle_inside = scene::winding_number(s.geometry, object.first_triangle, object.triangle_count, glm::dvec3(0)) > 0.5;
-  for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(s, object)) {
-    caster.nearest = scene::shortest_half_axis(ellipsoid);
-    caster.farthest = scene::longest_half_axis(ellipsoid);
-    caster.middle_inside = true;
-  }
+  const auto& objects = preset.scene.objects;
+  const auto found =
+      std::ranges::find_if(objects, [&](const preset::Object& o) { return !name.empty() && o.name == name && casts(preset, o); });
+  if (found == objects.end()) refuse_name(preset, name, where);
+  return static_cast<std::size_t>(found - objects.begin());
 }
 
-/// The preset of the object alone. Photons of white light have the wavelengths of D65, and what each counts baker.cpp's white_light says.
-preset::Preset alone(const preset::Preset& preset, std::size_t index)
+/// Without the rounding of what was computed in double, and without -0: what is turned and moved together keeps its bits.
+double rounded(double value) { return std::round(value * 1e9) * 1e-9 + 0.0; }
+
+/// Of an object in the frame of the first: its rotation R and translation T become R1^-1 R and R1^-1 (T - T1).
+preset::Transform in_frame(const preset::Transform& object, const preset::Transform& first)
+{
+  const glm::dmat3 back = glm::transpose(scene::rotation(first.rotate_deg));
+  const auto vector = [](const preset::Vec3& v) { return glm::dvec3(v[0], v[1], v[2]); };
+  const glm::dvec3 translate = back * (vector(object.translate) - vector(first.translate));
+  glm::dmat3 turn = back * scene::rotation(object.rotate_deg);
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) turn[column][row] = rounded(turn[column][row]);
+  // About x, then y, then z, so that the matrix is Z Y X, and glm names the angles in the order of this product.
+  glm::dvec3 angles(0);
+  glm::extractEulerAngleZYX(glm::dmat4(turn), angles.z, angles.y, angles.x);
+  preset::Transform made = object;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<glm::length_t>(k);
+    made.rotate_deg[k] = rounded(angles[axis] * 180 / std::numbers::pi);
+    made.translate[k] = rounded(translate[axis]);
+  }
+  return made;
+}
+
+/// The preset of these objects alone. Photons of white light have the wavelengths of D65, and what each counts baker.cpp's white_light says.
+preset::Preset alone(const preset::Preset& preset, const std::vector<std::size_t>& objects)
 {
   preset::Preset made;
   made.source = preset.source;
   made.unit = preset.unit;
   made.scene.damaged_meshes = preset.scene.damaged_meshes;
-  preset::Object object = preset.scene.objects[index];
-  object.transform.rotate_deg = object.transform.translate = {0, 0, 0};
-  object.priority = 0;
-  made.scene.materials[object.material] = preset.scene.materials.at(object.material);
-  made.scene.objects = {object};
+  for (const std::size_t index : objects) {
+    preset::Object object = preset.scene.objects[index];
+    object.transform = in_frame(object.transform, preset.scene.objects[objects.front()].transform);
+    made.scene.materials[object.material] = preset.scene.materials.at(object.material);
+    made.scene.objects.push_back(object);
+  }
   preset::Light sun;
   sun.type = preset::Light::Type::directional;
   made.scene.lights = {sun};
   return made;
+}
+
+std::string name_of(const preset::Preset& preset, const std::vector<std::size_t>& objects)
+{
+  std::vector<std::string> names;
+  for (const std::size_t index : objects) {
+    const std::string& name = preset.scene.objects[index].name;
+    names.push_back(name.empty() ? fmt::format("object {}", index) : fmt::format("object '{}'", name));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 template <class T>
@@ -91,57 +113,53 @@ std::uint64_t hash_items(const T& items, std::uint64_t hash)
 
 } // namespace
 
-std::size_t caster_index(const preset::Preset& preset)
+std::vector<std::size_t> caster_objects(const preset::Preset& preset)
 {
-  const std::string& wanted = settings(preset).object;
-  std::vector<std::string> candidates;
+  const std::vector<std::string>& wanted = settings(preset).objects;
   std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
-    const preset::Object& object = preset.scene.objects[i];
-    if (!casts(preset, object)) continue;
-    if (!object.name.empty()) candidates.push_back(object.name);
-    if (wanted.empty() || object.name == wanted) found.push_back(i);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Place where = objects_place(preset.source) / i;
+    const std::size_t index = index_of(preset, wanted[i], where);
+    if (std::ranges::count(found, index)) throw bad_input(where, fmt::format("'{}' is named twice", wanted[i]), "expected each name once");
+    found.push_back(index);
   }
-  if (found.size() == 1) return found.front();
-  const std::string names =
-      candidates.empty() ? "an object of glass or a mirror with a name" : fmt::format("one of {}", fmt::join(candidates, ", "));
-  if (found.size() > 1)
-    throw bad_input(object_place(preset.source),
-                    fmt::format("is not given, and {} objects of the scene are of glass or mirrors", found.size()), "expected " + names);
   if (wanted.empty())
-    throw bad_input(object_place(preset.source), "no object of the scene is of glass or a mirror, so there are no caustics",
+    for (std::size_t i = 0; i < preset.scene.objects.size(); ++i)
+      if (casts(preset, preset.scene.objects[i])) found.push_back(i);
+  if (found.empty())
+    throw bad_input(objects_place(preset.source), "no object of the scene is of glass or a mirror, so there are no caustics",
                     "expected such an object", "add one, or give an object another material");
-  const bool diffuse = std::ranges::any_of(preset.scene.objects, [&](const preset::Object& o) { return o.name == wanted; });
-  const std::string near = nearest(wanted, candidates);
-  throw bad_input(object_place(preset.source),
-                  fmt::format("'{}' is {}", wanted, diffuse ? "neither of glass nor a mirror" : "no object of the scene"),
-                  "expected " + names, near.empty() ? "" : fmt::format("did you mean '{}'?", near));
+  std::ranges::sort(found);
+  return found;
 }
 
 Caster make_caster(const preset::Preset& preset)
 {
-  const std::size_t index = caster_index(preset);
   Caster caster;
-  caster.objects = {index};
-  caster.scene = scene::load_scene(alone(preset, index));
-  const scene::Object& object = caster.scene.objects.front();
-  caster.name = object.name.empty() ? fmt::format("object {}", index) : fmt::format("object '{}'", object.name);
-  if (is_empty(object)) throw bad_input(Place(preset.source) / "scene" / "objects" / index, "has no surface", "expected one to bake");
-  const scene::Bounds box = bounds_of(caster.scene, object);
+  caster.objects = caster_objects(preset);
+  caster.name = name_of(preset, caster.objects);
+  caster.scene = scene::load_scene(alone(preset, caster.objects));
+  scene::Bounds box;
+  for (std::size_t i = 0; i < caster.objects.size(); ++i) {
+    const scene::Object& object = caster.scene.objects[i];
+    if (is_empty(object))
+      throw bad_input(Place(preset.source) / "scene" / "objects" / caster.objects[i], "has no surface", "expected one to bake");
+    box = enclosing(box, bounds_of(caster.scene, object));
+  }
   const glm::dvec3 sides = box.high - box.low;
   caster.size = std::max({sides.x, sides.y, sides.z});
-  measure(caster);
+  caster.extent = extent_of(caster.scene);
   return caster;
 }
 
 std::vector<double> sphere_radii(const Settings& settings, const Caster& caster, const std::string& source)
 {
-  const double largest = settings.reach * caster.size, smallest = std::max(1.001 * caster.nearest, 0.05 * caster.size);
-  if (largest < 1.001 * caster.farthest)
+  const double largest = settings.reach * caster.size, smallest = std::max(1.001 * caster.extent.nearest, 0.05 * caster.size);
+  if (largest < 1.001 * caster.extent.farthest)
     throw bad_input(Place(source) / "environment" / "reach",
                     fmt::format("is {}: a sphere of radius {:.4g} does not enclose {}, which reaches {:.4g} from its middle",
-                                settings.reach, largest, caster.name, caster.farthest),
-                    fmt::format("expected at least {:.3g}", std::ceil(1001 * caster.farthest / caster.size) / 1000));
+                                settings.reach, largest, caster.name, caster.extent.farthest),
+                    fmt::format("expected at least {:.3g}", std::ceil(1001 * caster.extent.farthest / caster.size) / 1000));
   std::vector<double> radii;
   for (int i = 0; i < settings.spheres; ++i) {
     const double part = static_cast<double>(i) / (settings.spheres - 1);
@@ -156,17 +174,22 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster)
   std::uint64_t hash = hash_of(fmt::format("{} {} {} {} {} {} {} {} {}", s.directions, s.spheres, static_cast<int>(s.radii), s.reach,
                                            s.resolution, s.photons, preset.seed, preset.leave_out, caster.scene.metres_per_unit));
   const scene::Mesh& mesh = caster.scene.geometry;
-  const scene::Object& object = caster.scene.objects.front();
   hash = hash_items(mesh.positions, hash);
   hash = hash_items(mesh.triangles, hash);
-  if (object.smooth) hash = hash_items(mesh.normals, hash);
   for (const scene::Ellipsoid& e : mesh.ellipsoids) {
     hash = hash_items(e.half_axes, hash);
-    hash = hash_of(e.inwards ? "inwards" : "outwards", hash);
+    hash = hash_of(fmt::format("{} {} {} {}", e.centre.x, e.centre.y, e.centre.z, e.inwards), hash);
   }
-  const scene::Material& material = material_of(caster.scene, object);
-  hash = hash_of(fmt::format("{} {} {}", static_cast<int>(material.type), object.smooth, material.absorbs), hash);
-  for (const optics::Spectrum* spectrum : {&material.n, &material.k, &material.reflectance}) hash = hash_items(*spectrum, hash);
+  if (std::ranges::any_of(caster.scene.objects, &scene::Object::smooth)) hash = hash_items(mesh.normals, hash);
+  for (const scene::Object& object : caster.scene.objects) {
+    const scene::Material& material = material_of(caster.scene, object);
+    // Of priorities the order alone matters.
+    const auto rank = std::ranges::count_if(caster.scene.objects, [&](const scene::Object& o) { return o.priority < object.priority; });
+    hash = hash_of(fmt::format("{} {} {} {} {} {}", object.triangle_count, object.ellipsoid_count, static_cast<int>(material.type),
+                               object.smooth, material.absorbs, rank),
+                   hash);
+    for (const optics::Spectrum* spectrum : {&material.n, &material.k, &material.reflectance}) hash = hash_items(*spectrum, hash);
+  }
   return hash;
 }
 

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace nephroid::test {
+namespace nephroid::optics {
 
 struct BallRay {
   double x = 0, y = 0; ///< where it leaves the ball
@@ -24,7 +24,7 @@ struct BallRay {
 /// inner: reflections inside before it leaves; -1: reflected outside at once.
 inline BallRay ball_ray(double h, double n, int inner)
 {
-  const double i = std::asin(h), t = std::asin(h / n), f = optics::fresnel_reflectance(std::cos(i), 1, n);
+  const double i = std::asin(h), t = std::asin(h / n), f = fresnel_reflectance(std::cos(i), 1, n);
   if (inner < 0) return {-std::cos(i), h, std::numbers::pi - 2 * i, f, 0};
   const double chord_angle = std::numbers::pi - 2 * t, exit = std::numbers::pi - i - (inner + 1) * chord_angle;
   return {std::cos(exit), std::sin(exit), -2 * (i - t) - inner * chord_angle, (1 - f) * (1 - f) * std::pow(f, inner), 2 * std::cos(t)};
@@ -36,4 +36,4 @@ inline double height_on_screen(const BallRay& ray, double x)
   return std::cos(ray.angle) > 0 ? ray.y + (x - ray.x) * std::tan(ray.angle) : NAN;
 }
 
-} // namespace nephroid::test
+} // namespace nephroid::optics

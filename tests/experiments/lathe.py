@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the turned meshes of presets/environment: a drinking glass, the water in it, a finger ring.
+
+usage: lathe.py [FOLDER]    (presets/environment)
+
+A profile is a list of (radius, height) from below to above along the outside; about the y axis it becomes a closed mesh that faces
+outwards. Arcs are fine enough for smooth normals. Centimetres.
+"""
+import math
+import pathlib
+import sys
+
+
+def arc(centre, radius, begin_deg, end_deg, steps):
+    """Points of an arc, counter-clockwise where end > begin; 0 degrees is away from the axis, 90 up."""
+    angles = [math.radians(begin_deg + (end_deg - begin_deg) * i / steps) for i in range(steps + 1)]
+    return [(centre[0] + radius * math.cos(a), centre[1] + radius * math.sin(a)) for a in angles]
+
+
+def drinking_glass():
+    """10 high, walls of 0.24, a floor of 1, rounded wherever it would be sharp. Its sides are straight up."""
+    return ([(0, 0), (1.5, 0), (2.9, 0)] + arc((3.1, 0.4), 0.4, -90, 0, 6) + [(3.5, 2), (3.5, 5), (3.5, 8)] +
+            arc((3.38, 9.88), 0.12, 0, 180, 8) + [(3.26, 8), (3.26, 5), (3.26, 2)] + arc((2.66, 1.6), 0.6, 0, -90, 8) + [(1.3, 1), (0, 1)])
+
+
+def water():
+    """Reaches 0.05 into the floor and the walls of the glass, which hides it there; its top is at 6.5."""
+    return ([(0, 0.95), (1.3, 0.95)] + arc((2.66, 1.6), 0.65, -90, 0, 8) + [(3.31, 2), (3.31, 4), (3.31, 6.5), (3.27, 6.5), (1.6, 6.5), (0, 6.5)])
+
+
+def ring():
+    """A band of 0.6 across, 0.9 inside, rounded like a D."""
+    steps = 24
+    around = [2 * math.pi * i / steps for i in range(steps)]
+
+    def place(a):
+        across, up = math.cos(a), math.sin(a)
+        return (1 + (0.16 if across > 0 else 0.06) * math.copysign(abs(across) ** 0.8, across), 0.3 * math.copysign(abs(up) ** 0.8, up))
+
+    return [place(a) for a in around]
+
+
+def turn(profile, segments, closes):
+    """OBJ text. closes: the profile's end joins its begin; else it begins and ends on the axis."""
+    lines, rows = [], []
+    count = 0
+    for radius, height in profile:
+        if radius == 0:
+            lines.append(f"v 0 {height:.5g} 0")
+            rows.append([count + 1] * segments)
+            count += 1
+            continue
+        for k in range(segments):
+            angle = 2 * math.pi * k / segments
+            lines.append(f"v {radius * math.cos(angle):.5g} {height:.5g} {radius * math.sin(angle):.5g}")
+        rows.append([count + 1 + k for k in range(segments)])
+        count += segments
+    for i in range(len(rows) if closes else len(rows) - 1):
+        below, above = rows[i], rows[(i + 1) % len(rows)]
+        for k in range(segments):
+            face = [below[k], above[k], above[(k + 1) % segments], below[(k + 1) % segments]]
+            lines.append("f " + " ".join(str(v) for v in dict.fromkeys(face)))
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "presets/environment")
+    for name, profile, closes in [("drinking-glass", drinking_glass(), False), ("water", water(), False), ("ring", ring(), True)]:
+        text = "# made by tests/experiments/lathe.py\n" + turn(profile, 96, closes)
+        (folder / f"{name}.obj").write_text(text)
+
+
+if __name__ == "__main__":
+    main()
