@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine 2, caustics under environment light (thesis chapter 3): what one object does to light is baked once, from a few directions.
+// Engine 2, caustics under environment light (thesis chapter 3): what glass and mirrors do to light is baked once, from a few directions.
 #pragma once
 #include "check/check.h"
 #include "compute/compute.h"
