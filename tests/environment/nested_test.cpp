@@ -220,7 +220,9 @@ TEST(Nested, WhatIsTurnedAndMovedTogetherKeepsItsBake)
   for (const glm::dvec3& turn : {glm::dvec3(0, 0, 0), {0, 90, 0}, {10, 20, 30}, {-170, 85, 3.3}, {0, 0, 180}}) {
     const preset::Preset moved = together(turn, {3, -70, 0.1});
     EXPECT_EQ(key_of(moved), key) << turn.x << " " << turn.y << " " << turn.z;
-    if (turn.y == 20) EXPECT_EQ(bake_of(moved, {slanted}).halves, bake.halves);
+    if (turn.y == 20) {
+      EXPECT_EQ(bake_of(moved, {slanted}).halves, bake.halves);
+    }
   }
 }
 
