@@ -5,6 +5,7 @@
 #include "preset/settings_type.h"
 #include "ui/annealing/panel.h"
 #include "ui/dispersion/panel.h"
+#include "ui/environment/panel.h"
 #include "ui/error/panel.h"
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
@@ -35,6 +36,7 @@ const PanelEntry table[] = {
     {"dispersion", DispersionPanel::title, "spectral", make<DispersionPanel>},
     {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>, SeenByGlass::look},
     {"annealing", AnnealingPanel::title, "inverse", make<AnnealingPanel>},
+    {"environment", EnvironmentPanel::title, "", make<EnvironmentPanel>, nullptr, EnvironmentPanel::serves},
     {"plan", PlanPanel::title, "", make<PlanPanel>},
     {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
 };
@@ -55,6 +57,7 @@ std::span<const PanelEntry> panel_table() { return table; }
 
 bool serves(const PanelEntry& entry, const preset::Preset* preset)
 {
+  if (preset && entry.serves) return entry.serves(*preset);
   return !preset || entry.engine.empty() || entry.engine == preset->settings.type().name;
 }
 

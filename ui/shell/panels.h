@@ -25,6 +25,8 @@ struct PanelEntry {
   std::unique_ptr<Panel> (*make)(WavelengthAxis& wavelengths);
   /// What it wants to know of the loaded scene; called on the thread that made a run ready. Null: nothing.
   std::any (*look_around)(const preset::Preset&, const scene::Scene&, const scene::Bvh&) = nullptr;
+  /// Whether it is for a preset, where the engine does not decide on that. Null: it does.
+  bool (*serves)(const preset::Preset&) = nullptr;
 };
 
 /// In the order of their tabs.

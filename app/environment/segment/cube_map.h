@@ -28,6 +28,9 @@ int cube_size(const scene::Environment& map);
 /// All light of the map, times its `radiance`. It is not turned by rotate_deg: what is made of the cube stays the same while the map turns.
 CubeMap make_cube_map(const scene::Environment& map);
 
+/// Y of linear sRGB (IEC 61966-2-1).
+inline double luminance(const glm::dvec3& rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
+
 /// A direction in the cube as it is in the scene, where the map is turned about +y, counterclockwise as seen from above.
 glm::dvec3 turned(const glm::dvec3& direction, double rotate_deg);
 

@@ -11,9 +11,6 @@ namespace {
 /// Rounding in sums of positive numbers, relative to them.
 constexpr double rounding = 1e-12;
 
-/// sRGB primaries, IEC 61966-2-1.
-double luminance(const glm::dvec3& rgb) { return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z; }
-
 /// The best cut of one direction.
 struct Candidate {
   int at = 0; ///< lines before the cut; 0: there is none

@@ -45,20 +45,6 @@ std::vector<glm::dvec3> scaled_map(const scene::Environment& map)
   return pixels;
 }
 
-/// Reinhard et al. 2002, "Photographic tone reproduction", (1) to (3): the geometric mean becomes .18, and the brightest stays below 1.
-void make_small_range(std::vector<glm::dvec3>& pixels)
-{
-  double logarithms = 0, lit = 0;
-  for (const glm::dvec3& rgb : pixels) {
-    const double mean = (rgb.x + rgb.y + rgb.z) / 3;
-    if (!(mean > 0)) continue;
-    logarithms += std::log(mean);
-    ++lit;
-  }
-  const double scale = lit > 0 ? 0.18 / std::exp(logarithms / lit) : 1;
-  for (glm::dvec3& rgb : pixels) rgb = scale * rgb / (1.0 + scale * rgb);
-}
-
 class Painter {
 public:
   explicit Painter(const scene::Environment& map)
@@ -129,6 +115,19 @@ private:
 };
 
 } // namespace
+
+void make_small_range(std::vector<glm::dvec3>& linear)
+{
+  double logarithms = 0, lit = 0;
+  for (const glm::dvec3& rgb : linear) {
+    const double mean = (rgb.x + rgb.y + rgb.z) / 3;
+    if (!(mean > 0)) continue;
+    logarithms += std::log(mean);
+    ++lit;
+  }
+  const double scale = lit > 0 ? 0.18 / std::exp(logarithms / lit) : 1;
+  for (glm::dvec3& rgb : linear) rgb = scale * rgb / (1.0 + scale * rgb);
+}
 
 SegmentPicture segment_picture(const scene::Environment& map, const Segmentation& segmentation)
 {

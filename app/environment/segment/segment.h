@@ -22,6 +22,7 @@ struct SegmentSettings {
   SegmentMethod method = SegmentMethod::variance;
   SegmentWeights weights = SegmentWeights::solid_angle;
   double threshold = 1e-7; ///< a region with no more than this part of all radiance is no light; 0..1
+  bool operator==(const SegmentSettings&) const = default;
 };
 
 struct Region {

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the panel "Environment" shows of a preset: its map, read once, as a cube and as a picture; the lights that it is cut into; how well
+// as many lights as one likes would do. Made on a thread of its own, what is seen first. No Dear ImGui.
+#pragma once
+#include "environment/segment/segment.h"
+#include "preset/preset.h"
+#include "ui/environment/picture.h"
+
+#include <array>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace nephroid::ui {
+
+/// How many lights the plot of quality has points of.
+inline constexpr std::array quality_lights{6, 8, 12, 16, 24, 32, 48, 64, 128, 256};
+
+/// Where a map comes from. How bright it is and how it is turned change nothing that is made of it.
+struct MapSource {
+  preset::Environment environment; ///< of radiance 1 and not turned
+  std::string preset;              ///< the preset's file: maps are looked for beside it
+  bool operator==(const MapSource&) const = default;
+};
+
+struct WantedMap {
+  MapSource source;
+  std::optional<environment::SegmentSettings> segments; ///< nothing: the engine does not cut it
+  MapPictureSize picture;
+  bool operator==(const WantedMap&) const = default;
+};
+
+/// Of a preset that has an environment.
+WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture);
+
+struct ReadMap {
+  int width = 0, height = 0; ///< texels of the file
+  environment::CubeMap cube; ///< of radiance 1
+  std::vector<Colour> colours;
+  std::vector<std::string> warnings; ///< a sentence each
+};
+
+struct CutMap {
+  environment::SegmentSettings settings;
+  environment::Segmentation segmentation;
+  std::vector<int> region_of_texel;
+};
+
+struct MapPicture {
+  MapPictureSize size;
+  std::shared_ptr<const CutMap> cut; ///< whose regions it shows; null: none
+  std::vector<unsigned char> rgba;
+};
+
+/// Irradiance errors of the first of quality_lights, as far as they are known.
+using Quality = std::vector<double>;
+
+/// What is there so far. All of it is of one map.
+struct ShownMap {
+  std::optional<MapSource> source; ///< nothing before the first map was read or refused
+  std::string error;               ///< why something of what was wanted is missing: one line; else empty
+  std::shared_ptr<const ReadMap> map;
+  std::shared_ptr<const CutMap> cut;
+  std::optional<double> cut_error; ///< of cut: relative error of the irradiance over normals
+  std::shared_ptr<const MapPicture> picture;
+  std::array<Quality, 2> quality; ///< by SegmentMethod, with the default threshold
+};
+
+class EnvironmentModel {
+public:
+  EnvironmentModel();
+  ~EnvironmentModel();
+  EnvironmentModel(const EnvironmentModel&) = delete;
+  EnvironmentModel& operator=(const EnvironmentModel&) = delete;
+
+  /// Once a frame, returns at once. What is in the making for something else is finished and dropped.
+  void want(const WantedMap& wanted);
+  ShownMap shown() const;
+  /// Whether nothing of what is wanted is missing, but for what an error says.
+  bool rests() const;
+  /// How often a map was read, and cut for the panel; for tests.
+  int maps_read() const;
+  int cuts_made() const;
+
+private:
+  enum class Task { none, read, cut, draw, truth, error, quality };
+  Task next() const;
+  void work(const std::stop_token& stop);
+  void carry_out(Task task, const WantedMap& wanted, ShownMap& made);
+
+  mutable std::mutex mutex_; ///< of what follows
+  std::condition_variable_any wake_;
+  std::optional<WantedMap> wanted_;
+  std::optional<WantedMap> refused_; ///< what failed last
+  ShownMap shown_;
+  Task in_hand_ = Task::none;
+  bool has_truth_ = false; ///< truth_ is of shown_.map
+  int maps_read_ = 0, cuts_made_ = 0;
+
+  std::vector<glm::dvec3> truth_; ///< the thread's own, as are these: which texels a picture of texels_of_ shows
+  std::vector<int> texels_;
+  std::pair<MapPictureSize, int> texels_of_;
+
+  std::jthread thread_; ///< last: it uses the others
+};
+
+} // namespace nephroid::ui

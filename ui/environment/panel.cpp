@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/environment/panel.h"
+
+#include "base/counted.h"
+#include "environment/describe_settings.h"
+#include "environment/settings.h"
+#include "preset/settings_type.h"
+#include "ui/widgets/theme.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr int fewest_lights = environment::face_count, most_lights = 4096; // as environment/describe_settings.h has it
+
+float em() { return ImGui::GetFontSize(); }
+
+bool is_engine_2(const preset::Preset& preset) { return &preset.settings.type() == &environment::settings_type(); }
+
+void label(const char* text)
+{
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine();
+}
+
+void cell(const std::string& text)
+{
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(text.c_str());
+}
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+/// What is said of the region under the mouse. number: from 0; lights: how many regions are lights.
+std::string text_of(const RegionFigures& f, std::size_t number, std::size_t lights)
+{
+  std::string text = number < lights ? fmt::format("Light {}\n{:.4g} W/m^2, {} of all\n", number + 1, f.flux, percent(f.share))
+                                     : std::string("Too dark to be a light of its own\n");
+  text += fmt::format("azimuth {:.1f}, elevation {:.1f} degrees\n{:.3g} sr", f.azimuth_deg, f.elevation_deg, f.solid_angle_sr);
+  if (number < lights) text += fmt::format("\ncolour #{:02x}{:02x}{:02x}", f.colour[0], f.colour[1], f.colour[2]);
+  if (f.occluded) text += fmt::format("\n{} hidden", percent(*f.occluded));
+  return text;
+}
+
+} // namespace
+
+bool EnvironmentPanel::serves(const preset::Preset& preset) { return preset.scene.environment || is_engine_2(preset); }
+
+void EnvironmentPanel::draw(const Context& context)
+{
+  places_.clear();
+  const preset::Preset* const preset = context.preset();
+  if (!preset || !preset->scene.environment) {
+    draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
+              preset ? "The preset has no environment. Give it one at scene.environment in Parameters: a latitude-longitude picture"
+                     : "Open a preset that has an environment: its light, from every direction");
+    return;
+  }
+  follow(context);
+  draw_toolbar(context);
+  if (cuts_)
+    draw_lights_row(context);
+  else
+    draw_wrapped(colour::quiet_text,
+                 fmt::format("The engine \"{}\" takes the map as it is. How it is cut into lights is for presets of the "
+                             "engine \"environment\".",
+                             preset->settings.type().name));
+  draw_light_row(context);
+  if (!shown_.error.empty()) draw_wrapped(colour::error, shown_.error);
+  draw_map(context);
+  if (shown_.map)
+    for (const std::string& warning : shown_.map->warnings) draw_wrapped(colour::note, warning);
+  if (!cuts_ || !shown_.cut) return;
+  draw_summary();
+  plot_.draw(shown_, std::max(8 * em(), 0.22f * ImGui::GetWindowHeight()));
+  draw_table();
+}
+
+/// Takes over what the preset says, and what is there of it so far.
+void EnvironmentPanel::follow(const Context& context)
+{
+  const preset::Preset& preset = *context.preset();
+  environment_ = *preset.scene.environment;
+  cuts_ = is_engine_2(preset);
+  MapPictureSize size = map_.wanted_size();
+  if (size.layout != layout_) size = {layout_, size.width};
+  const WantedMap wanted = wanted_map(preset, size);
+  model_.want(wanted);
+  shown_ = model_.shown();
+  if (shown_.source != wanted.source) shown_ = {}; // another map's picture would be mistaken for this one's
+  if (!cuts_) shown_.cut.reset();
+  make_figures(context);
+}
+
+void EnvironmentPanel::make_figures(const Context& context)
+{
+  FiguresOf of{shown_.cut, environment_.radiance, environment_.rotate_deg, {}};
+  if (shown_.cut && context.run.snapshot() && context.run.snapshot_is_current())
+    of.visible = visible_shares(*context.run.snapshot(), shown_.cut->segmentation.lights.size());
+  if (of == figures_of_) return;
+  figures_of_ = of;
+  figures_.clear();
+  by_flux_.clear();
+  if (!of.cut) return;
+  figures_ = ui::figures_of(of.cut->segmentation, of.radiance, of.rotate_deg, of.visible);
+  by_flux_.resize(of.cut->segmentation.lights.size());
+  std::iota(by_flux_.begin(), by_flux_.end(), std::size_t{0});
+  std::stable_sort(by_flux_.begin(), by_flux_.end(), [&](std::size_t a, std::size_t b) { return figures_[a].flux > figures_[b].flux; });
+}
+
+template <class Set>
+void EnvironmentPanel::follow_number(const Context& context, const std::string& widget, bool changed, const char* what, Set set)
+{
+  places_.note(widget);
+  if (ImGui::IsItemActivated()) gestures_.begin();
+  if (changed) context.edit(what, set, gestures_.number(), true);
+  if (ImGui::IsItemDeactivated()) context.push(command::EndGesture{});
+}
+
+void EnvironmentPanel::draw_toolbar(const Context& context)
+{
+  for (const auto& [layout, name, help] : {std::tuple{MapLayout::latitude_longitude, "latitude, longitude", "As the map's file, turned"},
+                                           std::tuple{MapLayout::cube, "cube", "The six faces that are cut, as they are in the map"}}) {
+    if (ImGui::RadioButton(name, layout_ == layout)) layout_ = layout;
+    places_.note(name);
+    ImGui::SetItemTooltip("%s", help);
+    ImGui::SameLine();
+  }
+  const bool turns = environment_.type == preset::Environment::Type::file;
+  ImGui::BeginDisabled(!turns);
+  ImGui::SetNextItemWidth(-1);
+  double degrees = environment_.rotate_deg;
+  const double low = -3600, high = 3600;
+  const bool changed =
+      ImGui::DragScalar("##rotation", ImGuiDataType_Double, &degrees, 0.5f, &low, &high, "turned %.1f deg", ImGuiSliderFlags_AlwaysClamp);
+  follow_number(context, "rotation", changed, "turn the environment",
+                [&](preset::Preset& p) { p.scene.environment->rotate_deg = degrees; });
+  ImGui::EndDisabled();
+  ImGui::SetItemTooltip("About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and a click to "
+                        "type.");
+}
+
+/// What engine 2 cuts the map into.
+void EnvironmentPanel::draw_lights_row(const Context& context)
+{
+  const environment::Settings& settings = environment::settings(*context.preset());
+  label("Lights");
+  ImGui::SetNextItemWidth(-13 * em());
+  int lights = settings.lights;
+  const bool changed = ImGui::SliderScalar("##lights", ImGuiDataType_S32, &lights, &fewest_lights, &most_lights, "%d",
+                                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  follow_number(context, "lights", changed, "number of lights", [&](preset::Preset& p) { environment::settings(p).lights = lights; });
+  ImGui::SetItemTooltip("How many directional lights the map is cut into. Ctrl and a click to type.");
+  ImGui::SameLine();
+  label("by");
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##method", std::string(preset::word(settings.segmentation)).c_str())) {
+    for (const auto& choice : preset::Choices<environment::SegmentMethod>::all) {
+      const std::string name(choice.name);
+      if (ImGui::Selectable(name.c_str(), choice.value == settings.segmentation))
+        context.edit("method of segmentation", [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });
+      places_.note("method:" + name);
+      ImGui::SetItemTooltip("%s", std::string(choice.sentence).c_str());
+    }
+    ImGui::EndCombo();
+  }
+  places_.note("method");
+}
+
+/// How bright it is, and what is too dark.
+void EnvironmentPanel::draw_light_row(const Context& context)
+{
+  label("Radiance");
+  ImGui::SetNextItemWidth(cuts_ ? -13 * em() : -1);
+  double radiance = environment_.radiance;
+  const double low = 0, high = 1e9;
+  const bool brighter =
+      ImGui::DragScalar("##radiance", ImGuiDataType_Double, &radiance, static_cast<float>(std::max(1e-3, 0.005 * radiance)), &low, &high,
+                        "%.4g W/(m^2 sr)", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
+  follow_number(context, "radiance", brighter, "radiance of the environment",
+                [&](preset::Preset& p) { p.scene.environment->radiance = radiance; });
+  ImGui::SetItemTooltip("Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.");
+  if (!cuts_) return;
+  ImGui::SameLine();
+  label("drop below");
+  ImGui::SetNextItemWidth(-1);
+  double threshold = environment::settings(*context.preset()).threshold;
+  ImGui::InputDouble("##threshold", &threshold, 0, 0, "%.3g");
+  places_.note("threshold");
+  if (ImGui::IsItemDeactivatedAfterEdit() && std::isfinite(threshold))
+    context.edit("threshold of lights", [&](preset::Preset& p) { environment::settings(p).threshold = std::clamp(threshold, 0.0, 1.0); });
+  ImGui::SetItemTooltip("A region with no more than this part of the map's light, 0 to 1, is no light of its own.");
+}
+
+MapContents EnvironmentPanel::contents() const { return {shown_, figures_, layout_, environment_.rotate_deg, row_}; }
+
+std::array<double, 2> EnvironmentPanel::place_on_map(const glm::dvec3& direction) const { return map_.to_screen(contents(), direction); }
+
+void EnvironmentPanel::draw_map(const Context& context)
+{
+  const MapDrag drag = map_.draw(contents(), std::max(10 * em(), 0.42f * ImGui::GetWindowHeight()));
+  if (!shown_.map && shown_.error.empty()) {
+    const auto& [x, y, width, height] = map_.area();
+    draw_hint({static_cast<float>(x), static_cast<float>(y)}, {static_cast<float>(width), static_cast<float>(height)}, "Reading the map");
+  }
+  if (const auto region = map_.hovered(); region && *region < figures_.size())
+    ImGui::SetTooltip("%s", text_of(figures_[*region], *region, by_flux_.size()).c_str());
+  if (environment_.type != preset::Environment::Type::file) return; // it looks the same however it is turned
+  if (drag.taken) {
+    gestures_.begin();
+    taken_deg_ = environment_.rotate_deg;
+  }
+  if (drag.moved)
+    context.edit(
+        "turn the environment",
+        [&](preset::Preset& p) { p.scene.environment->rotate_deg = dragged_rotation(taken_deg_, drag.across, layout_); },
+        gestures_.number(), true);
+  if (drag.let_go) context.push(command::EndGesture{});
+}
+
+void EnvironmentPanel::draw_summary() const
+{
+  const environment::Segmentation& cut = shown_.cut->segmentation;
+  std::string text = fmt::format("{}, {:.4g} W/m^2 in all", counted(cut.lights.size(), "light"),
+                                 environment_.radiance * environment::luminance(cut.total_flux));
+  if (!cut.dropped.empty()) text += fmt::format("; {} too dark", counted(cut.dropped.size(), "region is", "regions are"));
+  if (shown_.cut_error) text += fmt::format("; irradiance is wrong by {:.3g} %", 100 * *shown_.cut_error);
+  draw_wrapped(colour::quiet_text, text);
+}
+
+void EnvironmentPanel::draw_table()
+{
+  row_.reset();
+  constexpr ImGuiTableFlags flags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
+  const float height = std::max(8 * em(), ImGui::GetContentRegionAvail().y);
+  if (!ImGui::BeginTable("lights", 7, flags, {0, height})) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  for (const char* name : {"Light", "", "Azimuth", "Elevation", "W/m^2", "Share", "Hidden"}) ImGui::TableSetupColumn(name);
+  ImGui::TableHeadersRow();
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(by_flux_.size()));
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      const std::size_t light = by_flux_.at(static_cast<std::size_t>(i));
+      const RegionFigures& f = figures_.at(light);
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      const bool marked = map_.hovered() == light;
+      ImGui::Selectable(fmt::format("{}", light + 1).c_str(), marked, ImGuiSelectableFlags_SpanAllColumns);
+      if (ImGui::IsItemHovered()) row_ = light;
+      places_.note(fmt::format("row {}", light + 1));
+      ImGui::TableNextColumn();
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      const float side = ImGui::GetTextLineHeight();
+      ImGui::Dummy({side, side});
+      ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, IM_COL32(f.colour[0], f.colour[1], f.colour[2], 255));
+      cell(fmt::format("{:.1f}", f.azimuth_deg));
+      cell(fmt::format("{:.1f}", f.elevation_deg));
+      cell(fmt::format("{:.3g}", f.flux));
+      cell(percent(f.share));
+      cell(f.occluded ? percent(*f.occluded) : std::string("-"));
+    }
+  ImGui::EndTable();
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Environment": the preset's surroundings as a picture that is turned with the mouse; for engine 2 the lights that they are cut
+// into, with their flux and what a run found to be hidden of them, and how well as many lights do.
+#pragma once
+#include "ui/environment/lights.h"
+#include "ui/environment/map_view.h"
+#include "ui/environment/model.h"
+#include "ui/environment/plot.h"
+#include "ui/widgets/panel.h"
+#include "ui/widgets/widgets.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+class EnvironmentPanel : public Panel {
+public:
+  static constexpr const char* title = "Environment";
+  /// Engine 2's presets, and others that have an environment.
+  static bool serves(const preset::Preset& preset);
+  void draw(const Context& context) override;
+
+  /// For tests: what was drawn last, and where.
+  const EnvironmentModel& model() const { return model_; }
+  const ShownMap& shown() const { return shown_; }
+  const MapView& map() const { return map_; }
+  const QualityPlot& plot() const { return plot_; }
+  const std::vector<RegionFigures>& figures() const { return figures_; }
+  std::array<double, 2> place_on_map(const glm::dvec3& direction) const;
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
+
+private:
+  void follow(const Context& context);
+  void make_figures(const Context& context);
+  void draw_toolbar(const Context& context);
+  void draw_lights_row(const Context& context);
+  void draw_light_row(const Context& context);
+  void draw_map(const Context& context);
+  void draw_summary() const;
+  void draw_table();
+  MapContents contents() const;
+  /// A number that is dragged or slid: what the widget says about itself makes one gesture. set(preset, value).
+  template <class Set>
+  void follow_number(const Context& context, const std::string& widget, bool changed, const char* what, Set set);
+
+  MapLayout layout_ = MapLayout::latitude_longitude;
+  EnvironmentModel model_;
+  ShownMap shown_;
+  preset::Environment environment_; ///< of this frame
+  bool cuts_ = false;               ///< the preset's engine cuts the map
+  std::vector<RegionFigures> figures_;
+  std::vector<std::size_t> by_flux_; ///< the lights among figures_, the brightest first
+  struct FiguresOf {
+    std::shared_ptr<const CutMap> cut;
+    double radiance = 0, rotate_deg = 0;
+    std::vector<double> visible;
+    bool operator==(const FiguresOf&) const = default;
+  } figures_of_;
+  std::optional<std::size_t> row_; ///< the region whose row the mouse is on
+  MapView map_;
+  QualityPlot plot_;
+  Gestures gestures_{title};
+  double taken_deg_ = 0; ///< rotate_deg when the picture was taken
+  WidgetPlaces places_;
+};
+
+} // namespace nephroid::ui
