@@ -25,7 +25,7 @@ std::shared_ptr<const ReadMap> read(const MapSource& source)
   made->width = map.width;
   made->height = map.height;
   made->cube = environment::make_cube_map(map);
-  made->colours = shown_colours(made->cube);
+  made->picture = environment::shown_map(map);
   return made;
 }
 
@@ -150,15 +150,16 @@ void EnvironmentModel::carry_out(Task task, const WantedMap& wanted, ShownMap& m
     made.cut = cut(*made.map, *wanted.segments);
     made.cut_error.reset();
   } else if (task == Task::draw) {
-    const int size = made.map->cube.size;
-    if (std::pair of(wanted.picture, size); texels_.empty() || texels_of_ != of) {
-      texels_ = texels_under(wanted.picture, size);
-      texels_of_ = of;
+    if (under_of_ != made.map || under_size_ != wanted.picture) {
+      colours_ = colours_under(wanted.picture, made.map->picture);
+      texels_ = texels_under(wanted.picture, made.map->cube.size);
+      under_of_ = made.map;
+      under_size_ = wanted.picture;
     }
     auto picture = std::make_shared<MapPicture>();
     picture->size = wanted.picture;
     if (wanted.segments) picture->cut = made.cut;
-    picture->rgba = drawn(wanted.picture, texels_, made.map->colours, picture->cut ? picture->cut->region_of_texel : std::vector<int>());
+    picture->rgba = drawn(wanted.picture, colours_, texels_, picture->cut ? picture->cut->region_of_texel : std::vector<int>());
     made.picture = std::move(picture);
   } else if (task == Task::truth) {
     truth_ = environment::irradiances(made.map->cube);

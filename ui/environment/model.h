@@ -39,10 +39,10 @@ struct WantedMap {
 WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture);
 
 struct ReadMap {
-  int width = 0, height = 0; ///< texels of the file
-  environment::CubeMap cube; ///< of radiance 1
-  std::vector<Colour> colours;
-  std::vector<std::string> warnings; ///< a sentence each
+  int width = 0, height = 0;           ///< texels of the file
+  environment::CubeMap cube;           ///< of radiance 1
+  environment::SegmentPicture picture; ///< in latitude and longitude
+  std::vector<std::string> warnings;   ///< a sentence each
 };
 
 struct CutMap {
@@ -102,9 +102,11 @@ private:
   bool has_truth_ = false; ///< truth_ is of shown_.map
   int maps_read_ = 0, cuts_made_ = 0;
 
-  std::vector<glm::dvec3> truth_; ///< the thread's own, as are these: which texels a picture of texels_of_ shows
+  std::vector<glm::dvec3> truth_;           ///< the thread's own, as are these:
+  std::shared_ptr<const ReadMap> under_of_; ///< what lies under the pixels of pictures
+  MapPictureSize under_size_;               ///< of this map and size
+  std::vector<Colour> colours_;
   std::vector<int> texels_;
-  std::pair<MapPictureSize, int> texels_of_;
 
   std::jthread thread_; ///< last: it uses the others
 };

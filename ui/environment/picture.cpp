@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/environment/picture.h"
 
-#include "environment/segment/picture.h"
-#include "ui/widgets/shown_pixels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -66,20 +63,27 @@ glm::dvec2 place_of(MapLayout layout, const glm::dvec3& direction)
   return {(static_cast<double>(column) + (point.s + 1) / 2) / 4, (static_cast<double>(row) + (point.t + 1) / 2) / 3};
 }
 
-std::vector<Colour> shown_colours(const environment::CubeMap& cube)
+std::vector<Colour> colours_under(const MapPictureSize& size, const environment::SegmentPicture& map)
 {
-  std::vector<glm::dvec3> radiances;
-  radiances.reserve(cube.flux.size() / 3);
-  std::vector<double> solid_angles; // of one face's texels
-  for (int y = 0; y < cube.size; ++y)
-    for (int x = 0; x < cube.size; ++x) solid_angles.push_back(environment::solid_angle({x, y, x + 1, y + 1}, cube.size));
-  for (std::size_t texel = 0; 3 * texel < cube.flux.size(); ++texel)
-    radiances.push_back(cube.flux_of(texel) / solid_angles[texel % solid_angles.size()]);
-  environment::make_small_range(radiances);
+  constexpr int parts = 3; // along a side of a pixel, so that a small lamp is not missed between two middles
+  const auto texel = [](double u, int count) { return std::min(static_cast<int>(u * count), count - 1); };
   std::vector<Colour> colours;
-  colours.reserve(radiances.size());
-  const auto byte = [](double linear) { return shown_byte(static_cast<float>(linear), 1); };
-  for (const glm::dvec3& rgb : radiances) colours.push_back({byte(rgb.x), byte(rgb.y), byte(rgb.z)});
+  for (int y = 0; y < size.height(); ++y)
+    for (int x = 0; x < size.width; ++x) {
+      std::array<int, 3> sum{};
+      for (int part = 0; part < parts * parts; ++part) {
+        glm::dvec2 at{(x + (part % parts + 0.5) / parts) / size.width, (y + (part / parts + 0.5) / parts) / size.height()};
+        if (size.layout == MapLayout::cube) {
+          const auto point = cube_point(size.layout, at);
+          if (!point) continue;
+          at = place_of(MapLayout::latitude_longitude, environment::position(*point));
+        }
+        const auto row = static_cast<std::size_t>(texel(at.y, map.height)), column = static_cast<std::size_t>(texel(at.x, map.width));
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += map.rgba[4 * (row * static_cast<std::size_t>(map.width) + column) + c];
+      }
+      Colour& mean = colours.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<unsigned char>(sum[c] / (parts * parts));
+    }
   return colours;
 }
 
@@ -111,7 +115,7 @@ std::vector<int> texels_under(const MapPictureSize& size, int cube_size)
   return texels;
 }
 
-std::vector<unsigned char> drawn(const MapPictureSize& size, const std::vector<int>& texels, const std::vector<Colour>& colours,
+std::vector<unsigned char> drawn(const MapPictureSize& size, const std::vector<Colour>& colours, const std::vector<int>& texels,
                                  const std::vector<int>& regions)
 {
   std::vector<unsigned char> rgba(4 * texels.size(), 0);
@@ -126,7 +130,7 @@ std::vector<unsigned char> drawn(const MapPictureSize& size, const std::vector<i
       const std::size_t at = pixel(x, y);
       const int texel = texels[at];
       if (texel < 0) continue;
-      std::copy_n(colours[static_cast<std::size_t>(texel)].begin(), 3, &rgba[4 * at]);
+      std::copy(colours[at].begin(), colours[at].end(), &rgba[4 * at]);
       rgba[4 * at + 3] = 255;
       if (regions.empty()) continue;
       // The right edge of latitude and longitude goes on at the left; that of the cross does too, where +z and -x meet.

@@ -2,7 +2,7 @@
 // The environment as a flat picture: where a direction lies in it and back, its pixels, and the regions of a segmentation as lines. All
 // of it is in the map's own frame, not turned by rotate_deg. No Dear ImGui.
 #pragma once
-#include "environment/segment/segment.h"
+#include "environment/segment/picture.h"
 
 #include <array>
 #include <optional>
@@ -31,15 +31,14 @@ glm::dvec2 place_of(MapLayout layout, const glm::dvec3& direction);
 
 using Colour = std::array<unsigned char, 3>;
 
-/// Of each texel of the cube, for a screen: its range is made small.
-std::vector<Colour> shown_colours(const environment::CubeMap& cube);
-/// Of each texel the index of its region: first the lights, then those that were dropped.
-std::vector<int> regions_of_texels(const environment::Segmentation& segmentation);
-
-/// The texel of the cube under each pixel's middle, row 0 at the top; -1 beside the cross. cube_size: as CubeMap::size.
+/// Of each pixel, row 0 at the top; black beside the cross. map: in latitude and longitude, as environment::shown_map makes it.
+std::vector<Colour> colours_under(const MapPictureSize& size, const environment::SegmentPicture& map);
+/// The texel of the cube under each pixel's middle; -1 beside the cross. cube_size: as CubeMap::size.
 std::vector<int> texels_under(const MapPictureSize& size, int cube_size);
-/// 4 bytes a pixel; transparent beside the cross. regions: as regions_of_texels says; empty: no lines.
-std::vector<unsigned char> drawn(const MapPictureSize& size, const std::vector<int>& texels, const std::vector<Colour>& colours,
+/// Of each texel of the cube the index of its region: first the lights, then those that were dropped.
+std::vector<int> regions_of_texels(const environment::Segmentation& segmentation);
+/// 4 bytes a pixel; transparent beside the cross. Of the first two, and with lines between the regions of the third; empty: without.
+std::vector<unsigned char> drawn(const MapPictureSize& size, const std::vector<Colour>& colours, const std::vector<int>& texels,
                                  const std::vector<int>& regions);
 
 } // namespace nephroid::ui

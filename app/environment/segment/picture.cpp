@@ -45,17 +45,23 @@ std::vector<glm::dvec3> scaled_map(const scene::Environment& map)
   return pixels;
 }
 
+/// Reinhard et al. 2002, "Photographic tone reproduction", (1) to (3): the geometric mean becomes .18, and the brightest stays below 1.
+void make_small_range(std::vector<glm::dvec3>& pixels)
+{
+  double logarithms = 0, lit = 0;
+  for (const glm::dvec3& rgb : pixels) {
+    const double mean = (rgb.x + rgb.y + rgb.z) / 3;
+    if (!(mean > 0)) continue;
+    logarithms += std::log(mean);
+    ++lit;
+  }
+  const double scale = lit > 0 ? 0.18 / std::exp(logarithms / lit) : 1;
+  for (glm::dvec3& rgb : pixels) rgb = scale * rgb / (1.0 + scale * rgb);
+}
+
 class Painter {
 public:
-  explicit Painter(const scene::Environment& map)
-  {
-    std::vector<glm::dvec3> pixels = scaled_map(map);
-    make_small_range(pixels);
-    for (const glm::dvec3& rgb : pixels) {
-      for (int c = 0; c < 3; ++c) picture_.rgba.push_back(image::shown(static_cast<float>(rgb[c]), 1));
-      picture_.rgba.push_back(255);
-    }
-  }
+  explicit Painter(SegmentPicture picture) : picture_(std::move(picture)) {}
 
   void borders(const Segmentation& segmentation)
   {
@@ -111,27 +117,26 @@ private:
     return of_pixel;
   }
 
-  SegmentPicture picture_{width, height, {}};
+  SegmentPicture picture_;
 };
 
 } // namespace
 
-void make_small_range(std::vector<glm::dvec3>& linear)
+SegmentPicture shown_map(const scene::Environment& map)
 {
-  double logarithms = 0, lit = 0;
-  for (const glm::dvec3& rgb : linear) {
-    const double mean = (rgb.x + rgb.y + rgb.z) / 3;
-    if (!(mean > 0)) continue;
-    logarithms += std::log(mean);
-    ++lit;
+  std::vector<glm::dvec3> pixels = scaled_map(map);
+  make_small_range(pixels);
+  SegmentPicture picture{width, height, {}};
+  for (const glm::dvec3& rgb : pixels) {
+    for (int c = 0; c < 3; ++c) picture.rgba.push_back(image::shown(static_cast<float>(rgb[c]), 1));
+    picture.rgba.push_back(255);
   }
-  const double scale = lit > 0 ? 0.18 / std::exp(logarithms / lit) : 1;
-  for (glm::dvec3& rgb : linear) rgb = scale * rgb / (1.0 + scale * rgb);
+  return picture;
 }
 
 SegmentPicture segment_picture(const scene::Environment& map, const Segmentation& segmentation)
 {
-  Painter painter(map);
+  Painter painter(shown_map(map));
   painter.borders(segmentation);
   for (const Region& light : segmentation.lights) painter.disc(light.direction);
   return painter.result();
