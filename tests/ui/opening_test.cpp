@@ -119,6 +119,46 @@ TEST_F(OpeningTest, TheDialogSavesAndOpens)
   EXPECT_EQ(workbench.question(), Question::none);
 }
 
+TEST_F(OpeningTest, AMapBecomesTheEnvironment)
+{
+  const std::string map = folder.write("hall.hdr", "read by the run"), other = folder.write("sky.EXR", "");
+  workbench.apply({command::Open{map}});
+  ASSERT_EQ(workbench.messages().size(), 1u) << "no preset is open";
+  EXPECT_THAT(workbench.messages()[0].line, ::testing::HasSubstr("once a preset is open"));
+  open_and_edit();
+  workbench.apply({command::Open{map}});
+  ASSERT_TRUE(workbench.preset()->scene.environment);
+  EXPECT_EQ(workbench.preset()->scene.environment->file, map);
+  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.edits()->undo_label(), "surround with hall.hdr");
+  edit([](preset::Preset& p) {
+    p.scene.environment->radiance = 3;
+    p.scene.environment->rotate_deg = 40;
+    p.scene.environment->lights = true;
+  });
+  workbench.apply({command::Open{other}});
+  preset::Environment expected;
+  expected.file = other;
+  expected.radiance = 3;
+  expected.rotate_deg = 40;
+  expected.lights = true;
+  EXPECT_EQ(workbench.preset()->scene.environment, expected);
+  for (int i = 0; i < 3; ++i) workbench.apply({command::Undo{}});
+  EXPECT_FALSE(workbench.preset()->scene.environment);
+}
+
+// An engine that has no use for surroundings says so, and nothing changes.
+TEST_F(OpeningTest, AMapThatThePresetCannotHaveIsRefused)
+{
+  ASSERT_TRUE(workbench.open(folder.write("inverse.json", R"({"engine": "inverse", "inverse": {"receivers": [
+    {"distance_mm": 100, "picture": {"type": "disc", "radius": 0.3}}]}})")));
+  workbench.apply({command::Open{folder.write("hall.hdr", "")}});
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_THAT(workbench.messages()[0].line, ::testing::HasSubstr("environment"));
+  EXPECT_TRUE(workbench.messages()[0].error);
+  EXPECT_FALSE(workbench.edits()->modified());
+}
+
 TEST_F(OpeningTest, FilesDroppedTogetherKeepTheirMessages)
 {
   workbench.apply({command::Open{folder.write("ball.obj", "v 0 0 0\n")}, command::Open{first}});

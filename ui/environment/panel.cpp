@@ -59,7 +59,8 @@ void EnvironmentPanel::draw(const Context& context)
   const preset::Preset* const preset = context.preset();
   if (!preset || !preset->scene.environment) {
     draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
-              preset ? "The preset has no environment. Give it one at scene.environment in Parameters: a latitude-longitude picture"
+              preset ? "The preset has no environment: drop a latitude-longitude picture (.hdr, .exr) on the window, or add "
+                       "scene.environment in Parameters"
                      : "Open a preset that has an environment: its light, from every direction");
     return;
   }

@@ -72,7 +72,8 @@ std::vector<Colour> colours_under(const MapPictureSize& size, const environment:
     for (int x = 0; x < size.width; ++x) {
       std::array<int, 3> sum{};
       for (int part = 0; part < parts * parts; ++part) {
-        glm::dvec2 at{(x + (part % parts + 0.5) / parts) / size.width, (y + (part / parts + 0.5) / parts) / size.height()};
+        const int part_x = part % parts, part_y = part / parts;
+        glm::dvec2 at{(x + (part_x + 0.5) / parts) / size.width, (y + (part_y + 0.5) / parts) / size.height()};
         if (size.layout == MapLayout::cube) {
           const auto point = cube_point(size.layout, at);
           if (!point) continue;

@@ -29,8 +29,10 @@ constexpr std::array kinds{
     Kind{".yml .yaml ", "is dispersion data",
          "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion {}`"},
     Kind{".obj .ply .stl .gltf .glb .3ds ", "is a mesh", "name it in a preset as an object's \"mesh\""},
-    Kind{".exr .hdr .pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
-         "a run's pictures lie beside its preset.json: open that; pictures as environments are not rendered yet"},
+    Kind{".exr .hdr ", "is a picture",
+         "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
+    Kind{".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
+         "a run's pictures lie beside its preset.json: open that; an environment is named in a preset as scene.environment"},
     Kind{".cl ", "is a kernel source", "start with --kernels and its folder"},
 };
 
@@ -81,6 +83,12 @@ bool is_dispersion_file(const std::filesystem::path& file)
 {
   const std::string ending = lower_ending(file);
   return ending == ".yml" || ending == ".yaml";
+}
+
+bool is_map_file(const std::filesystem::path& file)
+{
+  const std::string ending = lower_ending(file);
+  return ending == ".hdr" || ending == ".exr";
 }
 
 std::filesystem::path save_target(const preset::Preset* preset)

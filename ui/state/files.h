@@ -21,6 +21,8 @@ namespace nephroid::ui {
 void refuse_other_kinds(const std::string& name);
 /// Whether a file's name ends as dispersion data does.
 bool is_dispersion_file(const std::filesystem::path& file);
+/// Whether it ends as pictures of surroundings do, which have a range that no screen has.
+bool is_map_file(const std::filesystem::path& file);
 
 /// Where "save" writes without asking: the file that was opened, unless it is one of the shipped presets. Empty: ask. preset may be null.
 std::filesystem::path save_target(const preset::Preset* preset);

@@ -9,6 +9,25 @@
 #include <filesystem>
 
 namespace nephroid::ui {
+namespace {
+
+/// With a map in place of its environment, as bright and as turned as that was. Whether the map can be read the run finds out.
+preset::Preset surrounded(preset::Preset preset, const std::string& map)
+{
+  std::error_code ignored;
+  preset::Environment environment;
+  if (const auto& before = preset.scene.environment) {
+    environment.radiance = before->radiance;
+    environment.rotate_deg = before->rotate_deg;
+    environment.lights = before->lights;
+  }
+  environment.file = std::filesystem::absolute(map, ignored).string();
+  preset.scene.environment = environment;
+  preset::check(preset, [&](const std::string& pointer) { return Place(preset.source, pointer); });
+  return preset;
+}
+
+} // namespace
 
 void Workbench::apply(const Commands& commands)
 {
@@ -51,6 +70,11 @@ void Workbench::carry_out(const command::Open& c)
 {
   if (is_history(c.name)) return carry_out(command::PinFile{c.name});
   if (edits_ && is_dispersion_file(c.name)) return carry_out(command::LoadDispersion{c.name});
+  if (edits_ && is_map_file(c.name)) {
+    const std::string name = std::filesystem::path(c.name).filename().string();
+    carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
+    return messages_.note(name + " is the environment");
+  }
   if (c.sure || !edits_ || !edits_->modified()) {
     open(c.name);
     return;
