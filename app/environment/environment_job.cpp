@@ -326,10 +326,14 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now)
       before.scene.objects.size() != now.scene.objects.size() || may_be_lit(before) != may_be_lit(now))
     return false;
   // What is baked together may not move apart.
-  const std::vector<std::size_t> caster = caster_objects(before);
-  if (caster.size() > 1 &&
-      std::ranges::any_of(caster, [&](std::size_t i) { return before.scene.objects[i].transform != now.scene.objects[i].transform; }))
-    return false;
+  const auto is_caster = [&](const preset::Object& object) {
+    const auto material = before.scene.materials.find(object.material);
+    return material != before.scene.materials.end() && material->second.type != preset::Material::Type::diffuse;
+  };
+  const std::vector<preset::Object>& objects = before.scene.objects;
+  const bool alone = std::ranges::count_if(objects, is_caster) == 1;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (!alone && is_caster(objects[i]) && objects[i].transform != now.scene.objects[i].transform) return false;
   preset::Preset same = with_view_of(before, now);
   same.scene.environment = now.scene.environment;
   same.scene.lights = now.scene.lights;

@@ -3,12 +3,12 @@
 #pragma once
 #include "base/error.h"
 #include "base/files.h"
+#include "engine/engine.h"
 #include "job/job.h"
 #include "measure/reference.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "spectral/energy.h"
-#include "spectral/relight/layer_light.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/state/workbench.h"
@@ -105,7 +105,8 @@ public:
   {
     const auto& lights = preset.scene.lights;
     if (!lights.empty() && lights[0].power_w == 13) throw bad_input("lights/0", "is unlucky");
-    if (!runs_.adopts || !spectral::only_relit(preset_, preset)) return false;
+    const auto adoptable = engine::engine_of(preset_).adoptable;
+    if (!runs_.adopts || !adoptable || !adoptable(preset_, preset)) return false;
     preset_ = preset;
     ++runs_.adopted;
     return true;

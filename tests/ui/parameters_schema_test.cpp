@@ -156,6 +156,7 @@ protected:
   void edit_leaf(const Json& node, const std::string& pointer, const std::string& owner)
   {
     if (node.value("type", "") != "array") return edit_plain(node, pointer, owner);
+    if (pointer == "/environment/objects") return; // names of the scene's glass, of which there is none here
     const Json now = drafted(pointer);
     for (std::size_t i = 0; i < now.size(); ++i)
       if (now[i].is_array())
