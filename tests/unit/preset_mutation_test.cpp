@@ -37,6 +37,7 @@ TEST(PresetMutation, AnyValueOfAWrongTypeIsRefusedWhereItStands)
         const Json before = json[at];
         if (before.is_null()) continue; // an optional field is tried where it has a value
         for (const Json& wrong : wrong_types(before)) {
+          if (wrong.is_number() && before.is_array() && at.back() == "value") continue; // of a key: one number is a list of one
           json[at] = wrong;
           ++tried;
           try {

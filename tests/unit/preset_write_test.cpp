@@ -51,7 +51,7 @@ TEST(PresetWriting, IsCompleteAndInTheOrderOfTheDescription)
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_THAT(keys, testing::ElementsAre("name", "description", "engine", "unit", "seed", "white", "scene", "spectral", "stop", "reference",
-                                         "measure", "leave_out"));
+                                         "measure", "animation", "leave_out"));
   EXPECT_TRUE(json["scene"]["objects"][0]["shape"].is_null());
   EXPECT_EQ(json["scene"]["materials"]["glass"]["dispersion"]["outside"], "automatic");
 }
