@@ -38,8 +38,9 @@ std::vector<float> latitude_longitude(const Bake& bake, std::size_t direction, s
       for (std::size_t column = 0; column < static_cast<std::size_t>(width); ++column) {
         glm::dvec3 sum(0);
         for (int i = 0; i < places * places; ++i) {
-          const double down = (static_cast<double>(row) + (i / places + 0.5) / places) / height,
-                       across = (static_cast<double>(column) + (i % places + 0.5) / places) / width;
+          const int below = i / places, right = i % places;
+          const double down = (static_cast<double>(row) + (below + 0.5) / places) / height,
+                       across = (static_cast<double>(column) + (right + 0.5) / places) / width;
           const double zenith = std::numbers::pi * down, azimuth = 2 * std::numbers::pi * (across - 0.5); // from -z to +x
           const glm::dvec3 way(std::sin(zenith) * std::sin(azimuth), std::cos(zenith), -std::sin(zenith) * std::cos(azimuth));
           sum += bake.at(direction, sphere, bake.map.texel(way));

@@ -86,7 +86,7 @@ CubeMap make_cube_map(const scene::Environment& map)
 {
   CubeMap cube{cube_size(map), {}};
   const auto size = static_cast<std::size_t>(cube.size);
-  cube.flux.assign(3 * face_count * size * size, 0.0);
+  cube.flux.assign(size * size * 3 * face_count, 0.0);
   const Scatter scatter(map, cube);
   for_blocks(8, [&](std::size_t block) { scatter.octant(static_cast<int>(block % 4), static_cast<int>(block / 4)); });
   return cube;
