@@ -135,6 +135,8 @@ void Renderer::light_up()
   for (const glm::dvec3& factor : irradiance_polynomial(task_.cube, rotate_deg_)) polynomial.push_back(to_float4(factor));
   irradiance_.write(polynomial);
   compiled_side_ = 0;
+  coarse_.forget_caustics();
+  fine_.forget_caustics();
 }
 
 void Renderer::light_pass()
@@ -148,8 +150,9 @@ void Renderer::light_pass()
     caustics_.draw_lights(lights, task_.placement.turn, static_cast<std::uint32_t>(pass_));
   else
     caustics_.set_lights(lights, task_.placement.turn);
-  coarse_.forget_caustics();
-  fine_.forget_caustics();
+  // Of the coarse cube all caustics are of the first pass. So are the fine one's, as long as nothing is drawn.
+  if (drawn || drawn_) fine_.forget_caustics();
+  drawn_ = drawn;
 }
 
 void Renderer::begin_anew()
@@ -219,7 +222,11 @@ void Renderer::end_pass()
   light_pass();
 }
 
-double Renderer::part() const { return stage_ == Stage::see ? 0.5 * see_steps_.part() : 0.5 + 0.5 * shade_steps_.part(); }
+double Renderer::part() const
+{
+  const double done = (stage_ == Stage::see ? see_steps_.part() : 1) + (shaded_ ? 1 : shade_steps_.part()) + volume_steps_.part();
+  return done / (task_.has_medium ? 3 : 2);
+}
 
 void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count)
 {

@@ -47,7 +47,6 @@ public:
   const Segmentation& segmentation() const { return task_.segmentation; }
   /// What is left of each of the segmentation's lights where the object is.
   const std::vector<VisibleLight>& visible() const { return visible_; }
-  const CubeMap& cube() const { return task_.cube; }
   const scene::Scene& scene() const { return *task_.scene; }
 
   void save(tracing::StateWriter& to) const;
@@ -90,6 +89,7 @@ private:
 
   std::int64_t pass_ = 0;
   Stage stage_ = Stage::see;
+  bool drawn_ = false;  ///< whether the caustics are of drawn lights
   bool shaded_ = false; ///< all pixels, in the pass in hand
   tracing::PixelSteps see_steps_, shade_steps_, volume_steps_;
 };
