@@ -40,7 +40,8 @@ TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets)
     EXPECT_EQ(all.at("passes"), 2);
     EXPECT_EQ(all.at("bake").at("from_file"), 0);
     EXPECT_EQ(all.at("lights").at("count"), 24);
-    EXPECT_LT(all.at("energy").at("lost").get<double>(), 0.05); // diamond holds light longer than its surfaces are counted
+    // Glass and diamond hold light longer than its surfaces are counted.
+    EXPECT_LT(all.at("energy").at("lost").get<double>(), name == "brilliant" ? 0.05 : name == "glass" ? 0.025 : 1e-3);
     const nephroid::image::Image image = nephroid::image::read_image(folder / name / "image.exr");
     EXPECT_EQ(image.width, 420);
     EXPECT_EQ(std::ranges::count(image.channels, "caustic.G"), 1);
