@@ -65,6 +65,12 @@ void describe(V& v, S& s)
        .bounds = within(8, 1024)},
       s.resolution);
   v.field({.name = "photons", .sentence = "Photons from each direction.", .bounds = within(1, 1 << 30)}, s.photons);
+  v.field({.name = "own_directions",
+           .sentence =
+               "How many of the strongest narrow lights are baked from just where they shine from, after the first pass; 0: all light "
+               "is put together from 'directions', as in the thesis.",
+           .bounds = within(0, 16)},
+          s.own_directions);
   v.field({.name = "lights", .sentence = "Directional lights that the environment is cut into.", .bounds = within(6, 4096)}, s.lights);
   v.field({.name = "segmentation", .sentence = "How the environment is cut into lights."}, s.segmentation);
   v.field({.name = "threshold",

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "environment/bake/bake_file.h"
+#include "environment/bake/own_directions.h"
 #include "environment/engine.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
@@ -22,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 2;
+constexpr std::uint32_t checkpoint_version = 3;
 
 /// The preset with what a renderer takes on as it goes: camera, turn of the environment, segmentation and white of another.
 preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other)
@@ -60,8 +61,10 @@ public:
   void step() override
   {
     const auto begin = Clock::now();
-    double& seconds = renderer_ ? render_seconds_ : bake_seconds_;
-    if (renderer_)
+    double& seconds = renderer_ && !bakes_own() ? render_seconds_ : bake_seconds_;
+    if (bakes_own())
+      bake_own();
+    else if (renderer_)
       renderer_->step();
     else
       bake();
@@ -71,7 +74,7 @@ public:
   bool finished() const override
   {
     if (stop_.seconds && work_seconds() >= *stop_.seconds) return true;
-    if (render_) return renderer_ && renderer_->passes() >= (passes_ >= 0 ? passes_ : preset::max_passes);
+    if (render_) return renderer_ && passes() >= (passes_ >= 0 ? passes_ : preset::max_passes);
     return bake_ || (stop_.passes && directions_done() >= *stop_.passes);
   }
   bool estimates_error() const override { return false; }
@@ -83,7 +86,7 @@ public:
     const auto directions = static_cast<std::int64_t>(task_->directions.size());
     const double baked = bake_ ? 1 : (static_cast<double>(directions_done()) + baker_->part()) / static_cast<double>(directions);
     if (render_) {
-      p.step = renderer_ ? renderer_->passes() : 0;
+      p.step = renderer_ ? passes() : 0;
       p.steps = passes_;
       p.work = static_cast<std::uint64_t>(renderer_ ? (static_cast<double>(p.step) + renderer_->part()) * width_ * height_ : 0);
       p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
@@ -128,6 +131,7 @@ public:
     const std::uint8_t complete = bake_ ? 1 : 0;
     to.value(complete);
     if (baker_) baker_->save(to);
+    if (own_) own_->save(to);
     if (renderer_) renderer_->save(to);
   }
 
@@ -148,11 +152,16 @@ public:
     if (complete != 0 && !bake_) return;
     if (complete == 0) {
       bake_.reset();
+      own_.reset();
       renderer_.reset();
       if (!baker_) baker_.emplace(*task_, context_);
       baker_->load(from);
-    } else if (renderer_)
+    } else if (renderer_) {
+      own_->load(from);
+      caustics_->set_own(own_->bake());
+      own_->want(strong());
       renderer_->load(from);
+    }
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
     if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
@@ -184,16 +193,44 @@ private:
     begin_rendering();
   }
 
+  std::vector<glm::dvec3> strong() const { return renderer_->strong_directions(settings(shown_).own_directions); }
+
+  /// After a first pass, which is thrown away then.
+  bool bakes_own() const { return renderer_ && renderer_->passes() > 0 && !own_->complete(); }
+
+  void bake_own()
+  {
+    own_->step();
+    if (own_->complete()) take_own();
+  }
+
+  void take_own()
+  {
+    caustics_->set_own(own_->bake());
+    renderer_->take_own_directions();
+  }
+
+  /// With all directions baked that are to be.
+  std::int64_t passes() const { return own_->complete() ? renderer_->passes() : 0; }
+
   void begin_rendering()
   {
     if (!render_) return;
-    caustics_.emplace(*bake_, context_);
+    caustics_.emplace(*bake_, context_, settings(preset_).own_directions);
+    own_.emplace(*task_, context_);
     renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
     show(preset_);
   }
 
   /// Lets the renderer go from `shown_` to a preset that is adoptable.
   void show(const preset::Preset& preset)
+  {
+    go_on_with(preset);
+    own_->want(strong());
+    if (own_->complete() && caustics_->own_directions() != own_->bake().directions) take_own();
+  }
+
+  void go_on_with(const preset::Preset& preset)
   {
     if (!(with_view_of(shown_, preset) == preset)) {
       const scene::Scene scene = scene::load_scene(preset);
@@ -308,6 +345,7 @@ private:
   std::optional<Baker> baker_; ///< while it bakes
   std::optional<Bake> bake_;   ///< when that is done
   std::optional<Caustics> caustics_;
+  std::optional<OwnDirections> own_; ///< with the renderer
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
   std::uint64_t photons_ = 0; ///< that the finished bake took here

@@ -18,6 +18,7 @@ struct Settings {
   double reach = 4;                   ///< radius of the largest, in largest sides of the box about the object
   int resolution = 360;               ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
   int photons = 1 << 19;              ///< that are sent from each direction
+  int own_directions = 4;             ///< of the strongest lights, baked too while their caustics are shown
   int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light

@@ -17,6 +17,12 @@ constexpr std::size_t group = 32;
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
+/// For directions of a bake.
+compute::Buffer<std::uint16_t> sphere_buffer(const compute::Context& context, const Bake& bake, std::size_t directions)
+{
+  return {context, "caustic spheres", bake.direction_items() * directions};
+}
+
 /// Half floats as the upper halves of floats.
 std::vector<std::uint16_t> upper_halves(const std::vector<std::uint16_t>& halves)
 {
@@ -34,14 +40,15 @@ std::vector<std::uint16_t> upper_halves(const std::vector<std::uint16_t>& halves
 
 } // namespace
 
-Caustics::Caustics(const Bake& bake, const compute::Context& context)
+Caustics::Caustics(const Bake& bake, const compute::Context& context, int own)
     : context_(context),
       directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
                                                                       static_cast<float>(Bake::unit * bake.size * bake.size), 0},
-      stored_(tracing::upload_vector(context, "caustic spheres", upper_halves(bake.halves))),
+      stored_(sphere_buffer(context, bake, bake.directions.size() + static_cast<std::size_t>(own))),
       radii_(tracing::upload_vector(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))),
       sets_(context, "turned sets", 1)
 {
+  stored_.write(upper_halves(bake.halves));
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
   direct_ = program.kernel("cast_direct");
@@ -49,14 +56,20 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context)
   compiled_cast_ = program.kernel("cast_compiled");
 }
 
+void Caustics::set_own(const Bake& own)
+{
+  own_ = own.directions;
+  stored_.write(upper_halves(own.halves), static_cast<std::size_t>(directions_) * own.direction_items());
+}
+
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
 {
-  upload(turned_sets(lights, rotation, directions_), rotation);
+  upload(turned_sets(lights, rotation, directions_, own_), rotation);
 }
 
 void Caustics::draw_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, std::uint32_t pass)
 {
-  upload(drawn_sets(lights, rotation, directions_, pass), rotation);
+  upload(drawn_sets(lights, rotation, directions_, pass, own_), rotation);
 }
 
 void Caustics::upload(const std::vector<shared::DeviceTurnedSet>& sets, const glm::dmat3& rotation)

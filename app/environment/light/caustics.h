@@ -21,8 +21,12 @@ struct CastTexels {
 
 class Caustics {
 public:
-  /// Throws failed where the device has not enough memory.
-  Caustics(const Bake& bake, const compute::Context& context);
+  /// own: how many directions set_own() has at most. Throws failed where the device has not enough memory.
+  Caustics(const Bake& bake, const compute::Context& context, int own = 0);
+
+  /// What stands for lights that come from nearly there, from the next set_lights() on, in place of those it had. own: of the same object
+  /// and spheres as the bake.
+  void set_own(const Bake& own);
 
   /// rotation: from the bake's coordinates to the scene's.
   void set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation);
@@ -46,13 +50,16 @@ public:
   };
   const Compiled& compiled() const { return compiled_; }
   const compute::Buffer<float>& radii() const { return radii_; }
-  int side() const { return spheres_.side; } ///< of the bake's maps
+  int directions() const { return directions_; } ///< of the bake
+  const std::vector<glm::dvec3>& own_directions() const { return own_; }
+  int side() const { return spheres_.side; }     ///< of the bake's maps
 
 private:
   void upload(const std::vector<shared::DeviceTurnedSet>& sets, const glm::dmat3& rotation);
 
   compute::Context context_;
   int directions_;
+  std::vector<glm::dvec3> own_; ///< baked for lights of their own, in the bake's coordinates
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_;
   compute::Buffer<float> radii_;

@@ -9,7 +9,7 @@ namespace nephroid::environment {
 std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg)
 {
   std::vector<DistantLight> distant;
-  for (const VisibleLight& light : lights) distant.push_back({-turned(light.direction, rotate_deg), light.flux});
+  for (const VisibleLight& light : lights) distant.push_back({-turned(light.direction, rotate_deg), light.flux, light.spread_deg});
   return distant;
 }
 

@@ -14,6 +14,7 @@ namespace nephroid::environment {
 struct DistantLight {
   glm::dvec3 direction{0, -1, 0}; ///< unit, the way the light goes, in the scene
   glm::dvec3 irradiance{0};       ///< on a plane that faces it: linear sRGB, W/m^2 of Y
+  double spread_deg = 0;          ///< how wide it is: as Region::spread_deg
 };
 
 /// Of each light of the environment, in their order.

@@ -26,10 +26,13 @@ shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x),
 /// For lights in the scene and a bake that is turned by `rotation`.
 class SetMaker {
 public:
-  SetMaker(const glm::dmat3& rotation, int count) : to_object_(glm::transpose(rotation)), baked_(light_directions(count)) {}
+  SetMaker(const glm::dmat3& rotation, int count, const std::vector<glm::dvec3>& own)
+      : to_object_(glm::transpose(rotation)), count_(count), own_(own), baked_(light_directions(count))
+  {
+    baked_.insert(baked_.end(), own.begin(), own.end());
+  }
 
-  /// The way a light goes in the bake's coordinates.
-  glm::dvec3 travel(const DistantLight& light) const { return to_object_ * light.direction; }
+  std::vector<NearDirection> near(const DistantLight& light) const { return near_directions(travel(light), count_, own_); }
   shared::DeviceTurnedSet set(const DistantLight& light, const NearDirection& near) const
   {
     const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked_[static_cast<std::size_t>(near.direction)], travel(light))) * to_object_;
@@ -38,8 +41,13 @@ public:
   }
 
 private:
+  /// The way a light goes in the bake's coordinates.
+  glm::dvec3 travel(const DistantLight& light) const { return to_object_ * light.direction; }
+
   glm::dmat3 to_object_;
-  std::vector<glm::dvec3> baked_;
+  int count_;
+  const std::vector<glm::dvec3>& own_;
+  std::vector<glm::dvec3> baked_; ///< and the lights' own
 };
 
 } // namespace
@@ -68,28 +76,66 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count)
   return near;
 }
 
+double degrees_between(int count) { return 90.0 / cells_of(count); }
+
+std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count, const std::vector<glm::dvec3>& own)
+{
+  std::vector<NearDirection> near = near_directions(travel, count);
+  const glm::dvec3 way = glm::normalize(travel);
+  const auto nearest = std::ranges::min_element(own, {}, [&](const glm::dvec3& direction) { return glm::distance(direction, way); });
+  if (nearest == own.end()) return near;
+  const double degrees = glm::degrees(2 * std::asin(std::min(1.0, glm::distance(*nearest, way) / 2)));
+  const double weight = 1 - glm::smoothstep(0.125, 0.25, degrees / degrees_between(count));
+  if (weight <= 0) return near;
+  for (NearDirection& n : near) n.weight *= 1 - weight;
+  std::erase_if(near, [](const NearDirection& n) { return n.weight <= 0; });
+  near.push_back({count + static_cast<int>(nearest - own.begin()), weight});
+  return near;
+}
+
+std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, int most)
+{
+  const auto strength = [](const DistantLight& light) { return light.irradiance.x + light.irradiance.y + light.irradiance.z; };
+  std::vector<DistantLight> strong;
+  double all = 0;
+  for (const DistantLight& light : lights) {
+    all += strength(light);
+    if (light.spread_deg < degrees_between(count) / 2) strong.push_back(light);
+  }
+  std::ranges::stable_sort(strong, std::ranges::greater{}, strength);
+  std::vector<glm::dvec3> directions;
+  for (const DistantLight& light : strong) {
+    const glm::dvec3 travel = glm::transpose(rotation) * light.direction;
+    const bool is_baked =
+        std::ranges::any_of(near_directions(travel, count), [](const NearDirection& near) { return near.weight > 1 - 1e-9; });
+    if (directions.size() < static_cast<std::size_t>(most) && strength(light) > 0.01 * all && !is_baked) directions.push_back(travel);
+  }
+  return directions;
+}
+
 // The real part of glm's quaternion is rounded off where the vectors are nearly opposite: its length is wrong there, but its axis is right.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) { return glm::mat3_cast(glm::normalize(glm::rotation(from, to))); }
 
-std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count)
+std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                                 const std::vector<glm::dvec3>& own)
 {
-  const SetMaker maker(rotation, count);
+  const SetMaker maker(rotation, count, own);
   std::vector<shared::DeviceTurnedSet> sets;
   for (const DistantLight& light : lights) {
     if (light.irradiance == glm::dvec3(0)) continue;
-    for (const NearDirection& near : near_directions(maker.travel(light), count)) sets.push_back(maker.set(light, near));
+    for (const NearDirection& near : maker.near(light)) sets.push_back(maker.set(light, near));
   }
   return sets;
 }
 
 std::vector<shared::DeviceTurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                                std::uint32_t pass)
+                                                std::uint32_t pass, const std::vector<glm::dvec3>& own)
 {
-  const SetMaker maker(rotation, count);
+  const SetMaker maker(rotation, count, own);
   std::vector<shared::DeviceTurnedSet> sets;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].irradiance == glm::dvec3(0)) continue;
-    const std::vector<NearDirection> near = near_directions(maker.travel(lights[i]), count);
+    const std::vector<NearDirection> near = maker.near(lights[i]);
     // The Kronecker sequence of sqrt 2, which has nothing to do with the golden ratio that lights are drawn by.
     double left = std::fmod(0.4142135624 * pass + 0.7548776662 * static_cast<double>(i), 1.0);
     std::size_t chosen = 0;

@@ -12,7 +12,7 @@
 namespace nephroid::environment {
 
 struct NearDirection {
-  int direction = 0; ///< of light_directions(count)
+  int direction = 0; ///< of light_directions(count), then of the lights' own
   double weight = 0; ///< above 0; all together 1
 };
 
@@ -21,14 +21,27 @@ struct NearDirection {
 /// 0.
 std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count);
 
+/// The same with directions that were baked for lights of their own, which the nearest of them stands for alone where it is within an
+/// eighth of the way between baked directions (45 degrees of 26, 22.5 of 98); up to a quarter of that it has less and less of the weight.
+std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count, const std::vector<glm::dvec3>& own);
+
+/// Between neighbours of light_directions(count) in the middle of a face of the cube.
+double degrees_between(int count);
+
+/// Where lights come from that are worth a direction of their own, the strongest first, at most `most`: those that are narrower than half
+/// of the way between baked directions, have a hundredth of all light, and come from no baked direction. In the bake's coordinates.
+std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, int most);
+
 /// The shortest turn from one unit vector to another; half a turn about some axis across where they are opposite.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
 
-/// The sets of all lights. rotation: from the bake's coordinates to the scene's. count: of baked directions. Black lights have none.
-std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count);
+/// The sets of all lights. rotation: from the bake's coordinates to the scene's. count: of baked directions. own: further ones, unit, in
+/// the bake's coordinates. Black lights have none.
+std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                                 const std::vector<glm::dvec3>& own = {});
 
 /// The same with one set a light, which stands for all of its near directions: each has its turn in as many passes as its weight asks for.
 std::vector<shared::DeviceTurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                                std::uint32_t pass);
+                                                std::uint32_t pass, const std::vector<glm::dvec3>& own = {});
 
 } // namespace nephroid::environment

@@ -15,7 +15,7 @@ shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x),
 std::vector<VisibleLight> whole_lights(const Segmentation& segmentation)
 {
   std::vector<VisibleLight> lights;
-  for (const Region& region : segmentation.lights) lights.push_back({region.flux, region.direction});
+  for (const Region& region : segmentation.lights) lights.push_back({region.flux, region.direction, region.spread_deg});
   return lights;
 }
 

@@ -13,6 +13,7 @@ namespace nephroid::environment {
 struct VisibleLight {
   glm::dvec3 flux{0};      ///< as Region::flux, which it is where nothing stands before the light
   glm::dvec3 direction{0}; ///< as Region::direction: the mean of what is seen, as the cube has it. Where nothing is seen, the region's own
+  double spread_deg = 0;   ///< as Region::spread_deg
 };
 
 /// All lights of a segmentation as they are where nothing is in the way.

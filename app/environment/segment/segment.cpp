@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 #include <tuple>
 
@@ -95,7 +96,8 @@ private:
     const CubePoint centre = m.z > 0 ? CubePoint{piece.face, m.x / m.z, m.y / m.z}
                                      : CubePoint{piece.face, (border(r.x0, cube_.size) + border(r.x1, cube_.size)) / 2,
                                                  (border(r.y0, cube_.size) + border(r.y1, cube_.size)) / 2};
-    return {piece.face, r, glm::normalize(position(centre)), flux_of(piece.face, r), solid_angle(r, cube_.size)};
+    const double spread = m.z > 0 ? std::acos(std::min(1.0, glm::length(m) / piece.moments.m0)) : 0;
+    return {piece.face, r, glm::normalize(position(centre)), flux_of(piece.face, r), solid_angle(r, cube_.size), glm::degrees(spread)};
   }
 
   std::vector<Region> regions_of(std::vector<Piece>& pieces) const

@@ -139,29 +139,52 @@ void Renderer::light_up()
   fine_.forget_caustics();
 }
 
+std::vector<DistantLight> Renderer::with_lamps(const std::vector<VisibleLight>& visible) const
+{
+  std::vector<DistantLight> lights = environment_lights(visible, rotate_deg_);
+  lights.insert(lights.end(), task_.lamps.begin(), task_.lamps.end());
+  return lights;
+}
+
 void Renderer::light_pass()
 {
   const bool drawn = pass_ > 0 && occlusion_ && task_.refine;
   if (pass_ > 1 && !drawn) return; // as the pass before
-  std::vector<DistantLight> lights =
-      environment_lights(drawn ? occlusion_->drawn_lights(static_cast<std::uint32_t>(pass_)) : visible_, rotate_deg_);
-  lights.insert(lights.end(), task_.lamps.begin(), task_.lamps.end());
   if (drawn)
-    caustics_.draw_lights(lights, task_.placement.turn, static_cast<std::uint32_t>(pass_));
+    caustics_.draw_lights(with_lamps(occlusion_->drawn_lights(static_cast<std::uint32_t>(pass_))), task_.placement.turn,
+                          static_cast<std::uint32_t>(pass_));
   else
-    caustics_.set_lights(lights, task_.placement.turn);
+    caustics_.set_lights(with_lamps(visible_), task_.placement.turn);
   // Of the coarse cube all caustics are of the first pass. So are the fine one's, as long as nothing is drawn.
   if (drawn || drawn_) fine_.forget_caustics();
   drawn_ = drawn;
 }
 
-void Renderer::begin_anew()
+void Renderer::begin_passes()
 {
   pass_ = 0;
   stage_ = Stage::see;
   shaded_ = false;
   light_pass();
   see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
+}
+
+void Renderer::take_own_directions()
+{
+  compiled_side_ = 0;
+  coarse_.forget_caustics();
+  fine_.forget_caustics();
+  begin_passes();
+}
+
+std::vector<glm::dvec3> Renderer::strong_directions(int most) const
+{
+  return environment::strong_directions(with_lamps(visible_), task_.placement.turn, caustics_.directions(), most);
+}
+
+void Renderer::begin_anew()
+{
+  begin_passes();
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
   see(coarse_, block_of_coarse, 0, blocks);

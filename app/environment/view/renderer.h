@@ -41,12 +41,16 @@ public:
   void set_camera(const scene::Camera& camera, const Place& where);
   void turn_environment(double rotate_deg);
   void set_segmentation(Segmentation segmentation);
+  /// The same from the first full pass on, after Caustics::set_own.
+  void take_own_directions();
   /// Of the next picture().
   void set_white(double white);
 
   const Segmentation& segmentation() const { return task_.segmentation; }
   /// What is left of each of the segmentation's lights where the object is.
   const std::vector<VisibleLight>& visible() const { return visible_; }
+  /// That Caustics::set_own is best given: strong_directions of all lights.
+  std::vector<glm::dvec3> strong_directions(int most) const;
   const scene::Scene& scene() const { return *task_.scene; }
 
   void save(tracing::StateWriter& to) const;
@@ -59,6 +63,8 @@ private:
   void light_pass(); ///< for the pass in hand: the first has each light as it is, later ones parts of each
   void end_pass();
   void begin_anew();
+  void begin_passes();
+  std::vector<DistantLight> with_lamps(const std::vector<VisibleLight>& visible) const;
   void see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void scatter(int block, std::uint32_t first, std::uint32_t count);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/bake/own_directions.h"
+
+#include <algorithm>
+#include <span>
+
+namespace nephroid::environment {
+
+OwnDirections::OwnDirections(const BakeTask& task, const compute::Context& context)
+    : context_(context), task_(task), bake_(task.empty_bake())
+{
+  bake_.directions.clear();
+}
+
+void OwnDirections::want(const std::vector<glm::dvec3>& directions)
+{
+  Bake wanted = task_.empty_bake();
+  wanted.directions.clear();
+  std::vector<glm::dvec3> missing;
+  for (const glm::dvec3& direction : directions) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(bake_.directions, direction) - bake_.directions.begin());
+    if (at >= bake_.baked.size()) {
+      missing.push_back(direction);
+      continue;
+    }
+    wanted.directions.push_back(direction);
+    wanted.baked.push_back(bake_.baked[at]);
+    const auto begin = bake_.halves.begin() + static_cast<std::ptrdiff_t>(at * bake_.direction_items());
+    wanted.halves.insert(wanted.halves.end(), begin, begin + static_cast<std::ptrdiff_t>(bake_.direction_items()));
+  }
+  wanted.directions.insert(wanted.directions.end(), missing.begin(), missing.end());
+  if (baker_ && (missing.empty() || missing.front() != task_.directions.front())) baker_.reset();
+  bake_ = std::move(wanted);
+}
+
+// Each has a baker of its own, so its photons are the same whatever is baked beside it.
+void OwnDirections::step()
+{
+  if (!baker_) {
+    task_.directions = {bake_.directions[bake_.baked.size()]};
+    baker_.emplace(task_, context_);
+  }
+  baker_->step();
+  if (!baker_->finished()) return;
+  const Bake one = baker_->take();
+  baker_.reset(); // its device memory is for others
+  bake_.baked.push_back(one.baked.front());
+  bake_.halves.insert(bake_.halves.end(), one.halves.begin(), one.halves.end());
+}
+
+void OwnDirections::save(tracing::StateWriter& to) const
+{
+  to.value(std::uint64_t{bake_.baked.size()});
+  for (std::size_t i = 0; i < bake_.baked.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) to.value(bake_.directions[i][axis]);
+    to.value(bake_.baked[i]);
+  }
+  to.bytes(std::as_bytes(std::span(bake_.halves)));
+}
+
+void OwnDirections::load(tracing::StateReader& from)
+{
+  std::uint64_t baked = 0;
+  from.value(baked);
+  if (baked > 16) throw bad_input("checkpoint", "is of another run");
+  bake_.directions.resize(baked);
+  bake_.baked.resize(baked);
+  for (std::size_t i = 0; i < baked; ++i) {
+    for (int axis = 0; axis < 3; ++axis) from.value(bake_.directions[i][axis]);
+    from.value(bake_.baked[i]);
+  }
+  bake_.halves.resize(baked * bake_.direction_items());
+  from.bytes(std::as_writable_bytes(std::span(bake_.halves)));
+  baker_.reset();
+}
+
+} // namespace nephroid::environment

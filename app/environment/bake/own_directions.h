@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Spheres of further directions, baked while a scene is shown: where its strongest lights come from (strong_directions in light/).
+#pragma once
+#include "environment/bake/baker.h"
+
+#include <optional>
+#include <vector>
+
+namespace nephroid::environment {
+
+class OwnDirections {
+public:
+  /// task: of the bake that they are added to.
+  OwnDirections(const BakeTask& task, const compute::Context& context);
+
+  /// Of these directions the spheres that are there are kept, and others are dropped. directions: unit, in the bake's coordinates.
+  void want(const std::vector<glm::dvec3>& directions);
+  bool complete() const { return bake_.baked.size() == bake_.directions.size(); }
+  /// While not complete: some photons. Throws failed where the device has not enough memory.
+  void step();
+  /// Those wanted, as far as they are there.
+  const Bake& bake() const { return bake_; }
+
+  /// What is there; photons of the direction in hand are sent again.
+  void save(tracing::StateWriter& to) const;
+  void load(tracing::StateReader& from);
+
+private:
+  compute::Context context_;
+  BakeTask task_; ///< of the one direction in hand
+  Bake bake_;
+  std::optional<Baker> baker_; ///< of that direction
+};
+
+} // namespace nephroid::environment
