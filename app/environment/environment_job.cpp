@@ -216,7 +216,7 @@ private:
   void begin_rendering()
   {
     if (!render_) return;
-    caustics_.emplace(*bake_, context_, settings(preset_).own_directions);
+    caustics_.emplace(*bake_, context_, settings(preset_).own_directions, task_->own_radii);
     own_.emplace(*task_, context_);
     renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
     show(preset_);
@@ -323,7 +323,7 @@ private:
                     {"bake", "smallest_radius", bake.radii.front()},
                     {"bake", "largest_radius", bake.radii.back()},
                     {"bake", "channels", static_cast<double>(bake.channels)},
-                    {"bake", "bytes", static_cast<double>(bake.halves.size() * sizeof(std::uint16_t))}};
+                    {"bake", "bytes", static_cast<double>((bake.halves.size() + bake.ways.size()) * sizeof(std::uint16_t))}};
     if (sum.met <= 0) return;
     made.scalars.insert(made.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
                                              {"energy", "sent", sum.sent / sum.met},

@@ -67,13 +67,13 @@ std::vector<plan::Pass> view_passes(const RenderTask* render, const Settings& s)
   return passes;
 }
 
-std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake)
+std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake, int own)
 {
   const auto bytes_of = [](const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); };
   const scene::Scene& s = *render.scene;
   const auto pixels = static_cast<std::uint64_t>(s.camera.width) * static_cast<std::uint64_t>(s.camera.height);
   const std::uint64_t sky = s.environment ? bytes_of(s.environment->rgb) : 0;
-  return {{"caustic spheres", sizeof(std::uint16_t) * bake.halves()},
+  return {{"caustic spheres", bake.bytes() + bake.own_bytes() * static_cast<std::uint64_t>(own)},
           {"whole scene", bytes_of(render.bvh->nodes) + bytes_of(render.bvh->blocks) + bytes_of(s.geometry.triangles) +
                               bytes_of(s.geometry.positions) + bytes_of(s.geometry.normals)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
@@ -92,7 +92,7 @@ std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::S
   const std::uint64_t tree = bytes_of(task.bvh.nodes) + bytes_of(task.bvh.blocks), object = mesh_bytes(task.caster.scene),
                       item_bytes = std::uint64_t{task.empty_bake().sphere_items()} * sizeof(std::int64_t);
   std::vector<plan::PlannedBuffer> list{{"scene (host)", mesh_bytes(scene) + tree + object, true},
-                                        {"caustic spheres (host)", sizeof(std::uint16_t) * task.halves(), true},
+                                        {"caustic spheres (host)", task.bytes(), true},
                                         {"pictures of spheres (host)", picture_bytes(task), true}};
   if (!bakes) return list;
   list.push_back({"one sphere's sums (host)", item_bytes, true});
@@ -121,7 +121,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
   plan.buffers = buffers_of(task, scene, plan.bakes);
   if (plan.render)
-    for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task)) plan.buffers.push_back(std::move(buffer));
+    for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task, s.own_directions)) plan.buffers.push_back(std::move(buffer));
   plan.defines = task.defines;
   plan.layers = plan.render ? Renderer::layers(*plan.render) : 1;
   plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";

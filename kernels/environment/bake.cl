@@ -17,6 +17,7 @@
 
 typedef struct {
   volatile __global long* film; // [sphere][texel][channel]
+  volatile __global long* ways; // [sphere][texel][3]: power times the way it goes, in parts of STEEPEST
   __global const float* radii;  // ascending
   int count, side;              // of the spheres; of a map
 } Spheres;
@@ -24,12 +25,22 @@ typedef struct {
 // What a photon carries in quanta, by channel.
 typedef struct {
   long channels[NEPHROID_CHANNELS];
+  float power;
 } Carried;
 
-static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, const Carried* carried)
+// Power through a sphere at a slant is more light across its way than power straight through: by 1 / cosine, which is held to this.
+#define STEEPEST 8.0f
+
+// way: unit.
+static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, float3 way, const Carried* carried)
 {
   const size_t texel = (size_t)sphere * (size_t)(spheres->side * spheres->side) + (size_t)sphere_texel(place, spheres->side);
   for (int c = 0; c < NEPHROID_CHANNELS; ++c) add_exactly(spheres->film + NEPHROID_CHANNELS * texel + c, carried->channels[c]);
+  const float cosine = fabs(dot(place, way)) / spheres->radii[sphere];
+  const float3 across = way * (carried->power / fmax(STEEPEST * cosine, 1.0f));
+  add_exactly(spheres->ways + 3 * texel, convert_long_rte(across.x));
+  add_exactly(spheres->ways + 3 * texel + 1, convert_long_rte(across.y));
+  add_exactly(spheres->ways + 3 * texel + 2, convert_long_rte(across.z));
 }
 
 // Marks each crossing of the way from `origin` up to `distance` along the unit vector `direction`. The way is nearest to the middle at
@@ -44,8 +55,8 @@ static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 di
     if (!(half2 > 0.0f)) continue;
     const float half_chord = sqrt(half2);
     const float enters = to_foot - half_chord, leaves = to_foot + half_chord;
-    if (enters > 0.0f && enters <= distance) mark_texel(spheres, i, foot - half_chord * direction, carried);
-    if (leaves > 0.0f && leaves <= distance) mark_texel(spheres, i, foot + half_chord * direction, carried);
+    if (enters > 0.0f && enters <= distance) mark_texel(spheres, i, foot - half_chord * direction, direction, carried);
+    if (leaves > 0.0f && leaves <= distance) mark_texel(spheres, i, foot + half_chord * direction, direction, carried);
   }
 }
 
@@ -59,6 +70,7 @@ static inline float left_of(const World* world, const Path* path, const Band* ba
 static inline Carried carried_by(__global const float4* light_rgb, const Band* band, float power)
 {
   Carried carried;
+  carried.power = power;
 #if NEPHROID_CHANNELS == 3
   const float3 rgb = light_rgb[band->wavelength].xyz * (band->weight * power);
   carried.channels[0] = convert_long_rte(rgb.x);
@@ -73,11 +85,11 @@ static inline Carried carried_by(__global const float4* light_rgb, const Band* b
 // Photons first .. first + count - 1 of a direction, whose number is its stream of random numbers. scale: quanta a watt. energy counts the
 // power, not its colour.
 __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb, __global const float* radii,
-                   volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                   volatile __global long* film, volatile __global long* ways, volatile __global long* energy, // [OUTCOME_COUNT]
                    int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count, float scale)
 {
   const World world = WORLD;
-  const Spheres spheres = {film, radii, sphere_count, side};
+  const Spheres spheres = {film, ways, radii, sphere_count, side};
   DeviceLight light = lights[0];
   light.direction = direction;
   long outcomes[OUTCOME_COUNT] = {0};

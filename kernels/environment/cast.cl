@@ -5,38 +5,40 @@
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
-// caustics: [texel][3], linear sRGB.
-__kernel void cast_direct(__global const ushort* stored, __global const float* radii, __global const DeviceTurnedSet* sets, int set_count,
-                          DeviceSpheres spheres, __global const uint* list, uint first, uint count, int size, __global const float* distances,
-                          __global float* caustics)
+// caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
+__kernel void cast_direct(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
+                          __global const DeviceTurnedSet* sets, int set_count, DeviceSpheres spheres, __global const uint* list, uint first,
+                          uint count, int size, __global const float* distances, __global const float4* normals, __global float* caustics)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
   const uint texel = list[first + index];
   const float distance = distances[texel];
   float3 caustic = (float3)(0.0f);
-  if (distance < INFINITY)
-    caustic = caustic_of_sets(stored, &spheres, sets, set_count, cube_texel_direction(texel, size), shell_at(radii, spheres.count, distance));
+  if (distance < INFINITY) {
+    const Receiver receiver = {cube_texel_direction(texel, size), normals[texel].xyz, distance, shells_at(radii, &spheres, distance)};
+    caustic = received_of_sets(stored, ways, way_of, radii, &spheres, sets, set_count, &receiver);
+  }
   vstore3(caustic, (size_t)texel, caustics);
 }
 
 // Texels first .. first + count - 1 of all spheres together, whose maps have side x side texels. object_x, y, z: the object's axes in the
 // scene.
-__kernel void compile(__global const ushort* stored, __global const DeviceTurnedSet* sets, int set_count, DeviceSpheres spheres, float4 object_x,
+__kernel void compile(__global const ushort* stored, __global const float* radii, __global const DeviceTurnedSet* sets, int set_count, DeviceSpheres spheres, float4 object_x,
                       float4 object_y, float4 object_z, int side, uint first, uint count, __global float* compiled)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
   const uint item = first + index, texels = (uint)(side * side);
-  const Shell shell = {(int)(item / texels), (int)(item / texels), 0.0f};
+  const Shells shells = shells_at(radii, &spheres, radii[item / texels]);
   const float3 way = sphere_direction((int)(item % texels), side);
   const float3 direction = way.x * object_x.xyz + way.y * object_y.xyz + way.z * object_z.xyz;
-  vstore3(caustic_of_sets(stored, &spheres, sets, set_count, direction, shell), (size_t)item, compiled);
+  vstore3(caustic_of_sets(stored, &spheres, sets, set_count, direction, &shells), (size_t)item, compiled);
 }
 
 __kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,
                             float4 object_z, __global const uint* list, uint first, uint count, int size, __global const float* distances,
-                            __global float* caustics)
+                            __global const float4* normals, __global float* caustics)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
@@ -46,7 +48,7 @@ __kernel void cast_compiled(__global const float* compiled, __global const float
   if (distance < INFINITY) {
     const float3 d = cube_texel_direction(texel, size);
     const float3 in_object = (float3)(dot(object_x.xyz, d), dot(object_y.xyz, d), dot(object_z.xyz, d));
-    caustic = compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance));
+    caustic = compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance)) * fmax(-dot(normals[texel].xyz, d), 0.0f);
   }
   vstore3(caustic, (size_t)texel, caustics);
 }

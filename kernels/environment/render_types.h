@@ -27,16 +27,18 @@ namespace nephroid::shared {
 typedef struct {
   float4 to_bake[3]; // rows of the rotation from the scene into the coordinates of that direction's spheres
   float4 flux;       // linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
-  int direction;     // of the bake
-  int padding[3];
+  int direction;     // of the bake, then of the lights' own
+  int first_map;     // its first sphere, counting all spheres of the directions before
+  int own;           // 1: its spheres are those of lights' own directions
+  int padding;
 } DeviceTurnedSet;
 
 // The radii of the spheres, and how they are stored.
 typedef struct {
-  int count;      // of spheres
+  int count;      // of spheres of a baked direction
   int side;       // texels across and down a sphere's map
   float scale;    // from a stored number to E r^2 in scene units squared, for light of 1 W/m^2
-  int padding;
+  int own_count;  // of spheres of a light's own direction, whose radii follow the others
 } DeviceSpheres;
 
 // A pixel whose first surface is glass has one of what it reflects and one of what it lets through, or three of that where glass parts

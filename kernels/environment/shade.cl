@@ -25,7 +25,7 @@ typedef struct {
   float4 middle;
   int size; // of the cube's faces, in texels
   __global const float* distances;
-  __global const float* caustics; // E r^2: [texel][3]
+  __global const float* caustics; // E r^2 on the surface: [texel][3]
 } Receivers;
 
 // Irradiance on a surface by the caustics: linear sRGB, 0 where something else hides it from the object. Of the four texels about it those
@@ -35,8 +35,8 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
   const float3 way = end->place.xyz - receivers->middle.xyz;
   const float distance = length(way);
   const float3 direction = way / distance;
-  const float cosine = -dot(end->shading.xyz, direction), facing = -dot(end->geometric.xyz, direction);
-  if (!(cosine > 0.0f) || !(facing > 0.0f)) return (float3)(0.0f);
+  const float facing = -dot(end->geometric.xyz, direction);
+  if (!(facing > 0.0f)) return (float3)(0.0f);
   const CubeTexels four = cube_texels(direction, receivers->size);
   float3 sum = (float3)(0.0f);
   float weights = 0.0f;
@@ -47,7 +47,7 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
     sum += four.weights[i] * vload3((size_t)four.texels[i], receivers->caustics);
     weights += four.weights[i];
   }
-  return weights > 0.0f ? sum * (cosine / (weights * distance * distance)) : (float3)(0.0f);
+  return weights > 0.0f ? sum / (weights * distance * distance) : (float3)(0.0f);
 }
 
 // Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of app/environment/light/irradiance.h.

@@ -7,6 +7,9 @@
 #include "kernels/environment/render_types.h"
 #include "kernels/environment/sphere_map.h"
 
+// Of light with a sphere: what crosses it at more of a slant is held to that.
+#define LEAST_COSINE 0.125f
+
 #ifndef NEPHROID_CHANNELS
 #define NEPHROID_CHANNELS 3
 #endif
@@ -24,6 +27,19 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
   Shell shell = {max(upper - 1, 0), min(upper, count - 1), 0.0f};
   if (shell.lower < shell.upper) shell.part = (distance - radii[shell.lower]) / (radii[shell.upper] - radii[shell.lower]);
   return shell;
+}
+
+// The same among both kinds of spheres.
+typedef struct {
+  Shell of[2]; // [DeviceTurnedSet::own]
+} Shells;
+
+static inline Shells shells_at(__global const float* radii, const DeviceSpheres* spheres, float distance)
+{
+  Shells shells;
+  shells.of[0] = shells.of[1] = shell_at(radii, spheres->count, distance);
+  if (spheres->own_count > 0) shells.of[1] = shell_at(radii + spheres->count, spheres->own_count, distance);
+  return shells;
 }
 
 // Four texels about a place of a sphere's map, with bilinear weights. Over an edge of the square the map goes on at the same edge, from
@@ -87,19 +103,113 @@ static inline float3 to_bake(__global const DeviceTurnedSet* set, float3 directi
   return (float3)(dot(set->to_bake[0].xyz, direction), dot(set->to_bake[1].xyz, direction), dot(set->to_bake[2].xyz, direction));
 }
 
-// E r^2 of all sets in a unit direction of the scene: linear sRGB. stored: [direction][sphere][texel][channel].
+// E r^2 of all sets in a unit direction of the scene: linear sRGB. stored: [map][texel][channel].
 static inline float3 caustic_of_sets(__global const ushort* stored, const DeviceSpheres* spheres, __global const DeviceTurnedSet* sets, int set_count,
-                                     float3 direction, Shell shell)
+                                     float3 direction, const Shells* shells)
 {
   const size_t map_items = (size_t)(spheres->side * spheres->side) * NEPHROID_CHANNELS;
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < set_count; ++i) {
     __global const DeviceTurnedSet* set = sets + i;
     const SphereTexels four = sphere_texels(to_bake(set, direction), spheres->side);
-    __global const ushort* maps = stored + (size_t)(set->direction * spheres->count) * map_items;
+    __global const ushort* maps = stored + (size_t)set->first_map * map_items;
+    const Shell shell = shells->of[set->own];
     const Caustic lower = sphere_caustic(maps + (size_t)shell.lower * map_items, &four);
     const Caustic upper = shell.part > 0.0f ? sphere_caustic(maps + (size_t)shell.upper * map_items, &four) : lower;
     sum += set->flux.xyz * (lower + shell.part * (upper - lower));
+  }
+  return spheres->scale * sum;
+}
+
+// What reaches a receiver: where it is, and its unit normal on the object's side.
+typedef struct {
+  float3 direction, normal; // of the scene
+  float distance;
+  Shells shells;
+} Receiver;
+
+// E r^2 on the receiver by light that crosses the sphere as a texel has it: the light across its way, times the cosine at the receiver.
+static inline Caustic received(__global const ushort* map, __global const ushort* ways, __global const float4* way_of, const SphereTexels* four,
+                               float3 outwards, float3 normal)
+{
+  const int texels[4] = {four->texels.x, four->texels.y, four->texels.z, four->texels.w};
+  const float weights[4] = {four->weights.x, four->weights.y, four->weights.z, four->weights.w};
+  Caustic sum = 0.0f;
+  for (int i = 0; i < 4; ++i) {
+    const float3 way = way_of[ways[texels[i]]].xyz;
+    const float factor = fmax(-dot(normal, way), 0.0f) / fmax(fabs(dot(outwards, way)), LEAST_COSINE);
+    sum += (weights[i] * factor) * stored_caustic(map, texels[i]);
+  }
+  return sum;
+}
+
+// The mean way of the light that crosses a sphere about a place; radial where none does.
+static inline float3 mean_way(__global const ushort* map, __global const ushort* ways, __global const float4* way_of, const SphereTexels* four,
+                              float3 outwards)
+{
+  const int texels[4] = {four->texels.x, four->texels.y, four->texels.z, four->texels.w};
+  const float weights[4] = {four->weights.x, four->weights.y, four->weights.z, four->weights.w};
+  float3 sum = (float3)(0.0f);
+  for (int i = 0; i < 4; ++i) {
+#if NEPHROID_CHANNELS == 1
+    const float light = stored_caustic(map, texels[i]);
+#else
+    const float light = stored_caustic(map, texels[i]).y;
+#endif
+    sum += (weights[i] * light) * way_of[ways[texels[i]]].xyz;
+  }
+  const float size2 = dot(sum, sum);
+  return size2 > 0.0f ? sum * rsqrt(size2) : outwards;
+}
+
+// Light that is at a receiver, where it crosses the spheres below and above: the receiver's place carried along its way, as a multiple of it; the
+// share of the upper sphere.
+typedef struct {
+  float below, above, part;
+} Crossings;
+
+static inline Crossings crossings_of(float3 place, float distance, float3 way, __global const float* radii, Shell shell)
+{
+  const float r0 = radii[shell.lower], r1 = radii[shell.upper], slope = dot(place, way), foot2 = slope * slope - distance * distance;
+  const float half2_below = foot2 + r0 * r0, half2_above = foot2 + r1 * r1;
+  // Light that meets no lower sphere has come from between the two.
+  const bool is_below = half2_below > 0.0f && slope > 0.0f;
+  Crossings at;
+  at.below = is_below ? slope - sqrt(half2_below) : 0.0f;
+  at.above = sqrt(fmax(half2_above, 0.0f)) - slope;
+  at.part = is_below ? shell.part : 1.0f;
+  return at;
+}
+
+// Of all sets. ways: [map][texel], numbers of way_of.
+static inline float3 received_of_sets(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
+                                      __global const float* radii, const DeviceSpheres* spheres, __global const DeviceTurnedSet* sets,
+                                      int set_count, const Receiver* receiver)
+{
+  const size_t texels = (size_t)(spheres->side * spheres->side);
+  float3 sum = (float3)(0.0f);
+  for (int i = 0; i < set_count; ++i) {
+    __global const DeviceTurnedSet* set = sets + i;
+    const float3 outwards = to_bake(set, receiver->direction), normal = to_bake(set, receiver->normal), place = receiver->distance * outwards;
+    const Shell shell = receiver->shells.of[set->own];
+    const size_t first = (size_t)set->first_map;
+    const size_t low = (first + (size_t)shell.lower) * texels, high = (first + (size_t)shell.upper) * texels;
+    const size_t nearest = shell.part > 0.5f ? high : low;
+    const SphereTexels about = sphere_texels(outwards, spheres->side);
+    const float3 way = mean_way(stored + NEPHROID_CHANNELS * nearest, ways + nearest, way_of, &about, outwards);
+    const Crossings at = crossings_of(place, receiver->distance, way, radii + (set->own ? spheres->count : 0), shell);
+    Caustic lower = 0.0f, upper = 0.0f;
+    if (at.part < 1.0f) {
+      const float3 below = normalize(place - at.below * way);
+      const SphereTexels four = sphere_texels(below, spheres->side);
+      lower = received(stored + NEPHROID_CHANNELS * low, ways + low, way_of, &four, below, normal);
+    }
+    if (at.part > 0.0f) {
+      const float3 above = normalize(place + at.above * way);
+      const SphereTexels four = sphere_texels(above, spheres->side);
+      upper = received(stored + NEPHROID_CHANNELS * high, ways + high, way_of, &four, above, normal);
+    }
+    sum += set->flux.xyz * (lower + at.part * (upper - lower));
   }
   return spheres->scale * sum;
 }

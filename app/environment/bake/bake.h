@@ -2,10 +2,9 @@
 // What an object does to parallel light from each of some directions: caustic spheres (thesis 3.1).
 //
 // Stored is the power through a texel of a sphere over the texel's solid angle, for light of 1 W/m^2: E r^2, where E is the irradiance on
-// the sphere itself, so on a surface that faces the middle. Times the cosine between a receiver's normal and the way to the middle it is
-// the receiver's irradiance, and then a receiver all around the object gets exactly the power that left the object. (The fluence, which
-// does not know the angle at which light crosses a sphere, would give it too much.) Where light does not come from the middle this is an
-// approximation, the thesis' own.
+// the sphere itself, so on a surface that faces the middle. And stored is the mean way that the light goes there. A surface with another
+// normal has E times the cosine between that and the way, over the cosine between the sphere's and the way: exact where all light of a
+// texel goes one way. (The thesis takes all light to come from the middle. Close by a low sun's caustics are then half as bright again.)
 #pragma once
 #include "environment/bake/sphere_map.h"
 
@@ -32,10 +31,16 @@ struct Bake {
   std::vector<BakedDirection> baked;  ///< the first of them
   std::vector<std::uint16_t> halves;  ///< [baked direction][sphere][texel][channel]: E r^2 in `unit` of size^2
 
+  std::vector<std::uint16_t> ways; ///< [baked direction][sphere][texel]: of way_map: the mean way of its light, weighted by light across it
+
+  /// Numbers of unit vectors, some .8 degrees apart.
+  static constexpr SphereMap way_map{256};
+
   /// So that all light in one texel is still a half float.
   static constexpr double unit = 16;
 
   std::size_t sphere_items() const { return map.texels() * static_cast<std::size_t>(channels); }
+  std::size_t direction_texels() const { return map.texels() * radii.size(); }
   std::size_t direction_items() const { return sphere_items() * radii.size(); }
   /// E r^2 over size^2, linear sRGB.
   glm::dvec3 at(std::size_t direction, std::size_t sphere, std::size_t texel) const;

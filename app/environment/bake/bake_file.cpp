@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// NAME.bake: a header, radii, where light went, half floats, and a hash of everything before it.
+// NAME.bake: a header, radii, where light went, half floats, ways, and a hash of everything before it.
 #include "environment/bake/bake_file.h"
 
 #include "base/build_info.h"
@@ -22,7 +22,7 @@ namespace {
 
 struct Header {
   std::array<char, 8> magic{'N', 'E', 'P', 'H', 'B', 'A', 'K', 'E'};
-  std::uint64_t format = 1;
+  std::uint64_t format = 2;
   std::uint64_t program = 0, kernels = 0, key = 0;
   std::uint64_t directions = 0, spheres = 0, side = 0, channels = 0;
   double size = 0;
@@ -78,12 +78,12 @@ void read_items(ByteSource& from, std::vector<T>& items, std::uint64_t count)
   from.read(std::as_writable_bytes(std::span(items)));
 }
 
-std::uint64_t items_of(const Header& h) { return h.directions * h.spheres * h.side * h.side * h.channels; }
+std::uint64_t texels_of(const Header& h) { return h.directions * h.spheres * h.side * h.side; }
 
 std::uint64_t length_of(const Header& h)
 {
-  return sizeof h + h.spheres * sizeof(double) + h.directions * sizeof(BakedDirection) + items_of(h) * sizeof(std::uint16_t) +
-         sizeof(std::uint64_t);
+  return sizeof h + h.spheres * sizeof(double) + h.directions * sizeof(BakedDirection) +
+         texels_of(h) * (h.channels + 1) * sizeof(std::uint16_t) + sizeof(std::uint64_t);
 }
 
 /// Reads the header. "" where all is right.
@@ -153,7 +153,8 @@ Bake read_bake(const fs::path& file, const BakeIdentity& identity)
   read_items(from, bake.radii, header.spheres);
   read_items(from, bake.baked, header.directions);
   bake.directions = light_directions(static_cast<int>(header.directions));
-  read_items(from, bake.halves, items_of(header));
+  read_items(from, bake.halves, texels_of(header) * header.channels);
+  read_items(from, bake.ways, texels_of(header));
   std::uint64_t hash = 0;
   source->value(hash);
   if (hash != from.hash()) throw bad_input(file, "is damaged: its checksum is wrong");
@@ -181,6 +182,7 @@ void write_bake(const fs::path& file, const BakeIdentity& identity, const Bake& 
     to.write(std::as_bytes(std::span(bake.radii)));
     to.write(std::as_bytes(std::span(bake.baked)));
     to.write(std::as_bytes(std::span(bake.halves)));
+    to.write(std::as_bytes(std::span(bake.ways)));
     sink.value(to.hash());
   });
   try {

@@ -47,6 +47,9 @@ BakeTask make_task(const preset::Preset& preset)
   BakeTask task;
   task.caster = make_caster(preset);
   task.radii = sphere_radii(s, task.caster, preset.source);
+  Settings own = s;
+  own.spheres = std::min(4 * s.spheres, 64);
+  task.own_radii = sphere_radii(own, task.caster, preset.source);
   task.directions = light_directions(s.directions);
   task.resolution = s.resolution;
   task.photons = static_cast<std::uint32_t>(s.photons);
@@ -76,8 +79,10 @@ Baker::Baker(const BakeTask& task, const compute::Context& context)
   double discs = 0;
   for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
   watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2
-  bake_.halves.reserve(task.halves());
+  bake_.halves.reserve(bake_.direction_items() * task.directions.size());
+  bake_.ways.reserve(bake_.direction_texels() * task.directions.size());
   film_ = world_.zeroed("spheres of one direction", bake_.direction_items());
+  ways_ = world_.zeroed("ways of one direction", 3 * bake_.direction_texels());
   energy_ = world_.zeroed("energy", OUTCOME_COUNT);
   kernel_ = compute::Program(context, "environment/bake.cl", world_.photon_defines()).kernel("bake");
 }
@@ -95,6 +100,7 @@ void Baker::step()
                         {"light_rgb", light_rgb_},
                         {"radii", radii_},
                         {"film", film_},
+                        {"ways", ways_},
                         {"energy", energy_},
                         {"sphere_count", static_cast<int>(task_.radii.size())},
                         {"side", task_.resolution},
@@ -109,25 +115,38 @@ void Baker::step()
   if (sent_ == task_.photons) finish_direction();
 }
 
+void Baker::finish_sphere(std::size_t sphere, double scale)
+{
+  const std::size_t number = bake_.baked.size() * task_.radii.size() + sphere, items = bake_.sphere_items(), texels = bake_.map.texels();
+  std::vector<std::int64_t> sums(items), ways(3 * texels);
+  film_.RawBuffer::read(sums.data(), items * sizeof(std::int64_t), sphere * items * sizeof(std::int64_t));
+  ways_.RawBuffer::read(ways.data(), 3 * texels * sizeof(std::int64_t), 3 * sphere * texels * sizeof(std::int64_t));
+  std::uint16_t* const halves = bake_.halves.data() + number * items;
+  for_ranges(items, 1 << 14, [&](std::size_t, const Range& range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) halves[i] = to_half(scale * static_cast<double>(sums[i]));
+  });
+  std::uint16_t* const to = bake_.ways.data() + number * texels;
+  for_ranges(texels, 1 << 14, [&](std::size_t, const Range& range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const glm::dvec3 way(ways[3 * i], ways[3 * i + 1], ways[3 * i + 2]);
+      to[i] = way == glm::dvec3(0) ? std::uint16_t{0} : static_cast<std::uint16_t>(Bake::way_map.texel(way));
+    }
+  });
+}
+
 void Baker::finish_direction()
 {
   const double size2 = std::pow(task_.caster.size * task_.caster.scene.metres_per_unit, 2);
   const double area_of_quantum = watts_ / (quanta_of_photon * task_.photons * size2); // in size^2
   const double scale = area_of_quantum / (bake_.map.solid_angle() * Bake::unit);
-  const std::size_t items = bake_.sphere_items(), begin = bake_.halves.size();
-  bake_.halves.resize(begin + bake_.direction_items());
-  std::vector<std::int64_t> sums(items);
-  for (std::size_t sphere = 0; sphere < task_.radii.size(); ++sphere) {
-    film_.RawBuffer::read(sums.data(), items * sizeof(std::int64_t), sphere * items * sizeof(std::int64_t));
-    std::uint16_t* const halves = bake_.halves.data() + begin + sphere * items;
-    for_ranges(items, 1 << 14, [&](std::size_t, const Range& range) {
-      for (std::size_t i = range.begin; i < range.end; ++i) halves[i] = to_half(scale * static_cast<double>(sums[i]));
-    });
-  }
+  bake_.halves.resize(bake_.halves.size() + bake_.direction_items());
+  bake_.ways.resize(bake_.ways.size() + bake_.direction_texels());
+  for (std::size_t sphere = 0; sphere < task_.radii.size(); ++sphere) finish_sphere(sphere, scale);
   const std::vector<std::int64_t> energy = energy_.read();
   const auto area = [&](std::size_t outcome) { return area_of_quantum * static_cast<double>(energy[outcome]); };
   bake_.baked.push_back({area(OUTCOME_EMITTED) - area(OUTCOME_MISSED), area(OUTCOME_ESCAPED), area(OUTCOME_ABSORBED), area(OUTCOME_LOST)});
   film_.fill_zero();
+  ways_.fill_zero();
   energy_.fill_zero();
   sent_ = 0;
 }
@@ -138,7 +157,9 @@ void Baker::save(tracing::StateWriter& to) const
   to.value(std::uint64_t{bake_.baked.size()});
   for (const BakedDirection& direction : bake_.baked) to.value(direction);
   to.bytes(std::as_bytes(std::span(bake_.halves)));
+  to.bytes(std::as_bytes(std::span(bake_.ways)));
   to.buffer(film_);
+  to.buffer(ways_);
   to.buffer(energy_);
 }
 
@@ -152,7 +173,10 @@ void Baker::load(tracing::StateReader& from)
   for (BakedDirection& direction : bake_.baked) from.value(direction);
   bake_.halves.resize(baked * bake_.direction_items());
   from.bytes(std::as_writable_bytes(std::span(bake_.halves)));
+  bake_.ways.resize(baked * bake_.direction_texels());
+  from.bytes(std::as_writable_bytes(std::span(bake_.ways)));
   from.buffer(film_);
+  from.buffer(ways_);
   from.buffer(energy_);
 }
 

@@ -21,8 +21,8 @@ struct BakeTask {
   Caster caster;
   scene::Bvh bvh;
   tracing::SceneTables tables;
-  bool coloured = false; ///< the object bends or takes away one wavelength otherwise than another
-  std::vector<double> radii;
+  bool coloured = false;                ///< the object bends or takes away one wavelength otherwise than another
+  std::vector<double> radii, own_radii; ///< of the spheres, and of those of a light's own direction, which are more
   std::vector<glm::dvec3> directions;
   int resolution = 0;
   std::uint32_t photons = 0; ///< from each direction
@@ -30,8 +30,21 @@ struct BakeTask {
   compute::Defines defines;
 
   Bake empty_bake() const;
-  std::uint64_t halves() const { return static_cast<std::uint64_t>(empty_bake().direction_items()) * directions.size(); }
-  std::uint64_t film_bytes() const { return static_cast<std::uint64_t>(empty_bake().direction_items()) * sizeof(std::int64_t); }
+  std::uint64_t film_bytes() const
+  {
+    const Bake bake = empty_bake();
+    return static_cast<std::uint64_t>(bake.direction_items() + 3 * bake.direction_texels()) * sizeof(std::int64_t);
+  }
+  /// On disk and in memory: of all directions, and of one of a light's own.
+  std::uint64_t bytes() const { return sphere_bytes() * radii.size() * directions.size(); }
+  std::uint64_t own_bytes() const { return sphere_bytes() * own_radii.size(); }
+
+private:
+  std::uint64_t sphere_bytes() const
+  {
+    const Bake bake = empty_bake();
+    return (bake.sphere_items() + bake.map.texels()) * sizeof(std::uint16_t);
+  }
 };
 
 /// task: without its seed and photons being 0. Throws bad_input as make_caster and sphere_radii.
@@ -58,13 +71,14 @@ public:
 
 private:
   void finish_direction();
+  void finish_sphere(std::size_t sphere, double scale);
 
   const BakeTask& task_;
   tracing::World world_;
   double watts_; ///< that all photons of a direction have together
   compute::Buffer<shared::float4> light_rgb_;
   compute::Buffer<float> radii_;
-  compute::Buffer<std::int64_t> film_, energy_;
+  compute::Buffer<std::int64_t> film_, ways_, energy_;
   compute::Kernel kernel_;
   tracing::StepSize photons_a_step_{8192};
   std::uint32_t sent_ = 0; ///< of the direction in hand

@@ -6,10 +6,13 @@
 
 namespace nephroid::environment {
 
-OwnDirections::OwnDirections(const BakeTask& task, const compute::Context& context)
-    : context_(context), task_(task), bake_(task.empty_bake())
+OwnDirections::OwnDirections(const BakeTask& task, const compute::Context& context) : context_(context), task_(task)
 {
+  task_.radii = task_.own_radii;
+  bake_ = task_.empty_bake();
   bake_.directions.clear();
+  // One direction stands alone where else four are put together.
+  task_.photons = static_cast<std::uint32_t>(std::min<std::uint64_t>(4 * std::uint64_t{task.photons}, 1U << 30));
 }
 
 void OwnDirections::want(const std::vector<glm::dvec3>& directions)
@@ -27,6 +30,8 @@ void OwnDirections::want(const std::vector<glm::dvec3>& directions)
     wanted.baked.push_back(bake_.baked[at]);
     const auto begin = bake_.halves.begin() + static_cast<std::ptrdiff_t>(at * bake_.direction_items());
     wanted.halves.insert(wanted.halves.end(), begin, begin + static_cast<std::ptrdiff_t>(bake_.direction_items()));
+    const auto ways = bake_.ways.begin() + static_cast<std::ptrdiff_t>(at * bake_.direction_texels());
+    wanted.ways.insert(wanted.ways.end(), ways, ways + static_cast<std::ptrdiff_t>(bake_.direction_texels()));
   }
   wanted.directions.insert(wanted.directions.end(), missing.begin(), missing.end());
   if (baker_ && (missing.empty() || missing.front() != task_.directions.front())) baker_.reset();
@@ -46,6 +51,7 @@ void OwnDirections::step()
   baker_.reset(); // its device memory is for others
   bake_.baked.push_back(one.baked.front());
   bake_.halves.insert(bake_.halves.end(), one.halves.begin(), one.halves.end());
+  bake_.ways.insert(bake_.ways.end(), one.ways.begin(), one.ways.end());
 }
 
 void OwnDirections::save(tracing::StateWriter& to) const
@@ -56,6 +62,7 @@ void OwnDirections::save(tracing::StateWriter& to) const
     to.value(bake_.baked[i]);
   }
   to.bytes(std::as_bytes(std::span(bake_.halves)));
+  to.bytes(std::as_bytes(std::span(bake_.ways)));
 }
 
 void OwnDirections::load(tracing::StateReader& from)
@@ -71,6 +78,8 @@ void OwnDirections::load(tracing::StateReader& from)
   }
   bake_.halves.resize(baked * bake_.direction_items());
   from.bytes(std::as_writable_bytes(std::span(bake_.halves)));
+  bake_.ways.resize(baked * bake_.direction_texels());
+  from.bytes(std::as_writable_bytes(std::span(bake_.ways)));
   baker_.reset();
 }
 

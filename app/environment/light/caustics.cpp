@@ -17,10 +17,12 @@ constexpr std::size_t group = 32;
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
-/// For directions of a bake.
-compute::Buffer<std::uint16_t> sphere_buffer(const compute::Context& context, const Bake& bake, std::size_t directions)
+/// [number]: the unit way of Bake::ways.
+std::vector<shared::float4> all_ways()
 {
-  return {context, "caustic spheres", bake.direction_items() * directions};
+  std::vector<shared::float4> ways;
+  for (std::size_t i = 0; i < Bake::way_map.texels(); ++i) ways.push_back(to_float4(Bake::way_map.direction(i)));
+  return ways;
 }
 
 /// Half floats as the upper halves of floats.
@@ -40,15 +42,19 @@ std::vector<std::uint16_t> upper_halves(const std::vector<std::uint16_t>& halves
 
 } // namespace
 
-Caustics::Caustics(const Bake& bake, const compute::Context& context, int own)
+Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, const std::vector<double>& own_radii)
     : context_(context),
       directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
-                                                                      static_cast<float>(Bake::unit * bake.size * bake.size), 0},
-      stored_(sphere_buffer(context, bake, bake.directions.size() + static_cast<std::size_t>(own))),
-      radii_(tracing::upload_vector(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))),
-      sets_(context, "turned sets", 1)
+                                                                      static_cast<float>(Bake::unit * bake.size * bake.size),
+                                                                      static_cast<int>(own_radii.size())},
+      stored_(context, "caustic spheres", bake.sphere_items() * maps(own)),
+      ways_(context, "ways through spheres", bake.map.texels() * maps(own)), way_of_(tracing::upload_vector(context, "ways", all_ways())),
+      radii_(context, "radii", bake.radii.size() + own_radii.size()), sets_(context, "turned sets", 1)
 {
   stored_.write(upper_halves(bake.halves));
+  ways_.write(bake.ways);
+  radii_.write(std::vector<float>(bake.radii.begin(), bake.radii.end()));
+  radii_.write(std::vector<float>(own_radii.begin(), own_radii.end()), bake.radii.size());
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
   direct_ = program.kernel("cast_direct");
@@ -59,7 +65,8 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own)
 void Caustics::set_own(const Bake& own)
 {
   own_ = own.directions;
-  stored_.write(upper_halves(own.halves), static_cast<std::size_t>(directions_) * own.direction_items());
+  stored_.write(upper_halves(own.halves), maps(0) * own.sphere_items());
+  ways_.write(own.ways, maps(0) * own.map.texels());
 }
 
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
@@ -72,8 +79,19 @@ void Caustics::draw_lights(const std::vector<DistantLight>& lights, const glm::d
   upload(drawn_sets(lights, rotation, directions_, pass, own_), rotation);
 }
 
-void Caustics::upload(const std::vector<shared::DeviceTurnedSet>& sets, const glm::dmat3& rotation)
+std::size_t Caustics::maps(int own) const
 {
+  return static_cast<std::size_t>(directions_) * static_cast<std::size_t>(spheres_.count) +
+         static_cast<std::size_t>(own) * static_cast<std::size_t>(spheres_.own_count);
+}
+
+void Caustics::upload(std::vector<shared::DeviceTurnedSet> sets, const glm::dmat3& rotation)
+{
+  for (shared::DeviceTurnedSet& set : sets) {
+    const int own = set.direction - directions_;
+    set.own = own >= 0 ? 1 : 0;
+    set.first_map = own >= 0 ? static_cast<int>(maps(own)) : set.direction * spheres_.count;
+  }
   if (sets.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", sets.size());
   if (!sets.empty()) sets_.write(sets);
   used_sets_ = static_cast<int>(sets.size());
@@ -91,6 +109,7 @@ void Caustics::compile(int side)
   const auto count = static_cast<std::uint32_t>(items);
   compile_.run(count, group,
                {{"stored", stored_},
+                {"radii", radii_},
                 {"sets", sets_},
                 {"set_count", used_sets_},
                 {"spheres", spheres_},
@@ -108,6 +127,8 @@ void Caustics::cast_direct(const CastTexels& texels, std::uint32_t first, std::u
 {
   direct_.run(count, group,
               {{"stored", stored_},
+               {"ways", ways_},
+               {"way_of", way_of_},
                {"radii", radii_},
                {"sets", sets_},
                {"set_count", used_sets_},
@@ -117,6 +138,7 @@ void Caustics::cast_direct(const CastTexels& texels, std::uint32_t first, std::u
                {"count", count},
                {"size", texels.size},
                {"distances", *texels.distances},
+               {"normals", *texels.normals},
                {"caustics", *texels.caustics}});
   context_.finish();
 }
@@ -135,6 +157,7 @@ void Caustics::cast_compiled(const CastTexels& texels, std::uint32_t first, std:
                       {"count", count},
                       {"size", texels.size},
                       {"distances", *texels.distances},
+                      {"normals", *texels.normals},
                       {"caustics", *texels.caustics}});
   context_.finish();
 }

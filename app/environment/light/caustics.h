@@ -13,19 +13,20 @@ namespace nephroid::environment {
 
 /// Texels of a cube of receivers that are to be lit.
 struct CastTexels {
-  const compute::Buffer<std::uint32_t>* list; ///< numbers of texels
-  const compute::Buffer<float>* distances;    ///< [texel of the cube]
-  const compute::Buffer<float>* caustics;     ///< [texel of the cube][3], written: linear sRGB, W/m^2 of Y times squared units
-  int size;                                   ///< of the cube's faces
+  const compute::Buffer<std::uint32_t>* list;     ///< numbers of texels
+  const compute::Buffer<float>* distances;        ///< [texel of the cube]
+  const compute::Buffer<shared::float4>* normals; ///< [texel of the cube], unit, on the object's side
+  const compute::Buffer<float>* caustics;         ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times squared units
+  int size;                                       ///< of the cube's faces
 };
 
 class Caustics {
 public:
-  /// own: how many directions set_own() has at most. Throws failed where the device has not enough memory.
-  Caustics(const Bake& bake, const compute::Context& context, int own = 0);
+  /// own: how many directions set_own() has at most. own_radii: of their spheres. Throws failed where the device has not enough memory.
+  Caustics(const Bake& bake, const compute::Context& context, int own = 0, const std::vector<double>& own_radii = {});
 
   /// What stands for lights that come from nearly there, from the next set_lights() on, in place of those it had. own: of the same object
-  /// and spheres as the bake.
+  /// and resolution as the bake.
   void set_own(const Bake& own);
 
   /// rotation: from the bake's coordinates to the scene's.
@@ -52,16 +53,18 @@ public:
   const compute::Buffer<float>& radii() const { return radii_; }
   int directions() const { return directions_; } ///< of the bake
   const std::vector<glm::dvec3>& own_directions() const { return own_; }
-  int side() const { return spheres_.side; }     ///< of the bake's maps
+  int side() const { return spheres_.side; } ///< of the bake's maps
 
 private:
-  void upload(const std::vector<shared::DeviceTurnedSet>& sets, const glm::dmat3& rotation);
+  void upload(std::vector<shared::DeviceTurnedSet> sets, const glm::dmat3& rotation);
+  std::size_t maps(int own) const; ///< of all baked directions and so many of the lights' own
 
   compute::Context context_;
   int directions_;
   std::vector<glm::dvec3> own_; ///< baked for lights of their own, in the bake's coordinates
   shared::DeviceSpheres spheres_{};
-  compute::Buffer<std::uint16_t> stored_;
+  compute::Buffer<std::uint16_t> stored_, ways_;
+  compute::Buffer<shared::float4> way_of_; ///< [way_count]
   compute::Buffer<float> radii_;
   Compiled compiled_;
   compute::Buffer<shared::DeviceTurnedSet> sets_;

@@ -37,7 +37,8 @@ public:
   {
     const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked_[static_cast<std::size_t>(near.direction)], travel(light))) * to_object_;
     const glm::dmat3 rows = glm::transpose(to_bake); // glm has columns
-    return {{to_float4(rows[0]), to_float4(rows[1]), to_float4(rows[2])}, to_float4(near.weight * light.irradiance), near.direction, {}};
+    return {
+        {to_float4(rows[0]), to_float4(rows[1]), to_float4(rows[2])}, to_float4(near.weight * light.irradiance), near.direction, 0, 0, 0};
   }
 
 private:
@@ -108,7 +109,7 @@ std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& light
     const glm::dvec3 travel = glm::transpose(rotation) * light.direction;
     const bool is_baked =
         std::ranges::any_of(near_directions(travel, count), [](const NearDirection& near) { return near.weight > 1 - 1e-9; });
-    if (directions.size() < static_cast<std::size_t>(most) && strength(light) > 0.01 * all && !is_baked) directions.push_back(travel);
+    if (directions.size() < static_cast<std::size_t>(most) && strength(light) > 0.05 * all && !is_baked) directions.push_back(travel);
   }
   return directions;
 }

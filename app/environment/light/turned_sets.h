@@ -29,7 +29,7 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count, 
 double degrees_between(int count);
 
 /// Where lights come from that are worth a direction of their own, the strongest first, at most `most`: those that are narrower than half
-/// of the way between baked directions, have a hundredth of all light, and come from no baked direction. In the bake's coordinates.
+/// of the way between baked directions, have a twentieth of all light, and come from no baked direction. In the bake's coordinates.
 std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, int most);
 
 /// The shortest turn from one unit vector to another; half a turn about some axis across where they are opposite.

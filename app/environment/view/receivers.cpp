@@ -13,12 +13,15 @@ std::size_t texels_of(int size) { return 6 * static_cast<std::size_t>(size) * st
 
 } // namespace
 
-std::uint64_t Receivers::bytes(int size) { return texels_of(size) * (sizeof(int) + 4 * sizeof(float) + sizeof(std::uint32_t)); }
+std::uint64_t Receivers::bytes(int size)
+{
+  return texels_of(size) * (sizeof(int) + 4 * sizeof(float) + sizeof(shared::float4) + sizeof(std::uint32_t));
+}
 
 Receivers::Receivers(const compute::Context& context, int size)
     : context_(context), size_(size), states_(context, "wanted receivers", texels_of(size)),
       distances_(context, "receivers' distances", texels_of(size)), caustics_(context, "caustics on receivers", 3 * texels_of(size)),
-      list_(context, "list of receivers", texels_of(size))
+      normals_(context, "receivers' normals", texels_of(size)), list_(context, "list of receivers", texels_of(size))
 {
   list_on_host_.reserve(texels_of(size));
   forget();
@@ -51,7 +54,13 @@ void Receivers::find_wanted(tracing::World* surroundings, compute::Kernel* kerne
   }
   const shared::float4 from{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z), 0};
   surroundings->run(*kernel, count, 32,
-                    {{"list", list_}, {"first", first}, {"count", count}, {"size", size_}, {"middle", from}, {"distances", distances_}});
+                    {{"list", list_},
+                     {"first", first},
+                     {"count", count},
+                     {"size", size_},
+                     {"middle", from},
+                     {"distances", distances_},
+                     {"facing", normals_}});
 }
 
 void Receivers::find_all(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle)
@@ -65,7 +74,7 @@ bool Receivers::cast(Caustics& light)
   if (lit_ == known_) return true;
   const auto count = static_cast<std::uint32_t>(
       std::clamp<std::int64_t>(std::llround(texels_a_step_.amount()), 1, static_cast<std::int64_t>(known_ - lit_)));
-  const CastTexels texels{&list_, &distances_, &caustics_, size_};
+  const CastTexels texels{&list_, &distances_, &normals_, &caustics_, size_};
   texels_a_step_.timed(count, [&] { light.cast_direct(texels, static_cast<std::uint32_t>(lit_), count); });
   lit_ += count;
   return lit_ == known_;

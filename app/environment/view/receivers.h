@@ -44,6 +44,7 @@ private:
   int size_;
   compute::Buffer<int> states_;
   compute::Buffer<float> distances_, caustics_;
+  compute::Buffer<shared::float4> normals_;
   compute::Buffer<std::uint32_t> list_;
   std::vector<int> states_read_;
   std::vector<std::uint32_t> list_on_host_;
