@@ -16,7 +16,7 @@ __kernel void cast_direct(__global const ushort* stored, __global const ushort* 
   const float distance = distances[texel];
   float3 caustic = (float3)(0.0f);
   if (distance < INFINITY) {
-    const Receiver receiver = {cube_texel_direction(texel, size), normals[texel].xyz, distance, shells_at(radii, &spheres, distance)};
+    const Receiver receiver = {cube_texel_direction(texel, size), normals[texel].xyz, shells_at(radii, &spheres, distance)};
     caustic = received_of_sets(stored, ways, way_of, radii, &spheres, sets, set_count, &receiver);
   }
   vstore3(caustic, (size_t)texel, caustics);

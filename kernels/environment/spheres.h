@@ -46,6 +46,7 @@ static inline Shells shells_at(__global const float* radii, const DeviceSpheres*
 // its other end.
 typedef struct {
   int4 texels;
+  int nearest;
   float4 weights;
 } SphereTexels;
 
@@ -79,6 +80,7 @@ static inline SphereTexels sphere_texels(float3 direction, int side)
   const int4 columns = clamp(xs, 0, last), rows = clamp(ys, 0, last);
   SphereTexels four;
   four.texels = select(rows, last - rows, across) * side + select(columns, last - columns, down);
+  four.nearest = clamp((int)(place.y + 0.5f), 0, last) * side + clamp((int)(place.x + 0.5f), 0, last);
   four.weights = (float4)((1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v);
   return four;
 }
@@ -124,62 +126,8 @@ static inline float3 caustic_of_sets(__global const ushort* stored, const Device
 // What reaches a receiver: where it is, and its unit normal on the object's side.
 typedef struct {
   float3 direction, normal; // of the scene
-  float distance;
   Shells shells;
 } Receiver;
-
-// E r^2 on the receiver by light that crosses the sphere as a texel has it: the light across its way, times the cosine at the receiver.
-static inline Caustic received(__global const ushort* map, __global const ushort* ways, __global const float4* way_of, const SphereTexels* four,
-                               float3 outwards, float3 normal)
-{
-  const int texels[4] = {four->texels.x, four->texels.y, four->texels.z, four->texels.w};
-  const float weights[4] = {four->weights.x, four->weights.y, four->weights.z, four->weights.w};
-  Caustic sum = 0.0f;
-  for (int i = 0; i < 4; ++i) {
-    const float3 way = way_of[ways[texels[i]]].xyz;
-    const float factor = fmax(-dot(normal, way), 0.0f) / fmax(fabs(dot(outwards, way)), LEAST_COSINE);
-    sum += (weights[i] * factor) * stored_caustic(map, texels[i]);
-  }
-  return sum;
-}
-
-// The mean way of the light that crosses a sphere about a place; radial where none does.
-static inline float3 mean_way(__global const ushort* map, __global const ushort* ways, __global const float4* way_of, const SphereTexels* four,
-                              float3 outwards)
-{
-  const int texels[4] = {four->texels.x, four->texels.y, four->texels.z, four->texels.w};
-  const float weights[4] = {four->weights.x, four->weights.y, four->weights.z, four->weights.w};
-  float3 sum = (float3)(0.0f);
-  for (int i = 0; i < 4; ++i) {
-#if NEPHROID_CHANNELS == 1
-    const float light = stored_caustic(map, texels[i]);
-#else
-    const float light = stored_caustic(map, texels[i]).y;
-#endif
-    sum += (weights[i] * light) * way_of[ways[texels[i]]].xyz;
-  }
-  const float size2 = dot(sum, sum);
-  return size2 > 0.0f ? sum * rsqrt(size2) : outwards;
-}
-
-// Light that is at a receiver, where it crosses the spheres below and above: the receiver's place carried along its way, as a multiple of it; the
-// share of the upper sphere.
-typedef struct {
-  float below, above, part;
-} Crossings;
-
-static inline Crossings crossings_of(float3 place, float distance, float3 way, __global const float* radii, Shell shell)
-{
-  const float r0 = radii[shell.lower], r1 = radii[shell.upper], slope = dot(place, way), foot2 = slope * slope - distance * distance;
-  const float half2_below = foot2 + r0 * r0, half2_above = foot2 + r1 * r1;
-  // Light that meets no lower sphere has come from between the two.
-  const bool is_below = half2_below > 0.0f && slope > 0.0f;
-  Crossings at;
-  at.below = is_below ? slope - sqrt(half2_below) : 0.0f;
-  at.above = sqrt(fmax(half2_above, 0.0f)) - slope;
-  at.part = is_below ? shell.part : 1.0f;
-  return at;
-}
 
 // Of all sets. ways: [map][texel], numbers of way_of.
 static inline float3 received_of_sets(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
@@ -190,26 +138,16 @@ static inline float3 received_of_sets(__global const ushort* stored, __global co
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < set_count; ++i) {
     __global const DeviceTurnedSet* set = sets + i;
-    const float3 outwards = to_bake(set, receiver->direction), normal = to_bake(set, receiver->normal), place = receiver->distance * outwards;
+    const float3 outwards = to_bake(set, receiver->direction), normal = to_bake(set, receiver->normal);
     const Shell shell = receiver->shells.of[set->own];
     const size_t first = (size_t)set->first_map;
     const size_t low = (first + (size_t)shell.lower) * texels, high = (first + (size_t)shell.upper) * texels;
-    const size_t nearest = shell.part > 0.5f ? high : low;
-    const SphereTexels about = sphere_texels(outwards, spheres->side);
-    const float3 way = mean_way(stored + NEPHROID_CHANNELS * nearest, ways + nearest, way_of, &about, outwards);
-    const Crossings at = crossings_of(place, receiver->distance, way, radii + (set->own ? spheres->count : 0), shell);
-    Caustic lower = 0.0f, upper = 0.0f;
-    if (at.part < 1.0f) {
-      const float3 below = normalize(place - at.below * way);
-      const SphereTexels four = sphere_texels(below, spheres->side);
-      lower = received(stored + NEPHROID_CHANNELS * low, ways + low, way_of, &four, below, normal);
-    }
-    if (at.part > 0.0f) {
-      const float3 above = normalize(place + at.above * way);
-      const SphereTexels four = sphere_texels(above, spheres->side);
-      upper = received(stored + NEPHROID_CHANNELS * high, ways + high, way_of, &four, above, normal);
-    }
-    sum += set->flux.xyz * (lower + at.part * (upper - lower));
+    const SphereTexels four = sphere_texels(outwards, spheres->side);
+    const float3 way = way_of[ways[(shell.part > 0.5f ? high : low) + (size_t)four.nearest]].xyz;
+    const Caustic lower = sphere_caustic(stored + NEPHROID_CHANNELS * low, &four);
+    const Caustic upper = shell.part > 0.0f ? sphere_caustic(stored + NEPHROID_CHANNELS * high, &four) : lower;
+    const float factor = fmax(-dot(normal, way), 0.0f) / fmax(fabs(dot(outwards, way)), LEAST_COSINE);
+    sum += (factor * set->flux.xyz) * (lower + shell.part * (upper - lower));
   }
   return spheres->scale * sum;
 }

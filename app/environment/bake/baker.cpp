@@ -129,7 +129,7 @@ void Baker::finish_sphere(std::size_t sphere, double scale)
   for_ranges(texels, 1 << 14, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const glm::dvec3 way(ways[3 * i], ways[3 * i + 1], ways[3 * i + 2]);
-      to[i] = way == glm::dvec3(0) ? std::uint16_t{0} : static_cast<std::uint16_t>(Bake::way_map.texel(way));
+      to[i] = static_cast<std::uint16_t>(Bake::way_map.texel(way == glm::dvec3(0) ? bake_.map.direction(i) : way));
     }
   });
 }

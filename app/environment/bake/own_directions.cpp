@@ -11,8 +11,8 @@ OwnDirections::OwnDirections(const BakeTask& task, const compute::Context& conte
   task_.radii = task_.own_radii;
   bake_ = task_.empty_bake();
   bake_.directions.clear();
-  // One direction stands alone where else four are put together.
-  task_.photons = static_cast<std::uint32_t>(std::min<std::uint64_t>(4 * std::uint64_t{task.photons}, 1U << 30));
+  // One direction stands alone where else four are put together, and its caustics are sharp.
+  task_.photons = static_cast<std::uint32_t>(std::min<std::uint64_t>(8 * std::uint64_t{task.photons}, 1U << 30));
 }
 
 void OwnDirections::want(const std::vector<glm::dvec3>& directions)
