@@ -6,7 +6,7 @@
 #include "kernels/environment/spheres.h"
 
 // caustics: [texel][3], linear sRGB.
-__kernel void cast_direct(__global const ushort* stored, __global const float* radii, __global const DeviceTurnedSet* sets, int set_count,
+__kernel void cast_direct(__global const ushort* stored, __global const float* radii, __global const DeviceEightSets* sets, int eights,
                           DeviceSpheres spheres, __global const uint* list, uint first, uint count, int size, __global const float* distances,
                           __global float* caustics)
 {
@@ -16,22 +16,22 @@ __kernel void cast_direct(__global const ushort* stored, __global const float* r
   const float distance = distances[texel];
   float3 caustic = (float3)(0.0f);
   if (distance < INFINITY)
-    caustic = caustic_of_sets(stored, &spheres, sets, set_count, cube_texel_direction(texel, size), shell_at(radii, spheres.count, distance));
+    caustic = caustic_of_sets(stored, &spheres, sets, eights, cube_texel_direction(texel, size), shell_at(radii, spheres.count, distance));
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Texels first .. first + count - 1 of all spheres together, whose maps have side x side texels. object_x, y, z: the object's axes in the
-// scene.
-__kernel void compile(__global const ushort* stored, __global const DeviceTurnedSet* sets, int set_count, DeviceSpheres spheres, float4 object_x,
+// Texels first .. first + count - 1 of the stored form of all spheres together, whose maps have side x side texels. object_x, y, z: the
+// object's axes in the scene.
+__kernel void compile(__global const ushort* stored, __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x,
                       float4 object_y, float4 object_z, int side, uint first, uint count, __global float* compiled)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
-  const uint item = first + index, texels = (uint)(side * side);
+  const uint item = first + index, texels = (uint)((side + 2) * (side + 2));
   const Shell shell = {(int)(item / texels), (int)(item / texels), 0.0f};
-  const float3 way = sphere_direction((int)(item % texels), side);
+  const float3 way = sphere_direction(texel_of_stored((int)(item % texels), side), side);
   const float3 direction = way.x * object_x.xyz + way.y * object_y.xyz + way.z * object_z.xyz;
-  vstore3(caustic_of_sets(stored, &spheres, sets, set_count, direction, shell), (size_t)item, compiled);
+  vstore3(caustic_of_sets(stored, &spheres, sets, eights, direction, shell), (size_t)item, compiled);
 }
 
 __kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,

@@ -7,6 +7,7 @@
 
 #ifndef __OPENCL_C_VERSION__
 namespace nephroid::shared {
+using ulong = std::uint64_t;
 #endif
 
 // What the host knows of a texel of the receivers' cube.
@@ -23,18 +24,18 @@ namespace nephroid::shared {
 #define ENDS_OF_PIXEL (NEPHROID_JITTER ? 4 : 2)
 #endif
 
-// Caustics that one light makes by one baked direction: its spheres, turned so that they fit the light.
+// Eight sets of spheres, each of them what one light makes by one baked direction, turned so that it fits the light. They are looked up side by
+// side, as a CPU's vectors do best. What is left over of the last eight has no flux.
 typedef struct {
-  float4 to_bake[3]; // rows of the rotation from the scene into the coordinates of that direction's spheres
-  float4 flux;       // linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
-  int direction;     // of the bake
-  int padding[3];
-} DeviceTurnedSet;
+  float to_bake[9][8]; // rows of the rotation from the scene into the coordinates of that direction's spheres
+  float flux[3][8];    // linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
+  ulong first[8];      // of the direction's numbers among all that are stored
+} DeviceEightSets;
 
 // The radii of the spheres, and how they are stored.
 typedef struct {
   int count;      // of spheres
-  int side;       // texels across and down a sphere's map
+  int side;       // texels across and down a sphere's map; it is stored with a border of one more texel all around
   float scale;    // from a stored number to E r^2 in scene units squared, for light of 1 W/m^2
   int padding;
 } DeviceSpheres;
@@ -49,7 +50,7 @@ typedef struct {
 } DeviceEnd;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceTurnedSet) == 80 && sizeof(DeviceSpheres) == 16 && sizeof(DeviceEnd) == 64);
+static_assert(sizeof(DeviceEightSets) == 448 && sizeof(DeviceSpheres) == 16 && sizeof(DeviceEnd) == 64);
 } // namespace nephroid::shared
 #endif
 

@@ -26,93 +26,127 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
   return shell;
 }
 
-// Four texels about a place of a sphere's map, with bilinear weights. Over an edge of the square the map goes on at the same edge, from
-// its other end.
-typedef struct {
-  int4 texels;
-  float4 weights;
-} SphereTexels;
+// Where a unit vector is in a sphere's map, in texels from the middle of the border's outermost texel: rounded down these are the column and
+// the row of the first of the four texels about it, what is left is how far it is to the others. atan(t) / (pi / 2) is a polynomial within
+// 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2 itself would take a third of all time. REAL: float, or float8 for eight
+// vectors at once.
+#define DEFINE_STORED_PLACE(NAME, REAL)                                                                                                  \
+  static inline void NAME(REAL x, REAL y, REAL z, float side, REAL* column, REAL* row)                                                  \
+  {                                                                                                                                      \
+    const REAL a = fabs(x), b = fabs(y), zero = 0.0f, one = 1.0f;                                                                        \
+    const REAL r = sqrt((a * a + b * b) / (1.0f + fabs(z)));                                                                             \
+    const REAL t = (b > a ? a : b) / (b > a ? b : a), t2 = t * t;                                                                        \
+    const REAL atan_t = t * (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));                \
+    const REAL quarters = atan_t * (2.0f / PI_F);                                                                                        \
+    const REAL v = r > zero ? r * (b > a ? one - quarters : quarters) : zero, u = r - v;                                                 \
+    *column = 0.5f + side * (0.5f + 0.5f * copysign(z < zero ? one - v : u, x));                                                         \
+    *row = 0.5f + side * (0.5f + 0.5f * copysign(z < zero ? one - u : v, y));                                                            \
+  }
+DEFINE_STORED_PLACE(stored_place, float)
+DEFINE_STORED_PLACE(eight_stored_places, float8)
 
-// atan2(y, x) / (pi / 2) of numbers that are not negative, not both 0. The polynomial is within 1e-5 of atan (Abramowitz and Stegun 4.4.49), a
-// hundredth of a texel; atan2 itself would take a third of all time.
-static inline float quarter_turns(float y, float x)
+// The texel of a map of side x side that a texel of its stored form shows, whose border has what is over the edge: there the square goes on
+// at the same edge, from its other end.
+static inline int texel_of_stored(int stored, int side)
 {
-  const float low = fmin(x, y), high = fmax(x, y), t = low / high, t2 = t * t;
-  const float angle = t * (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f)))) * (2.0f / PI_F);
-  return y > x ? 1.0f - angle : angle;
-}
-
-// sphere_place of a unit vector.
-static inline float2 quick_sphere_place(float3 d)
-{
-  const float3 a = fabs(d);
-  const float r = sqrt((a.x * a.x + a.y * a.y) / (1.0f + a.z));
-  const float v = r > 0.0f ? r * quarter_turns(a.y, a.x) : 0.0f, u = r - v;
-  const float2 folded = d.z < 0.0f ? (float2)(1.0f - v, 1.0f - u) : (float2)(u, v);
-  return 0.5f + 0.5f * copysign(folded, d.xy);
-}
-
-static inline SphereTexels sphere_texels(float3 direction, int side)
-{
-  const float2 place = quick_sphere_place(direction) * (float)side - 0.5f;
-  const float left = floor(place.x), top = floor(place.y), u = place.x - left, v = place.y - top;
-  const int x = (int)left, y = (int)top, last = side - 1;
-  // Columns and rows from -1 to side: those outside are on the edge, with the other coordinate turned round.
-  const int4 xs = (int4)(x, x + 1, x, x + 1), ys = (int4)(y, y, y + 1, y + 1);
-  const int4 across = (xs < 0) | (xs > last), down = (ys < 0) | (ys > last);
-  const int4 columns = clamp(xs, 0, last), rows = clamp(ys, 0, last);
-  SphereTexels four;
-  four.texels = select(rows, last - rows, across) * side + select(columns, last - columns, down);
-  four.weights = (float4)((1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v);
-  return four;
+  const int stride = side + 2, last = side - 1, column = stored % stride - 1, row = stored / stride - 1;
+  const bool across = column < 0 || column > last, down = row < 0 || row > last;
+  const int x = clamp(column, 0, last), y = clamp(row, 0, last);
+  return (across ? last - y : y) * side + (down ? last - x : x);
 }
 
 // Numbers are stored as the upper halves of floats: nine bits are more than the photons' noise leaves, and no device takes long over them.
+// Two that follow each other are read at once, the first in the lower half.
+#define EIGHT_PAIRS(at, offset)                                                                                                          \
+  (uint8)(as_uint(vload2(0, at[0] + (offset))), as_uint(vload2(0, at[1] + (offset))), as_uint(vload2(0, at[2] + (offset))),               \
+          as_uint(vload2(0, at[3] + (offset))), as_uint(vload2(0, at[4] + (offset))), as_uint(vload2(0, at[5] + (offset))),               \
+          as_uint(vload2(0, at[6] + (offset))), as_uint(vload2(0, at[7] + (offset))))
+static inline float8 first_of(uint8 pairs) { return as_float8(pairs << 16); }
+static inline float8 second_of(uint8 pairs) { return as_float8(pairs & 0xffff0000u); }
+
+// Eight values of each channel.
+typedef struct {
+  float8 channels[NEPHROID_CHANNELS];
+} EightCaustics;
+
+// Between two texels that are beside each other, `offset` numbers after each of eight places.
+static inline EightCaustics between_columns(__global const ushort* const* at, size_t offset, float8 u)
+{
+  EightCaustics caustics;
 #if NEPHROID_CHANNELS == 1
-typedef float Caustic;
-static inline Caustic stored_caustic(__global const ushort* map, int texel) { return as_float((uint)map[texel] << 16); }
+  const uint8 both = EIGHT_PAIRS(at, offset);
+  caustics.channels[0] = mix(first_of(both), second_of(both), u);
 #else
-typedef float3 Caustic;
-static inline Caustic stored_caustic(__global const ushort* map, int texel) { return as_float3(convert_uint3(vload3((size_t)texel, map)) << 16); }
+  const uint8 red_green = EIGHT_PAIRS(at, offset), blue_red = EIGHT_PAIRS(at, offset + 2), green_blue = EIGHT_PAIRS(at, offset + 4);
+  caustics.channels[0] = mix(first_of(red_green), second_of(blue_red), u);
+  caustics.channels[1] = mix(second_of(red_green), first_of(green_blue), u);
+  caustics.channels[2] = mix(first_of(blue_red), second_of(green_blue), u);
 #endif
-
-static inline Caustic sphere_caustic(__global const ushort* map, const SphereTexels* four)
-{
-  return four->weights.x * stored_caustic(map, four->texels.x) + four->weights.y * stored_caustic(map, four->texels.y) +
-         four->weights.z * stored_caustic(map, four->texels.z) + four->weights.w * stored_caustic(map, four->texels.w);
+  return caustics;
 }
 
-static inline float3 to_bake(__global const DeviceTurnedSet* set, float3 direction)
+static inline EightCaustics eight_between(EightCaustics a, EightCaustics b, float8 part)
 {
-  return (float3)(dot(set->to_bake[0].xyz, direction), dot(set->to_bake[1].xyz, direction), dot(set->to_bake[2].xyz, direction));
+  for (int c = 0; c < NEPHROID_CHANNELS; ++c) a.channels[c] = mix(a.channels[c], b.channels[c], part);
+  return a;
 }
 
-// E r^2 of all sets in a unit direction of the scene: linear sRGB. stored: [direction][sphere][texel][channel].
-static inline float3 caustic_of_sets(__global const ushort* stored, const DeviceSpheres* spheres, __global const DeviceTurnedSet* sets, int set_count,
-                                     float3 direction, Shell shell)
+static inline float sum_of_eight(float8 v)
 {
-  const size_t map_items = (size_t)(spheres->side * spheres->side) * NEPHROID_CHANNELS;
-  float3 sum = (float3)(0.0f);
-  for (int i = 0; i < set_count; ++i) {
-    __global const DeviceTurnedSet* set = sets + i;
-    const SphereTexels four = sphere_texels(to_bake(set, direction), spheres->side);
-    __global const ushort* maps = stored + (size_t)(set->direction * spheres->count) * map_items;
-    const Caustic lower = sphere_caustic(maps + (size_t)shell.lower * map_items, &four);
-    const Caustic upper = shell.part > 0.0f ? sphere_caustic(maps + (size_t)shell.upper * map_items, &four) : lower;
-    sum += set->flux.xyz * (lower + shell.part * (upper - lower));
+  const float4 four = v.lo + v.hi;
+  const float2 two = four.lo + four.hi;
+  return two.x + two.y;
+}
+
+static inline float8 row_of_eight(__global const DeviceEightSets* sets, int row, float3 direction)
+{
+  return vload8(3 * row, sets->to_bake[0]) * direction.x + vload8(3 * row + 1, sets->to_bake[0]) * direction.y +
+         vload8(3 * row + 2, sets->to_bake[0]) * direction.z;
+}
+
+// E r^2 of all sets in a unit direction of the scene: linear sRGB. stored: [direction][sphere][texel of the stored form][channel].
+static inline float3 caustic_of_sets(__global const ushort* stored, const DeviceSpheres* spheres, __global const DeviceEightSets* sets,
+                                     int eights, float3 direction, Shell shell)
+{
+  const int stride = spheres->side + 2;
+  const size_t row_items = (size_t)stride * NEPHROID_CHANNELS, map_items = (size_t)stride * row_items;
+  const size_t lower = (size_t)shell.lower * map_items, upper = (size_t)shell.upper * map_items;
+  float8 red = 0.0f, green = 0.0f, blue = 0.0f;
+  for (int i = 0; i < eights; ++i) {
+    __global const DeviceEightSets* eight = sets + i;
+    float8 columns, rows;
+    eight_stored_places(row_of_eight(eight, 0, direction), row_of_eight(eight, 1, direction), row_of_eight(eight, 2, direction),
+                        (float)spheres->side, &columns, &rows);
+    const int8 left = convert_int8(columns), top = convert_int8(rows);
+    const float8 u = columns - convert_float8(left), v = rows - convert_float8(top);
+    const int8 texels = NEPHROID_CHANNELS * (top * stride + left);
+    __global const ushort* const at[8] = {
+        stored + eight->first[0] + texels.s0, stored + eight->first[1] + texels.s1, stored + eight->first[2] + texels.s2,
+        stored + eight->first[3] + texels.s3, stored + eight->first[4] + texels.s4, stored + eight->first[5] + texels.s5,
+        stored + eight->first[6] + texels.s6, stored + eight->first[7] + texels.s7};
+    EightCaustics caustics = eight_between(between_columns(at, lower, u), between_columns(at, lower + row_items, u), v);
+    if (shell.part > 0.0f)
+      caustics = eight_between(caustics, eight_between(between_columns(at, upper, u), between_columns(at, upper + row_items, u), v),
+                               (float8)(shell.part));
+    red += vload8(0, eight->flux[0]) * caustics.channels[0];
+    green += vload8(0, eight->flux[1]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 1 : 0];
+    blue += vload8(0, eight->flux[2]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 2 : 0];
   }
-  return spheres->scale * sum;
+  return spheres->scale * (float3)(sum_of_eight(red), sum_of_eight(green), sum_of_eight(blue));
 }
 
-// The same of what compile.cl has made of all sets: [sphere][texel][3], linear sRGB, in coordinates of the object.
+// The same of what compile.cl has made of all sets: [sphere][texel of the stored form][3], linear sRGB, in coordinates of the object.
 static inline float3 compiled_caustic(__global const float* compiled, const DeviceSpheres* spheres, float3 in_object, Shell shell)
 {
-  const SphereTexels four = sphere_texels(in_object, spheres->side);
-  const size_t texels = (size_t)(spheres->side * spheres->side);
-  __global const float* lower = compiled + 3 * texels * (size_t)shell.lower;
-  __global const float* upper = compiled + 3 * texels * (size_t)shell.upper;
-  const int t[4] = {four.texels.x, four.texels.y, four.texels.z, four.texels.w};
-  const float w[4] = {four.weights.x, four.weights.y, four.weights.z, four.weights.w};
+  float column, row;
+  stored_place(in_object.x, in_object.y, in_object.z, (float)spheres->side, &column, &row);
+  const int stride = spheres->side + 2, left = (int)column, top = (int)row;
+  const float u = column - (float)left, v = row - (float)top;
+  const size_t map_items = 3 * (size_t)(stride * stride), at = 3 * (size_t)(top * stride + left);
+  __global const float* lower = compiled + (size_t)shell.lower * map_items + at;
+  __global const float* upper = compiled + (size_t)shell.upper * map_items + at;
+  const int t[4] = {0, 1, stride, stride + 1};
+  const float w[4] = {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v};
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < 4; ++i) {
     const float3 a = vload3((size_t)t[i], lower);

@@ -4,6 +4,7 @@
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
 #include "environment/light/turned_sets.h"
+#include "kernels/environment/render_types.h"
 #include "tracing/step_size.h"
 
 #include <cstdint>
@@ -52,20 +53,21 @@ public:
   const compute::Buffer<float>& radii() const { return radii_; }
   int directions() const { return directions_; } ///< of the bake
   const std::vector<glm::dvec3>& own_directions() const { return own_; }
-  int side() const { return spheres_.side; }     ///< of the bake's maps
+  int side() const { return spheres_.side; } ///< of the bake's maps
 
 private:
-  void upload(const std::vector<shared::DeviceTurnedSet>& sets, const glm::dmat3& rotation);
+  void upload(const std::vector<TurnedSet>& sets, const glm::dmat3& rotation);
 
   compute::Context context_;
   int directions_;
+  std::size_t direction_items_; ///< stored numbers of a direction
   std::vector<glm::dvec3> own_; ///< baked for lights of their own, in the bake's coordinates
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_;
   compute::Buffer<float> radii_;
   Compiled compiled_;
-  compute::Buffer<shared::DeviceTurnedSet> sets_;
-  int used_sets_ = 0; ///< of the buffer's
+  compute::Buffer<shared::DeviceEightSets> sets_;
+  int used_eights_ = 0; ///< of the buffer's
   compute::Kernel direct_, compile_, compiled_cast_;
 };
 
