@@ -7,7 +7,7 @@
 
 // caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
 __kernel void cast_direct(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
-                          __global const DeviceTurnedSet* sets, int set_count, DeviceSpheres spheres, __global const uint* list, uint first,
+                          __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, __global const uint* list, uint first,
                           uint count, int size, __global const float* distances, __global const float4* normals, __global float* caustics)
 {
   const uint index = (uint)get_global_id(0);
@@ -16,24 +16,28 @@ __kernel void cast_direct(__global const ushort* stored, __global const ushort* 
   const float distance = distances[texel];
   float3 caustic = (float3)(0.0f);
   if (distance < INFINITY) {
-    const Receiver receiver = {cube_texel_direction(texel, size), normals[texel].xyz, shells_at(radii, &spheres, distance)};
-    caustic = received_of_sets(stored, ways, way_of, radii, &spheres, sets, set_count, &receiver);
+    const Maps maps = {stored, ways, way_of};
+    const Shells shells = shells_at(radii, &spheres, distance);
+    const float3 normal = normals[texel].xyz;
+    caustic = caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size), &shells, &normal);
   }
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Texels first .. first + count - 1 of all spheres together, whose maps have side x side texels. object_x, y, z: the object's axes in the
-// scene.
-__kernel void compile(__global const ushort* stored, __global const float* radii, __global const DeviceTurnedSet* sets, int set_count, DeviceSpheres spheres, float4 object_x,
-                      float4 object_y, float4 object_z, int side, uint first, uint count, __global float* compiled)
+// Texels first .. first + count - 1 of the stored form of all spheres together, whose maps have side x side texels. object_x, y, z: the
+// object's axes in the scene.
+__kernel void compile(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
+                      __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
+                      float4 object_z, int side, uint first, uint count, __global float* compiled)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
-  const uint item = first + index, texels = (uint)(side * side);
+  const uint item = first + index, texels = (uint)((side + 2) * (side + 2));
+  const Maps maps = {stored, ways, way_of};
   const Shells shells = shells_at(radii, &spheres, radii[item / texels]);
-  const float3 way = sphere_direction((int)(item % texels), side);
+  const float3 way = sphere_direction(texel_of_stored((int)(item % texels), side), side);
   const float3 direction = way.x * object_x.xyz + way.y * object_y.xyz + way.z * object_z.xyz;
-  vstore3(caustic_of_sets(stored, &spheres, sets, set_count, direction, &shells), (size_t)item, compiled);
+  vstore3(caustic_of_sets(&maps, &spheres, sets, eights, direction, &shells, 0), (size_t)item, compiled);
 }
 
 __kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,

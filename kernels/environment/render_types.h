@@ -7,6 +7,7 @@
 
 #ifndef __OPENCL_C_VERSION__
 namespace nephroid::shared {
+using ulong = std::uint64_t;
 #endif
 
 // What the host knows of a texel of the receivers' cube.
@@ -23,20 +24,20 @@ namespace nephroid::shared {
 #define ENDS_OF_PIXEL (NEPHROID_JITTER ? 4 : 2)
 #endif
 
-// Caustics that one light makes by one baked direction: its spheres, turned so that they fit the light.
+// Eight sets of spheres, each of them what one light makes by one baked direction, turned so that it fits the light. They are looked up side by
+// side, as a CPU's vectors do best. What is left over of the last eight has no flux.
 typedef struct {
-  float4 to_bake[3]; // rows of the rotation from the scene into the coordinates of that direction's spheres
-  float4 flux;       // linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
-  int direction;     // of the bake, then of the lights' own
-  int first_map;     // its first sphere, counting all spheres of the directions before
-  int own;           // 1: its spheres are those of lights' own directions
-  int padding;
-} DeviceTurnedSet;
+  float to_bake[9][8]; // rows of the rotation from the scene into the coordinates of that direction's spheres
+  float flux[3][8];    // linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
+  ulong first[8];      // of the direction's texels among all that are stored
+  int own;             // 1: all are lights' own directions, with their spheres; 0: none is
+  int padding[7];
+} DeviceEightSets;
 
 // The radii of the spheres, and how they are stored.
 typedef struct {
   int count;      // of spheres of a baked direction
-  int side;       // texels across and down a sphere's map
+  int side;       // texels across and down a sphere's map; it is stored with a border of one more texel all around
   float scale;    // from a stored number to E r^2 in scene units squared, for light of 1 W/m^2
   int own_count;  // of spheres of a light's own direction, whose radii follow the others
 } DeviceSpheres;
@@ -51,7 +52,7 @@ typedef struct {
 } DeviceEnd;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceTurnedSet) == 80 && sizeof(DeviceSpheres) == 16 && sizeof(DeviceEnd) == 64);
+static_assert(sizeof(DeviceEightSets) == 480 && sizeof(DeviceSpheres) == 16 && sizeof(DeviceEnd) == 64);
 } // namespace nephroid::shared
 #endif
 

@@ -7,9 +7,6 @@
 #include "kernels/environment/render_types.h"
 #include "kernels/environment/sphere_map.h"
 
-// Of light with a sphere: what crosses it at more of a slant is held to that.
-#define LEAST_COSINE 0.125f
-
 #ifndef NEPHROID_CHANNELS
 #define NEPHROID_CHANNELS 3
 #endif
@@ -31,7 +28,7 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
 
 // The same among both kinds of spheres.
 typedef struct {
-  Shell of[2]; // [DeviceTurnedSet::own]
+  Shell of[2]; // [DeviceEightSets::own]
 } Shells;
 
 static inline Shells shells_at(__global const float* radii, const DeviceSpheres* spheres, float distance)
@@ -42,125 +39,166 @@ static inline Shells shells_at(__global const float* radii, const DeviceSpheres*
   return shells;
 }
 
-// Four texels about a place of a sphere's map, with bilinear weights. Over an edge of the square the map goes on at the same edge, from
-// its other end.
-typedef struct {
-  int4 texels;
-  int nearest;
-  float4 weights;
-} SphereTexels;
+// Where a unit vector is in a sphere's map, in texels from the middle of the border's outermost texel: rounded down these are the column and
+// the row of the first of the four texels about it, what is left is how far it is to the others. atan(t) / (pi / 2) is a polynomial within
+// 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2 itself would take a third of all time. REAL: float, or float8 for eight
+// vectors at once.
+#define DEFINE_STORED_PLACE(NAME, REAL)                                                                                                  \
+  static inline void NAME(REAL x, REAL y, REAL z, float side, REAL* column, REAL* row)                                                  \
+  {                                                                                                                                      \
+    const REAL a = fabs(x), b = fabs(y), zero = 0.0f, one = 1.0f;                                                                        \
+    const REAL r = sqrt((a * a + b * b) / (1.0f + fabs(z)));                                                                             \
+    const REAL t = (b > a ? a : b) / (b > a ? b : a), t2 = t * t;                                                                        \
+    const REAL atan_t = t * (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));                \
+    const REAL quarters = atan_t * (2.0f / PI_F);                                                                                        \
+    const REAL v = r > zero ? r * (b > a ? one - quarters : quarters) : zero, u = r - v;                                                 \
+    *column = 0.5f + side * (0.5f + 0.5f * copysign(z < zero ? one - v : u, x));                                                         \
+    *row = 0.5f + side * (0.5f + 0.5f * copysign(z < zero ? one - u : v, y));                                                            \
+  }
+DEFINE_STORED_PLACE(stored_place, float)
+DEFINE_STORED_PLACE(eight_stored_places, float8)
 
-// atan2(y, x) / (pi / 2) of numbers that are not negative, not both 0. The polynomial is within 1e-5 of atan (Abramowitz and Stegun 4.4.49), a
-// hundredth of a texel; atan2 itself would take a third of all time.
-static inline float quarter_turns(float y, float x)
+// The texel of a map of side x side that a texel of its stored form shows, whose border has what is over the edge: there the square goes on
+// at the same edge, from its other end.
+static inline int texel_of_stored(int stored, int side)
 {
-  const float low = fmin(x, y), high = fmax(x, y), t = low / high, t2 = t * t;
-  const float angle = t * (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f)))) * (2.0f / PI_F);
-  return y > x ? 1.0f - angle : angle;
-}
-
-// sphere_place of a unit vector.
-static inline float2 quick_sphere_place(float3 d)
-{
-  const float3 a = fabs(d);
-  const float r = sqrt((a.x * a.x + a.y * a.y) / (1.0f + a.z));
-  const float v = r > 0.0f ? r * quarter_turns(a.y, a.x) : 0.0f, u = r - v;
-  const float2 folded = d.z < 0.0f ? (float2)(1.0f - v, 1.0f - u) : (float2)(u, v);
-  return 0.5f + 0.5f * copysign(folded, d.xy);
-}
-
-static inline SphereTexels sphere_texels(float3 direction, int side)
-{
-  const float2 place = quick_sphere_place(direction) * (float)side - 0.5f;
-  const float left = floor(place.x), top = floor(place.y), u = place.x - left, v = place.y - top;
-  const int x = (int)left, y = (int)top, last = side - 1;
-  // Columns and rows from -1 to side: those outside are on the edge, with the other coordinate turned round.
-  const int4 xs = (int4)(x, x + 1, x, x + 1), ys = (int4)(y, y, y + 1, y + 1);
-  const int4 across = (xs < 0) | (xs > last), down = (ys < 0) | (ys > last);
-  const int4 columns = clamp(xs, 0, last), rows = clamp(ys, 0, last);
-  SphereTexels four;
-  four.texels = select(rows, last - rows, across) * side + select(columns, last - columns, down);
-  four.nearest = clamp((int)(place.y + 0.5f), 0, last) * side + clamp((int)(place.x + 0.5f), 0, last);
-  four.weights = (float4)((1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v);
-  return four;
+  const int stride = side + 2, last = side - 1, column = stored % stride - 1, row = stored / stride - 1;
+  const bool across = column < 0 || column > last, down = row < 0 || row > last;
+  const int x = clamp(column, 0, last), y = clamp(row, 0, last);
+  return (across ? last - y : y) * side + (down ? last - x : x);
 }
 
 // Numbers are stored as the upper halves of floats: nine bits are more than the photons' noise leaves, and no device takes long over them.
-#if NEPHROID_CHANNELS == 1
-typedef float Caustic;
-static inline Caustic stored_caustic(__global const ushort* map, int texel) { return as_float((uint)map[texel] << 16); }
-#else
-typedef float3 Caustic;
-static inline Caustic stored_caustic(__global const ushort* map, int texel) { return as_float3(convert_uint3(vload3((size_t)texel, map)) << 16); }
-#endif
+// Two that follow each other are read at once, the first in the lower half.
+#define EIGHT_PAIRS(at, offset)                                                                                                          \
+  (uint8)(as_uint(vload2(0, at[0] + (offset))), as_uint(vload2(0, at[1] + (offset))), as_uint(vload2(0, at[2] + (offset))),               \
+          as_uint(vload2(0, at[3] + (offset))), as_uint(vload2(0, at[4] + (offset))), as_uint(vload2(0, at[5] + (offset))),               \
+          as_uint(vload2(0, at[6] + (offset))), as_uint(vload2(0, at[7] + (offset))))
+static inline float8 first_of(uint8 pairs) { return as_float8(pairs << 16); }
+static inline float8 second_of(uint8 pairs) { return as_float8(pairs & 0xffff0000u); }
 
-static inline Caustic sphere_caustic(__global const ushort* map, const SphereTexels* four)
-{
-  return four->weights.x * stored_caustic(map, four->texels.x) + four->weights.y * stored_caustic(map, four->texels.y) +
-         four->weights.z * stored_caustic(map, four->texels.z) + four->weights.w * stored_caustic(map, four->texels.w);
-}
-
-static inline float3 to_bake(__global const DeviceTurnedSet* set, float3 direction)
-{
-  return (float3)(dot(set->to_bake[0].xyz, direction), dot(set->to_bake[1].xyz, direction), dot(set->to_bake[2].xyz, direction));
-}
-
-// E r^2 of all sets in a unit direction of the scene: linear sRGB. stored: [map][texel][channel].
-static inline float3 caustic_of_sets(__global const ushort* stored, const DeviceSpheres* spheres, __global const DeviceTurnedSet* sets, int set_count,
-                                     float3 direction, const Shells* shells)
-{
-  const size_t map_items = (size_t)(spheres->side * spheres->side) * NEPHROID_CHANNELS;
-  float3 sum = (float3)(0.0f);
-  for (int i = 0; i < set_count; ++i) {
-    __global const DeviceTurnedSet* set = sets + i;
-    const SphereTexels four = sphere_texels(to_bake(set, direction), spheres->side);
-    __global const ushort* maps = stored + (size_t)set->first_map * map_items;
-    const Shell shell = shells->of[set->own];
-    const Caustic lower = sphere_caustic(maps + (size_t)shell.lower * map_items, &four);
-    const Caustic upper = shell.part > 0.0f ? sphere_caustic(maps + (size_t)shell.upper * map_items, &four) : lower;
-    sum += set->flux.xyz * (lower + shell.part * (upper - lower));
-  }
-  return spheres->scale * sum;
-}
-
-// What reaches a receiver: where it is, and its unit normal on the object's side.
+// Eight values of each channel.
 typedef struct {
-  float3 direction, normal; // of the scene
-  Shells shells;
-} Receiver;
+  float8 channels[NEPHROID_CHANNELS];
+} EightCaustics;
 
-// Of all sets. ways: [map][texel], numbers of way_of.
-static inline float3 received_of_sets(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
-                                      __global const float* radii, const DeviceSpheres* spheres, __global const DeviceTurnedSet* sets,
-                                      int set_count, const Receiver* receiver)
+// Between two texels that are beside each other, `offset` numbers after each of eight places.
+static inline EightCaustics between_columns(__global const ushort* const* at, size_t offset, float8 u)
 {
-  const size_t texels = (size_t)(spheres->side * spheres->side);
-  float3 sum = (float3)(0.0f);
-  for (int i = 0; i < set_count; ++i) {
-    __global const DeviceTurnedSet* set = sets + i;
-    const float3 outwards = to_bake(set, receiver->direction), normal = to_bake(set, receiver->normal);
-    const Shell shell = receiver->shells.of[set->own];
-    const size_t first = (size_t)set->first_map;
-    const size_t low = (first + (size_t)shell.lower) * texels, high = (first + (size_t)shell.upper) * texels;
-    const SphereTexels four = sphere_texels(outwards, spheres->side);
-    const float3 way = way_of[ways[(shell.part > 0.5f ? high : low) + (size_t)four.nearest]].xyz;
-    const Caustic lower = sphere_caustic(stored + NEPHROID_CHANNELS * low, &four);
-    const Caustic upper = shell.part > 0.0f ? sphere_caustic(stored + NEPHROID_CHANNELS * high, &four) : lower;
-    const float factor = fmax(-dot(normal, way), 0.0f) / fmax(fabs(dot(outwards, way)), LEAST_COSINE);
-    sum += (factor * set->flux.xyz) * (lower + shell.part * (upper - lower));
-  }
-  return spheres->scale * sum;
+  EightCaustics caustics;
+#if NEPHROID_CHANNELS == 1
+  const uint8 both = EIGHT_PAIRS(at, offset);
+  caustics.channels[0] = mix(first_of(both), second_of(both), u);
+#else
+  const uint8 red_green = EIGHT_PAIRS(at, offset), blue_red = EIGHT_PAIRS(at, offset + 2), green_blue = EIGHT_PAIRS(at, offset + 4);
+  caustics.channels[0] = mix(first_of(red_green), second_of(blue_red), u);
+  caustics.channels[1] = mix(second_of(red_green), first_of(green_blue), u);
+  caustics.channels[2] = mix(first_of(blue_red), second_of(green_blue), u);
+#endif
+  return caustics;
 }
 
-// The same of what compile.cl has made of all sets: [sphere][texel][3], linear sRGB, in coordinates of the object.
+static inline EightCaustics eight_between(EightCaustics a, EightCaustics b, float8 part)
+{
+  for (int c = 0; c < NEPHROID_CHANNELS; ++c) a.channels[c] = mix(a.channels[c], b.channels[c], part);
+  return a;
+}
+
+static inline float sum_of_eight(float8 v)
+{
+  const float4 four = v.lo + v.hi;
+  const float2 two = four.lo + four.hi;
+  return two.x + two.y;
+}
+
+static inline float8 row_of_eight(__global const DeviceEightSets* sets, int row, float3 direction)
+{
+  return vload8(3 * row, sets->to_bake[0]) * direction.x + vload8(3 * row + 1, sets->to_bake[0]) * direction.y +
+         vload8(3 * row + 2, sets->to_bake[0]) * direction.z;
+}
+
+// What the kernels look up. Maps are in their stored form, direction after direction.
+typedef struct {
+  __global const ushort* stored; // [map][texel][channel]
+  __global const ushort* ways;   // [map][texel], numbers of way_of
+  __global const float4* way_of; // unit vectors
+} Maps;
+
+// Light that crosses a sphere at more of a slant is held to that.
+#define LEAST_COSINE 0.125f
+
+// Eight times E on a surface over E on the sphere, which faces the middle: x, y, z and normal_x, y, z are the way from the middle and the surface's
+// normal as each set has them. texels: of the maps. The light goes the way that it has in the nearest texel.
+static inline float8 eight_factors(const Maps* maps, __global const DeviceEightSets* eight, size_t map, int8 texels, float8 x, float8 y, float8 z,
+                                   float8 normal_x, float8 normal_y, float8 normal_z)
+{
+  int texel[8];
+  vstore8(texels, 0, texel);
+  float ways[3][8];
+  for (int k = 0; k < 8; ++k) {
+    const float4 way = maps->way_of[maps->ways[eight->first[k] + map + (size_t)texel[k]]];
+    ways[0][k] = way.x;
+    ways[1][k] = way.y;
+    ways[2][k] = way.z;
+  }
+  const float8 way_x = vload8(0, ways[0]), way_y = vload8(0, ways[1]), way_z = vload8(0, ways[2]);
+  return fmax(-(normal_x * way_x + normal_y * way_y + normal_z * way_z), 0.0f) / fmax(fabs(x * way_x + y * way_y + z * way_z), LEAST_COSINE);
+}
+
+// E r^2 of all sets in a unit direction of the scene: linear sRGB. On a surface with a unit normal, which is on the object's side; or, with none, on
+// one that faces the middle.
+static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* sets, int eights,
+                                     float3 direction, const Shells* shells, const float3* normal)
+{
+  const int stride = spheres->side + 2;
+  const size_t row_items = (size_t)stride * NEPHROID_CHANNELS, map_texels = (size_t)(stride * stride);
+  float8 red = 0.0f, green = 0.0f, blue = 0.0f;
+  for (int i = 0; i < eights; ++i) {
+    __global const DeviceEightSets* eight = sets + i;
+    const Shell shell = shells->of[eight->own];
+    const size_t lower = (size_t)shell.lower * map_texels, upper = (size_t)shell.upper * map_texels;
+    const float8 x = row_of_eight(eight, 0, direction), y = row_of_eight(eight, 1, direction), z = row_of_eight(eight, 2, direction);
+    float8 columns, rows;
+    eight_stored_places(x, y, z, (float)spheres->side, &columns, &rows);
+    const int8 left = convert_int8(columns), top = convert_int8(rows);
+    const float8 u = columns - convert_float8(left), v = rows - convert_float8(top);
+    const int8 texels = NEPHROID_CHANNELS * (top * stride + left);
+    __global const ushort* const stored = maps->stored;
+    __global const ushort* const at[8] = {
+        stored + NEPHROID_CHANNELS * eight->first[0] + texels.s0, stored + NEPHROID_CHANNELS * eight->first[1] + texels.s1,
+        stored + NEPHROID_CHANNELS * eight->first[2] + texels.s2, stored + NEPHROID_CHANNELS * eight->first[3] + texels.s3,
+        stored + NEPHROID_CHANNELS * eight->first[4] + texels.s4, stored + NEPHROID_CHANNELS * eight->first[5] + texels.s5,
+        stored + NEPHROID_CHANNELS * eight->first[6] + texels.s6, stored + NEPHROID_CHANNELS * eight->first[7] + texels.s7};
+    const size_t low = NEPHROID_CHANNELS * lower, high = NEPHROID_CHANNELS * upper;
+    EightCaustics caustics = eight_between(between_columns(at, low, u), between_columns(at, low + row_items, u), v);
+    if (shell.part > 0.0f)
+      caustics = eight_between(caustics, eight_between(between_columns(at, high, u), between_columns(at, high + row_items, u), v),
+                               (float8)(shell.part));
+    float8 factors = 1.0f;
+    if (normal) {
+      const int8 nearest = convert_int8(rows + 0.5f) * stride + convert_int8(columns + 0.5f);
+      factors = eight_factors(maps, eight, shell.part > 0.5f ? upper : lower, nearest, x, y, z, row_of_eight(eight, 0, *normal),
+                              row_of_eight(eight, 1, *normal), row_of_eight(eight, 2, *normal));
+    }
+    red += factors * vload8(0, eight->flux[0]) * caustics.channels[0];
+    green += factors * vload8(0, eight->flux[1]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 1 : 0];
+    blue += factors * vload8(0, eight->flux[2]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 2 : 0];
+  }
+  return spheres->scale * (float3)(sum_of_eight(red), sum_of_eight(green), sum_of_eight(blue));
+}
+
+// The same of what compile.cl has made of all sets: [sphere][texel of the stored form][3], linear sRGB, in coordinates of the object.
 static inline float3 compiled_caustic(__global const float* compiled, const DeviceSpheres* spheres, float3 in_object, Shell shell)
 {
-  const SphereTexels four = sphere_texels(in_object, spheres->side);
-  const size_t texels = (size_t)(spheres->side * spheres->side);
-  __global const float* lower = compiled + 3 * texels * (size_t)shell.lower;
-  __global const float* upper = compiled + 3 * texels * (size_t)shell.upper;
-  const int t[4] = {four.texels.x, four.texels.y, four.texels.z, four.texels.w};
-  const float w[4] = {four.weights.x, four.weights.y, four.weights.z, four.weights.w};
+  float column, row;
+  stored_place(in_object.x, in_object.y, in_object.z, (float)spheres->side, &column, &row);
+  const int stride = spheres->side + 2, left = (int)column, top = (int)row;
+  const float u = column - (float)left, v = row - (float)top;
+  const size_t map_items = 3 * (size_t)(stride * stride), at = 3 * (size_t)(top * stride + left);
+  __global const float* lower = compiled + (size_t)shell.lower * map_items + at;
+  __global const float* upper = compiled + (size_t)shell.upper * map_items + at;
+  const int t[4] = {0, 1, stride, stride + 1};
+  const float w[4] = {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v};
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < 4; ++i) {
     const float3 a = vload3((size_t)t[i], lower);

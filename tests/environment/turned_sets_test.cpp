@@ -18,15 +18,6 @@ using namespace nephroid::environment;
 
 constexpr int some = 300; ///< directions, even on the sphere
 
-glm::dvec3 vector_of(const shared::float4& v) { return {v.x, v.y, v.z}; }
-
-/// What a set does to a direction of the scene.
-glm::dvec3 to_bake(const shared::DeviceTurnedSet& set, const glm::dvec3& direction)
-{
-  return {glm::dot(vector_of(set.to_bake[0]), direction), glm::dot(vector_of(set.to_bake[1]), direction),
-          glm::dot(vector_of(set.to_bake[2]), direction)};
-}
-
 /// The largest element of m m^T - 1, and how far the determinant is from 1.
 double off_a_rotation(const glm::dmat3& m)
 {
@@ -136,11 +127,10 @@ TEST(TurnedSets, TakeTheLightToItsBakedDirections)
     for (int i = 0; i < some; ++i) {
       const DistantLight light{scene::even_direction(i, some), {1, 2, 0.5}};
       glm::dvec3 flux(0);
-      for (const shared::DeviceTurnedSet& set : turned_sets({light}, rotation, count)) {
-        EXPECT_LT(glm::distance(to_bake(set, light.direction), baked[static_cast<std::size_t>(set.direction)]), 1e-6);
-        const glm::dmat3 rows(vector_of(set.to_bake[0]), vector_of(set.to_bake[1]), vector_of(set.to_bake[2]));
-        EXPECT_LT(off_a_rotation(rows), 1e-6);
-        flux += vector_of(set.flux);
+      for (const TurnedSet& set : turned_sets({light}, rotation, count)) {
+        EXPECT_LT(glm::distance(set.to_bake * light.direction, baked[static_cast<std::size_t>(set.direction)]), 1e-6);
+        EXPECT_LT(off_a_rotation(set.to_bake), 1e-6);
+        flux += set.flux;
       }
       EXPECT_LT(glm::distance(flux, light.irradiance), 1e-6);
     }
@@ -152,11 +142,11 @@ TEST(TurnedSets, ABakedLightIsNotTurned)
 {
   const std::vector<glm::dvec3> baked = light_directions(26);
   for (const glm::dvec3& direction : baked)
-    for (const shared::DeviceTurnedSet& set : turned_sets({{direction, glm::dvec3(1)}}, glm::dmat3(1), 26)) {
-      if (set.flux.x < 1e-6F) continue;
+    for (const TurnedSet& set : turned_sets({{direction, glm::dvec3(1)}}, glm::dmat3(1), 26)) {
+      if (set.flux.x < 1e-6) continue;
       EXPECT_EQ(glm::dvec3(set.flux.x), glm::dvec3(1));
       for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
-        EXPECT_LT(glm::distance(to_bake(set, axis), axis), 1e-6);
+        EXPECT_LT(glm::distance(set.to_bake * axis, axis), 1e-6);
     }
 }
 
@@ -174,7 +164,7 @@ TEST(TurnedSets, TheObjectTurnedWithItsLight)
       EXPECT_NEAR(a[k].flux.x, b[k].flux.x, 1e-6);
       for (int n = 0; n < 10; ++n) {
         const glm::dvec3 d = scene::even_direction(n, 10);
-        EXPECT_LT(glm::distance(to_bake(a[k], d), to_bake(b[k], turn * d)), 1e-6);
+        EXPECT_LT(glm::distance(a[k].to_bake * d, b[k].to_bake * (turn * d)), 1e-6);
       }
     }
   }
@@ -187,14 +177,14 @@ TEST(DrawnSets, InTheMeanAreTheTurnedSets)
   const glm::dmat3 rotation = scene::rotation({20, -70, 130});
   std::vector<DistantLight> lights;
   for (int i = 0; i < 7; ++i) lights.push_back({scene::even_direction(i, 7), {1.0 + i, 2, 0.5}});
-  const auto add = [](std::vector<glm::dvec3>& sums, const std::vector<shared::DeviceTurnedSet>& sets, double weight) {
-    for (const shared::DeviceTurnedSet& set : sets) sums[static_cast<std::size_t>(set.direction)] += weight * vector_of(set.flux);
+  const auto add = [](std::vector<glm::dvec3>& sums, const std::vector<TurnedSet>& sets, double weight) {
+    for (const TurnedSet& set : sets) sums[static_cast<std::size_t>(set.direction)] += weight * set.flux;
   };
   for (const DistantLight& light : lights) {
     std::vector<glm::dvec3> all(count), drawn(count);
     add(all, turned_sets({light}, rotation, count), 1);
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
-      const std::vector<shared::DeviceTurnedSet> one = drawn_sets({light}, rotation, count, pass);
+      const std::vector<TurnedSet> one = drawn_sets({light}, rotation, count, pass);
       ASSERT_EQ(one.size(), 1u);
       add(drawn, one, 1.0 / passes);
     }
@@ -202,9 +192,9 @@ TEST(DrawnSets, InTheMeanAreTheTurnedSets)
   }
   // Together as each alone, and black ones are left out.
   lights[2].irradiance = glm::dvec3(0);
-  const std::vector<shared::DeviceTurnedSet> sets = drawn_sets(lights, rotation, count, 5);
+  const std::vector<TurnedSet> sets = drawn_sets(lights, rotation, count, 5);
   ASSERT_EQ(sets.size(), 6u);
-  EXPECT_LT(glm::distance(to_bake(sets[3], lights[4].direction), light_directions(count)[static_cast<std::size_t>(sets[3].direction)]),
+  EXPECT_LT(glm::distance(sets[3].to_bake * lights[4].direction, light_directions(count)[static_cast<std::size_t>(sets[3].direction)]),
             1e-6);
 }
 

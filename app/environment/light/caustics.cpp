@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 namespace nephroid::environment {
 namespace {
@@ -16,6 +17,9 @@ namespace {
 constexpr std::size_t group = 32;
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+
+/// Texels of a map in its stored form.
+std::size_t stored_texels(int side) { return static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2); }
 
 /// [number]: the unit way of Bake::ways.
 std::vector<shared::float4> all_ways()
@@ -25,34 +29,90 @@ std::vector<shared::float4> all_ways()
   return ways;
 }
 
-/// Half floats as the upper halves of floats.
-std::vector<std::uint16_t> upper_halves(const std::vector<std::uint16_t>& halves)
+/// texel_of_stored of kernels/environment/spheres.h, for all.
+std::vector<std::size_t> texels_of_stored(int side)
+{
+  std::vector<std::size_t> texels;
+  const int last = side - 1;
+  for (int row = -1; row <= side; ++row)
+    for (int column = -1; column <= side; ++column) {
+      const bool across = column < 0 || column > last, down = row < 0 || row > last;
+      const int x = std::clamp(column, 0, last), y = std::clamp(row, 0, last);
+      texels.push_back(static_cast<std::size_t>(across ? last - y : y) * static_cast<std::size_t>(side) +
+                       static_cast<std::size_t>(down ? last - x : x));
+    }
+  return texels;
+}
+
+/// Half floats as the upper halves of floats, by half float.
+std::vector<std::uint16_t> upper_halves()
 {
   std::vector<std::uint16_t> of(std::size_t{1} << 16);
   for (std::size_t half = 0; half < of.size(); ++half) {
     const auto bits = std::bit_cast<std::uint32_t>(glm::unpackHalf1x16(static_cast<std::uint16_t>(half)));
     of[half] = static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16); // to the nearest, ties to even
   }
-  std::vector<std::uint16_t> upper(halves.size());
-  for_ranges(halves.size(), 1 << 20, [&](std::size_t, const Range& range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) upper[i] = of[halves[i]];
+  return of;
+}
+
+/// [map][texel][channel] of maps with `side` texels a side, as kernels read it: each number by of(number).
+template <class Of>
+std::vector<std::uint16_t> stored_form(const std::vector<std::uint16_t>& items, int side, std::size_t channels, const Of& of)
+{
+  const std::vector<std::size_t> texels = texels_of_stored(side);
+  const std::size_t map_items = static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * channels, maps = items.size() / map_items;
+  std::vector<std::uint16_t> stored(maps * texels.size() * channels);
+  for_blocks(maps, [&](std::size_t map) {
+    const std::uint16_t* from = items.data() + map * map_items;
+    std::uint16_t* to = stored.data() + map * texels.size() * channels;
+    for (const std::size_t texel : texels)
+      for (std::size_t c = 0; c < channels; ++c) *to++ = of(from[texel * channels + c]);
   });
-  return upper;
+  return stored;
+}
+
+std::vector<std::uint16_t> stored_light(const Bake& bake)
+{
+  const std::vector<std::uint16_t> upper = upper_halves();
+  return stored_form(bake.halves, bake.map.side, static_cast<std::size_t>(bake.channels), [&](std::uint16_t half) { return upper[half]; });
+}
+
+std::vector<std::uint16_t> stored_ways(const Bake& bake)
+{
+  return stored_form(bake.ways, bake.map.side, 1, [](std::uint16_t way) { return way; });
+}
+
+/// Eight after eight. first_texel: of a direction among all that are stored. own: whether they are lights' own directions.
+template <class FirstTexel>
+void add_eights(std::vector<shared::DeviceEightSets>& eights, std::span<const TurnedSet> sets, const FirstTexel& first_texel, bool own)
+{
+  for (std::size_t i = 0; i < (sets.size() + 7) / 8 * 8; ++i) {
+    const bool missing = i >= sets.size();
+    const TurnedSet& set = missing ? sets.back() : sets[i];
+    const std::size_t lane = i % 8;
+    if (lane == 0) eights.emplace_back();
+    shared::DeviceEightSets& eight = eights.back();
+    for (int k = 0; k < 9; ++k) eight.to_bake[k][lane] = static_cast<float>(set.to_bake[k % 3][k / 3]); // glm has columns
+    for (int c = 0; c < 3; ++c) eight.flux[c][lane] = missing ? 0.0F : static_cast<float>(set.flux[c]);
+    eight.first[lane] = first_texel(set.direction);
+    eight.own = own ? 1 : 0;
+  }
 }
 
 } // namespace
 
 Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, const std::vector<double>& own_radii)
-    : context_(context),
-      directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
-                                                                      static_cast<float>(Bake::unit * bake.size * bake.size),
-                                                                      static_cast<int>(own_radii.size())},
-      stored_(context, "caustic spheres", bake.sphere_items() * maps(own)),
-      ways_(context, "ways through spheres", bake.map.texels() * maps(own)), way_of_(tracing::upload_vector(context, "ways", all_ways())),
-      radii_(context, "radii", bake.radii.size() + own_radii.size()), sets_(context, "turned sets", 1)
+    : context_(context), directions_(static_cast<int>(bake.directions.size())),
+      channels_(static_cast<std::size_t>(bake.channels)), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
+                                                                   static_cast<float>(Bake::unit * bake.size * bake.size),
+                                                                   static_cast<int>(own_radii.size())},
+      stored_(context, "caustic spheres", stored_texels(bake.map.side) * maps(own) * channels_),
+      ways_(context, "ways through spheres", stored_texels(bake.map.side) * maps(own)),
+      way_of_(tracing::upload_vector(context, "ways", all_ways())), radii_(context, "radii", bake.radii.size() + own_radii.size()),
+      sets_(context, "turned sets", 1)
 {
-  stored_.write(upper_halves(bake.halves));
-  ways_.write(bake.ways);
+  stored_.write(stored_light(bake));
+  ways_.write(stored_ways(bake));
   radii_.write(std::vector<float>(bake.radii.begin(), bake.radii.end()));
   radii_.write(std::vector<float>(own_radii.begin(), own_radii.end()), bake.radii.size());
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
@@ -65,8 +125,9 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
 void Caustics::set_own(const Bake& own)
 {
   own_ = own.directions;
-  stored_.write(upper_halves(own.halves), maps(0) * own.sphere_items());
-  ways_.write(own.ways, maps(0) * own.map.texels());
+  const std::size_t first = stored_texels(spheres_.side) * maps(0);
+  stored_.write(stored_light(own), first * channels_);
+  ways_.write(stored_ways(own), first);
 }
 
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
@@ -85,16 +146,20 @@ std::size_t Caustics::maps(int own) const
          static_cast<std::size_t>(own) * static_cast<std::size_t>(spheres_.own_count);
 }
 
-void Caustics::upload(std::vector<shared::DeviceTurnedSet> sets, const glm::dmat3& rotation)
+void Caustics::upload(std::vector<TurnedSet> sets, const glm::dmat3& rotation)
 {
-  for (shared::DeviceTurnedSet& set : sets) {
-    const int own = set.direction - directions_;
-    set.own = own >= 0 ? 1 : 0;
-    set.first_map = own >= 0 ? static_cast<int>(maps(own)) : set.direction * spheres_.count;
-  }
-  if (sets.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceTurnedSet>(context_, "turned sets", sets.size());
-  if (!sets.empty()) sets_.write(sets);
-  used_sets_ = static_cast<int>(sets.size());
+  const auto first_texel = [&](int direction) {
+    const int own = direction - directions_;
+    const std::size_t map = own >= 0 ? maps(own) : static_cast<std::size_t>(direction) * static_cast<std::size_t>(spheres_.count);
+    return map * stored_texels(spheres_.side);
+  };
+  const auto own = std::stable_partition(sets.begin(), sets.end(), [&](const TurnedSet& set) { return set.direction < directions_; });
+  std::vector<shared::DeviceEightSets> eights;
+  add_eights(eights, {sets.begin(), own}, first_texel, false);
+  add_eights(eights, {own, sets.end()}, first_texel, true);
+  if (eights.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
+  if (!eights.empty()) sets_.write(eights);
+  used_eights_ = static_cast<int>(eights.size());
   compiled_.object_x = to_float4(rotation[0]);
   compiled_.object_y = to_float4(rotation[1]);
   compiled_.object_z = to_float4(rotation[2]);
@@ -103,15 +168,17 @@ void Caustics::upload(std::vector<shared::DeviceTurnedSet> sets, const glm::dmat
 void Caustics::compile(int side)
 {
   compiled_.spheres = {spheres_.count, side, 1, 0};
-  const std::size_t items = static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * static_cast<std::size_t>(spheres_.count);
+  const std::size_t items = stored_texels(side) * static_cast<std::size_t>(spheres_.count);
   if (compiled_.texels.size() < 3 * items) compiled_.texels = compute::Buffer<float>(context_, "compiled spheres", 3 * items);
   const std::uint32_t first = 0;
   const auto count = static_cast<std::uint32_t>(items);
   compile_.run(count, group,
                {{"stored", stored_},
+                {"ways", ways_},
+                {"way_of", way_of_},
                 {"radii", radii_},
                 {"sets", sets_},
-                {"set_count", used_sets_},
+                {"eights", used_eights_},
                 {"spheres", spheres_},
                 {"object_x", compiled_.object_x},
                 {"object_y", compiled_.object_y},
@@ -131,7 +198,7 @@ void Caustics::cast_direct(const CastTexels& texels, std::uint32_t first, std::u
                {"way_of", way_of_},
                {"radii", radii_},
                {"sets", sets_},
-               {"set_count", used_sets_},
+               {"eights", used_eights_},
                {"spheres", spheres_},
                {"list", *texels.list},
                {"first", first},

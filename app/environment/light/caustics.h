@@ -4,6 +4,7 @@
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
 #include "environment/light/turned_sets.h"
+#include "kernels/environment/render_types.h"
 #include "tracing/step_size.h"
 
 #include <cstdint>
@@ -56,19 +57,20 @@ public:
   int side() const { return spheres_.side; } ///< of the bake's maps
 
 private:
-  void upload(std::vector<shared::DeviceTurnedSet> sets, const glm::dmat3& rotation);
+  void upload(std::vector<TurnedSet> sets, const glm::dmat3& rotation);
   std::size_t maps(int own) const; ///< of all baked directions and so many of the lights' own
 
   compute::Context context_;
   int directions_;
+  std::size_t channels_;
   std::vector<glm::dvec3> own_; ///< baked for lights of their own, in the bake's coordinates
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_, ways_;
   compute::Buffer<shared::float4> way_of_; ///< [way_count]
   compute::Buffer<float> radii_;
   Compiled compiled_;
-  compute::Buffer<shared::DeviceTurnedSet> sets_;
-  int used_sets_ = 0; ///< of the buffer's
+  compute::Buffer<shared::DeviceEightSets> sets_;
+  int used_eights_ = 0; ///< of the buffer's
   compute::Kernel direct_, compile_, compiled_cast_;
 };
 

@@ -21,8 +21,6 @@ int cells_of(int count)
   return 2 * points.back().x;
 }
 
-shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
-
 /// For lights in the scene and a bake that is turned by `rotation`.
 class SetMaker {
 public:
@@ -33,12 +31,10 @@ public:
   }
 
   std::vector<NearDirection> near(const DistantLight& light) const { return near_directions(travel(light), count_, own_); }
-  shared::DeviceTurnedSet set(const DistantLight& light, const NearDirection& near) const
+  TurnedSet set(const DistantLight& light, const NearDirection& near) const
   {
     const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked_[static_cast<std::size_t>(near.direction)], travel(light))) * to_object_;
-    const glm::dmat3 rows = glm::transpose(to_bake); // glm has columns
-    return {
-        {to_float4(rows[0]), to_float4(rows[1]), to_float4(rows[2])}, to_float4(near.weight * light.irradiance), near.direction, 0, 0, 0};
+    return {to_bake, near.weight * light.irradiance, near.direction};
   }
 
 private:
@@ -109,7 +105,7 @@ std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& light
     const glm::dvec3 travel = glm::transpose(rotation) * light.direction;
     const bool is_baked =
         std::ranges::any_of(near_directions(travel, count), [](const NearDirection& near) { return near.weight > 1 - 1e-9; });
-    if (directions.size() < static_cast<std::size_t>(most) && strength(light) > 0.05 * all && !is_baked) directions.push_back(travel);
+    if (directions.size() < static_cast<std::size_t>(most) && strength(light) > 0.01 * all && !is_baked) directions.push_back(travel);
   }
   return directions;
 }
@@ -117,11 +113,11 @@ std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& light
 // The real part of glm's quaternion is rounded off where the vectors are nearly opposite: its length is wrong there, but its axis is right.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) { return glm::mat3_cast(glm::normalize(glm::rotation(from, to))); }
 
-std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                                 const std::vector<glm::dvec3>& own)
+std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                   const std::vector<glm::dvec3>& own)
 {
   const SetMaker maker(rotation, count, own);
-  std::vector<shared::DeviceTurnedSet> sets;
+  std::vector<TurnedSet> sets;
   for (const DistantLight& light : lights) {
     if (light.irradiance == glm::dvec3(0)) continue;
     for (const NearDirection& near : maker.near(light)) sets.push_back(maker.set(light, near));
@@ -129,11 +125,11 @@ std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>
   return sets;
 }
 
-std::vector<shared::DeviceTurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                                std::uint32_t pass, const std::vector<glm::dvec3>& own)
+std::vector<TurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, std::uint32_t pass,
+                                  const std::vector<glm::dvec3>& own)
 {
   const SetMaker maker(rotation, count, own);
-  std::vector<shared::DeviceTurnedSet> sets;
+  std::vector<TurnedSet> sets;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].irradiance == glm::dvec3(0)) continue;
     const std::vector<NearDirection> near = maker.near(lights[i]);

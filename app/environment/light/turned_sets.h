@@ -2,7 +2,6 @@
 // Which baked directions stand for a light, and how their caustic spheres are turned to fit it (thesis 3.2.1).
 #pragma once
 #include "environment/light/distant_lights.h"
-#include "kernels/environment/render_types.h"
 
 #include <glm/glm.hpp>
 
@@ -10,6 +9,13 @@
 #include <vector>
 
 namespace nephroid::environment {
+
+/// Caustics that one light makes by one baked direction: its spheres, turned so that they fit the light.
+struct TurnedSet {
+  glm::dmat3 to_bake{1}; ///< from the scene into the coordinates of that direction's spheres
+  glm::dvec3 flux{0};    ///< linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
+  int direction = 0;     ///< of the bake
+};
 
 struct NearDirection {
   int direction = 0; ///< of light_directions(count), then of the lights' own
@@ -37,11 +43,11 @@ glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
 
 /// The sets of all lights. rotation: from the bake's coordinates to the scene's. count: of baked directions. own: further ones, unit, in
 /// the bake's coordinates. Black lights have none.
-std::vector<shared::DeviceTurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                                 const std::vector<glm::dvec3>& own = {});
+std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                   const std::vector<glm::dvec3>& own = {});
 
 /// The same with one set a light, which stands for all of its near directions: each has its turn in as many passes as its weight asks for.
-std::vector<shared::DeviceTurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                                std::uint32_t pass, const std::vector<glm::dvec3>& own = {});
+std::vector<TurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, std::uint32_t pass,
+                                  const std::vector<glm::dvec3>& own = {});
 
 } // namespace nephroid::environment
