@@ -40,6 +40,15 @@ inline environment::Bake bake_of(const preset::Preset& preset, std::vector<glm::
   return baker.take();
 }
 
+/// Fills Bake::ways as if all light came from the middle.
+inline void make_radial(environment::Bake& bake)
+{
+  bake.ways.clear();
+  for (std::size_t map = 0; map < bake.baked.size() * bake.radii.size(); ++map)
+    for (std::size_t t = 0; t < bake.map.texels(); ++t)
+      bake.ways.push_back(static_cast<std::uint16_t>(environment::Bake::way_map.texel(bake.map.direction(t))));
+}
+
 /// Sum over a sphere of E r^2 over size^2 times the solid angle: the power through it, for each channel.
 inline glm::dvec3 power_through(const environment::Bake& bake, std::size_t direction, std::size_t sphere)
 {

@@ -41,6 +41,7 @@ Bake made_bake(int side, int channels, const std::vector<double>& radii, const O
         const glm::dvec3 value = of(i, radius, bake.map.direction(t));
         for (int c = 0; c < channels; ++c) bake.halves.push_back(to_half(value[c] / Bake::unit));
       }
+  test::make_radial(bake);
   return bake;
 }
 
@@ -50,8 +51,14 @@ public:
   Cast(const Bake& bake, int size)
       : caustics(bake, test::bake_context()), size_(size), count_(6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size)),
         list_(test::bake_context(), "list", count_), distances_(test::bake_context(), "distances", count_),
-        sums_(test::bake_context(), "caustics", 3 * count_)
+        normals_(test::bake_context(), "normals", count_), sums_(test::bake_context(), "caustics", 3 * count_)
   {
+    std::vector<shared::float4> normals;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const glm::vec3 normal(-direction(i));
+      normals.push_back({normal.x, normal.y, normal.z, 0});
+    }
+    normals_.write(normals);
     std::vector<std::uint32_t> all(count_);
     std::iota(all.begin(), all.end(), 0U);
     list_.write(all);
@@ -74,7 +81,7 @@ private:
   std::vector<glm::dvec3> cast(double distance, void (Caustics::*by)(const CastTexels&, std::uint32_t, std::uint32_t))
   {
     distances_.write(std::vector<float>(count_, static_cast<float>(distance)));
-    (caustics.*by)({&list_, &distances_, &sums_, size_}, 0, static_cast<std::uint32_t>(count_));
+    (caustics.*by)({&list_, &distances_, &normals_, &sums_, size_}, 0, static_cast<std::uint32_t>(count_));
     const std::vector<float> read = sums_.read();
     std::vector<glm::dvec3> values;
     for (std::size_t i = 0; i < count_; ++i) values.emplace_back(read[3 * i], read[3 * i + 1], read[3 * i + 2]);
@@ -84,7 +91,9 @@ private:
   int size_;
   std::size_t count_;
   compute::Buffer<std::uint32_t> list_;
-  compute::Buffer<float> distances_, sums_;
+  compute::Buffer<float> distances_;
+  compute::Buffer<shared::float4> normals_; ///< towards the middle
+  compute::Buffer<float> sums_;
 };
 
 /// Largest and root mean square distance from of(direction), over the mean of it.

@@ -31,6 +31,7 @@ Bake even_bake(double size)
   bake.directions = environment::light_directions(26);
   bake.baked.resize(26);
   bake.halves.assign(26 * bake.direction_items(), environment::to_half(even / Bake::unit));
+  make_radial(bake);
   return bake;
 }
 
