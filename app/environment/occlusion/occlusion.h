@@ -32,8 +32,8 @@ public:
   std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
 
   /// A part of each light instead of all of it: the cell of its region that is the `pass`th of a sequence over all of them, with as much
-  /// light as all cells would have were they like this one; none where visible_lights() found the cell hidden. The mean over passes is all
-  /// light that is seen, each part from its own direction.
+  /// light as all cells would have were they like this one; none where visible_lights() found the cell hidden. The mean over passes goes
+  /// towards all light that is seen, each part from its own direction.
   std::vector<VisibleLight> drawn_lights(std::uint32_t pass) const;
 
 private:
