@@ -158,6 +158,22 @@ TEST_F(EnvironmentView, WhatIsHiddenFromTheObjectHasNoCaustic)
   EXPECT_EQ(under_floor, 0);
 }
 
+// A board above the ball, beside its axis or over it: the ball's middle sees the lamp, or not. A second lamp shines from the side.
+TEST_F(EnvironmentView, ALampThatIsHiddenFromTheObjectThrowsNoCaustic)
+{
+  const auto caustic = [&](double board, const std::vector<preset::Light>& lights) {
+    preset::Preset p = ball_and(facing_quad("floor", {0, -2, 0}, {0, 1, 0}, 8) + ", " + facing_quad("board", {board, 3, 0}, {0, 1, 0}, 2));
+    p.scene.lights = lights;
+    look(p, {3, -1.5, 0}, {0, -2, 0}, 20);
+    return mean(layer(run(p), "caustic")).y;
+  };
+  const preset::Light above = lamp({0, -1, 0}), side = lamp({1, -1, 0});
+  const double free = caustic(1.5, {above}), both = caustic(1.5, {above, side});
+  EXPECT_GT(free, 0.01);
+  EXPECT_EQ(caustic(0, {above}), 0);
+  EXPECT_NEAR(caustic(0, {above, side}), both - free, 0.02 * both);
+}
+
 /// Of the first lamp, W/m^2 of Y.
 double y_of_lamp(const preset::Preset& p) { return environment::lamps(scene::load_scene(p)).at(0).irradiance.y; }
 

@@ -45,7 +45,6 @@ Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmen
   std::vector<shared::float4> directions;
   for (const LightSample& sample : samples_) directions.push_back(to_float4(sample.direction));
   directions_ = tracing::upload_vector(context, "directions of the environment's light", directions);
-  seen_ = compute::Buffer<std::uint8_t>(context, "what is seen of the environment", directions.size());
 }
 
 std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
@@ -53,7 +52,7 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
   const bool empty = surroundings.buffers.object_of_primitive.size() == 0;
   is_seen_.clear();
   if (empty || whole_.empty()) return whole_;
-  is_seen_ = trace(surroundings, rotate_deg, from);
+  is_seen_ = sight_.free(surroundings, directions_, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> visible = whole_;
   for (std::size_t light = 0; light < visible.size(); ++light) {
@@ -90,15 +89,18 @@ std::vector<VisibleLight> Occlusion::drawn_lights(std::uint32_t pass) const
   return drawn;
 }
 
-std::vector<std::uint8_t> Occlusion::trace(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
+std::vector<std::uint8_t> Sight::free(tracing::World& surroundings, const compute::Buffer<shared::float4>& directions, double rotate_deg,
+                                      const glm::dvec3& from)
 {
   if (!kernel_.state || defines_ != surroundings.defines) {
     kernel_ = compute::Program(surroundings.context, "environment/visible.cl", surroundings.defines).kernel("visible");
     defines_ = surroundings.defines;
   }
-  const auto count = static_cast<std::uint32_t>(directions_.size());
+  if (seen_.size() != directions.size())
+    seen_ = compute::Buffer<std::uint8_t>(surroundings.context, "what is seen of the environment", directions.size());
+  const auto count = static_cast<std::uint32_t>(directions.size());
   surroundings.run(kernel_, count, 64,
-                   {{"directions", directions_},
+                   {{"directions", directions},
                     {"seen", seen_},
                     {"count", count},
                     {"from", to_float4(from)},

@@ -109,6 +109,7 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
   if (task_.has_surroundings) {
     surroundings_ = surroundings_world(context, task_.surroundings);
     receivers_kernel_ = compute::Program(context, "environment/receivers.cl", surroundings_->defines).kernel("receivers");
+    if (!task_.lamps.empty()) task_.lamps = seen_lights(std::move(task_.lamps), *surroundings_, task_.placement.middle);
   }
   if (!task_.segmentation.lights.empty()) occlusion_.emplace(context, task_.segmentation, task_.cube);
   see_ = compute::Program(context, "environment/see.cl", world_.defines).kernel("see");
