@@ -5,6 +5,13 @@
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
+// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2 goes to 0.
+static inline float held(__global const float* radii, float distance)
+{
+  const float part = fmin(distance / radii[0], 1.0f);
+  return part * part;
+}
+
 // caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
 __kernel void cast_direct(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
                           __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, __global const uint* list, uint first,
@@ -19,7 +26,7 @@ __kernel void cast_direct(__global const ushort* stored, __global const ushort* 
     const Maps maps = {stored, ways, way_of};
     const Shells shells = shells_at(radii, &spheres, distance);
     const float3 normal = normals[texel].xyz;
-    caustic = caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size), &shells, &normal);
+    caustic = held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size), &shells, &normal);
   }
   vstore3(caustic, (size_t)texel, caustics);
 }
@@ -52,7 +59,8 @@ __kernel void cast_compiled(__global const float* compiled, __global const float
   if (distance < INFINITY) {
     const float3 d = cube_texel_direction(texel, size);
     const float3 in_object = (float3)(dot(object_x.xyz, d), dot(object_y.xyz, d), dot(object_z.xyz, d));
-    caustic = compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance)) * fmax(-dot(normals[texel].xyz, d), 0.0f);
+    const float cosine = fmax(-dot(normals[texel].xyz, d), 0.0f);
+    caustic = (held(radii, distance) * cosine) * compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance));
   }
   vstore3(caustic, (size_t)texel, caustics);
 }
