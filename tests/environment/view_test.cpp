@@ -74,7 +74,7 @@ Furnace furnace(job::Job& job, preset::Preset& p)
 // gaps between their cones of light, but in the mean over all directions each light's power is exact (caustics_test.cpp).
 TEST_F(EnvironmentView, AWhiteFurnaceStaysWhite)
 {
-  preset::Preset p = furnace_scene({"scene.camera.resolution=[24, 24]", "environment.refine=false"});
+  preset::Preset p = furnace_scene({"scene.camera.resolution=[24, 24]", "environment.refine=false", "leave_out=false"});
   const auto job = job_of(p);
   for (const int lights : {8, 24, 64}) {
     environment::settings(p).lights = lights;
@@ -96,7 +96,7 @@ TEST_F(EnvironmentView, AWhiteFurnaceStaysWhite)
 // With passes that take other directions of each light's region the gaps are filled, even between as few lights.
 TEST_F(EnvironmentView, PassesFillTheGapsBetweenLights)
 {
-  preset::Preset p = furnace_scene({"scene.camera.resolution=[8, 8]", "environment.lights=8", "stop.passes=24"});
+  preset::Preset p = furnace_scene({"scene.camera.resolution=[8, 8]", "environment.lights=8", "stop.passes=24", "leave_out=false"});
   const Furnace f = furnace(*job_of(p), p);
   double most = 0;
   for (const double caustic : f.caustic) most = std::max(most, std::abs(caustic - hidden));
