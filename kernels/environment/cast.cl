@@ -47,6 +47,25 @@ __kernel void compile(__global const ushort* stored, __global const ushort* ways
   vstore3(caustic_of_sets(&maps, &spheres, sets, eights, direction, &shells, 0), (size_t)item, compiled);
 }
 
+// The same of light in the air: compiled_air in spheres.h.
+__kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
+                          __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
+                          float4 object_z, int side, uint first, uint count, __global float* air)
+{
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint item = first + index, texels = (uint)((side + 2) * (side + 2));
+  const Maps maps = {stored, ways, way_of};
+  const Shells shells = shells_at(radii, &spheres, radii[item / texels]);
+  const float3 d = sphere_direction(texel_of_stored((int)(item % texels), side), side);
+  const float3 direction = d.x * object_x.xyz + d.y * object_y.xyz + d.z * object_z.xyz;
+  AirLight light = {(float3)(0.0f), (float3)(0.0f)};
+  for (int i = 0; i < eights; ++i)
+    for (int k = 0; k < 8; ++k) add_air(&light, &maps, &spheres, sets + i, k, direction, shells.of[sets[i].own]);
+  vstore3(light.rgb, 2 * (size_t)item, air);
+  vstore3(light.way, 2 * (size_t)item + 1, air);
+}
+
 __kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,
                             float4 object_z, __global const uint* list, uint first, uint count, int size, __global const float* distances,
                             __global const float4* normals, __global float* caustics)

@@ -37,15 +37,9 @@ struct MediumScene {
   std::function<double(double cosine)> phase{};
 };
 
-/// What becomes of light on its way.
-enum class Photons {
-  real,   ///< as it is
-  stored, ///< as caustic spheres have it: power through a sphere, not along the photon's way, and as if it came from the middle
-};
-
 class MediumPhotons {
 public:
-  MediumPhotons(const MediumScene& scene, Photons rule) : s_(scene), rule_(rule), forward_(glm::normalize(-scene.eye))
+  explicit MediumPhotons(const MediumScene& scene) : s_(scene), forward_(glm::normalize(-scene.eye))
   {
     right_ = glm::normalize(glm::cross(forward_, glm::dvec3(0, 1, 0)));
     up_ = glm::cross(right_, forward_);
@@ -126,20 +120,13 @@ private:
   void deposit(std::vector<double>& film, const glm::dvec3& from, const glm::dvec3& way, double power, int pieces, Random& random) const
   {
     const double foot = -glm::dot(from, way);
-    double length = foot + std::sqrt(foot * foot + s_.largest * s_.largest - glm::dot(from, from));
-    if (rule_ == Photons::real) length = std::min(length, meets_screen(from, way));
+    const double length = std::min(foot + std::sqrt(foot * foot + s_.largest * s_.largest - glm::dot(from, from)), meets_screen(from, way));
     const double offset = uniform(random), piece = length / pieces;
     for (int i = 0; i < pieces; ++i) scatter(film, from + (i + offset) * piece * way, way, power * piece);
   }
 
-  void scatter(std::vector<double>& film, const glm::dvec3& place, glm::dvec3 way, double power_times_way) const
+  void scatter(std::vector<double>& film, const glm::dvec3& place, const glm::dvec3& way, double power_times_way) const
   {
-    if (rule_ == Photons::stored) {
-      if (meets_screen(glm::dvec3(0), place) < 1) return;
-      const glm::dvec3 outwards = glm::normalize(place);
-      power_times_way *= std::abs(glm::dot(way, outwards));
-      way = outwards;
-    }
     const glm::dvec3 to_place = place - s_.eye;
     const double distance = glm::length(to_place), depth = glm::dot(to_place, forward_), cosine = depth / distance;
     const double x = (glm::dot(to_place, right_) / depth / tan_ + 1) / 2, y = (1 - glm::dot(to_place, up_) / depth / tan_) / 2;
@@ -153,7 +140,6 @@ private:
   }
 
   MediumScene s_;
-  Photons rule_;
   glm::dvec3 forward_, right_{0}, up_{0};
   double tan_ = 1;
 };

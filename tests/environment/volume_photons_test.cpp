@@ -85,12 +85,17 @@ Bake bake_for(const preset::Preset& preset, const glm::dvec3& light)
   whole.directions = task.directions;
   whole.baked.resize(task.directions.size());
   whole.halves.assign(whole.direction_items() * task.directions.size(), 0);
+  whole.ways.assign(whole.direction_texels() * task.directions.size(), 0);
   std::vector<glm::dvec3> wanted;
   for (const environment::NearDirection& direction : near) wanted.push_back(task.directions[static_cast<std::size_t>(direction.direction)]);
   const Bake made = bake_of(preset, wanted);
-  for (std::size_t i = 0; i < near.size(); ++i)
-    std::copy_n(made.halves.begin() + static_cast<std::ptrdiff_t>(i * made.direction_items()), made.direction_items(),
-                whole.halves.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(near[i].direction) * made.direction_items()));
+  const auto copy = [&](const std::vector<std::uint16_t>& from, std::vector<std::uint16_t>& to, std::size_t items) {
+    for (std::size_t i = 0; i < near.size(); ++i)
+      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * items), items,
+                  to.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(near[i].direction) * items));
+  };
+  copy(made.halves, whole.halves, made.direction_items());
+  copy(made.ways, whole.ways, made.direction_texels());
   return whole;
 }
 
@@ -130,7 +135,7 @@ void draw(const std::string& name, std::size_t size, const std::vector<Picture>&
 }
 
 struct Compared {
-  double real = 0, stored = 0, noise = 0, power = 0;
+  double rel_l2 = 0, noise = 0, power = 0; ///< noise: of two references; power: of all pixels, over the reference's
 };
 
 /// photons: of the references.
@@ -144,54 +149,43 @@ Compared compare(const std::string& name, MediumScene s, const Phase& phase, con
   s.light = glm::normalize(s.light);
   const preset::Preset p = preset_of(s, phase, spheres);
   const Picture found = seen(p, bake_for(p, s.light));
-  const Picture real = MediumPhotons(s, Photons::real).picture(photons, 1), again = MediumPhotons(s, Photons::real).picture(photons, 2),
-                stored = MediumPhotons(s, Photons::stored).picture(photons, 3);
+  const Picture real = MediumPhotons(s).picture(photons, 1), again = MediumPhotons(s).picture(photons, 2);
   if (pictures_folder())
     draw(fmt::format("{}-{}-{}", name, spheres.count, spheres.directions), static_cast<std::size_t>(s.size), {real, found});
-  const Compared c{rel_l2(found, real), rel_l2(found, stored), rel_l2(again, real), sum_of(found) / sum_of(real)};
-  fmt::print(
-      "{}, s = {}, {} directions: rel_l2 {:.3f} (noise {:.3f}), power {:.3f}; against what spheres know of light {:.3f}; that itself "
-      "{:.3f}\n",
-      name, spheres.count, spheres.directions, c.real, c.noise, c.power, c.stored, rel_l2(stored, real));
+  const Compared c{rel_l2(found, real), rel_l2(again, real), sum_of(found) / sum_of(real)};
+  fmt::print("{}, s = {}, {} directions: rel_l2 {:.3f} (noise {:.3f}), power {:.3f}\n", name, spheres.count, spheres.directions, c.rel_l2,
+             c.noise, c.power);
+  EXPECT_LT(c.noise, 0.08);
   return c;
 }
 
-// Near the ball light crosses spheres aslant: it has more way in the air than spheres know, and another direction. The rest of the
-// difference is the renderer's own: what lies between spheres and between texels.
+void expect_near(const Compared& c, double rel_l2, double power)
+{
+  EXPECT_LT(c.rel_l2, rel_l2);
+  EXPECT_NEAR(c.power, 1, power);
+}
+
+// What is left is where light goes several ways in one texel, and what lies between spheres.
 TEST(VolumePhotons, ABall)
 {
-  for (const int s : {8, 16, 32}) {
-    const Compared c = compare("ball", {}, isotropic, {.count = s});
-    EXPECT_LT(c.noise, 0.03);
-    EXPECT_LT(c.stored, s == 8 ? 0.11 : 0.06);
-    EXPECT_LT(c.real, s == 8 ? 0.24 : 0.21);
-  }
+  for (const int s : {8, 16, 32}) expect_near(compare("ball", {}, isotropic, {.count = s}), s == 8 ? 0.17 : 0.14, 0.045);
 }
 
 TEST(VolumePhotons, PhaseFunctions)
 {
-  const Compared on = compare("forward", {}, forward), air = compare("rayleigh", {}, rayleigh);
-  EXPECT_LT(on.stored, 0.11);
-  EXPECT_LT(air.stored, 0.06);
-  EXPECT_LT(on.real, 0.53);
-  EXPECT_LT(air.real, 0.31);
+  expect_near(compare("forward", {}, forward), 0.28, 0.1);
+  expect_near(compare("rayleigh", {}, rayleigh), 0.19, 0.06);
 }
 
 // Its caustics are not those of another direction turned: more directions are nearer.
 TEST(VolumePhotons, AnEllipsoid)
 {
   const MediumScene s{.axes = {1, 0.7, 0.85}, .light = {0.3, -1, 0.2}};
-  const Compared few = compare("ellipsoid", s, isotropic), many = compare("ellipsoid", s, isotropic, {.directions = 98});
-  EXPECT_LT(few.real, 0.38);
-  EXPECT_LT(many.real, 0.3);
+  expect_near(compare("ellipsoid", s, isotropic), 0.36, 0.09);
+  expect_near(compare("ellipsoid", s, isotropic, {.directions = 98}), 0.26, 0.06);
 }
 
-// It stands in the beam and hides what lies behind it from the middle, which the spheres take for where all light comes from.
-TEST(VolumePhotons, AScreenInTheBeam)
-{
-  const Compared c = compare("screen", {.screen_y = -2, .screen_half = 0.5}, isotropic);
-  EXPECT_LT(c.stored, 0.07);
-  EXPECT_LT(c.real, 0.25);
-}
+// It stands in the beam. What it hides from the middle is dark, though some light goes by aslant.
+TEST(VolumePhotons, AScreenInTheBeam) { expect_near(compare("screen", {.screen_y = -2, .screen_half = 0.5}, isotropic), 0.19, 0.09); }
 
 } // namespace

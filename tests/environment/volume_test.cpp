@@ -25,12 +25,14 @@ constexpr double even = 0.25;             ///< E r^2 over size^2, everywhere
 Bake even_bake(double size)
 {
   Bake bake;
-  bake.map.side = 16;
+  bake.map.side = 128;
   bake.size = size;
   bake.radii = {1.1, 2, largest};
   bake.directions = environment::light_directions(26);
   bake.baked.resize(26);
   bake.halves.assign(26 * bake.direction_items(), environment::to_half(even / Bake::unit));
+  for (std::size_t i = 0; i < 26 * bake.direction_texels(); ++i)
+    bake.ways.push_back(static_cast<std::uint16_t>(Bake::way_map.texel(bake.map.direction(i % bake.map.texels()))));
   return bake;
 }
 
