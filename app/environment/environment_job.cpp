@@ -171,6 +171,9 @@ public:
   bool adopt(const preset::Preset& preset) override
   {
     if (!render_ || !adoptable(preset_, preset)) return false;
+    const preset::Preset turned = with_view_of(preset_, preset);
+    const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
+    if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
     if (renderer_) {
       show(preset);
       bake_seconds_ = render_seconds_ = 0; // another picture begins

@@ -44,15 +44,18 @@ std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask
 }
 
 /// Whether a person can see caustics at all, and by what light.
-std::vector<plan::Pass> view_passes(const RenderTask* render, const Settings& s)
+std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTask* render)
 {
+  const Settings& s = settings(preset);
   if (!render) return {{"view", false, "the scene has no light: only the spheres are shown"}};
   const std::size_t lights = render->segmentation.lights.size();
   const bool sky = render->cube.size > 0;
   std::vector<plan::Pass> passes;
-  passes.push_back({"segments", sky,
-                    sky ? fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))
-                        : "there is no environment, only lamps"});
+  const bool even = is_cut_evenly(preset, render->cube);
+  passes.push_back({"segments", sky && !even,
+                    !sky   ? "there is no environment, only lamps"
+                    : even ? fmt::format("the environment has one colour all around: {} equal lights", lights)
+                           : fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))});
   passes.push_back({"occlusion", sky && render->has_surroundings,
                     !sky                       ? "there is no environment"
                     : render->has_surroundings ? fmt::format("{} rays a light from the object's middle", samples_per_light(lights))
@@ -117,7 +120,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   const std::optional<std::string> fault = bake_file_fault(plan.bake_file, {plan.key, 0});
   plan.bakes = fault.has_value();
   plan.passes = {bake_pass(plan, s, fault), colours_pass(task)};
-  for (plan::Pass& pass : view_passes(plan.render.get(), s)) plan.passes.push_back(std::move(pass));
+  for (plan::Pass& pass : view_passes(preset, plan.render.get())) plan.passes.push_back(std::move(pass));
   for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
   plan.buffers = buffers_of(task, scene, plan.bakes);
   if (plan.render)

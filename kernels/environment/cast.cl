@@ -5,6 +5,13 @@
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
+// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2 goes to 0.
+static inline float held(__global const float* radii, float distance)
+{
+  const float part = fmin(distance / radii[0], 1.0f);
+  return part * part;
+}
+
 // caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
 __kernel void cast_direct(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
                           __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, __global const uint* list, uint first,
@@ -19,7 +26,7 @@ __kernel void cast_direct(__global const ushort* stored, __global const ushort* 
     const Maps maps = {stored, ways, way_of};
     const Shells shells = shells_at(radii, &spheres, distance);
     const float3 normal = normals[texel].xyz;
-    caustic = caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size), &shells, &normal);
+    caustic = held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size), &shells, &normal);
   }
   vstore3(caustic, (size_t)texel, caustics);
 }
@@ -40,6 +47,25 @@ __kernel void compile(__global const ushort* stored, __global const ushort* ways
   vstore3(caustic_of_sets(&maps, &spheres, sets, eights, direction, &shells, 0), (size_t)item, compiled);
 }
 
+// The same of light in the air: compiled_air in spheres.h.
+__kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
+                          __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
+                          float4 object_z, int side, uint first, uint count, __global float* air)
+{
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint item = first + index, texels = (uint)((side + 2) * (side + 2));
+  const Maps maps = {stored, ways, way_of};
+  const Shells shells = shells_at(radii, &spheres, radii[item / texels]);
+  const float3 d = sphere_direction(texel_of_stored((int)(item % texels), side), side);
+  const float3 direction = d.x * object_x.xyz + d.y * object_y.xyz + d.z * object_z.xyz;
+  AirLight light = {(float3)(0.0f), (float3)(0.0f)};
+  for (int i = 0; i < eights; ++i)
+    for (int k = 0; k < 8; ++k) add_air(&light, &maps, &spheres, sets + i, k, direction, shells.of[sets[i].own]);
+  vstore3(light.rgb, 2 * (size_t)item, air);
+  vstore3(light.way, 2 * (size_t)item + 1, air);
+}
+
 __kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,
                             float4 object_z, __global const uint* list, uint first, uint count, int size, __global const float* distances,
                             __global const float4* normals, __global float* caustics)
@@ -52,7 +78,8 @@ __kernel void cast_compiled(__global const float* compiled, __global const float
   if (distance < INFINITY) {
     const float3 d = cube_texel_direction(texel, size);
     const float3 in_object = (float3)(dot(object_x.xyz, d), dot(object_y.xyz, d), dot(object_z.xyz, d));
-    caustic = compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance)) * fmax(-dot(normals[texel].xyz, d), 0.0f);
+    const float cosine = fmax(-dot(normals[texel].xyz, d), 0.0f);
+    caustic = (held(radii, distance) * cosine) * compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance));
   }
   vstore3(caustic, (size_t)texel, caustics);
 }

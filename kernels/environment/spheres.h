@@ -207,4 +207,73 @@ static inline float3 compiled_caustic(__global const float* compiled, const Devi
   return sum;
 }
 
+// Light in the air at a place: of each set E r^2 across the way that its light goes there, instead of through the sphere.
+typedef struct {
+  float3 rgb; // linear sRGB
+  float3 way; // the mean way in the scene, weighted by luminance: shorter than that where light goes several ways
+} AirLight;
+
+static inline float luminance_of(float3 rgb) { return dot(rgb, (float3)(0.2126f, 0.7152f, 0.0722f)); }
+
+// Between the four texels about a place. at: of the first one's first channel.
+static inline float3 stored_between(__global const ushort* at, int stride, float u, float v)
+{
+  const float w[4] = {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v};
+  const int t[4] = {0, 1, stride, stride + 1};
+  float3 sum = (float3)(0.0f);
+  for (int i = 0; i < 4; ++i) {
+#if NEPHROID_CHANNELS == 1
+    sum += w[i] * as_float((uint)at[t[i]] << 16);
+#else
+    sum += w[i] * as_float3(convert_uint3(vload3((size_t)t[i], at)) << 16);
+#endif
+  }
+  return sum;
+}
+
+// What set k of eight adds, in a unit direction of the scene.
+static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* eight, int k, float3 direction,
+                           Shell shell)
+{
+  const float3 flux = (float3)(eight->flux[0][k], eight->flux[1][k], eight->flux[2][k]);
+  float3 rows[3];
+  for (int i = 0; i < 3; ++i) rows[i] = (float3)(eight->to_bake[3 * i][k], eight->to_bake[3 * i + 1][k], eight->to_bake[3 * i + 2][k]);
+  const float3 outwards = (float3)(dot(rows[0], direction), dot(rows[1], direction), dot(rows[2], direction));
+  float column, row;
+  stored_place(outwards.x, outwards.y, outwards.z, (float)spheres->side, &column, &row);
+  const int stride = spheres->side + 2, left = (int)column, top = (int)row;
+  const float u = column - (float)left, v = row - (float)top;
+  const size_t map_texels = (size_t)(stride * stride), first = (size_t)eight->first[k], corner = (size_t)(top * stride + left);
+  const size_t low = first + (size_t)shell.lower * map_texels, high = first + (size_t)shell.upper * map_texels;
+  const size_t nearest = (size_t)((int)(row + 0.5f) * stride + (int)(column + 0.5f));
+  const float3 way = maps->way_of[maps->ways[(shell.part > 0.5f ? high : low) + nearest]].xyz;
+  const float3 lower = stored_between(maps->stored + NEPHROID_CHANNELS * (low + corner), stride, u, v);
+  const float3 upper = stored_between(maps->stored + NEPHROID_CHANNELS * (high + corner), stride, u, v);
+  const float3 rgb = (spheres->scale / fmax(fabs(dot(outwards, way)), LEAST_COSINE)) * flux * (lower + shell.part * (upper - lower));
+  sum->rgb += rgb;
+  sum->way += luminance_of(rgb) * (way.x * rows[0] + way.y * rows[1] + way.z * rows[2]);
+}
+
+// The same of what compile_air has made of all sets: [sphere][texel of the stored form][6], in coordinates of the object.
+static inline AirLight compiled_air(__global const float* air, const DeviceSpheres* spheres, float3 in_object, Shell shell)
+{
+  float column, row;
+  stored_place(in_object.x, in_object.y, in_object.z, (float)spheres->side, &column, &row);
+  const int stride = spheres->side + 2, left = (int)column, top = (int)row;
+  const float u = column - (float)left, v = row - (float)top;
+  const size_t map_items = 6 * (size_t)(stride * stride), first = 6 * (size_t)(top * stride + left);
+  __global const float* lower = air + (size_t)shell.lower * map_items + first;
+  __global const float* upper = air + (size_t)shell.upper * map_items + first;
+  const int t[4] = {0, 1, stride, stride + 1};
+  const float w[4] = {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v};
+  AirLight sum = {(float3)(0.0f), (float3)(0.0f)};
+  for (int i = 0; i < 4; ++i) {
+    const size_t at = 2 * (size_t)t[i];
+    const float3 rgb = vload3(at, lower), way = vload3(at + 1, lower);
+    sum.rgb += w[i] * (rgb + shell.part * (vload3(at, upper) - rgb));
+    sum.way += w[i] * (way + shell.part * (vload3(at + 1, upper) - way));
+  }
+  return sum;
+}
+
 #endif

@@ -10,16 +10,18 @@
 
 #define VOLUME_STEPS 128
 
-// Part of the light that is scattered into a steradian, by the cosine between the ways before and after.
-static inline float phase_function(float cosine, int rayleigh, float g)
+// Part of the light that is scattered into a steradian, by the cosine between the mean way before and the way after. together: the length of
+// the mean of unit ways, 1 where all are the same. Ways that lie about their mean as Henyey and Greenstein's do make the first moment of the
+// phase function smaller by that, and the second by its square.
+static inline float phase_function(float cosine, float together, int rayleigh, float g)
 {
-  if (rayleigh) return 3.0f / (16.0f * PI_F) * (1.0f + cosine * cosine);
-  const float base = 1.0f + g * g - 2.0f * g * cosine; // Henyey and Greenstein 1941
-  return (1.0f - g * g) / (4.0f * PI_F * base * sqrt(base));
+  if (rayleigh) return 1.0f / (4.0f * PI_F) * (1.0f + together * together * (0.75f * cosine * cosine - 0.25f));
+  const float mean = together * g, base = 1.0f + mean * mean - 2.0f * mean * cosine; // Henyey and Greenstein 1941
+  return (1.0f - mean * mean) / (4.0f * PI_F * base * sqrt(base));
 }
 
 // Of each square of block x block pixels. distances: of the whole cube of receivers. extinction: 1 / unit. sums: [pixel][3].
-__kernel void volume(WORLD_ARGUMENTS, __global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x,
+__kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii, DeviceSpheres spheres, float4 object_x,
                      float4 object_y, float4 object_z, __global const float* distances, int size, float4 middle, DeviceCamera camera,
                      float extinction, float albedo, int rayleigh, float anisotropy, __global float* sums, uint2 seed, uint pass, int block, int anew,
                      uint first, uint count)
@@ -53,8 +55,11 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* compiled, __global c
       const CubeTexels four = cube_texels(outwards, size);
       if (distance > distances[four.texels[0]]) continue; // something stands before it
       const float3 in_object = (float3)(dot(object_x.xyz, outwards), dot(object_y.xyz, outwards), dot(object_z.xyz, outwards));
-      const float3 irradiance = compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance)) / (distance * distance);
-      sum += irradiance * (phase_function(-dot(outwards, path.direction), rayleigh, anisotropy) * exp(-extinction * way));
+      const AirLight light = compiled_air(air, &spheres, in_object, shell_at(radii, spheres.count, distance));
+      const float all = luminance_of(light.rgb), length_of_way = length(light.way);
+      if (!(all > 0.0f && length_of_way > 0.0f)) continue;
+      const float cosine = -dot(light.way, path.direction) / length_of_way, together = fmin(length_of_way / all, 1.0f);
+      sum += light.rgb * (phase_function(cosine, together, rayleigh, anisotropy) * exp(-extinction * way) / (distance * distance));
     }
     sum *= extinction * albedo * step;
   }

@@ -216,8 +216,8 @@ TEST(Caustics, BetweenSpheresAreLinear)
   for (std::size_t i = 0; i + 1 < radii.size(); ++i)
     for (const double part : {0.0, 0.25, 0.5, 0.999, 1.0})
       expect(radii[i] + part * (radii[i + 1] - radii[i]), (1 - part) * of_radius(radii[i]) + part * of_radius(radii[i + 1]));
-  for (const double beyond : {4.0, 4.001, 10.0, 1e6}) expect(beyond, 2); // E r^2 stays: the inverse square
-  for (const double within : {0.01, 0.999}) expect(within, 1);
+  for (const double beyond : {4.0, 4.001, 10.0, 1e6}) expect(beyond, 2);     // E r^2 stays: the inverse square
+  for (const double within : {0.01, 0.999}) expect(within, within * within); // E stays
   for (const glm::dvec3& found : cast.direct(std::numeric_limits<double>::infinity())) EXPECT_EQ(found, glm::dvec3(0)); // nothing is there
 }
 

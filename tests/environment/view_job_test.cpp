@@ -224,6 +224,25 @@ TEST_F(EnvironmentViewJob, WithoutLightTheBakeIsShown)
   }
 }
 
+// Whether light is black only the scene tells: then another run begins, which shows the bake.
+TEST_F(EnvironmentViewJob, DoesNotAdoptBlackLight)
+{
+  preset::Preset p = lit();
+  p.scene.lights.clear();
+  preset::Preset dark = p;
+  dark.scene.environment->radiance = 0;
+  EXPECT_TRUE(environment::adoptable(p, dark));
+  const auto job = job_of(p);
+  EXPECT_FALSE(job->adopt(dark)); // while it bakes
+  while (job->progress().step == 0) job->step();
+  EXPECT_FALSE(job->adopt(dark));
+  expect_same(run(*job), run(p), "after black light");
+  dark.scene.lights = {lamp({0, -1, 0})};
+  EXPECT_TRUE(job->adopt(dark));
+  dark.scene.lights = {lamp({0, -1, 0}, 0)};
+  EXPECT_FALSE(job->adopt(dark));
+}
+
 TEST_F(EnvironmentViewJob, RefusesLightOfNoOneDirection)
 {
   preset::Preset p = lit();

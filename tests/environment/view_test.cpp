@@ -74,7 +74,7 @@ Furnace furnace(job::Job& job, preset::Preset& p)
 // gaps between their cones of light, but in the mean over all directions each light's power is exact (caustics_test.cpp).
 TEST_F(EnvironmentView, AWhiteFurnaceStaysWhite)
 {
-  preset::Preset p = furnace_scene({"scene.camera.resolution=[24, 24]", "environment.refine=false"});
+  preset::Preset p = furnace_scene({"scene.camera.resolution=[24, 24]", "environment.refine=false", "leave_out=false"});
   const auto job = job_of(p);
   for (const int lights : {8, 24, 64}) {
     environment::settings(p).lights = lights;
@@ -96,7 +96,7 @@ TEST_F(EnvironmentView, AWhiteFurnaceStaysWhite)
 // With passes that take other directions of each light's region the gaps are filled, even between as few lights.
 TEST_F(EnvironmentView, PassesFillTheGapsBetweenLights)
 {
-  preset::Preset p = furnace_scene({"scene.camera.resolution=[8, 8]", "environment.lights=8", "stop.passes=24"});
+  preset::Preset p = furnace_scene({"scene.camera.resolution=[8, 8]", "environment.lights=8", "stop.passes=24", "leave_out=false"});
   const Furnace f = furnace(*job_of(p), p);
   double most = 0;
   for (const double caustic : f.caustic) most = std::max(most, std::abs(caustic - hidden));
@@ -156,6 +156,22 @@ TEST_F(EnvironmentView, WhatIsHiddenFromTheObjectHasNoCaustic)
   EXPECT_GT(on_screen, beside);
   EXPECT_EQ(under_screen, 0);
   EXPECT_EQ(under_floor, 0);
+}
+
+// A board above the ball, beside its axis or over it: the ball's middle sees the lamp, or not. A second lamp shines from the side.
+TEST_F(EnvironmentView, ALampThatIsHiddenFromTheObjectThrowsNoCaustic)
+{
+  const auto caustic = [&](double board, const std::vector<preset::Light>& lights) {
+    preset::Preset p = ball_and(facing_quad("floor", {0, -2, 0}, {0, 1, 0}, 8) + ", " + facing_quad("board", {board, 3, 0}, {0, 1, 0}, 2));
+    p.scene.lights = lights;
+    look(p, {3, -1.5, 0}, {0, -2, 0}, 20);
+    return mean(layer(run(p), "caustic")).y;
+  };
+  const preset::Light above = lamp({0, -1, 0}), side = lamp({1, -1, 0});
+  const double free = caustic(1.5, {above}), both = caustic(1.5, {above, side});
+  EXPECT_GT(free, 0.01);
+  EXPECT_EQ(caustic(0, {above}), 0);
+  EXPECT_NEAR(caustic(0, {above, side}), both - free, 0.02 * both);
 }
 
 /// Of the first lamp, W/m^2 of Y.

@@ -25,7 +25,7 @@ constexpr double even = 0.25;             ///< E r^2 over size^2, everywhere
 Bake even_bake(double size)
 {
   Bake bake;
-  bake.map.side = 16;
+  bake.map.side = 128;
   bake.size = size;
   bake.radii = {1.1, 2, largest};
   bake.directions = environment::light_directions(26);

@@ -156,7 +156,12 @@ protected:
   void edit_leaf(const Json& node, const std::string& pointer, const std::string& owner)
   {
     if (node.value("type", "") != "array") return edit_plain(node, pointer, owner);
-    if (pointer == "/environment/objects") return; // names of the scene's glass, of which there is none here
+    if (pointer == "/environment/objects") { // none is what it has without
+      search(dotted(pointer));
+      click(pointer + ":add");
+      if (!problems().empty()) enter(child_of(pointer, "0"), "wall");
+      ASSERT_TRUE(problems().empty()) << problems().begin()->second.text;
+    }
     const Json now = drafted(pointer);
     for (std::size_t i = 0; i < now.size(); ++i)
       if (now[i].is_array())

@@ -119,6 +119,7 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
   const compute::Program program(context, "environment/cast.cl", defines);
   direct_ = program.kernel("cast_direct");
   compile_ = program.kernel("compile");
+  compile_air_ = program.kernel("compile_air");
   compiled_cast_ = program.kernel("cast_compiled");
 }
 
@@ -187,6 +188,31 @@ void Caustics::compile(int side)
                 {"first", first},
                 {"count", count},
                 {"compiled", compiled_.texels}});
+  context_.finish();
+}
+
+void Caustics::compile_air(int side)
+{
+  compiled_.spheres = {spheres_.count, side, 1, 0};
+  const std::size_t items = stored_texels(side) * static_cast<std::size_t>(spheres_.count);
+  if (compiled_.air.size() < 6 * items) compiled_.air = compute::Buffer<float>(context_, "light in the air", 6 * items);
+  const std::uint32_t first = 0;
+  const auto count = static_cast<std::uint32_t>(items);
+  compile_air_.run(count, group,
+                   {{"stored", stored_},
+                    {"ways", ways_},
+                    {"way_of", way_of_},
+                    {"radii", radii_},
+                    {"sets", sets_},
+                    {"eights", used_eights_},
+                    {"spheres", spheres_},
+                    {"object_x", compiled_.object_x},
+                    {"object_y", compiled_.object_y},
+                    {"object_z", compiled_.object_z},
+                    {"side", side},
+                    {"first", first},
+                    {"count", count},
+                    {"air", compiled_.air}});
   context_.finish();
 }
 

@@ -38,15 +38,18 @@ public:
   /// Adds up the sets of all lights into one (Algorithm 3.5), whose maps have side x side texels. As much work as cast_direct has for half
   /// as many texels as all those spheres have.
   void compile(int side);
+  /// The same of light in the air, for kernels that look it up (compiled_air in kernels/environment/spheres.h).
+  void compile_air(int side);
 
   /// Texels first .. first + count - 1 of the list.
   void cast_direct(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
   /// The same after compile().
   void cast_compiled(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
 
-  /// What compile() made, for kernels that look it up (compiled_caustic in kernels/environment/spheres.h).
+  /// What compile() and compile_air() made.
   struct Compiled {
-    compute::Buffer<float> texels;
+    compute::Buffer<float> texels; ///< 3 a texel: compiled_caustic in kernels/environment/spheres.h
+    compute::Buffer<float> air;    ///< 6 a texel: compiled_air there
     shared::DeviceSpheres spheres{};
     shared::float4 object_x{}, object_y{}, object_z{}; ///< the object's axes in the scene
   };
@@ -71,7 +74,7 @@ private:
   Compiled compiled_;
   compute::Buffer<shared::DeviceEightSets> sets_;
   int used_eights_ = 0; ///< of the buffer's
-  compute::Kernel direct_, compile_, compiled_cast_;
+  compute::Kernel direct_, compile_, compile_air_, compiled_cast_;
 };
 
 } // namespace nephroid::environment

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "optics/colour.h"
+#include "tracing/scene_buffers.h"
 
 namespace nephroid::environment {
 
@@ -26,6 +27,19 @@ std::vector<DistantLight> lamps(const scene::Scene& scene)
     const optics::Colour rgb = optics::xyz_to_linear_srgb(optics::to_xyz(light.spectrum));
     lights.push_back({glm::dvec3(light.direction), light.irradiance_w_m2 * glm::dvec3(rgb[0], rgb[1], rgb[2])});
   }
+  return lights;
+}
+
+std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const glm::dvec3& from)
+{
+  std::vector<shared::float4> to_lights;
+  for (const DistantLight& light : lights)
+    to_lights.push_back(
+        {-static_cast<float>(light.direction.x), -static_cast<float>(light.direction.y), -static_cast<float>(light.direction.z), 0});
+  const std::vector<std::uint8_t> free =
+      Sight().free(surroundings, tracing::upload_vector(surroundings.context, "directions of lamps", to_lights), 0, from);
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (!free[i]) lights[i].irradiance = glm::dvec3(0);
   return lights;
 }
 

@@ -2,6 +2,7 @@
 #include "environment/occlusion/occlusion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -9,6 +10,25 @@ namespace nephroid::environment {
 namespace {
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+
+/// The number of one of a light's 2^cuts cells. They are numbered by cuts into halves, mostly across and down in turn, so the bits of a
+/// place in a square, taken in turn, say which one lies there. The places are Roberts' sequence R2 (2018), steps of 1/p and 1/p^2 with
+/// p^3 = p + 1: as even in the plane as steps of the golden ratio are on a line. Each light begins elsewhere.
+std::size_t drawn_cell(std::uint32_t pass, std::size_t light, int cuts)
+{
+  const auto number = static_cast<double>(light);
+  double place[2] = {std::fmod(0.7548776662466927 * pass + 0.5545497 * number, 1.0),
+                     std::fmod(0.5698402909980532 * pass + 0.308517 * number, 1.0)};
+  std::size_t cell = 0;
+  for (int i = 0; i < cuts; ++i) {
+    double& next = place[i % 2];
+    next *= 2;
+    const bool upper = next >= 1;
+    if (upper) next -= 1;
+    cell = 2 * cell + (upper ? 1 : 0);
+  }
+  return cell;
+}
 
 } // namespace
 
@@ -25,7 +45,6 @@ Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmen
   std::vector<shared::float4> directions;
   for (const LightSample& sample : samples_) directions.push_back(to_float4(sample.direction));
   directions_ = tracing::upload_vector(context, "directions of the environment's light", directions);
-  seen_ = compute::Buffer<std::uint8_t>(context, "what is seen of the environment", directions.size());
 }
 
 std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
@@ -33,7 +52,7 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
   const bool empty = surroundings.buffers.object_of_primitive.size() == 0;
   is_seen_.clear();
   if (empty || whole_.empty()) return whole_;
-  is_seen_ = trace(surroundings, rotate_deg, from);
+  is_seen_ = sight_.free(surroundings, directions_, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> visible = whole_;
   for (std::size_t light = 0; light < visible.size(); ++light) {
@@ -63,24 +82,25 @@ std::vector<VisibleLight> Occlusion::drawn_lights(std::uint32_t pass) const
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> drawn;
   for (std::size_t light = 0; light < whole_.size(); ++light) {
-    // Steps of the golden ratio over the cells; an odd step meets each of a power of 2 once.
-    const std::size_t step = static_cast<std::size_t>(0.6180339887 * static_cast<double>(samples)) | 1;
-    const std::size_t i = samples * light + (pass * step + light * 7919) % samples;
+    const std::size_t i = samples * light + drawn_cell(pass, light, std::countr_zero(samples));
     const bool seen = is_seen_.empty() || is_seen_[i] != 0;
     drawn.push_back({seen ? static_cast<double>(samples) * samples_[i].flux : glm::dvec3(0), samples_[i].direction});
   }
   return drawn;
 }
 
-std::vector<std::uint8_t> Occlusion::trace(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
+std::vector<std::uint8_t> Sight::free(tracing::World& surroundings, const compute::Buffer<shared::float4>& directions, double rotate_deg,
+                                      const glm::dvec3& from)
 {
   if (!kernel_.state || defines_ != surroundings.defines) {
     kernel_ = compute::Program(surroundings.context, "environment/visible.cl", surroundings.defines).kernel("visible");
     defines_ = surroundings.defines;
   }
-  const auto count = static_cast<std::uint32_t>(directions_.size());
+  if (seen_.size() != directions.size())
+    seen_ = compute::Buffer<std::uint8_t>(surroundings.context, "what is seen of the environment", directions.size());
+  const auto count = static_cast<std::uint32_t>(directions.size());
   surroundings.run(kernel_, count, 64,
-                   {{"directions", directions_},
+                   {{"directions", directions},
                     {"seen", seen_},
                     {"count", count},
                     {"from", to_float4(from)},

@@ -85,6 +85,7 @@ int cube_size(const scene::Environment& map)
 CubeMap make_cube_map(const scene::Environment& map)
 {
   CubeMap cube{cube_size(map), {}};
+  cube.even = std::equal(map.rgb.begin() + 3, map.rgb.end(), map.rgb.begin()); // each texel is as the one before
   const auto size = static_cast<std::size_t>(cube.size);
   cube.flux.assign(size * size * 3 * face_count, 0.0);
   const Scatter scatter(map, cube);

@@ -12,6 +12,7 @@ namespace nephroid::environment {
 struct CubeMap {
   int size = 0;             ///< texels along a side of a face
   std::vector<double> flux; ///< 3 a texel, face after face and row after row: radiance times solid angle, linear sRGB, W/m^2 of Y
+  bool even = false;        ///< whether the map has one colour all around
 
   std::size_t texel(int face, int x, int y) const
   {

@@ -139,4 +139,28 @@ Segmentation segment(const CubeMap& cube, const SegmentSettings& settings)
   return Segmenter(cube, settings).result();
 }
 
+Segmentation even_segments(const CubeMap& cube, int lights)
+{
+  int across = 1;
+  while (face_count * across * across < lights) ++across;
+  const auto place = [&](int i) { return i * cube.size / across; };
+  Segmentation result{cube.size, glm::dvec3(0), {}, {}};
+  for (int face = 0; face < face_count; ++face)
+    for (int row = 0; row < across; ++row)
+      for (int column = 0; column < across; ++column) {
+        const Rect rect{place(column), place(row), place(column + 1), place(row + 1)};
+        Region region{face, rect, glm::dvec3(0), glm::dvec3(0), solid_angle(rect, cube.size)};
+        for (int y = rect.y0; y < rect.y1; ++y)
+          for (int x = rect.x0; x < rect.x1; ++x) {
+            const glm::dvec3 flux = cube.flux_of(cube.texel(face, x, y));
+            region.flux += flux;
+            region.direction += luminance(flux) * glm::normalize(position({face, middle(x, cube.size), middle(y, cube.size)}));
+          }
+        region.direction = glm::normalize(region.direction);
+        result.total_flux += region.flux;
+        result.lights.push_back(region);
+      }
+  return result;
+}
+
 } // namespace nephroid::environment

@@ -43,9 +43,16 @@ bool same_light(const scene::Environment& a, const scene::Environment& b)
 
 bool has_light(const scene::Scene& scene) { return shines(scene) || std::ranges::any_of(scene.lights, tracing::has_power); }
 
+bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube)
+{
+  const Settings& s = settings(preset);
+  return preset.leave_out && cube.even && 2 * s.lights * s.threshold < 1; // else regions would be dropped
+}
+
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube)
 {
   const Settings& s = settings(preset);
+  if (is_cut_evenly(preset, cube)) return even_segments(cube, s.lights);
   return segment(cube, {.lights = s.lights, .method = s.segmentation, .threshold = s.threshold});
 }
 

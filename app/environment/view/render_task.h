@@ -43,6 +43,9 @@ bool has_light(const scene::Scene& scene);
 RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster,
                             const RenderTask* before = nullptr);
 
+/// Whether the map has one colour all around, so that there is nothing to look for.
+bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube);
+
 /// The preset's lights of the cube, by its settings.
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube);
 

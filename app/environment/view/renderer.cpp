@@ -89,7 +89,7 @@ std::uint64_t Renderer::receiver_bytes() { return Receivers::bytes(coarse_receiv
 std::uint64_t Renderer::medium_bytes(const Bake& bake)
 {
   const auto side = static_cast<std::uint64_t>(fine_side(bake.map.side));
-  return Receivers::bytes(coarse_receivers) + 3 * sizeof(float) * side * side * bake.radii.size();
+  return Receivers::bytes(coarse_receivers) + 6 * sizeof(float) * (side + 2) * (side + 2) * bake.radii.size();
 }
 
 Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint64_t seed, const compute::Context& context)
@@ -109,6 +109,7 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
   if (task_.has_surroundings) {
     surroundings_ = surroundings_world(context, task_.surroundings);
     receivers_kernel_ = compute::Program(context, "environment/receivers.cl", surroundings_->defines).kernel("receivers");
+    if (!task_.lamps.empty()) task_.lamps = seen_lights(std::move(task_.lamps), *surroundings_, task_.placement.middle);
   }
   if (!task_.segmentation.lights.empty()) occlusion_.emplace(context, task_.segmentation, task_.cube);
   see_ = compute::Program(context, "environment/see.cl", world_.defines).kernel("see");
@@ -199,7 +200,7 @@ void Renderer::begin_anew()
 
 void Renderer::compile(int side)
 {
-  caustics_.compile(side);
+  caustics_.compile_air(side);
   compiled_side_ = side;
 }
 
@@ -300,7 +301,7 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
   const Caustics::Compiled& compiled = caustics_.compiled();
   const int anew = pass_ == 0 ? 1 : 0;
   world_.run(volume_, count, 32,
-             {{"compiled", compiled.texels},
+             {{"air", compiled.air},
               {"radii", caustics_.radii()},
               {"spheres", compiled.spheres},
               {"object_x", compiled.object_x},

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lights that passes draw of a sky: they cover each light's region evenly, and leave out what is hidden.
+#include "environment/occlusion/occlusion.h"
+#include "environment/occlusion/surroundings.h"
+#include "scene/ray.h"
+#include "tests/environment/bakes.h"
+#include "tests/environment/maps.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::environment;
+using test::pi;
+
+/// A map as few lights, and the mean of what passes draw of them.
+struct Sky {
+  CubeMap cube;
+  Segmentation lights;
+  Occlusion occlusion;
+
+  Sky(const scene::Environment& map, int q)
+      : cube(make_cube_map(map)), lights(segment(cube, {.lights = q})), occlusion(test::bake_context(), lights, cube)
+  {
+  }
+
+  /// of(light): a sum over lights, in the mean over passes 1..passes.
+  template <class Of>
+  double mean(std::uint32_t passes, const Of& of) const
+  {
+    double sum = 0;
+    for (std::uint32_t pass = 1; pass <= passes; ++pass)
+      for (const VisibleLight& light : occlusion.drawn_lights(pass)) sum += of(light);
+    return sum / passes;
+  }
+};
+
+/// Over the part of an even sky about each of twelve axes that lies within some 8 degrees, about as narrow as what a ball lens throws:
+/// ((1 + cos) / 2)^100, whose integral over the sphere is 4 pi / 101. Root mean square, as a part of it.
+double off_in_lobes(const Sky& sky, std::uint32_t passes)
+{
+  double squares = 0;
+  for (int i = 0; i < 12; ++i) {
+    const glm::dvec3 axis = scene::even_direction(i, 12);
+    const double mean = sky.mean(
+        passes, [&](const VisibleLight& light) { return light.flux.y * std::pow((1 + glm::dot(light.direction, axis)) / 2, 100); });
+    squares += std::pow(mean * 101 / (4 * pi) - 1, 2) / 12;
+  }
+  return std::sqrt(squares);
+}
+
+// The lobe's variance is 50 times its mean squared, so points by chance would be 20 % off at q = 8 after 150 passes, 10 % after 600, and 12
+// % at q = 24 after 150.
+TEST(DrawnLights, CoverTheSkyEvenly)
+{
+  const Sky few(test::uniform_map(64, 32), 8), many(test::uniform_map(64, 32), 24);
+  const double first = off_in_lobes(few, 150), later = off_in_lobes(few, 600), more = off_in_lobes(many, 150);
+  fmt::print("q = 8: {:.2f} % off after 150 passes, {:.2f} % after 600; q = 24: {:.2f} % after 150\n", 100 * first, 100 * later,
+             100 * more);
+  EXPECT_LT(first, 0.08);
+  EXPECT_LT(later, 0.025);
+  EXPECT_LT(more, 0.035);
+}
+
+TEST(DrawnLights, HaveTheColourOfTheirRegions)
+{
+  const Sky sky(test::synthetic_maps(64)[3].map, 24);
+  glm::dvec3 all(0);
+  for (const Region& light : sky.lights.lights) all += light.flux;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sky.mean(512, [&](const VisibleLight& light) { return light.flux[c]; }) / all[c], 1, 0.002) << c;
+}
+
+// Of a sky with a ball before it, what drawn cells have is what is seen of the lights; none has light that comes from behind the ball.
+TEST(DrawnLights, LeaveOutWhatIsHidden)
+{
+  Sky sky(test::uniform_map(64, 32), 24);
+  const scene::Scene scene = without_caster(
+      scene::load_scene(test::bake_preset(
+          test::glass_ball + R"(, {"shape": {"type": "sphere", "radius": 2}, "material": "wall", "transform": {"translate": [0, 4, 0]}})")),
+      {0});
+  tracing::World world = surroundings_world(test::bake_context(), scene);
+  const std::vector<VisibleLight> visible = sky.occlusion.visible_lights(world, 0, glm::dvec3(0));
+  double seen = 0;
+  for (const VisibleLight& light : visible) seen += light.flux.y;
+  const double hidden = 2 * pi * (1 - std::sqrt(0.75)); // the ball is 60 degrees wide
+  EXPECT_NEAR(seen, 4 * pi - hidden, 0.002 * 4 * pi);
+  EXPECT_NEAR(sky.mean(1024, [](const VisibleLight& light) { return light.flux.y; }), seen, 0.002 * 4 * pi);
+  EXPECT_EQ(sky.mean(64, [](const VisibleLight& light) { return light.direction.y > std::cos(0.51) ? light.flux.y : 0; }), 0);
+}
+
+} // namespace

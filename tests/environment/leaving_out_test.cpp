@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// What engine 2 leaves out changes nothing that is to be seen: each case beside one in which it is not left out.
+#include "environment/segment/segment.h"
+#include "environment/settings.h"
+#include "tests/environment/maps.h"
+#include "tests/environment/views.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::test;
+
+class EnvironmentLeavesOut : public EnvironmentJobs {
+protected:
+  static plan::Pass pass(const preset::Preset& p, const std::string& name)
+  {
+    const environment::EnvironmentPlan plan = plan_of(p);
+    const auto found = std::ranges::find(plan.passes, name, &plan::Pass::name);
+    EXPECT_NE(found, plan.passes.end()) << name;
+    return found == plan.passes.end() ? plan::Pass{} : *found;
+  }
+  /// Those of `b` that `a` has too.
+  static void expect_same_layers(const job::Snapshot& a, const job::Snapshot& b)
+  {
+    for (const job::Layer& of : a.picture->layers) EXPECT_EQ(of.rgb, layer(b, of.name)) << of.name;
+  }
+  static preset::Preset over_floor(const preset::Overrides& more = {})
+  {
+    preset::Preset p = ball_and(facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 8), more);
+    p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
+    even_light(p);
+    look(p, {2, 2, 4}, {0, -0.5, 0}, 50);
+    return p;
+  }
+};
+
+TEST_F(EnvironmentLeavesOut, TheVolumeWithoutAMedium)
+{
+  const preset::Preset none = over_floor(), thin = over_floor({"environment.extinction=1e-9"});
+  EXPECT_FALSE(pass(none, "volume").runs);
+  EXPECT_EQ(pass(none, "volume").reason, "there is no medium: environment.extinction or albedo is 0");
+  EXPECT_TRUE(pass(thin, "volume").runs);
+  const job::Snapshot without = run(none), with = run(thin);
+  expect_same_layers(without, with);
+  EXPECT_LT(mean(layer(with, "volume")).y, 1e-8);
+}
+
+// The other scene has an object so far away and so small that no ray meets it.
+TEST_F(EnvironmentLeavesOut, RaysToLightsWhereNothingStands)
+{
+  const auto view = [](const std::string& others) {
+    preset::Preset p = ball_and(others);
+    p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
+    even_light(p);
+    look(p, {2, 2, 4}, {0, -0.5, 0}, 50);
+    return p;
+  };
+  const preset::Preset alone = view(""), speck = view(facing_quad("speck", {50, -80, 60}, {0, 1, 0}, 1e-3));
+  EXPECT_FALSE(pass(alone, "occlusion").runs);
+  EXPECT_EQ(pass(alone, "occlusion").reason, "nothing stands around the object");
+  EXPECT_TRUE(pass(speck, "occlusion").runs);
+  expect_same_layers(run(alone), run(speck));
+}
+
+TEST_F(EnvironmentLeavesOut, ABakeThatIsRight)
+{
+  const preset::Preset p = over_floor();
+  EXPECT_TRUE(pass(p, "bake").runs);
+  const job::Snapshot baked = run(p);
+  EXPECT_FALSE(pass(p, "bake").runs);
+  EXPECT_NE(pass(p, "bake").reason.find("the same object, material and settings"), std::string::npos);
+  const job::Snapshot read = run(p);
+  EXPECT_EQ(read.progress.work, baked.progress.work);
+  expect_same_layers(baked, read);
+}
+
+// The lights are those that cutting makes, so the picture is.
+TEST_F(EnvironmentLeavesOut, CutsOfOneColour)
+{
+  preset::Preset p = over_floor();
+  EXPECT_FALSE(pass(p, "segments").runs);
+  EXPECT_EQ(pass(p, "segments").reason, "the environment has one colour all around: 24 equal lights");
+  p.leave_out = false;
+  EXPECT_TRUE(pass(p, "segments").runs);
+  const environment::CubeMap cube = environment::make_cube_map(uniform_map(64, 32, {2, 1, 0.5}));
+  ASSERT_TRUE(cube.even);
+  EXPECT_FALSE(environment::make_cube_map(synthetic_maps(64)[2].map).even);
+  for (const int q : {6, 24, 96})
+    for (const environment::SegmentMethod method : {environment::SegmentMethod::variance, environment::SegmentMethod::thesis}) {
+      const environment::Segmentation even = environment::even_segments(cube, q),
+                                      cut = environment::segment(cube, {.lights = q, .method = method});
+      ASSERT_EQ(even.lights.size(), cut.lights.size());
+      for (std::size_t i = 0; i < even.lights.size(); ++i) {
+        EXPECT_EQ(even.lights[i].face, cut.lights[i].face);
+        EXPECT_EQ(even.lights[i].rect, cut.lights[i].rect);
+        EXPECT_LT(glm::distance(even.lights[i].direction, cut.lights[i].direction), 1e-12);
+        EXPECT_LT(glm::distance(even.lights[i].flux, cut.lights[i].flux), 1e-12);
+        EXPECT_EQ(even.lights[i].solid_angle_sr, cut.lights[i].solid_angle_sr);
+      }
+      EXPECT_LT(glm::distance(even.total_flux, cut.total_flux), 1e-10);
+    }
+  EXPECT_EQ(environment::even_segments(cube, 25).lights.size(), 54u);
+}
+
+} // namespace

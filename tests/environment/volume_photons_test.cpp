@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Caustics in the air about glass against photons in the same medium (medium_photons.h), as pictures.
+#include "environment/bake/baker.h"
+#include "environment/bake/directions.h"
+#include "environment/light/turned_sets.h"
+#include "environment/view/renderer.h"
+#include "image/image.h"
+#include "tests/environment/bakes.h"
+#include "tests/environment/medium_photons.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace nephroid;
+using namespace nephroid::test;
+using environment::Bake;
+using Picture = std::vector<double>;
+constexpr double pi = std::numbers::pi;
+
+struct Phase {
+  std::string settings;
+  std::function<double(double)> of;
+};
+const Phase isotropic{R"("anisotropy": 0)", [](double) { return 1 / (4 * pi); }};
+const Phase forward{R"("anisotropy": 0.7)", [](double c) { return (1 - 0.49) / (4 * pi * std::pow(1.49 - 1.4 * c, 1.5)); }};
+const Phase rayleigh{R"("phase": "rayleigh")", [](double c) { return 3 / (16 * pi) * (1 + c * c); }};
+
+double rel_l2(const Picture& a, const Picture& b)
+{
+  double difference = 0, length = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference += (a[i] - b[i]) * (a[i] - b[i]);
+    length += b[i] * b[i];
+  }
+  return std::sqrt(difference / length);
+}
+double sum_of(const Picture& picture)
+{
+  double sum = 0;
+  for (const double value : picture) sum += value;
+  return sum;
+}
+
+struct Spheres {
+  int count = 16, directions = 26, resolution = 128, photons = 1 << 18;
+};
+
+preset::Preset preset_of(const MediumScene& s, const Phase& phase, const Spheres& spheres)
+{
+  const std::string screen =
+      s.screen_y
+          ? fmt::format(
+                R"(, {{"shape": {{"type": "quad", "size": [{}, 1, {}]}}, "material": "wall", "transform": {{"translate": [0, {}, 0]}}}})",
+                2 * s.screen_half, 2 * s.screen_half, *s.screen_y)
+          : "";
+  const double side = 2 * std::max({s.axes.x, s.axes.y, s.axes.z});
+  return preset::parse_preset(fmt::format(R"({{"engine": "environment",
+      "environment": {{"spheres": {}, "directions": {}, "resolution": {}, "reach": {}, "photons": {}, "extinction": {}, {}}},
+      "scene": {{"camera": {{"position": [{}, {}, {}], "target": [0, 0, 0], "fov_deg": {}, "resolution": [{}, {}]}},
+        "materials": {{"glass": {{"type": "dielectric", "dispersion": {}}}, "wall": {{"type": "diffuse", "reflectance": 0}}}},
+        "lights": [{{"type": "directional", "direction": [{}, {}, {}]}}],
+        "objects": [{{"shape": {{"type": "sphere", "radius": 1}}, "material": "glass", "transform": {{"scale": [{}, {}, {}]}}}}{}]}}}})",
+                                          spheres.count, spheres.directions, spheres.resolution, s.largest / side, spheres.photons,
+                                          s.extinction, phase.settings, s.eye.x, s.eye.y, s.eye.z, s.fov_deg, s.size, s.size, s.n,
+                                          s.light.x, s.light.y, s.light.z, s.axes.x, s.axes.y, s.axes.z, screen),
+                              "own.json");
+}
+
+/// Of the directions about one light alone: the others stay black.
+Bake bake_for(const preset::Preset& preset, const glm::dvec3& light)
+{
+  environment::BakeTask task = environment::make_task(preset);
+  const std::vector<environment::NearDirection> near = environment::near_directions(light, static_cast<int>(task.directions.size()));
+  Bake whole = task.empty_bake();
+  whole.directions = task.directions;
+  whole.baked.resize(task.directions.size());
+  whole.halves.assign(whole.direction_items() * task.directions.size(), 0);
+  whole.ways.assign(whole.direction_texels() * task.directions.size(), 0);
+  std::vector<glm::dvec3> wanted;
+  for (const environment::NearDirection& direction : near) wanted.push_back(task.directions[static_cast<std::size_t>(direction.direction)]);
+  const Bake made = bake_of(preset, wanted);
+  const auto copy = [&](const std::vector<std::uint16_t>& from, std::vector<std::uint16_t>& to, std::size_t items) {
+    for (std::size_t i = 0; i < near.size(); ++i)
+      std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * items), items,
+                  to.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(near[i].direction) * items));
+  };
+  copy(made.halves, whole.halves, made.direction_items());
+  copy(made.ways, whole.ways, made.direction_texels());
+  return whole;
+}
+
+/// The layer "volume" for light of 1 W/m^2 of the lamp's Y.
+Picture seen(const preset::Preset& p, const Bake& bake)
+{
+  const scene::Scene scene = scene::load_scene(p);
+  const environment::BakeTask bake_task = environment::make_task(p);
+  environment::RenderTask task = environment::make_render_task(p, scene, scene::build_bvh(scene.geometry), bake_task.caster);
+  const double light = task.lamps.at(0).irradiance.y;
+  environment::Caustics caustics(bake, bake_context());
+  environment::Renderer renderer(std::move(task), caustics, 1, 1, bake_context());
+  while (renderer.passes() < 64) renderer.step(); // a beam that is narrower than a step is met by chance
+  const std::shared_ptr<const job::Picture> picture = renderer.picture();
+  EXPECT_EQ(picture->layers.back().name, "volume");
+  Picture y;
+  for (std::size_t i = 1; i < picture->rgb.size(); i += 3) y.push_back(picture->layers.back().rgb[i] / light);
+  return y;
+}
+
+/// Where NEPHROID_VOLUME_PICTURES names a folder, pictures are larger and are written there.
+const char* pictures_folder() { return std::getenv("NEPHROID_VOLUME_PICTURES"); }
+
+/// Both beside each other, as bright that one pixel of a hundred is too bright.
+void draw(const std::string& name, std::size_t size, const std::vector<Picture>& beside)
+{
+  Picture sorted = beside[0];
+  std::ranges::sort(sorted);
+  const double white = sorted[sorted.size() * 99 / 100];
+  std::vector<float> rgb;
+  for (std::size_t row = 0; row < size; ++row)
+    for (const Picture& picture : beside)
+      for (std::size_t column = 0; column < size; ++column)
+        for (int c = 0; c < 3; ++c) rgb.push_back(static_cast<float>(picture[row * size + column] / white));
+  const int pixels = static_cast<int>(size);
+  image::write_png(std::filesystem::path(pictures_folder()) / (name + ".png"), pixels * static_cast<int>(beside.size()), pixels, rgb);
+}
+
+struct Compared {
+  double rel_l2 = 0, noise = 0, power = 0; ///< noise: of two references; power: of all pixels, over the reference's
+};
+
+/// photons: of the references.
+Compared compare(const std::string& name, MediumScene s, const Phase& phase, const Spheres& spheres = {}, int photons = 1 << 17)
+{
+  if (pictures_folder()) {
+    s.size = 256;
+    photons *= 32;
+  }
+  s.phase = phase.of;
+  s.light = glm::normalize(s.light);
+  const preset::Preset p = preset_of(s, phase, spheres);
+  const Picture found = seen(p, bake_for(p, s.light));
+  const Picture real = MediumPhotons(s).picture(photons, 1), again = MediumPhotons(s).picture(photons, 2);
+  if (pictures_folder())
+    draw(fmt::format("{}-{}-{}", name, spheres.count, spheres.directions), static_cast<std::size_t>(s.size), {real, found});
+  const Compared c{rel_l2(found, real), rel_l2(again, real), sum_of(found) / sum_of(real)};
+  fmt::print("{}, s = {}, {} directions: rel_l2 {:.3f} (noise {:.3f}), power {:.3f}\n", name, spheres.count, spheres.directions, c.rel_l2,
+             c.noise, c.power);
+  EXPECT_LT(c.noise, 0.08);
+  return c;
+}
+
+void expect_near(const Compared& c, double rel_l2, double power)
+{
+  EXPECT_LT(c.rel_l2, rel_l2);
+  EXPECT_NEAR(c.power, 1, power);
+}
+
+// What is left is where light goes several ways in one texel, and what lies between spheres.
+TEST(VolumePhotons, ABall)
+{
+  for (const int s : {8, 16, 32}) expect_near(compare("ball", {}, isotropic, {.count = s}), s == 8 ? 0.17 : 0.14, 0.045);
+}
+
+TEST(VolumePhotons, PhaseFunctions)
+{
+  expect_near(compare("forward", {}, forward), 0.28, 0.1);
+  expect_near(compare("rayleigh", {}, rayleigh), 0.19, 0.06);
+}
+
+// Its caustics are not those of another direction turned: more directions are nearer.
+TEST(VolumePhotons, AnEllipsoid)
+{
+  const MediumScene s{.axes = {1, 0.7, 0.85}, .light = {0.3, -1, 0.2}};
+  expect_near(compare("ellipsoid", s, isotropic), 0.36, 0.09);
+  expect_near(compare("ellipsoid", s, isotropic, {.directions = 98}), 0.26, 0.06);
+}
+
+// It stands in the beam. What it hides from the middle is dark, though some light goes by aslant.
+TEST(VolumePhotons, AScreenInTheBeam) { expect_near(compare("screen", {.screen_y = -2, .screen_half = 0.5}, isotropic), 0.19, 0.09); }
+
+} // namespace
