@@ -10,6 +10,8 @@ namespace {
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
+double sum(const glm::dvec3& v) { return v.x + v.y + v.z; }
+
 } // namespace
 
 std::vector<VisibleLight> whole_lights(const Segmentation& segmentation)
@@ -20,31 +22,34 @@ std::vector<VisibleLight> whole_lights(const Segmentation& segmentation)
 }
 
 Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube)
-    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube))
+    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube)), seen_samples_(whole_.size())
 {
+  const std::size_t samples = samples_per_light(whole_.size());
+  for (std::size_t i = 0; i < samples_.size(); ++i) seen_samples_[i / samples].push_back(i);
   std::vector<shared::float4> directions;
   for (const LightSample& sample : samples_) directions.push_back(to_float4(sample.direction));
   directions_ = tracing::upload_vector(context, "directions of the environment's light", directions);
   seen_ = compute::Buffer<std::uint8_t>(context, "what is seen of the environment", directions.size());
 }
 
-std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
+std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from)
 {
   const bool empty = surroundings.buffers.object_of_primitive.size() == 0;
-  is_seen_.clear();
-  if (empty || whole_.empty()) return whole_;
-  is_seen_ = trace(surroundings, rotate_deg, from);
+  const std::vector<std::uint8_t> is_seen =
+      empty || whole_.empty() ? std::vector<std::uint8_t>(samples_.size(), 1) : trace(surroundings, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> visible = whole_;
   for (std::size_t light = 0; light < visible.size(); ++light) {
     glm::dvec3 flux(0), all(0), hidden(0);
+    seen_samples_[light].clear();
     for (std::size_t i = samples * light; i < samples * (light + 1); ++i) {
       const LightSample& sample = samples_[i];
-      const glm::dvec3 way = (sample.flux.x + sample.flux.y + sample.flux.z) * sample.direction;
+      const glm::dvec3 way = sum(sample.flux) * sample.direction;
       all += way;
-      if (is_seen_[i])
+      if (is_seen[i]) {
         flux += sample.flux;
-      else
+        seen_samples_[light].push_back(i);
+      } else
         hidden += way;
     }
     if (hidden == glm::dvec3(0)) continue;
@@ -60,30 +65,36 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
 
 std::vector<VisibleLight> Occlusion::drawn_lights(std::uint32_t pass) const
 {
-  const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> drawn;
   for (std::size_t light = 0; light < whole_.size(); ++light) {
-    // Steps of the golden ratio over the cells; an odd step meets each of a power of 2 once.
-    const std::size_t step = static_cast<std::size_t>(0.6180339887 * static_cast<double>(samples)) | 1;
-    const std::size_t i = samples * light + (pass * step + light * 7919) % samples;
-    const bool seen = is_seen_.empty() || is_seen_[i] != 0;
-    drawn.push_back({seen ? static_cast<double>(samples) * samples_[i].flux : glm::dvec3(0), samples_[i].direction});
+    const std::vector<std::size_t>& seen = seen_samples_[light];
+    if (seen.empty()) {
+      drawn.push_back({glm::dvec3(0), whole_[light].direction});
+      continue;
+    }
+    // Steps of the golden ratio; each light begins elsewhere. All cells have the same light.
+    const double at = 0.6180339887498949 * (static_cast<double>(pass) + 0.5 * static_cast<double>(light));
+    const LightSample& sample = samples_[seen[static_cast<std::size_t>((at - std::floor(at)) * static_cast<double>(seen.size()))]];
+    drawn.push_back({static_cast<double>(seen.size()) * sample.flux, sample.direction});
   }
   return drawn;
 }
 
-std::vector<std::uint8_t> Occlusion::trace(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
+std::vector<std::uint8_t> Occlusion::trace(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from)
 {
   if (!kernel_.state || defines_ != surroundings.defines) {
     kernel_ = compute::Program(surroundings.context, "environment/visible.cl", surroundings.defines).kernel("visible");
     defines_ = surroundings.defines;
   }
+  std::vector<shared::float4> points;
+  for (const glm::dvec3& point : from) points.push_back(to_float4(point));
   const auto count = static_cast<std::uint32_t>(directions_.size());
   surroundings.run(kernel_, count, 64,
                    {{"directions", directions_},
                     {"seen", seen_},
                     {"count", count},
-                    {"from", to_float4(from)},
+                    {"points", tracing::upload_vector(surroundings.context, "points that look at the environment", points)},
+                    {"last_point", static_cast<std::uint32_t>(points.size() - 1)},
                     {"turned_x", to_float4(turned({1, 0, 0}, rotate_deg))},
                     {"turned_z", to_float4(turned({0, 0, 1}, rotate_deg))}});
   return seen_.read();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Algorithm 3.4 of the thesis: how much of each light reaches the object, past what stands around it (kernels/environment/visible.cl).
+// How much of each light reaches the object, past what stands around it (kernels/environment/visible.cl): Algorithm 3.4 of the thesis, but
+// looked at from all over the object.
 #pragma once
 #include "environment/occlusion/samples.h"
 #include "tracing/world.h"
@@ -26,23 +27,22 @@ public:
   /// cube: that the segmentation was made of. Both may go afterwards. Throws failed where the device has not enough memory.
   Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube);
 
-  /// Of each light, what is seen from a point. Glass and mirrors hide light as everything does.
-  /// surroundings: surroundings_world, on the same device. rotate_deg: how the map is turned. from: in the scene's coordinates, best the
-  /// middle of the object.
-  std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
+  /// Of each light, what is seen from some points, each of which looks at other cells of the light. Glass and mirrors hide light as
+  /// everything does. surroundings: surroundings_world, on the same device. rotate_deg: how the map is turned. from: a power of 2 of them,
+  /// in the scene's coordinates; best surface_points of the object. From its middle alone an edge before the sun would hide all at once.
+  std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from);
 
-  /// A part of each light instead of all of it: the cell of its region that is the `pass`th of a sequence over all of them, with as much
-  /// light as all cells would have were they like this one; none where visible_lights() found the cell hidden. The mean over passes is all
-  /// light that is seen, each part from its own direction.
+  /// A part of each light instead of all of it: the `pass`th of a sequence over the cells that visible_lights() found seen, with as much
+  /// light as all that is seen. The mean over passes is that light, each part from its own direction.
   std::vector<VisibleLight> drawn_lights(std::uint32_t pass) const;
 
 private:
   /// Of each sample, whether nothing stands before it.
-  std::vector<std::uint8_t> trace(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
+  std::vector<std::uint8_t> trace(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from);
 
   std::vector<VisibleLight> whole_;
   std::vector<LightSample> samples_;
-  std::vector<std::uint8_t> is_seen_; ///< of each sample; empty: all are
+  std::vector<std::vector<std::size_t>> seen_samples_; ///< of each light, which of samples_
   compute::Buffer<shared::float4> directions_;
   compute::Buffer<std::uint8_t> seen_;
   compute::Defines defines_; ///< that the kernel is made with

@@ -129,7 +129,7 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
 void Renderer::light_up()
 {
   world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
-  visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(*surroundings_, rotate_deg_, task_.placement.middle)
+  visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(*surroundings_, rotate_deg_, task_.surface_points)
                                          : whole_lights(task_.segmentation);
   std::vector<shared::float4> polynomial;
   for (const glm::dvec3& factor : irradiance_polynomial(task_.cube, rotate_deg_)) polynomial.push_back(to_float4(factor));
