@@ -22,10 +22,9 @@ std::vector<VisibleLight> whole_lights(const Segmentation& segmentation)
 }
 
 Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube)
-    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube)), seen_samples_(whole_.size())
+    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube)), is_seen_(samples_.size(), 1),
+      seen_counts_(whole_.size(), samples_per_light(whole_.size()))
 {
-  const std::size_t samples = samples_per_light(whole_.size());
-  for (std::size_t i = 0; i < samples_.size(); ++i) seen_samples_[i / samples].push_back(i);
   std::vector<shared::float4> directions;
   for (const LightSample& sample : samples_) directions.push_back(to_float4(sample.direction));
   directions_ = tracing::upload_vector(context, "directions of the environment's light", directions);
@@ -35,20 +34,19 @@ Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmen
 std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from)
 {
   const bool empty = surroundings.buffers.object_of_primitive.size() == 0;
-  const std::vector<std::uint8_t> is_seen =
-      empty || whole_.empty() ? std::vector<std::uint8_t>(samples_.size(), 1) : trace(surroundings, rotate_deg, from);
+  is_seen_ = empty || whole_.empty() ? std::vector<std::uint8_t>(samples_.size(), 1) : trace(surroundings, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> visible = whole_;
   for (std::size_t light = 0; light < visible.size(); ++light) {
     glm::dvec3 flux(0), all(0), hidden(0);
-    seen_samples_[light].clear();
+    seen_counts_[light] = 0;
     for (std::size_t i = samples * light; i < samples * (light + 1); ++i) {
       const LightSample& sample = samples_[i];
       const glm::dvec3 way = sum(sample.flux) * sample.direction;
       all += way;
-      if (is_seen[i]) {
+      if (is_seen_[i]) {
         flux += sample.flux;
-        seen_samples_[light].push_back(i);
+        ++seen_counts_[light];
       } else
         hidden += way;
     }
@@ -65,17 +63,22 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
 
 std::vector<VisibleLight> Occlusion::drawn_lights(std::uint32_t pass) const
 {
+  const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> drawn;
   for (std::size_t light = 0; light < whole_.size(); ++light) {
-    const std::vector<std::size_t>& seen = seen_samples_[light];
-    if (seen.empty()) {
+    if (seen_counts_[light] == 0) {
       drawn.push_back({glm::dvec3(0), whole_[light].direction});
       continue;
     }
-    // Steps of the golden ratio; each light begins elsewhere. All cells have the same light.
-    const double at = 0.6180339887498949 * (static_cast<double>(pass) + 0.5 * static_cast<double>(light));
-    const LightSample& sample = samples_[seen[static_cast<std::size_t>((at - std::floor(at)) * static_cast<double>(seen.size()))]];
-    drawn.push_back({static_cast<double>(seen.size()) * sample.flux, sample.direction});
+    // Steps of the golden ratio, where each light begins elsewhere; other steps while what is drawn is hidden. All cells have the same
+    // light.
+    double at = 0.6180339887498949 * (static_cast<double>(pass) + 0.5 * static_cast<double>(light));
+    std::size_t i = 0;
+    do {
+      i = samples * light + static_cast<std::size_t>(static_cast<double>(samples) * (at - std::floor(at)));
+      at += 0.7548776662466927;
+    } while (!is_seen_[i]);
+    drawn.push_back({static_cast<double>(seen_counts_[light]) * samples_[i].flux, samples_[i].direction});
   }
   return drawn;
 }

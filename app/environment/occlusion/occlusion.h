@@ -33,7 +33,8 @@ public:
   std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from);
 
   /// A part of each light instead of all of it: the `pass`th of a sequence over the cells that visible_lights() found seen, with as much
-  /// light as all that is seen. The mean over passes is that light, each part from its own direction.
+  /// light as all that is seen. The mean over passes is that light, each part from its own direction. A cell that becomes hidden changes
+  /// the passes that would draw it, and no others: pictures of an occluder that moves do not flicker.
   std::vector<VisibleLight> drawn_lights(std::uint32_t pass) const;
 
 private:
@@ -42,7 +43,8 @@ private:
 
   std::vector<VisibleLight> whole_;
   std::vector<LightSample> samples_;
-  std::vector<std::vector<std::size_t>> seen_samples_; ///< of each light, which of samples_
+  std::vector<std::uint8_t> is_seen_;    ///< of each sample, whether nothing stands before it
+  std::vector<std::size_t> seen_counts_; ///< of each light, how many of its samples
   compute::Buffer<shared::float4> directions_;
   compute::Buffer<std::uint8_t> seen_;
   compute::Defines defines_; ///< that the kernel is made with
