@@ -58,7 +58,7 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
                            : fmt::format("the environment is cut into {} lights by {}", lights, preset::word(s.segmentation))});
   passes.push_back({"occlusion", sky && render->has_surroundings,
                     !sky                       ? "there is no environment"
-                    : render->has_surroundings ? fmt::format("{} rays a light from the object's middle", samples_per_light(lights))
+                    : render->has_surroundings ? fmt::format("{} rays a light from all over the object", samples_per_light(lights))
                                                : "nothing stands around the object"});
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
   passes.push_back({"cast", receivers, receivers ? "caustics on diffuse surfaces, where a path ends" : "no surface is diffuse"});

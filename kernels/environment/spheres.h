@@ -29,12 +29,14 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
 // The same among both kinds of spheres.
 typedef struct {
   Shell of[2]; // [DeviceEightSets::own]
+  float beyond; // the largest sphere: 1 less its radius over the distance
 } Shells;
 
 static inline Shells shells_at(__global const float* radii, const DeviceSpheres* spheres, float distance)
 {
   Shells shells;
   shells.of[0] = shells.of[1] = shell_at(radii, spheres->count, distance);
+  shells.beyond = fmax(1.0f - radii[spheres->count - 1] / distance, 0.0f);
   if (spheres->own_count > 0) shells.of[1] = shell_at(radii + spheres->count, spheres->own_count, distance);
   return shells;
 }
@@ -128,9 +130,10 @@ typedef struct {
 #define LEAST_COSINE 0.125f
 
 // Eight times E on a surface over E on the sphere, which faces the middle: x, y, z and normal_x, y, z are the way from the middle and the surface's
-// normal as each set has them. texels: of the maps. The light goes the way that it has in the nearest texel.
+// normal as each set has them. texels: of the maps. The light goes the way that it has in the nearest texel. beyond: how far that is turned away
+// from the middle: where light goes straight on past the largest sphere, its slant grows less as its distance grows.
 static inline float8 eight_factors(const Maps* maps, __global const DeviceEightSets* eight, size_t map, int8 texels, float8 x, float8 y, float8 z,
-                                   float8 normal_x, float8 normal_y, float8 normal_z)
+                                   float8 normal_x, float8 normal_y, float8 normal_z, float beyond)
 {
   int texel[8];
   vstore8(texels, 0, texel);
@@ -142,7 +145,10 @@ static inline float8 eight_factors(const Maps* maps, __global const DeviceEightS
     ways[2][k] = way.z;
   }
   const float8 way_x = vload8(0, ways[0]), way_y = vload8(0, ways[1]), way_z = vload8(0, ways[2]);
-  return fmax(-(normal_x * way_x + normal_y * way_y + normal_z * way_z), 0.0f) / fmax(fabs(x * way_x + y * way_y + z * way_z), LEAST_COSINE);
+  const float8 radial = fmax(-(normal_x * x + normal_y * y + normal_z * z), 0.0f);
+  const float8 along =
+      fmax(-(normal_x * way_x + normal_y * way_y + normal_z * way_z), 0.0f) / fmax(fabs(x * way_x + y * way_y + z * way_z), LEAST_COSINE);
+  return along + beyond * (radial - along);
 }
 
 // E r^2 of all sets in a unit direction of the scene: linear sRGB. On a surface with a unit normal, which is on the object's side; or, with none, on
@@ -178,7 +184,7 @@ static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* sphe
     if (normal) {
       const int8 nearest = convert_int8(rows + 0.5f) * stride + convert_int8(columns + 0.5f);
       factors = eight_factors(maps, eight, shell.part > 0.5f ? upper : lower, nearest, x, y, z, row_of_eight(eight, 0, *normal),
-                              row_of_eight(eight, 1, *normal), row_of_eight(eight, 2, *normal));
+                              row_of_eight(eight, 1, *normal), row_of_eight(eight, 2, *normal), shells->beyond);
     }
     red += factors * vload8(0, eight->flux[0]) * caustics.channels[0];
     green += factors * vload8(0, eight->flux[1]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 1 : 0];

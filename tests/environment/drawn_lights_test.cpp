@@ -85,7 +85,7 @@ TEST(DrawnLights, LeaveOutWhatIsHidden)
           test::glass_ball + R"(, {"shape": {"type": "sphere", "radius": 2}, "material": "wall", "transform": {"translate": [0, 4, 0]}})")),
       {0});
   tracing::World world = surroundings_world(test::bake_context(), scene);
-  const std::vector<VisibleLight> visible = sky.occlusion.visible_lights(world, 0, glm::dvec3(0));
+  const std::vector<VisibleLight> visible = sky.occlusion.visible_lights(world, 0, {glm::dvec3(0)});
   double seen = 0;
   for (const VisibleLight& light : visible) seen += light.flux.y;
   const double hidden = 2 * pi * (1 - std::sqrt(0.75)); // the ball is 60 degrees wide

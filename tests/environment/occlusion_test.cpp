@@ -58,7 +58,7 @@ struct Sky {
   {
     tracing::World world = surroundings_world(test::bake_context(), surroundings);
     std::vector<glm::dvec3> flux;
-    for (const environment::VisibleLight& light : occlusion.visible_lights(world, rotate_deg, from)) flux.push_back(light.flux);
+    for (const environment::VisibleLight& light : occlusion.visible_lights(world, rotate_deg, {from})) flux.push_back(light.flux);
     return flux;
   }
   std::vector<glm::dvec3> seen_past(const std::string& others, double rotate_deg = 0) { return seen_past(scene_with(others), rotate_deg); }
@@ -111,7 +111,7 @@ TEST(Occlusion, AHalfHiddenLightShinesFromWhatIsSeen)
 {
   Sky sky(test::uniform_map(256, 128), 6);
   tracing::World world = surroundings_world(test::bake_context(), scene_with(quad({0, -0.01, 0}, 1000, 1000)));
-  const std::vector<environment::VisibleLight> lights = sky.occlusion.visible_lights(world, 0, glm::dvec3(0));
+  const std::vector<environment::VisibleLight> lights = sky.occlusion.visible_lights(world, 0, {glm::dvec3(0)});
   glm::dvec3 mean(0);
   for (int y = 0; y < sky.cube.size / 2; ++y)
     for (int x = 0; x < sky.cube.size; ++x)

@@ -3,7 +3,9 @@
 
 #include "base/error.h"
 #include "optics/colour.h"
+
 #include "tracing/scene_buffers.h"
+#include <algorithm>
 
 namespace nephroid::environment {
 
@@ -30,16 +32,15 @@ std::vector<DistantLight> lamps(const scene::Scene& scene)
   return lights;
 }
 
-std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const glm::dvec3& from)
+std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const std::vector<glm::dvec3>& from)
 {
-  std::vector<shared::float4> to_lights;
-  for (const DistantLight& light : lights)
-    to_lights.push_back(
-        {-static_cast<float>(light.direction.x), -static_cast<float>(light.direction.y), -static_cast<float>(light.direction.z), 0});
-  const std::vector<std::uint8_t> free =
-      Sight().free(surroundings, tracing::upload_vector(surroundings.context, "directions of lamps", to_lights), 0, from);
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    if (!free[i]) lights[i].irradiance = glm::dvec3(0);
+  for (DistantLight& light : lights) {
+    const glm::vec3 way(-light.direction);
+    const std::vector<shared::float4> to_light(from.size(), {way.x, way.y, way.z, 0});
+    const std::vector<std::uint8_t> free =
+        Sight().free(surroundings, tracing::upload_vector(surroundings.context, "direction of a lamp", to_light), 0, from);
+    light.irradiance *= static_cast<double>(std::ranges::count(free, 1)) / static_cast<double>(from.size());
+  }
   return lights;
 }
 

@@ -23,7 +23,7 @@ std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& li
 /// The scene's directional lights. Throws bad_input at FILE#/scene/lights/INDEX for a light of another type: it has no one direction.
 std::vector<DistantLight> lamps(const scene::Scene& scene);
 
-/// Those lights before which nothing stands as seen from a point; the others are black. surroundings, from: as Sight has them.
-std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const glm::dvec3& from);
+/// Each light's part that Sight sees from points of the object. surroundings, from: as Sight has them.
+std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const std::vector<glm::dvec3>& from);
 
 } // namespace nephroid::environment

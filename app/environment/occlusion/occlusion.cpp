@@ -11,6 +11,8 @@ namespace {
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
+double sum(const glm::dvec3& v) { return v.x + v.y + v.z; }
+
 /// The number of one of a light's 2^cuts cells. They are numbered by cuts into halves, mostly across and down in turn, so the bits of a
 /// place in a square, taken in turn, say which one lies there. The places are Roberts' sequence R2 (2018), steps of 1/p and 1/p^2 with
 /// p^3 = p + 1: as even in the plane as steps of the golden ratio are on a line. Each light begins elsewhere.
@@ -40,30 +42,32 @@ std::vector<VisibleLight> whole_lights(const Segmentation& segmentation)
 }
 
 Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube)
-    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube))
+    : whole_(whole_lights(segmentation)), samples_(sample_lights(segmentation, cube)), is_seen_(samples_.size(), 1),
+      seen_counts_(whole_.size(), samples_per_light(whole_.size()))
 {
   std::vector<shared::float4> directions;
   for (const LightSample& sample : samples_) directions.push_back(to_float4(sample.direction));
   directions_ = tracing::upload_vector(context, "directions of the environment's light", directions);
 }
 
-std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from)
+std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from)
 {
   const bool empty = surroundings.buffers.object_of_primitive.size() == 0;
-  is_seen_.clear();
-  if (empty || whole_.empty()) return whole_;
-  is_seen_ = sight_.free(surroundings, directions_, rotate_deg, from);
+  is_seen_ =
+      empty || whole_.empty() ? std::vector<std::uint8_t>(samples_.size(), 1) : sight_.free(surroundings, directions_, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> visible = whole_;
   for (std::size_t light = 0; light < visible.size(); ++light) {
     glm::dvec3 flux(0), all(0), hidden(0);
+    seen_counts_[light] = 0;
     for (std::size_t i = samples * light; i < samples * (light + 1); ++i) {
       const LightSample& sample = samples_[i];
-      const glm::dvec3 way = (sample.flux.x + sample.flux.y + sample.flux.z) * sample.direction;
+      const glm::dvec3 way = sum(sample.flux) * sample.direction;
       all += way;
-      if (is_seen_[i])
+      if (is_seen_[i]) {
         flux += sample.flux;
-      else
+        ++seen_counts_[light];
+      } else
         hidden += way;
     }
     if (hidden == glm::dvec3(0)) continue;
@@ -82,15 +86,23 @@ std::vector<VisibleLight> Occlusion::drawn_lights(std::uint32_t pass) const
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> drawn;
   for (std::size_t light = 0; light < whole_.size(); ++light) {
-    const std::size_t i = samples * light + drawn_cell(pass, light, std::countr_zero(samples));
-    const bool seen = is_seen_.empty() || is_seen_[i] != 0;
-    drawn.push_back({seen ? static_cast<double>(samples) * samples_[i].flux : glm::dvec3(0), samples_[i].direction});
+    if (seen_counts_[light] == 0) {
+      drawn.push_back({glm::dvec3(0), whole_[light].direction});
+      continue;
+    }
+    // Others while what is drawn is hidden. All cells have the same light.
+    std::size_t i = 0;
+    for (std::uint32_t number = pass;; number += 1U << 20) {
+      i = samples * light + drawn_cell(number, light, std::countr_zero(samples));
+      if (is_seen_[i] != 0) break;
+    }
+    drawn.push_back({static_cast<double>(seen_counts_[light]) * samples_[i].flux, samples_[i].direction});
   }
   return drawn;
 }
 
 std::vector<std::uint8_t> Sight::free(tracing::World& surroundings, const compute::Buffer<shared::float4>& directions, double rotate_deg,
-                                      const glm::dvec3& from)
+                                      const std::vector<glm::dvec3>& from)
 {
   if (!kernel_.state || defines_ != surroundings.defines) {
     kernel_ = compute::Program(surroundings.context, "environment/visible.cl", surroundings.defines).kernel("visible");
@@ -98,12 +110,15 @@ std::vector<std::uint8_t> Sight::free(tracing::World& surroundings, const comput
   }
   if (seen_.size() != directions.size())
     seen_ = compute::Buffer<std::uint8_t>(surroundings.context, "what is seen of the environment", directions.size());
+  std::vector<shared::float4> points;
+  for (const glm::dvec3& point : from) points.push_back(to_float4(point));
   const auto count = static_cast<std::uint32_t>(directions.size());
   surroundings.run(kernel_, count, 64,
                    {{"directions", directions},
                     {"seen", seen_},
                     {"count", count},
-                    {"from", to_float4(from)},
+                    {"points", tracing::upload_vector(surroundings.context, "points that look at the environment", points)},
+                    {"last_point", static_cast<std::uint32_t>(points.size() - 1)},
                     {"turned_x", to_float4(turned({1, 0, 0}, rotate_deg))},
                     {"turned_z", to_float4(turned({0, 0, 1}, rotate_deg))}});
   return seen_.read();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Algorithm 3.4 of the thesis: how much of each light reaches the object, past what stands around it (kernels/environment/visible.cl).
+// How much of each light reaches the object, past what stands around it (kernels/environment/visible.cl): Algorithm 3.4 of the thesis, but
+// looked at from all over the object.
 #pragma once
 #include "environment/occlusion/samples.h"
 #include "tracing/world.h"
@@ -22,10 +23,11 @@ std::vector<VisibleLight> whole_lights(const Segmentation& segmentation);
 /// Which directions lead past all that stands around the object.
 class Sight {
 public:
-  /// Of each direction, whether nothing stands there as seen from a point. Glass and mirrors hide light as everything does.
-  /// surroundings: surroundings_world, on the same device. rotate_deg: how directions are turned first. from: in the scene's coordinates.
+  /// Of each direction, whether nothing stands there as seen from one of some points: neighbours in the list of directions look from points
+  /// that are far from each other. Glass and mirrors hide light as everything does. surroundings: surroundings_world, on the same device.
+  /// rotate_deg: how directions are turned first. from: a power of 2 of them, in the scene's coordinates.
   std::vector<std::uint8_t> free(tracing::World& surroundings, const compute::Buffer<shared::float4>& directions, double rotate_deg,
-                                 const glm::dvec3& from);
+                                 const std::vector<glm::dvec3>& from);
 
 private:
   compute::Buffer<std::uint8_t> seen_;
@@ -40,18 +42,20 @@ public:
   /// cube: that the segmentation was made of. Both may go afterwards. Throws failed where the device has not enough memory.
   Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube);
 
-  /// Of each light, what is seen from a point, as Sight sees it: best the middle of the object. rotate_deg: how the map is turned.
-  std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const glm::dvec3& from);
+  /// Of each light, what Sight sees from some points, each of which looks at other cells of the light: best surface_points of the object.
+  /// From its middle alone an edge before the sun would hide all at once. rotate_deg: how the map is turned.
+  std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from);
 
-  /// A part of each light instead of all of it: the cell of its region that is the `pass`th of a sequence over all of them, with as much
-  /// light as all cells would have were they like this one; none where visible_lights() found the cell hidden. The mean over passes goes
-  /// towards all light that is seen, each part from its own direction.
+  /// A part of each light instead of all of it: the `pass`th of a sequence over the cells that visible_lights() found seen, with as much
+  /// light as all that is seen. The mean over passes goes towards that light, each part from its own direction. A cell that becomes hidden
+  /// changes the passes that would draw it, and no others: pictures of an occluder that moves do not flicker.
   std::vector<VisibleLight> drawn_lights(std::uint32_t pass) const;
 
 private:
   std::vector<VisibleLight> whole_;
   std::vector<LightSample> samples_;
-  std::vector<std::uint8_t> is_seen_; ///< of each sample; empty: all are
+  std::vector<std::uint8_t> is_seen_;    ///< of each sample, whether nothing stands before it
+  std::vector<std::size_t> seen_counts_; ///< of each light, how many of its samples
   compute::Buffer<shared::float4> directions_;
   Sight sight_;
 };

@@ -2,6 +2,7 @@
 #include "environment/view/render_task.h"
 
 #include "environment/bake/baker.h"
+#include "environment/occlusion/surface_points.h"
 #include "environment/occlusion/surroundings.h"
 #include "environment/settings.h"
 #include "scene/environment_light.h"
@@ -65,6 +66,7 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   task.bvh = std::make_shared<const scene::Bvh>(bvh);
   task.lamps = lamps(scene);
   task.placement = placement(preset, caster, scene);
+  task.surface_points = surface_points(scene, caster.objects, 1024);
   task.tables = tracing::make_scene_tables(*task.scene, all_wavelengths(), leave_out);
   task.coloured = is_coloured(task.tables.wavelengths);
   task.defines = tracing::code_omissions(leave_out, *task.scene, task.tables.wavelengths.attenuator_count).defines;

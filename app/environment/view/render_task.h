@@ -19,9 +19,10 @@ struct RenderTask {
   std::shared_ptr<const scene::Scene> scene; ///< its environment is a light
   std::shared_ptr<const scene::Bvh> bvh;     ///< its tree
   tracing::SceneTables tables;
-  compute::Defines defines; ///< of kernels that trace the scene
-  bool coloured = false;    ///< paths from the eye have one wavelength each
-  Placement placement;      ///< of the bake
+  compute::Defines defines;               ///< of kernels that trace the scene
+  bool coloured = false;                  ///< paths from the eye have one wavelength each
+  Placement placement;                    ///< of the bake
+  std::vector<glm::dvec3> surface_points; ///< of the object: surface_points()
 
   bool has_surroundings = false; ///< whether there is more in the scene than the object
   scene::Scene surroundings;     ///< the scene without it

@@ -109,7 +109,7 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
   if (task_.has_surroundings) {
     surroundings_ = surroundings_world(context, task_.surroundings);
     receivers_kernel_ = compute::Program(context, "environment/receivers.cl", surroundings_->defines).kernel("receivers");
-    if (!task_.lamps.empty()) task_.lamps = seen_lights(std::move(task_.lamps), *surroundings_, task_.placement.middle);
+    if (!task_.lamps.empty()) task_.lamps = seen_lights(std::move(task_.lamps), *surroundings_, task_.surface_points);
   }
   if (!task_.segmentation.lights.empty()) occlusion_.emplace(context, task_.segmentation, task_.cube);
   see_ = compute::Program(context, "environment/see.cl", world_.defines).kernel("see");
@@ -130,7 +130,7 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
 void Renderer::light_up()
 {
   world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
-  visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(*surroundings_, rotate_deg_, task_.placement.middle)
+  visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(*surroundings_, rotate_deg_, task_.surface_points)
                                          : whole_lights(task_.segmentation);
   std::vector<shared::float4> polynomial;
   for (const glm::dvec3& factor : irradiance_polynomial(task_.cube, rotate_deg_)) polynomial.push_back(to_float4(factor));

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Measures what engine 2's caustics do from frame to frame against engine 1, and prints the tables of docs/environment.md.
+
+    tests/experiments/environment_films.py PROGRAM OUT [turning] [card]
+
+turning: the sky turns about a glass bunny, 120 frames; 12 pairs of neighbouring frames are compared. OUT/turning-sheet.png: every fifth frame.
+card: a card passes between the sun and a ball, 24 frames, all compared. OUT/card-sheet.png: caustics of ours over the reference's.
+Frames that are in OUT are not made again. Needs numpy and ImageMagick.
+"""
+import argparse
+import json
+from itertools import groupby
+
+import numpy as np
+from environment import ONE, PRESETS, SEEDS, TRUTH, Bench, head, row
+from layers import read_layer, read_mask, side_by_side, write_png
+
+THESIS = {**ONE, "environment.segmentation": "thesis"}
+WAYS = {"as in the thesis": THESIS, "as in the thesis, 98 directions": {**THESIS, "environment.directions": 98},
+        "variance, one direction a light": ONE, "ours": {}, "ours, 98 directions": {"environment.directions": 98}}
+PAIRS = range(0, 120, 10)
+
+
+def rms(picture):
+    return float(np.sqrt(np.mean(np.square(picture))))
+
+
+class Film:
+    """The caustic layer of some frames, pixels of receivers only."""
+
+    def __init__(self, bench, preset, name, settings, frames, passes):
+        self.folder = bench.out / name
+        missing = [k for k in frames if not self.path(k).exists()]
+        for _, near in groupby(enumerate(missing), lambda pair: pair[1] - pair[0]):
+            block = [k for _, k in near]
+            words = {"scene.camera.resolution": [bench.size, bench.size], "stop.passes": passes, **settings}
+            bench.call("run", PRESETS / f"{preset}.json", "-o", self.folder, "--frames", f"{block[0]}-{block[-1]}",
+                       *(w for key, value in words.items() for w in ("--set", f"{key}={json.dumps(value)}")))
+        mask = read_mask(bench.mask(preset, self.folder))
+        self.pixels = {k: read_layer(self.path(k), "caustic")[mask] for k in frames}
+
+    def path(self, frame):
+        return self.folder / f"frame_{frame:04}.exr"
+
+    def changes(self, frames):
+        """From each of the frames to its next."""
+        return [self.pixels[k + 1] - self.pixels[k] for k in frames]
+
+    def light(self):
+        """The mean over pixels and colours, of each frame."""
+        return np.array([pixels.mean() for pixels in self.pixels.values()])
+
+
+def reference(bench, preset, seed, frames, passes):
+    return Film(bench, preset, f"{preset}-reference-{seed}", {**TRUTH, "seed": seed}, frames, passes)
+
+
+def noise_of(first, second):
+    """The mean square that noise adds to a pixel of one frame."""
+    common = sorted(set(first.pixels) & set(second.pixels))
+    return float(np.mean([np.mean((first.pixels[k] - second.pixels[k]) ** 2) / 2 for k in common]))
+
+
+def size(change, noise):
+    """Root mean square without that of noise."""
+    return float(np.sqrt(max(0, rms(change) ** 2 - noise)))
+
+
+def turning(bench, passes, reference_passes):
+    frames = [k for pair in PAIRS for k in (pair, pair + 1)]
+    truth = reference(bench, "turning-sky", SEEDS[0], frames, reference_passes)
+    noise = noise_of(truth, reference(bench, "turning-sky", SEEDS[1], (0, 1), reference_passes))
+    own = truth.changes(PAIRS)
+    whole = np.sqrt(np.mean([size(change, 2 * noise) ** 2 for change in own]))
+    level = np.sqrt(np.mean([rms(pixels) ** 2 for pixels in truth.pixels.values()]))
+    print(f"\nturning: {bench.size} x {bench.size}, {passes} passes, {len(PAIRS)} pairs of frames 3 degrees apart. A frame changes the reference by {whole / level:.3g} of its "
+          f"root mean square; its noise is {np.sqrt(noise) / level:.2g}.")
+    head("parts of the reference's change", ["change", "largest", "change that is wrong", "light, mean", "light, spread"])
+    row("reference", [1, max(size(change, 2 * noise) for change in own) / whole, 0, 1, 0])
+    for label, settings in WAYS.items():
+        film = Film(bench, "turning-sky", "-".join(["turning", *(str(value) for value in settings.values())]), settings, frames, passes)
+        made = film.changes(PAIRS)
+        wrong = np.sqrt(np.mean([size(ours - theirs, 2 * noise) ** 2 for ours, theirs in zip(made, own)]))
+        light = film.light() / truth.light()
+        row(label, [np.sqrt(np.mean([rms(change) ** 2 for change in made])) / whole, max(map(rms, made)) / whole, wrong / whole, light.mean(), light.std()])
+    film = Film(bench, "turning-sky", "turning", WAYS["ours"], range(120), passes)
+    steps = [rms(change) / whole for change in film.changes(range(119))]
+    print(f"\nours, all 119 steps: median {np.median(steps):.3g}, largest {max(steps):.3g}; the largest ratio of neighbouring steps "
+          f"{max(max(a / b, b / a) for a, b in zip(steps, steps[1:])):.3g}")
+    side_by_side([film.path(k).with_suffix(".png") for k in range(0, 120, 5)], 8, bench.size, bench.out / "turning-sheet.png")
+
+
+def card(bench, passes, reference_passes):
+    frames = range(24)
+    truth = reference(bench, "passing-card", SEEDS[0], frames, reference_passes)
+    noise = noise_of(truth, reference(bench, "passing-card", SEEDS[1], range(6, 10), reference_passes))
+    films = {"reference": truth, **{label: Film(bench, "passing-card", "-".join(["card", *(str(value) for value in settings.values())]), settings, frames, passes)
+                                    for label, settings in (("as in the thesis", THESIS), ("ours", {}))}}
+    print(f"\ncard: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: {np.sqrt(noise) / rms(truth.pixels[0]):.2g} of its root mean square in frame 0.")
+    head("light on receivers, parts of the reference's in frame 0", [str(k) for k in frames])
+    for label, film in films.items():
+        row(label, film.light() / truth.light()[0])
+    head("change to the next frame, parts of the reference's root mean square in frame 0", [str(k) for k in frames[:-1]])
+    for label, film in films.items():
+        row(label, [size(change, 2 * noise if film is truth else 0) / rms(truth.pixels[0]) for change in film.changes(frames[:-1])])
+    for part, film in (("reference", truth), ("ours", films["ours"])):
+        for k in frames:
+            write_png(bench.out / f"card-{part}-{k}.png", read_layer(film.path(k), "caustic") / np.percentile(truth.pixels[0], 99.5))
+    side_by_side([bench.out / f"card-{part}-{k}.png" for part in ("ours", "reference") for k in range(2, 22, 2)], 10, 96, bench.out / "card-sheet.png")
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("program")
+    arguments.add_argument("out")
+    arguments.add_argument("films", nargs="*", default=["turning", "card"], metavar="FILM")
+    arguments.add_argument("--size", type=int, default=128)
+    arguments.add_argument("--passes", type=int, default=4)
+    chosen = arguments.parse_args()
+    bench = Bench(chosen.program, chosen.out, chosen.size, chosen.passes, 0)
+    for film in chosen.films:
+        {"turning": lambda: turning(bench, chosen.passes, 16), "card": lambda: card(bench, chosen.passes, 24)}[film]()
+
+
+main()
