@@ -45,9 +45,10 @@ std::string note(const preset::Preset& p)
 
 const std::string floor_below = facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 40);
 
-/// The ball over a floor.
-preset::Preset floor_scene(const std::string& others = floor_below, const preset::Overrides& more = {})
+/// The ball over a floor. All light is put together from the baked directions.
+preset::Preset floor_scene(const std::string& others = floor_below, preset::Overrides more = {})
 {
+  more.emplace_back("environment.own_directions=0");
   preset::Preset p = ball_and(others, more);
   p.source = "p.json";
   look(p, {2.5, 1.5, 3}, {0, -1, 0}, 50);
@@ -117,7 +118,7 @@ constexpr double floor_at = 1.5;
 preset::Preset over_nothing(bool ball)
 {
   preset::Preset p = floor_scene(floor_below, {"scene.materials.glass.dispersion=1", "environment.photons=1000000",
-                                               "environment.resolution=128", "environment.spheres=24", "stop.passes=16"});
+                                               "environment.resolution=128", "environment.spheres=16", "stop.passes=16"});
   if (!ball) p.scene.objects[0].transform.translate = {0, 0, 1000};
   p.scene.lights = {lamp({0, -1, 0})};
   look(p, {0, 6, 0}, {0, -floor_at, 0}, 40);

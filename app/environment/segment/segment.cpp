@@ -5,6 +5,7 @@
 #include "environment/segment/cuts.h"
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -143,7 +144,10 @@ Segmentation even_segments(const CubeMap& cube, int lights)
 {
   int across = 1;
   while (face_count * across * across < lights) ++across;
-  const auto place = [&](int i) { return i * cube.size / across; };
+  const auto place = [&](int i) { // at equal angles, which gives about equal solid angles
+    const double angle = glm::radians(45.0) * (2.0 * i / across - 1);
+    return static_cast<int>(std::lround((1 + std::tan(angle)) / 2 * cube.size));
+  };
   Segmentation result{cube.size, glm::dvec3(0), {}, {}};
   for (int face = 0; face < face_count; ++face)
     for (int row = 0; row < across; ++row)

@@ -46,8 +46,8 @@ struct Segmentation {
 /// where the map is black. Throws bad_input at "q" for fewer than 6.
 Segmentation segment(const CubeMap& cube, const SegmentSettings& settings);
 
-/// What cutting makes of a map of one colour all around, without looking for cuts: each face in as many squares across as down. The fewest
-/// that are `lights` or more; so many as segment() makes of 6, 24, 96, ...
+/// What cutting makes of a map of one colour all around, without looking for cuts: each face in as many parts across as down, at equal
+/// angles. The fewest that are `lights` or more; for 6 and 24 the very lights that segment() makes.
 Segmentation even_segments(const CubeMap& cube, int lights);
 
 } // namespace nephroid::environment
