@@ -122,6 +122,8 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
   compiled_cast_ = program.kernel("cast_compiled");
 }
 
+std::uint64_t Caustics::compiled_bytes(const Bake& bake, int side) { return 3 * sizeof(float) * stored_texels(side) * bake.radii.size(); }
+
 void Caustics::set_own(const Bake& own)
 {
   own_ = own.directions;
