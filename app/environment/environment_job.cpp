@@ -2,6 +2,7 @@
 // A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
 #include "base/error.h"
 #include "base/hash.h"
+#include "environment/adoptable.h"
 #include "environment/bake/bake_file.h"
 #include "environment/bake/own_directions.h"
 #include "environment/engine.h"
@@ -25,27 +26,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t checkpoint_version = 3;
 
-/// The preset with what a renderer takes on as it goes: camera, turn of the environment, segmentation and white of another.
-preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other)
-{
-  preset::Preset made = preset;
-  made.scene.camera = other.scene.camera;
-  if (made.scene.environment && other.scene.environment) made.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
-  made.white = other.white;
-  made.name = other.name;
-  made.description = other.description;
-  Settings& s = settings(made);
-  const Settings& o = settings(other);
-  s.lights = o.lights;
-  s.segmentation = o.segmentation;
-  s.threshold = o.threshold;
-  return made;
-}
-
 class EnvironmentJob final : public job::Job {
 public:
   EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
-      : preset_(preset), shown_(preset), task_(plan.task), render_(plan.render), context_(context),
+      : preset_(preset), shown_(preset), loaded_(preset), task_(plan.task), render_(plan.render), context_(context),
         file_(plan.bake_file), identity_{plan.key, hash_of(compute::kernel_source(context, "environment/bake.cl"))},
         width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
         sphere_white_(plan.render ? 0.2 : preset.white), stop_(preset.stop)
@@ -222,6 +206,7 @@ private:
     caustics_.emplace(*bake_, context_, settings(preset_).own_directions, task_->own_radii);
     own_.emplace(*task_, context_);
     renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
+    shown_ = loaded_;
     show(preset_);
   }
 
@@ -233,19 +218,25 @@ private:
     if (own_->complete() && caustics_->own_directions() != own_->bake().directions) take_own();
   }
 
+  void render_anew(const preset::Preset& preset)
+  {
+    const scene::Scene scene = scene::load_scene(preset);
+    render_ =
+        std::make_shared<const RenderTask>(make_render_task(preset, scene, scene::build_bvh(scene.geometry), task_->caster, render_.get()));
+    renderer_.reset(); // its device memory is for the next
+    renderer_.emplace(*render_, *caustics_, preset.white, preset.seed, context_);
+    shown_ = loaded_ = preset;
+  }
+
   void go_on_with(const preset::Preset& preset)
   {
-    if (!(with_view_of(shown_, preset) == preset)) {
-      const scene::Scene scene = scene::load_scene(preset);
-      render_ = std::make_shared<const RenderTask>(
-          make_render_task(preset, scene, scene::build_bvh(scene.geometry), task_->caster, render_.get()));
-      renderer_.reset(); // its device memory is for the next
-      renderer_.emplace(*render_, *caustics_, preset.white, preset.seed, context_);
-      shown_ = preset;
-      return;
-    }
-    if (!(preset.scene.camera == shown_.scene.camera))
-      renderer_->set_camera(scene::make_camera(preset.scene.camera, *render_->scene), Place(preset.source) / "scene" / "camera");
+    if (!(with_view_of(with_places_of(shown_, preset), preset) == preset)) return render_anew(preset);
+    if (!(with_places_of(shown_, preset) == shown_)) {
+      std::optional<MovedObjects> moved = move_objects(*render_, loaded_, shown_, preset, task_->caster);
+      if (!moved) return render_anew(preset);
+      renderer_->move_objects(std::move(*moved));
+    } else if (!(preset.scene.camera == shown_.scene.camera))
+      renderer_->set_camera(scene::make_camera(preset.scene.camera, renderer_->scene()), Place(preset.source) / "scene" / "camera");
     const auto same_segmentation = [](const Settings& a, const Settings& b) {
       return a.lights == b.lights && a.segmentation == b.segmentation && a.threshold == b.threshold;
     };
@@ -336,6 +327,7 @@ private:
 
   preset::Preset preset_; ///< the newest
   preset::Preset shown_;  ///< what the renderer shows
+  preset::Preset loaded_; ///< what render_ is of
   std::shared_ptr<const BakeTask> task_;
   std::shared_ptr<const RenderTask> render_; ///< null: only the bake is shown
   compute::Context context_;
@@ -359,37 +351,6 @@ private:
 };
 
 } // namespace
-
-bool adoptable(const preset::Preset& before, const preset::Preset& now)
-{
-  const auto may_be_lit = [](const preset::Preset& preset) { return preset.scene.environment || !preset.scene.lights.empty(); };
-  if (&before.settings.type() != &now.settings.type() || before.scene.camera.resolution != now.scene.camera.resolution ||
-      before.scene.objects.size() != now.scene.objects.size() || may_be_lit(before) != may_be_lit(now))
-    return false;
-  // What is baked together may not move apart.
-  const auto is_caster = [&](const preset::Object& object) {
-    const auto material = before.scene.materials.find(object.material);
-    return material != before.scene.materials.end() && material->second.type != preset::Material::Type::diffuse;
-  };
-  const std::vector<preset::Object>& objects = before.scene.objects;
-  const bool alone = std::ranges::count_if(objects, is_caster) == 1;
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    if (!alone && is_caster(objects[i]) && objects[i].transform != now.scene.objects[i].transform) return false;
-  preset::Preset same = with_view_of(before, now);
-  same.scene.environment = now.scene.environment;
-  same.scene.lights = now.scene.lights;
-  for (std::size_t i = 0; i < same.scene.objects.size(); ++i) {
-    same.scene.objects[i].transform.rotate_deg = now.scene.objects[i].transform.rotate_deg;
-    same.scene.objects[i].transform.translate = now.scene.objects[i].transform.translate;
-  }
-  Settings& s = settings(same);
-  const Settings& n = settings(now);
-  s.extinction = n.extinction;
-  s.albedo = n.albedo;
-  s.phase = n.phase;
-  s.anisotropy = n.anisotropy;
-  return same == now;
-}
 
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
 {

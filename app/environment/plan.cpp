@@ -76,7 +76,7 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
   const scene::Scene& s = *render.scene;
   const auto pixels = static_cast<std::uint64_t>(s.camera.width) * static_cast<std::uint64_t>(s.camera.height);
   const std::uint64_t sky = s.environment ? bytes_of(s.environment->rgb) : 0;
-  return {{"caustic spheres", bake.bytes() + bake.own_bytes() * static_cast<std::uint64_t>(own)},
+  return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), own, bake.own_radii)},
           {"whole scene", bytes_of(render.bvh->nodes) + bytes_of(render.bvh->blocks) + bytes_of(s.geometry.triangles) +
                               bytes_of(s.geometry.positions) + bytes_of(s.geometry.normals)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},

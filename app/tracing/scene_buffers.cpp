@@ -23,15 +23,20 @@ std::vector<glm::uvec3> corners_of_primitives(const scene::Mesh& mesh, const sce
 
 } // namespace
 
-SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
+void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& b)
 {
-  const WavelengthTables& w = tables.wavelengths;
-  SceneBuffers b;
   b.nodes = upload_vector(context, "tree nodes", bvh.nodes);
   b.blocks = upload_vector(context, "tree triangles", bvh.blocks);
   b.positions = upload_triples<float>(context, "vertex positions", scene.geometry.positions);
   b.normals = upload_triples<float>(context, "vertex normals", scene.geometry.normals);
   b.corners = upload_triples<std::uint32_t>(context, "triangle corners", corners_of_primitives(scene.geometry, bvh));
+}
+
+SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
+{
+  const WavelengthTables& w = tables.wavelengths;
+  SceneBuffers b;
+  upload_surfaces(context, scene, bvh, b);
   b.object_of_primitive = upload_vector(context, "object of each primitive", scene.object_of_primitive);
   b.objects = upload_vector(context, "objects", tables.objects);
   b.materials = upload_vector(context, "materials", tables.materials);

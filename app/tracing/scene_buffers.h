@@ -30,6 +30,9 @@ compute::Buffer<T> upload_vector(const compute::Context& context, const char* na
   return compute::Buffer<T>(context, name, std::span<const T>(items));
 }
 
+/// Of the tables those that say where surfaces are; the others stay. Throws as upload.
+void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& buffers);
+
 /// Throws failed where the device has not enough memory.
 SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables);
 

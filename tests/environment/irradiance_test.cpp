@@ -26,7 +26,7 @@ TEST(Irradiance, OfAnEvenMapIsPiTimesItsRadiance)
 {
   scene::Environment map = test::uniform_map(64, 32, {0.2, 1, 3});
   map.radiance = 7;
-  const IrradiancePolynomial polynomial = irradiance_polynomial(make_cube_map(map), 0);
+  const IrradiancePolynomial polynomial = irradiance_polynomial(irradiance_moments(make_cube_map(map)), 0);
   double largest = 0;
   for (int i = 0; i < some; ++i) {
     const glm::dvec3 part =
@@ -59,7 +59,7 @@ TEST(Irradiance, OfTheFirstThreeDegrees)
   const CubeMap cube = made_cube(128, [&](const glm::dvec3& n) {
     return glm::dvec3(1 + glm::dot(a, n), 1 + glm::dot(n, symmetric * n), 2 + glm::dot(a, n) - glm::dot(n, symmetric * n));
   });
-  const IrradiancePolynomial polynomial = irradiance_polynomial(cube, 0);
+  const IrradiancePolynomial polynomial = irradiance_polynomial(irradiance_moments(cube), 0);
   double largest = 0;
   for (int i = 0; i < some; ++i) {
     const glm::dvec3 n = scene::even_direction(i, some);
@@ -77,7 +77,7 @@ TEST(Irradiance, OfMadeMaps)
   for (const test::NamedMap& named : test::synthetic_maps(128)) {
     const CubeMap cube = make_cube_map(named.map);
     const std::vector<glm::dvec3> truth = irradiances(cube, some);
-    const IrradiancePolynomial polynomial = irradiance_polynomial(cube, 0);
+    const IrradiancePolynomial polynomial = irradiance_polynomial(irradiance_moments(cube), 0);
     double mean = 0;
     std::vector<double> off;
     for (int i = 0; i < some; ++i) {
@@ -97,9 +97,9 @@ TEST(Irradiance, OfMadeMaps)
 TEST(Irradiance, OfATurnedMapIsThatOfTurnedNormals)
 {
   const CubeMap cube = make_cube_map(test::synthetic_maps(64)[1].map);
-  const IrradiancePolynomial as_it_lies = irradiance_polynomial(cube, 0);
+  const IrradiancePolynomial as_it_lies = irradiance_polynomial(irradiance_moments(cube), 0);
   for (const double rotate_deg : {-300.0, 35.0, 90.0, 180.0}) {
-    const IrradiancePolynomial by_turn = irradiance_polynomial(cube, rotate_deg);
+    const IrradiancePolynomial by_turn = irradiance_polynomial(irradiance_moments(cube), rotate_deg);
     for (int i = 0; i < some; ++i) {
       const glm::dvec3 n = scene::even_direction(i, some), expected = irradiance(as_it_lies, n);
       EXPECT_LT(glm::distance(irradiance(by_turn, turned(n, rotate_deg)), expected), 1e-10 * glm::length(expected)) << rotate_deg;
@@ -111,7 +111,7 @@ TEST(Irradiance, OfATurnedMapIsThatOfTurnedNormals)
 TEST(Irradiance, TurnsToTheLeft)
 {
   const CubeMap cube = made_cube(16, [](const glm::dvec3& n) { return glm::dvec3(n.x > 0.9); });
-  const IrradiancePolynomial polynomial = irradiance_polynomial(cube, 90);
+  const IrradiancePolynomial polynomial = irradiance_polynomial(irradiance_moments(cube), 90);
   EXPECT_GT(irradiance(polynomial, {0, 0, -1}).y, 10 * std::abs(irradiance(polynomial, {0, 0, 1}).y));
   EXPECT_GT(irradiance(polynomial, {0, 0, -1}).y, 2 * irradiance(polynomial, {1, 0, 0}).y);
 }

@@ -233,9 +233,9 @@ TEST_F(EnvironmentJob, ThePlanSaysWhatRuns)
     const auto found = std::ranges::find(plan.buffers, name, &plan::PlannedBuffer::name);
     return found == plan.buffers.end() ? 0 : found->bytes;
   };
-  EXPECT_EQ(bytes(plain, "caustic spheres (host)"), 26u * 3 * 256 * 2);
-  EXPECT_EQ(bytes(coloured, "caustic spheres (host)"), 26u * 3 * 256 * 2 * 3);
-  EXPECT_EQ(bytes(plain, "spheres of one direction"), 3u * 256 * 8);
+  EXPECT_EQ(bytes(plain, "caustic spheres (host)"), 26u * 3 * 256 * 2 * (1 + 1));
+  EXPECT_EQ(bytes(coloured, "caustic spheres (host)"), 26u * 3 * 256 * 2 * (3 + 1));
+  EXPECT_EQ(bytes(plain, "spheres of one direction"), 3u * 256 * 8 * (1 + 3));
 }
 
 // What is left out changes nothing that is to be seen: photons that start towards the object alone, kernels without mirrors and colours.

@@ -35,15 +35,11 @@ struct BakeTask {
     const Bake bake = empty_bake();
     return static_cast<std::uint64_t>(bake.direction_items() + 3 * bake.direction_texels()) * sizeof(std::int64_t);
   }
-  /// On disk and in memory: of all directions, and of one of a light's own.
-  std::uint64_t bytes() const { return sphere_bytes() * radii.size() * directions.size(); }
-  std::uint64_t own_bytes() const { return sphere_bytes() * own_radii.size(); }
-
-private:
-  std::uint64_t sphere_bytes() const
+  /// Of all directions, in memory.
+  std::uint64_t bytes() const
   {
     const Bake bake = empty_bake();
-    return (bake.sphere_items() + bake.map.texels()) * sizeof(std::uint16_t);
+    return static_cast<std::uint64_t>(bake.direction_items() + bake.direction_texels()) * directions.size() * sizeof(std::uint16_t);
   }
 };
 

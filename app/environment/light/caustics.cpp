@@ -123,6 +123,14 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
   compiled_cast_ = program.kernel("cast_compiled");
 }
 
+std::uint64_t Caustics::bytes(const Bake& bake, int own, const std::vector<double>& own_radii)
+{
+  const std::size_t maps = bake.directions.size() * bake.radii.size() + static_cast<std::size_t>(own) * own_radii.size();
+  return sizeof(std::uint16_t) * maps * stored_texels(bake.map.side) * static_cast<std::size_t>(bake.channels + 1);
+}
+
+std::uint64_t Caustics::air_bytes(const Bake& bake, int side) { return 6 * sizeof(float) * stored_texels(side) * bake.radii.size(); }
+
 void Caustics::set_own(const Bake& own)
 {
   own_ = own.directions;

@@ -26,6 +26,11 @@ public:
   /// own: how many directions set_own() has at most. own_radii: of their spheres. Throws failed where the device has not enough memory.
   Caustics(const Bake& bake, const compute::Context& context, int own = 0, const std::vector<double>& own_radii = {});
 
+  /// On a device: of the bake with so many lights' own directions, whose spheres have these radii.
+  static std::uint64_t bytes(const Bake& bake, int own, const std::vector<double>& own_radii);
+  /// Of what compile_air() makes.
+  static std::uint64_t air_bytes(const Bake& bake, int side);
+
   /// What stands for lights that come from nearly there, from the next set_lights() on, in place of those it had. own: of the same object
   /// and resolution as the bake.
   void set_own(const Bake& own);

@@ -3,32 +3,33 @@
 
 namespace nephroid::environment {
 
-IrradiancePolynomial irradiance_polynomial(const CubeMap& cube, double rotate_deg)
+IrradianceMoments irradiance_moments(const CubeMap& cube)
 {
-  // Moments of the map as it lies in its file; then they are turned.
-  glm::dvec3 flux(0);
-  std::array<glm::dvec3, 3> first{};  // by channel
-  std::array<glm::dmat3, 3> second{}; // by channel
-  for (glm::dmat3& m : second) m = glm::dmat3(0);
+  IrradianceMoments moments;
   for (int face = 0; face < face_count; ++face)
     for (int y = 0; y < cube.size; ++y)
       for (int x = 0; x < cube.size; ++x) {
         const glm::dvec3 from = glm::normalize(position({face, middle(x, cube.size), middle(y, cube.size)})),
                          f = cube.flux_of(cube.texel(face, x, y));
-        flux += f;
+        moments.flux += f;
         for (int c = 0; c < 3; ++c) {
           const auto i = static_cast<std::size_t>(c);
-          first[i] += f[c] * from;
-          second[i] += f[c] * glm::outerProduct(from, from);
+          moments.first[i] += f[c] * from;
+          moments.second[i] += f[c] * glm::outerProduct(from, from);
         }
       }
+  return moments;
+}
+
+IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, double rotate_deg)
+{
   const glm::dmat3 turn(turned({1, 0, 0}, rotate_deg), turned({0, 1, 0}, rotate_deg), turned({0, 0, 1}, rotate_deg));
   IrradiancePolynomial polynomial{};
-  polynomial[0] = 3.0 / 32 * flux;
+  polynomial[0] = 3.0 / 32 * moments.flux;
   for (int c = 0; c < 3; ++c) {
     const auto i = static_cast<std::size_t>(c);
-    const glm::dvec3 v = 0.5 * (turn * first[i]);
-    const glm::dmat3 m = 15.0 / 32 * (turn * second[i] * glm::transpose(turn));
+    const glm::dvec3 v = 0.5 * (turn * moments.first[i]);
+    const glm::dmat3 m = 15.0 / 32 * (turn * moments.second[i] * glm::transpose(turn));
     const std::array<double, 9> factors{v.x, v.y, v.z, m[0][0], m[1][1], m[2][2], 2 * m[0][1], 2 * m[1][2], 2 * m[2][0]};
     for (std::size_t k = 0; k < factors.size(); ++k) polynomial[k + 1][c] = factors[k];
   }

@@ -12,10 +12,18 @@ namespace nephroid::environment {
 /// Irradiance as a polynomial of the unit normal (x, y, z): factors of 1, x, y, z, xx, yy, zz, xy, yz, zx; linear sRGB, W/m^2 of Y.
 using IrradiancePolynomial = std::array<glm::dvec3, 10>;
 
+/// Of all light of a map as it lies in its file: its flux, that times the direction it comes from, and times the products of that.
+struct IrradianceMoments {
+  glm::dvec3 flux{0};
+  std::array<glm::dvec3, 3> first{};                                             ///< by channel
+  std::array<glm::dmat3, 3> second{glm::dmat3(0), glm::dmat3(0), glm::dmat3(0)}; ///< by channel
+};
+IrradianceMoments irradiance_moments(const CubeMap& cube);
+
 /// The spherical harmonics of the irradiance up to the second degree, which leave out 1 % of it on the whole (Ramamoorthi and Hanrahan
 /// 2001, "An efficient representation for irradiance environment maps"). max(t, 0) up to that degree is 3/32 + t/2 + 15/32 t^2, so the
 /// irradiance is the sum of that over all light, with t its direction times the normal. rotate_deg: by how much the map is turned.
-IrradiancePolynomial irradiance_polynomial(const CubeMap& cube, double rotate_deg);
+IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, double rotate_deg);
 
 /// Of a polynomial for a unit normal.
 glm::dvec3 irradiance(const IrradiancePolynomial& polynomial, const glm::dvec3& normal);

@@ -2,7 +2,6 @@
 #include "environment/occlusion/surroundings.h"
 
 #include "optics/wavelength.h"
-#include "scene/bvh.h"
 #include "scene/corners.h"
 
 #include <algorithm>
@@ -84,16 +83,19 @@ scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::si
   return result;
 }
 
+compute::Defines bvh_defines(const scene::Bvh& bvh)
+{
+  return {{"NEPHROID_ELLIPSOIDS", std::to_string(int(!bvh.ellipsoid_places.empty()))},
+          {"NEPHROID_BVH_STACK", std::to_string(64 * (bvh.stack / 64 + 1))}};
+}
+
 tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings)
 {
   const scene::Bvh bvh = scene::build_bvh(surroundings.geometry);
   std::vector<int> all(optics::wavelength_count);
   std::iota(all.begin(), all.end(), 0);
-  compute::Defines defines;
-  defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!bvh.ellipsoid_places.empty()));
-  // A kernel takes a second to compile, and trees of moving objects need now more, now less.
-  defines["NEPHROID_BVH_STACK"] = std::to_string(64 * (bvh.stack / 64 + 1));
-  return tracing::make_world(context, surroundings, bvh, tracing::make_scene_tables(surroundings, {all}, tracing::LeaveOut{}), defines, 0);
+  return tracing::make_world(context, surroundings, bvh, tracing::make_scene_tables(surroundings, {all}, tracing::LeaveOut{}),
+                             bvh_defines(bvh), 0);
 }
 
 } // namespace nephroid::environment

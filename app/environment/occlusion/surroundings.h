@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands around the object whose caustics are shown: what hides the environment from it, and what its caustics fall on.
 #pragma once
+#include "scene/bvh.h"
 #include "scene/scene.h"
 #include "tracing/world.h"
 
@@ -14,7 +15,10 @@ namespace nephroid::environment {
 /// Caster::objects; the others keep their order.
 scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::size_t>& caster);
 
-/// The surroundings on a device, with their tree. An object that moves changes the tree, but hardly ever the kernels that are run in it.
+/// What code depends on of a tree. An object that moves changes the tree, but hardly ever these: a kernel takes a second to compile.
+compute::Defines bvh_defines(const scene::Bvh& bvh);
+
+/// The surroundings on a device, with their tree.
 /// Throws failed where the device has not enough memory.
 tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings);
 

@@ -6,6 +6,7 @@
 #include "environment/occlusion/surroundings.h"
 #include "environment/settings.h"
 #include "scene/environment_light.h"
+#include "scene/move.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 
 namespace nephroid::environment {
 namespace {
+
+constexpr std::size_t surface_point_count = 1024;
 
 bool shines(const scene::Scene& scene) { return scene.environment && !scene.environment->is_black(); }
 
@@ -66,12 +69,11 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   task.bvh = std::make_shared<const scene::Bvh>(bvh);
   task.lamps = lamps(scene);
   task.placement = placement(preset, caster, scene);
-  task.surface_points = surface_points(scene, caster.objects, 1024);
+  task.surface_points = surface_points(scene, caster.objects, surface_point_count);
   task.tables = tracing::make_scene_tables(*task.scene, all_wavelengths(), leave_out);
   task.coloured = is_coloured(task.tables.wavelengths);
   task.defines = tracing::code_omissions(leave_out, *task.scene, task.tables.wavelengths.attenuator_count).defines;
-  task.defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!bvh.ellipsoid_places.empty()));
-  task.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(bvh.stack, 1));
+  task.defines.merge(bvh_defines(bvh));
   task.defines["NEPHROID_JITTER"] = std::to_string(int(task.coloured));
   task.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(0);
 
@@ -89,6 +91,23 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
     task.segmentation = segment_by(preset, task.cube);
   }
   return task;
+}
+
+std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset::Preset& before, const preset::Preset& shown,
+                                         const preset::Preset& now, const Caster& caster)
+{
+  std::optional<scene::Scene> scene = scene::move_objects(*loaded.scene, before, now);
+  if (!scene) return {};
+  MovedObjects moved;
+  moved.camera = tracing::device_camera(scene->camera, Place(now.source) / "scene" / "camera");
+  moved.placement = placement(now, caster, *scene);
+  moved.surface_points = surface_points(*scene, caster.objects, surface_point_count);
+  moved.bvh = std::make_shared<const scene::Bvh>(scene::build_bvh(scene->geometry));
+  for (std::size_t i = 0; i < now.scene.objects.size() && !moved.surroundings; ++i)
+    if (!std::ranges::count(caster.objects, i) && now.scene.objects[i].transform != shown.scene.objects[i].transform)
+      moved.surroundings = without_caster(*scene, caster.objects);
+  moved.scene = std::make_shared<const scene::Scene>(std::move(*scene));
+  return moved;
 }
 
 } // namespace nephroid::environment

@@ -11,6 +11,7 @@
 #include "tracing/scene_tables.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
@@ -37,6 +38,16 @@ struct RenderTask {
   int rayleigh = 0; ///< 1: the phase function is Rayleigh's
 };
 
+/// What of a task changes when objects move.
+struct MovedObjects {
+  std::shared_ptr<const scene::Scene> scene;
+  std::shared_ptr<const scene::Bvh> bvh;
+  Placement placement;
+  std::vector<glm::dvec3> surface_points;
+  shared::DeviceCamera camera{};
+  std::optional<scene::Scene> surroundings; ///< where others than the caster move
+};
+
 /// Whether the scene has light: else only the bake is shown.
 bool has_light(const scene::Scene& scene);
 
@@ -46,6 +57,10 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
 
 /// Whether the map has one colour all around, so that there is nothing to look for.
 bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube);
+
+/// As scene::move_objects. loaded: of `before`. shown: what the surroundings were last made for. caster: of the presets.
+std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset::Preset& before, const preset::Preset& shown,
+                                         const preset::Preset& now, const Caster& caster);
 
 /// The preset's lights of the cube, by its settings.
 Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube);

@@ -2,12 +2,8 @@
 #include "environment/view/renderer.h"
 
 #include "base/parallel.h"
-#include "environment/light/irradiance.h"
 #include "environment/occlusion/surroundings.h"
-#include "environment/white_light.h"
-#include "optics/colour.h"
-#include "optics/primary_spectra.h"
-#include "tracing/exact_cdf.h"
+#include "environment/view/colours.h"
 #include "tracing/sky_tables.h"
 
 #include <algorithm>
@@ -22,47 +18,6 @@ constexpr int coarse_receivers = 128, fine_receivers = 512; ///< texels along an
 constexpr std::array<const char*, 3> layer_names{"background", "direct", "caustic"};
 
 shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
-
-shared::float4 to_rgb(const optics::Colour& xyz)
-{
-  const optics::Colour rgb = optics::xyz_to_linear_srgb(xyz);
-  return to_float4({rgb[0], rgb[1], rgb[2]});
-}
-
-/// [row of the lights' tables][reflector]: what a reflector sends back of a light, linear sRGB.
-std::vector<shared::float4> lit_colours(const tracing::WavelengthTables& tables)
-{
-  std::vector<shared::float4> colours;
-  for (const shared::float4& xyz : tables.reflected_xyz_all) colours.push_back(to_rgb({xyz.x, xyz.y, xyz.z}));
-  return colours;
-}
-
-/// [reflector][primary]: what a reflector sends back of a primary's spectrum, linear sRGB.
-std::vector<shared::float4> reflected_primaries(const tracing::WavelengthTables& tables)
-{
-  std::vector<shared::float4> colours;
-  for (std::size_t r = 0; r < static_cast<std::size_t>(tables.reflector_count); ++r)
-    for (optics::Spectrum primary : optics::primary_spectra()) {
-      for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= tables.reflectance[r * primary.size() + w];
-      colours.push_back(to_rgb(optics::to_xyz(primary)));
-    }
-  return colours;
-}
-
-/// [channel][401]: chances of wavelengths, by how much white light of that wavelength is in the channel where that is positive. So what
-/// glass does not bend has no noise of colours.
-std::vector<float> channel_cdf()
-{
-  const std::vector<shared::float4> light = white_light();
-  std::vector<float> cdf;
-  for (const auto channel : {&shared::float4::x, &shared::float4::y, &shared::float4::z}) {
-    std::vector<double> chances;
-    for (const shared::float4& rgb : light) chances.push_back(std::max(rgb.*channel, 0.0F));
-    const std::vector<float> own = tracing::exact_cdf(chances);
-    cdf.insert(cdf.end(), own.begin(), own.end());
-  }
-  return cdf;
-}
 
 std::size_t ends_of_pixel(const RenderTask& task) { return task.coloured ? 4 : 2; } // ENDS_OF_PIXEL
 
@@ -88,8 +43,7 @@ std::uint64_t Renderer::receiver_bytes() { return Receivers::bytes(coarse_receiv
 
 std::uint64_t Renderer::medium_bytes(const Bake& bake)
 {
-  const auto side = static_cast<std::uint64_t>(fine_side(bake.map.side));
-  return Receivers::bytes(coarse_receivers) + 6 * sizeof(float) * (side + 2) * (side + 2) * bake.radii.size();
+  return Receivers::bytes(coarse_receivers) + Caustics::air_bytes(bake, fine_side(bake.map.side));
 }
 
 Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint64_t seed, const compute::Context& context)
@@ -98,7 +52,7 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
       channel_cdf_(tracing::upload_vector(context, "wavelengths of channels", channel_cdf())),
       lit_rgb_(tracing::upload_vector(context, "colours of lit surfaces", lit_colours(task_.tables.wavelengths))),
       reflected_rgb_(tracing::upload_vector(context, "colours of surfaces", reflected_primaries(task_.tables.wavelengths))),
-      irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
+      moments_(irradiance_moments(task_.cube)), irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
       texels_(tracing::upload_vector(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
       ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
@@ -106,25 +60,38 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
       coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192),
       volume_steps_(pixels(), 8192)
 {
-  if (task_.has_surroundings) {
-    surroundings_ = surroundings_world(context, task_.surroundings);
-    receivers_kernel_ = compute::Program(context, "environment/receivers.cl", surroundings_->defines).kernel("receivers");
-    if (!task_.lamps.empty()) task_.lamps = seen_lights(std::move(task_.lamps), *surroundings_, task_.surface_points);
-  }
   if (!task_.segmentation.lights.empty()) occlusion_.emplace(context, task_.segmentation, task_.cube);
-  see_ = compute::Program(context, "environment/see.cl", world_.defines).kernel("see");
-  shade_ = compute::Program(context, "environment/shade.cl", world_.defines).kernel("shade");
-  compute::Defines coarse = world_.defines;
-  coarse["NEPHROID_COARSE"] = std::to_string(1);
-  coarse_shade_ = compute::Program(context, "environment/shade.cl", coarse).kernel("shade");
+  make_kernels();
   if (task_.has_medium) {
-    volume_ = compute::Program(context, "environment/volume.cl", world_.defines).kernel("volume");
     volume_sums_ = compute::Buffer<float>(context, "light in the air", 3 * static_cast<std::size_t>(pixels()));
     around_.emplace(context, coarse_receivers);
-    around_->find_all(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr, task_.placement.middle);
   }
+  if (task_.has_surroundings) make_surroundings();
+  find_around();
   light_up();
   begin_anew();
+}
+
+void Renderer::make_kernels()
+{
+  see_ = compute::Program(context_, "environment/see.cl", world_.defines).kernel("see");
+  shade_ = compute::Program(context_, "environment/shade.cl", world_.defines).kernel("shade");
+  compute::Defines coarse = world_.defines;
+  coarse["NEPHROID_COARSE"] = std::to_string(1);
+  coarse_shade_ = compute::Program(context_, "environment/shade.cl", coarse).kernel("shade");
+  if (task_.has_medium) volume_ = compute::Program(context_, "environment/volume.cl", world_.defines).kernel("volume");
+}
+
+void Renderer::make_surroundings()
+{
+  surroundings_ = surroundings_world(context_, task_.surroundings);
+  receivers_kernel_ = compute::Program(context_, "environment/receivers.cl", surroundings_->defines).kernel("receivers");
+}
+
+void Renderer::find_around()
+{
+  if (around_)
+    around_->find_all(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr, task_.placement.middle);
 }
 
 void Renderer::light_up()
@@ -132,8 +99,9 @@ void Renderer::light_up()
   world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
   visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(*surroundings_, rotate_deg_, task_.surface_points)
                                          : whole_lights(task_.segmentation);
+  lamps_ = surroundings_ ? seen_lights(task_.lamps, *surroundings_, task_.surface_points) : task_.lamps;
   std::vector<shared::float4> polynomial;
-  for (const glm::dvec3& factor : irradiance_polynomial(task_.cube, rotate_deg_)) polynomial.push_back(to_float4(factor));
+  for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(to_float4(factor));
   irradiance_.write(polynomial);
   compiled_side_ = 0;
   coarse_.forget_caustics();
@@ -143,7 +111,7 @@ void Renderer::light_up()
 std::vector<DistantLight> Renderer::with_lamps(const std::vector<VisibleLight>& visible) const
 {
   std::vector<DistantLight> lights = environment_lights(visible, rotate_deg_);
-  lights.insert(lights.end(), task_.lamps.begin(), task_.lamps.end());
+  lights.insert(lights.end(), lamps_.begin(), lamps_.end());
   return lights;
 }
 
@@ -357,6 +325,29 @@ std::shared_ptr<const job::Picture> Renderer::picture() const
 void Renderer::set_camera(const scene::Camera& camera, const Place& where)
 {
   task_.tables.camera = tracing::device_camera(camera, where);
+  begin_anew();
+}
+
+void Renderer::move_objects(MovedObjects moved)
+{
+  task_.scene = std::move(moved.scene);
+  task_.bvh = std::move(moved.bvh);
+  task_.placement = moved.placement;
+  task_.surface_points = std::move(moved.surface_points);
+  task_.tables.camera = moved.camera;
+  tracing::upload_surfaces(context_, *task_.scene, *task_.bvh, world_.buffers);
+  world_.scene.root = task_.bvh->root;
+  for (const auto& [name, value] : bvh_defines(*task_.bvh)) world_.defines[name] = value;
+  make_kernels();
+  if (moved.surroundings) {
+    task_.surroundings = std::move(*moved.surroundings);
+    make_surroundings();
+  }
+  coarse_.forget();
+  fine_.forget();
+  if (around_) around_->forget();
+  find_around();
+  light_up();
   begin_anew();
 }
 

@@ -3,6 +3,7 @@
 // (kernels/environment/see.cl, shade.cl). What a change does not touch stays.
 #pragma once
 #include "environment/light/caustics.h"
+#include "environment/light/irradiance.h"
 #include "environment/occlusion/occlusion.h"
 #include "environment/view/receivers.h"
 #include "environment/view/render_task.h"
@@ -40,6 +41,8 @@ public:
   /// Each begins anew with a coarse picture. where: FILE#/scene/camera.
   void set_camera(const scene::Camera& camera, const Place& where);
   void turn_environment(double rotate_deg);
+  /// Of the task's scene.
+  void move_objects(MovedObjects moved);
   void set_segmentation(Segmentation segmentation);
   /// The same from the first full pass on, after Caustics::set_own.
   void take_own_directions();
@@ -59,6 +62,9 @@ public:
 private:
   enum class Stage { see, cast, compile, shade, volume };
 
+  void make_kernels();
+  void make_surroundings();
+  void find_around();
   void light_up();   ///< after a change of lights
   void light_pass(); ///< for the pass in hand: the first has each light as it is, later ones parts of each
   void end_pass();
@@ -81,7 +87,9 @@ private:
   std::optional<Occlusion> occlusion_; ///< of the segmentation's lights
   compute::Kernel see_, shade_, coarse_shade_, volume_;
   compute::Buffer<float> channel_cdf_;
-  compute::Buffer<shared::float4> lit_rgb_, reflected_rgb_, irradiance_;
+  compute::Buffer<shared::float4> lit_rgb_, reflected_rgb_;
+  IrradianceMoments moments_; ///< of the task's cube
+  compute::Buffer<shared::float4> irradiance_;
   compute::Buffer<float> texels_;
   shared::DeviceBackground texels_size_{};
   compute::Buffer<shared::DeviceEnd> ends_;
@@ -92,6 +100,7 @@ private:
   std::optional<Receivers> around_; ///< of all directions, for what hides a medium
   int compiled_side_ = 0;           ///< of the spheres that are compiled for the lights as they are; 0: none
   std::vector<VisibleLight> visible_;
+  std::vector<DistantLight> lamps_; ///< what is left of each
 
   std::int64_t pass_ = 0;
   Stage stage_ = Stage::see;

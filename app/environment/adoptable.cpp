@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "environment/adoptable.h"
+
+#include "environment/engine.h"
+
+#include <algorithm>
+
+namespace nephroid::environment {
+
+preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other)
+{
+  preset::Preset made = preset;
+  made.scene.camera = other.scene.camera;
+  if (made.scene.environment && other.scene.environment) made.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
+  made.white = other.white;
+  made.name = other.name;
+  made.description = other.description;
+  Settings& s = settings(made);
+  const Settings& o = settings(other);
+  s.lights = o.lights;
+  s.segmentation = o.segmentation;
+  s.threshold = o.threshold;
+  return made;
+}
+
+preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other)
+{
+  preset::Preset made = preset;
+  for (std::size_t i = 0; i < made.scene.objects.size(); ++i) {
+    made.scene.objects[i].transform.rotate_deg = other.scene.objects[i].transform.rotate_deg;
+    made.scene.objects[i].transform.translate = other.scene.objects[i].transform.translate;
+  }
+  return made;
+}
+
+bool adoptable(const preset::Preset& before, const preset::Preset& now)
+{
+  const auto may_be_lit = [](const preset::Preset& preset) { return preset.scene.environment || !preset.scene.lights.empty(); };
+  if (&before.settings.type() != &now.settings.type() || before.scene.camera.resolution != now.scene.camera.resolution ||
+      before.scene.objects.size() != now.scene.objects.size() || may_be_lit(before) != may_be_lit(now))
+    return false;
+  // What is baked together may not move apart.
+  const auto is_caster = [&](const preset::Object& object) {
+    const auto material = before.scene.materials.find(object.material);
+    return material != before.scene.materials.end() && material->second.type != preset::Material::Type::diffuse;
+  };
+  const std::vector<preset::Object>& objects = before.scene.objects;
+  const bool alone = std::ranges::count_if(objects, is_caster) == 1;
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (!alone && is_caster(objects[i]) && objects[i].transform != now.scene.objects[i].transform) return false;
+  preset::Preset same = with_view_of(before, now);
+  same.scene.environment = now.scene.environment;
+  same.scene.lights = now.scene.lights;
+  same = with_places_of(same, now);
+  Settings& s = settings(same);
+  const Settings& n = settings(now);
+  s.extinction = n.extinction;
+  s.albedo = n.albedo;
+  s.phase = n.phase;
+  s.anisotropy = n.anisotropy;
+  return same == now;
+}
+
+} // namespace nephroid::environment
