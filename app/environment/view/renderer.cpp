@@ -299,13 +299,12 @@ std::shared_ptr<const job::Picture> Renderer::picture() const
   picture->height = task_.tables.camera.height;
   const auto count = static_cast<std::size_t>(pixels());
   picture->rgb.resize(3 * count);
-  for (const char* name : layer_names) picture->layers.push_back({name, std::vector<float>(3 * count)});
-  std::vector<float> sums = sums_.read();
-  if (task_.has_medium) {
-    picture->layers.push_back({"volume", std::vector<float>(3 * count)});
-    const std::vector<float> air = volume_sums_.read();
-    sums.insert(sums.end(), air.begin(), air.end());
-  }
+  const auto add = [&](const char* name, const compute::Buffer<float>& sums, std::size_t first) {
+    std::vector<float>& rgb = picture->layers.emplace_back(job::Layer{name, std::vector<float>(3 * count)}).rgb;
+    sums.RawBuffer::read(rgb.data(), 3 * count * sizeof(float), first * sizeof(float));
+  };
+  for (std::size_t l = 0; l < layer_names.size(); ++l) add(layer_names[l], sums_, 3 * count * l);
+  if (task_.has_medium) add("volume", volume_sums_, 0);
   // The pixels before these have had the pass in hand as well. The coarse picture is one sample.
   const std::size_t shaded = shaded_ ? count : static_cast<std::size_t>(shade_steps_.done()),
                     scattered = static_cast<std::size_t>(volume_steps_.done());
@@ -315,8 +314,7 @@ std::shared_ptr<const job::Picture> Renderer::picture() const
         const std::size_t ahead = l < layer_names.size() ? shaded : scattered;
         const double samples = std::max<double>(1, static_cast<double>(pass_) + (pixel < ahead ? 1 : 0));
         const auto scale = static_cast<float>(1 / (white_ * samples));
-        for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
-          picture->rgb[i] += picture->layers[l].rgb[i] = scale * sums[3 * count * l + i];
+        for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) picture->rgb[i] += picture->layers[l].rgb[i] *= scale;
       }
   });
   return picture;
