@@ -204,4 +204,51 @@ TEST(TurnedSets, BlackLightsHaveNone)
   EXPECT_FALSE(turned_sets({{{0, -1, 0}, {0, 0, 1}}}, glm::dmat3(1), 26).empty());
 }
 
+// A light's own direction stands for it alone near by, and ever less up to a quarter of the way between baked directions.
+TEST(NearDirections, OwnDirectionsStandForLightsNearThem)
+{
+  for (const int count : {26, 98, 386}) {
+    const glm::dvec3 own = glm::normalize(glm::dvec3(0.3, -0.8, 0.45)), across = glm::normalize(glm::cross(own, {1, 0, 0}));
+    const auto weight_at = [&](double parts) {
+      const double angle = glm::radians(parts * degrees_between(count));
+      const std::vector<NearDirection> near =
+          near_directions(std::cos(angle) * own + std::sin(angle) * across, count, {{0, 1, 0}, own, {1, 0, 0}});
+      double sum = 0, weight = 0;
+      for (const NearDirection& n : near) {
+        EXPECT_GT(n.weight, 0);
+        EXPECT_NE(n.direction, count);
+        EXPECT_NE(n.direction, count + 2);
+        sum += n.weight;
+        if (n.direction == count + 1) weight = n.weight;
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+      EXPECT_EQ(near.size() == 1, parts <= 0.125);
+      return weight;
+    };
+    EXPECT_EQ(weight_at(0), 1);
+    EXPECT_EQ(weight_at(0.12), 1);
+    EXPECT_NEAR(weight_at(0.1875), 0.5, 1e-9);
+    EXPECT_EQ(weight_at(0.26), 0);
+    EXPECT_EQ(degrees_between(count), count == 26 ? 45 : count == 98 ? 22.5 : 11.25);
+  }
+}
+
+TEST(StrongDirections, AreOfNarrowLightsThatHaveAPartOfAll)
+{
+  const glm::dvec3 sun = glm::normalize(glm::dvec3(0.2, -1, 0.1)), lamp = glm::normalize(glm::dvec3(-0.5, -1, 0.4));
+  const std::vector<DistantLight> lights{{lamp, glm::dvec3(2), 0},
+                                         {sun, glm::dvec3(9), 1},
+                                         {{0, -1, 0}, glm::dvec3(5), 30}, // wide
+                                         {{1, 0, 0}, glm::dvec3(0.1), 0}, // weak
+                                         {glm::normalize(sun + glm::dvec3(1e-4, 0, 0)), glm::dvec3(3), 0}};
+  const glm::dmat3 rotation = scene::rotation({20, -70, 130});
+  const std::vector<glm::dvec3> found = strong_directions(lights, rotation, 26, 4);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_LT(glm::distance(found[0], glm::transpose(rotation) * sun), 1e-15);
+  EXPECT_LT(glm::distance(found[1], glm::transpose(rotation) * lamp), 1e-15);
+  EXPECT_EQ(strong_directions(lights, rotation, 26, 1).size(), 1u);
+  EXPECT_TRUE(strong_directions(lights, rotation, 26, 0).empty());
+  EXPECT_TRUE(strong_directions({}, rotation, 26, 4).empty());
+}
+
 } // namespace

@@ -38,6 +38,7 @@ protected:
     p.scene.environment.emplace();
     p.scene.environment->file = (cache.path() / "map.exr").string();
     p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
+    environment::settings(p).own_directions = 1;
     look(p, {2, 2, 4}, {0, -0.5, 0}, 50);
     return p;
   }

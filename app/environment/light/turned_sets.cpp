@@ -103,9 +103,8 @@ std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& light
   std::vector<glm::dvec3> directions;
   for (const DistantLight& light : strong) {
     const glm::dvec3 travel = glm::transpose(rotation) * light.direction;
-    const bool is_baked =
-        std::ranges::any_of(near_directions(travel, count), [](const NearDirection& near) { return near.weight > 1 - 1e-9; });
-    if (directions.size() < static_cast<std::size_t>(most) && strength(light) > 0.01 * all && !is_baked) directions.push_back(travel);
+    const bool is_there = std::ranges::any_of(directions, [&](const glm::dvec3& other) { return glm::distance(other, travel) < 0.004; });
+    if (directions.size() < static_cast<std::size_t>(most) && strength(light) > 0.05 * all && !is_there) directions.push_back(travel);
   }
   return directions;
 }

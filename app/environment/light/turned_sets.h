@@ -34,8 +34,8 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count, 
 /// Between neighbours of light_directions(count) in the middle of a face of the cube.
 double degrees_between(int count);
 
-/// Where lights come from that are worth a direction of their own, the strongest first, at most `most`: those that are narrower than half
-/// of the way between baked directions, have a twentieth of all light, and come from no baked direction. In the bake's coordinates.
+/// Where lights go that are worth a direction of their own, the strongest first, at most `most`: those that are narrower than half of the
+/// way between baked directions and have a twentieth of all light. Of lights within a quarter of a degree one. In the bake's coordinates.
 std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, int most);
 
 /// The shortest turn from one unit vector to another; half a turn about some axis across where they are opposite.
