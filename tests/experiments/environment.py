@@ -45,8 +45,7 @@ class Bench:
         return folder
 
     def ours(self, preset, settings):
-        name = "-".join([preset, *(str(value) for value in settings.values())])
-        return self.run(preset, name, {"stop.passes": self.passes, **settings})
+        return self.run(preset, name_of(f"{preset}-{self.size}", settings), {"stop.passes": self.passes, **settings})
 
     def reference(self, preset, seed):
         return self.run(preset, f"{preset}-reference-{seed}", {**TRUTH, "seed": seed}, "--seconds", self.seconds)
@@ -73,6 +72,10 @@ class Bench:
         return [{**found["masked"], "iw_ssim": found["iw_ssim"]}[metric] for metric in METRICS]
 
 
+def name_of(start, settings):
+    return "-".join([start, *(f"{key.split('.')[-1]}={value}" for key, value in settings.items())])
+
+
 def row(label, values):
     print("| " + label + " | " + " | ".join("-" if v is None else f"{v:.3g}" for v in values) + " |", flush=True)
 
@@ -81,13 +84,15 @@ def head(title, columns):
     print(f"\n{title}\n\n| | " + " | ".join(columns) + " |\n|---|" + "---|" * len(columns), flush=True)
 
 
-ONE = {"environment.refine": False}  # a light keeps its one direction, as in the thesis
+# A light keeps its one direction, and all light is put together from the baked grid of directions, as in the thesis.
+ONE = {"environment.refine": False, "environment.own_directions": 0}
 TABLES = {
     "lights": [({**ONE, "environment.lights": q, "environment.segmentation": way}, f"{way}, q = {q}")
                for way in ("thesis", "variance") for q in (8, 16, 24, 32, 40, 48, 56, 64)],
     "spheres": [({**ONE, "environment.spheres": s, "environment.radii": way}, f"{way}, s = {s}") for way in ("quadratic", "uniform") for s in (8, 16, 32)],
-    "directions": [({**ONE, "environment.directions": n}, f"{n} directions") for n in (26, 98)],
-    "refining": [({"stop.passes": n}, f"refined, {n} passes") for n in (1, 4, 16, 64)],
+    "directions": [({**ONE, "environment.directions": n}, f"{n} directions") for n in (26, 98)]
+                  + [({"environment.refine": False, "environment.own_directions": n}, f"{n} own directions") for n in (1, 4)],
+    "refining": [({"stop.passes": n}, f"refined, {n} passes") for n in (2, 4, 16, 64)],
 }
 BINS = (0, 1, 2, 5, 10, 20, 40, 60)  # of CIELAB's distance
 
@@ -96,11 +101,12 @@ def scenes(bench, presets):
     head(f"five scenes, {bench.size} x {bench.size}, q = 24, s = 16, {bench.passes} passes", METRICS)
     for name in presets:
         first, second = (bench.reference(name, seed) for seed in SEEDS)
-        ours = bench.ours(name, {"environment.refine": True})
+        ours = bench.ours(name, {})
         thesis = bench.ours(name, {**ONE, "environment.segmentation": "thesis"})
         mask = bench.mask(name, ours)
         row(f"{name}: another reference", bench.errors(second, first, mask))
         row(f"{name}: as in the thesis", bench.errors(thesis, first, mask))
+        row(f"{name}: ours without own directions", bench.errors(bench.ours(name, {"environment.own_directions": 0}), first, mask))
         row(f"{name}: ours", bench.errors(ours, first, mask))
         sheet(bench, name, ours, first, mask)
 

@@ -13,12 +13,14 @@ import json
 from itertools import groupby
 
 import numpy as np
-from environment import ONE, PRESETS, SEEDS, TRUTH, Bench, head, row
+from environment import ONE, PRESETS, SEEDS, TRUTH, Bench, head, name_of, row
 from layers import read_layer, read_mask, side_by_side, write_png
 
 THESIS = {**ONE, "environment.segmentation": "thesis"}
-WAYS = {"as in the thesis": THESIS, "as in the thesis, 98 directions": {**THESIS, "environment.directions": 98},
-        "variance, one direction a light": ONE, "ours": {}, "ours, 98 directions": {"environment.directions": 98}}
+GRID = {"environment.own_directions": 0}
+WAYS = {"as in the thesis": THESIS, "as in the thesis, 98 directions": {**THESIS, "environment.directions": 98}, "variance, one direction a light": ONE,
+        "refined": GRID, "refined, 98 directions": {**GRID, "environment.directions": 98}, "ours": {"environment.own_directions": 1}}  # the sky has one sun
+OURS = "ours"
 PAIRS = range(0, 120, 10)
 
 
@@ -79,12 +81,12 @@ def turning(bench, passes, reference_passes):
     head("parts of the reference's change", ["change", "largest", "change that is wrong", "light, mean", "light, spread"])
     row("reference", [1, max(size(change, 2 * noise) for change in own) / whole, 0, 1, 0])
     for label, settings in WAYS.items():
-        film = Film(bench, "turning-sky", "-".join(["turning", *(str(value) for value in settings.values())]), settings, frames, passes)
+        film = Film(bench, "turning-sky", name_of(f"turning-{bench.size}", settings), settings, frames, passes)
         made = film.changes(PAIRS)
         wrong = np.sqrt(np.mean([size(ours - theirs, 2 * noise) ** 2 for ours, theirs in zip(made, own)]))
         light = film.light() / truth.light()
         row(label, [np.sqrt(np.mean([rms(change) ** 2 for change in made])) / whole, max(map(rms, made)) / whole, wrong / whole, light.mean(), light.std()])
-    film = Film(bench, "turning-sky", "turning", WAYS["ours"], range(120), passes)
+    film = Film(bench, "turning-sky", name_of(f"turning-{bench.size}", WAYS[OURS]), WAYS[OURS], range(120), passes)
     steps = [rms(change) / whole for change in film.changes(range(119))]
     print(f"\nours, all 119 steps: median {np.median(steps):.3g}, largest {max(steps):.3g}; the largest ratio of neighbouring steps "
           f"{max(max(a / b, b / a) for a, b in zip(steps, steps[1:])):.3g}")
@@ -94,9 +96,10 @@ def turning(bench, passes, reference_passes):
 def card(bench, passes, reference_passes):
     frames = range(24)
     truth = reference(bench, "passing-card", SEEDS[0], frames, reference_passes)
-    noise = noise_of(truth, reference(bench, "passing-card", SEEDS[1], range(6, 10), reference_passes))
-    films = {"reference": truth, **{label: Film(bench, "passing-card", "-".join(["card", *(str(value) for value in settings.values())]), settings, frames, passes)
-                                    for label, settings in (("as in the thesis", THESIS), ("ours", {}))}}
+    noise = noise_of(truth, reference(bench, "passing-card", SEEDS[1], range(7, 10), reference_passes))
+    films = {"reference": truth}
+    for way in ("as in the thesis", "refined", OURS):
+        films[way] = Film(bench, "passing-card", name_of(f"card-{bench.size}", WAYS[way]), WAYS[way], frames, passes)
     print(f"\ncard: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: {np.sqrt(noise) / rms(truth.pixels[0]):.2g} of its root mean square in frame 0.")
     head("light on receivers, parts of the reference's in frame 0", [str(k) for k in frames])
     for label, film in films.items():
@@ -104,9 +107,10 @@ def card(bench, passes, reference_passes):
     head("change to the next frame, parts of the reference's root mean square in frame 0", [str(k) for k in frames[:-1]])
     for label, film in films.items():
         row(label, [size(change, 2 * noise if film is truth else 0) / rms(truth.pixels[0]) for change in film.changes(frames[:-1])])
-    for part, film in (("reference", truth), ("ours", films["ours"])):
+    receivers = read_mask(bench.mask("passing-card", truth.folder))[..., None]
+    for part, film in (("reference", truth), ("ours", films[OURS])):
         for k in frames:
-            write_png(bench.out / f"card-{part}-{k}.png", read_layer(film.path(k), "caustic") / np.percentile(truth.pixels[0], 99.5))
+            write_png(bench.out / f"card-{part}-{k}.png", read_layer(film.path(k), "caustic") * receivers / np.percentile(truth.pixels[0], 99.5))
     side_by_side([bench.out / f"card-{part}-{k}.png" for part in ("ours", "reference") for k in range(2, 22, 2)], 10, 96, bench.out / "card-sheet.png")
 
 
@@ -117,10 +121,11 @@ def main():
     arguments.add_argument("films", nargs="*", default=["turning", "card"], metavar="FILM")
     arguments.add_argument("--size", type=int, default=128)
     arguments.add_argument("--passes", type=int, default=4)
+    arguments.add_argument("--reference-passes", type=int, default=5)
     chosen = arguments.parse_args()
     bench = Bench(chosen.program, chosen.out, chosen.size, chosen.passes, 0)
     for film in chosen.films:
-        {"turning": lambda: turning(bench, chosen.passes, 16), "card": lambda: card(bench, chosen.passes, 24)}[film]()
+        {"turning": turning, "card": card}[film](bench, chosen.passes, chosen.reference_passes)
 
 
 main()
