@@ -41,7 +41,8 @@ class Bench:
         folder = self.out / name
         if not (folder / "image.exr").exists():
             settings = {"scene.camera.resolution": [self.size, self.size], **settings}
-            self.call("run", PRESETS / f"{preset}.json", "-o", folder, *words, *(w for key, value in settings.items() for w in ("--set", f"{key}={json.dumps(value)}")))
+            sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")]
+            self.call("run", PRESETS / f"{preset}.json", "-o", folder, *words, *sets)
         return folder
 
     def ours(self, preset, settings):

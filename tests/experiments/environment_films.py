@@ -106,7 +106,8 @@ def card(bench, passes, reference_passes):
     films = {"reference": truth}
     for way in ("as in the thesis", "refined", OURS):
         films[way] = Film(bench, "passing-card", name_of(f"card-{bench.size}", WAYS[way]), WAYS[way], frames, passes)
-    print(f"\ncard: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: {np.sqrt(noise) / rms(truth.pixels[0]):.2g} of its root mean square in frame 0.")
+    print(f"\ncard: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: {np.sqrt(noise) / rms(truth.pixels[0]):.2g} of its "
+          "root mean square in frame 0.")
     head("light on receivers, parts of the reference's in frame 0", [str(k) for k in frames])
     for label, film in films.items():
         row(label, film.light() / truth.light()[0])

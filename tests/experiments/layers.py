@@ -91,7 +91,8 @@ def read_mask(path):
 
 def side_by_side(files, columns, size, target):
     """One PNG of many, each `size` pixels wide and high."""
-    subprocess.run(["montage", *map(str, files), "-tile", f"{columns}x", "-geometry", f"{size}x{size}+1+1", "-background", "black", "-depth", "8", str(target)], check=True)
+    names = map(str, files)
+    subprocess.run(["montage", *names, "-tile", f"{columns}x", "-geometry", f"{size}x{size}+1+1", "-background", "black", "-depth", "8", str(target)], check=True)
 
 
 def lab(picture):
