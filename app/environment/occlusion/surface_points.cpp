@@ -65,7 +65,7 @@ std::vector<glm::dvec3> surface_points(const scene::Scene& scene, const std::vec
   // Each count-th of the area has a point, so small triangles share one.
   const auto points_until = [&](double of_area) {
     before += of_area;
-    return static_cast<std::size_t>(before / total * static_cast<double>(count) + 0.5);
+    return static_cast<std::size_t>(std::llround(before / total * static_cast<double>(count)));
   };
   for_each_piece(
       scene, objects,
