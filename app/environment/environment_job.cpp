@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 3;
+constexpr std::uint32_t checkpoint_version = 4;
 
 class EnvironmentJob final : public job::Job {
 public:
@@ -115,11 +115,12 @@ public:
     const std::uint8_t complete = bake_ ? 1 : 0;
     to.value(complete);
     if (baker_) baker_->save(to);
-    if (own_) own_->save(to);
-    if (renderer_) renderer_->save(to);
+    if (!renderer_) return;
+    to.value(static_cast<std::uint8_t>(own_->complete() || resumes_));
+    renderer_->save(to);
   }
 
-  /// A bake that was complete is in its file, or is baked again.
+  /// A bake that was complete is in its file, or is baked again. So are lights' own directions.
   void load(ByteSource& source) override
   {
     tracing::StateReader from(source);
@@ -141,10 +142,10 @@ public:
       if (!baker_) baker_.emplace(*task_, context_);
       baker_->load(from);
     } else if (renderer_) {
-      own_->load(from);
-      caustics_->set_own(own_->bake());
-      own_->want(strong());
+      std::uint8_t had_own = 0;
+      from.value(had_own);
       renderer_->load(from);
+      resumes_ = had_own != 0 && !own_->complete();
     }
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
@@ -159,6 +160,7 @@ public:
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
     if (renderer_) {
+      resumes_ = false;
       show(preset);
       bake_seconds_ = render_seconds_ = 0; // another picture begins
     }
@@ -182,8 +184,8 @@ private:
 
   std::vector<glm::dvec3> strong() const { return renderer_->strong_directions(settings(shown_).own_directions); }
 
-  /// After a first pass, which is thrown away then.
-  bool bakes_own() const { return renderer_ && renderer_->passes() > 0 && !own_->complete(); }
+  /// After a first pass, which is thrown away then; before the next one of a run that had them.
+  bool bakes_own() const { return renderer_ && (renderer_->passes() > 0 || resumes_) && !own_->complete(); }
 
   void bake_own()
   {
@@ -194,11 +196,12 @@ private:
   void take_own()
   {
     caustics_->set_own(own_->bake());
-    renderer_->take_own_directions();
+    renderer_->take_own_directions(resumes_);
+    resumes_ = false;
   }
 
   /// With all directions baked that are to be.
-  std::int64_t passes() const { return own_->complete() ? renderer_->passes() : 0; }
+  std::int64_t passes() const { return own_->complete() || resumes_ ? renderer_->passes() : 0; }
 
   void begin_rendering()
   {
@@ -341,6 +344,7 @@ private:
   std::optional<Bake> bake_;   ///< when that is done
   std::optional<Caustics> caustics_;
   std::optional<OwnDirections> own_; ///< with the renderer
+  bool resumes_ = false;             ///< the passes that are done had own directions, which are baked again
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
   std::uint64_t photons_ = 0; ///< that the finished bake took here

@@ -2,7 +2,6 @@
 #include "environment/bake/own_directions.h"
 
 #include <algorithm>
-#include <span>
 
 namespace nephroid::environment {
 
@@ -52,35 +51,6 @@ void OwnDirections::step()
   bake_.baked.push_back(one.baked.front());
   bake_.halves.insert(bake_.halves.end(), one.halves.begin(), one.halves.end());
   bake_.ways.insert(bake_.ways.end(), one.ways.begin(), one.ways.end());
-}
-
-void OwnDirections::save(tracing::StateWriter& to) const
-{
-  to.value(std::uint64_t{bake_.baked.size()});
-  for (std::size_t i = 0; i < bake_.baked.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) to.value(bake_.directions[i][axis]);
-    to.value(bake_.baked[i]);
-  }
-  to.bytes(std::as_bytes(std::span(bake_.halves)));
-  to.bytes(std::as_bytes(std::span(bake_.ways)));
-}
-
-void OwnDirections::load(tracing::StateReader& from)
-{
-  std::uint64_t baked = 0;
-  from.value(baked);
-  if (baked > 16) throw bad_input("checkpoint", "is of another run");
-  bake_.directions.resize(baked);
-  bake_.baked.resize(baked);
-  for (std::size_t i = 0; i < baked; ++i) {
-    for (int axis = 0; axis < 3; ++axis) from.value(bake_.directions[i][axis]);
-    from.value(bake_.baked[i]);
-  }
-  bake_.halves.resize(baked * bake_.direction_items());
-  from.bytes(std::as_writable_bytes(std::span(bake_.halves)));
-  bake_.ways.resize(baked * bake_.direction_texels());
-  from.bytes(std::as_writable_bytes(std::span(bake_.ways)));
-  baker_.reset();
 }
 
 } // namespace nephroid::environment

@@ -21,10 +21,6 @@ public:
   /// Those wanted, as far as they are there.
   const Bake& bake() const { return bake_; }
 
-  /// What is there; photons of the direction in hand are sent again.
-  void save(tracing::StateWriter& to) const;
-  void load(tracing::StateReader& from);
-
 private:
   compute::Context context_;
   BakeTask task_; ///< of the one direction in hand

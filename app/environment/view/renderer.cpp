@@ -118,7 +118,6 @@ std::vector<DistantLight> Renderer::with_lamps(const std::vector<VisibleLight>& 
 void Renderer::light_pass()
 {
   const bool drawn = pass_ > 0 && occlusion_ && task_.refine;
-  if (pass_ > 1 && !drawn) return; // as the pass before
   if (drawn)
     caustics_.draw_lights(with_lamps(occlusion_->drawn_lights(static_cast<std::uint32_t>(pass_))), task_.placement.turn,
                           static_cast<std::uint32_t>(pass_));
@@ -138,12 +137,15 @@ void Renderer::begin_passes()
   see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
 }
 
-void Renderer::take_own_directions()
+void Renderer::take_own_directions(bool passes_had_them)
 {
   compiled_side_ = 0;
   coarse_.forget_caustics();
   fine_.forget_caustics();
-  begin_passes();
+  if (!passes_had_them) return begin_passes();
+  caustics_.set_lights(with_lamps(visible_), task_.placement.turn);
+  if (task_.has_medium) compile(fine_side(caustics_.side())); // of the first pass's lights, as always
+  light_pass();
 }
 
 std::vector<glm::dvec3> Renderer::strong_directions(int most) const
@@ -211,7 +213,7 @@ void Renderer::end_pass()
   stage_ = Stage::see;
   shaded_ = false;
   ++pass_;
-  light_pass();
+  if (pass_ == 1 || drawn_) light_pass(); // else as the pass before
 }
 
 double Renderer::part() const
@@ -389,8 +391,7 @@ void Renderer::load(tracing::StateReader& from)
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
   stage_ = shaded_ ? Stage::compile : Stage::see;
   see_steps_ = tracing::PixelSteps(pixels(), 8192);
-  if (task_.has_medium) compile(fine_side(caustics_.side())); // of the first pass's lights, as always
-  light_pass();
+  take_own_directions(true);
 }
 
 } // namespace nephroid::environment

@@ -44,8 +44,8 @@ public:
   /// Of the task's scene.
   void move_objects(MovedObjects moved);
   void set_segmentation(Segmentation segmentation);
-  /// The same from the first full pass on, after Caustics::set_own.
-  void take_own_directions();
+  /// After Caustics::set_own. passes_had_them: passes go on; else they begin anew, without a coarse picture.
+  void take_own_directions(bool passes_had_them);
   /// Of the next picture().
   void set_white(double white);
 
