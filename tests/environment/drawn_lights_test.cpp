@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace {
@@ -76,22 +77,42 @@ TEST(DrawnLights, HaveTheColourOfTheirRegions)
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sky.mean(512, [&](const VisibleLight& light) { return light.flux[c]; }) / all[c], 1, 0.002) << c;
 }
 
+/// A sky with balls of radius 2 about the object, at these heights: what is seen of its lights, summed.
+double seen_between(Sky& sky, const std::vector<double>& heights)
+{
+  std::string balls;
+  for (const double y : heights)
+    balls +=
+        fmt::format(R"(, {{"shape": {{"type": "sphere", "radius": 2}}, "material": "wall", "transform": {{"translate": [0, {}, 0]}}}})", y);
+  const scene::Scene scene = without_caster(scene::load_scene(test::bake_preset(test::glass_ball + balls)), {0});
+  tracing::World world = surroundings_world(test::bake_context(), scene);
+  double seen = 0;
+  for (const VisibleLight& light : sky.occlusion.visible_lights(world, 0, {glm::dvec3(0)})) seen += light.flux.y;
+  return seen;
+}
+
 // Of a sky with a ball before it, what drawn cells have is what is seen of the lights; none has light that comes from behind the ball.
 TEST(DrawnLights, LeaveOutWhatIsHidden)
 {
   Sky sky(test::uniform_map(64, 32), 24);
-  const scene::Scene scene = without_caster(
-      scene::load_scene(test::bake_preset(
-          test::glass_ball + R"(, {"shape": {"type": "sphere", "radius": 2}, "material": "wall", "transform": {"translate": [0, 4, 0]}})")),
-      {0});
-  tracing::World world = surroundings_world(test::bake_context(), scene);
-  const std::vector<VisibleLight> visible = sky.occlusion.visible_lights(world, 0, {glm::dvec3(0)});
-  double seen = 0;
-  for (const VisibleLight& light : visible) seen += light.flux.y;
+  const double seen = seen_between(sky, {4});
   const double hidden = 2 * pi * (1 - std::sqrt(0.75)); // the ball is 60 degrees wide
   EXPECT_NEAR(seen, 4 * pi - hidden, 0.002 * 4 * pi);
   EXPECT_NEAR(sky.mean(1024, [](const VisibleLight& light) { return light.flux.y; }), seen, 0.002 * 4 * pi);
   EXPECT_EQ(sky.mean(64, [](const VisibleLight& light) { return light.direction.y > std::cos(0.51) ? light.flux.y : 0; }), 0);
+}
+
+// Two balls leave a belt 1.6 degrees wide: a few cells of a light. Many are drawn before one of those is.
+TEST(DrawnLights, FindTheFewThatAreSeen)
+{
+  Sky sky(test::uniform_map(64, 32), 24);
+  const double height = 2.0002;
+  const double seen = seen_between(sky, {height, -height}), half_belt = std::acos(2 / height);
+  EXPECT_NEAR(seen, 4 * pi * std::sin(half_belt), 0.3 * seen);
+  EXPECT_NEAR(sky.mean(64, [](const VisibleLight& light) { return light.flux.y; }), seen, 1e-6 * seen);
+  EXPECT_EQ(
+      sky.mean(64, [&](const VisibleLight& light) { return std::abs(light.direction.y) > 1.001 * std::sin(half_belt) ? light.flux.y : 0; }),
+      0);
 }
 
 } // namespace

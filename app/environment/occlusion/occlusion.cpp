@@ -16,11 +16,11 @@ double sum(const glm::dvec3& v) { return v.x + v.y + v.z; }
 /// The number of one of a light's 2^cuts cells. They are numbered by cuts into halves, mostly across and down in turn, so the bits of a
 /// place in a square, taken in turn, say which one lies there. The places are Roberts' sequence R2 (2018), steps of 1/p and 1/p^2 with
 /// p^3 = p + 1: as even in the plane as steps of the golden ratio are on a line. Each light begins elsewhere.
-std::size_t drawn_cell(std::uint32_t pass, std::size_t light, int cuts)
+std::size_t drawn_cell(std::uint64_t pass, std::size_t light, int cuts)
 {
   const auto number = static_cast<double>(light);
-  double place[2] = {std::fmod(0.7548776662466927 * pass + 0.5545497 * number, 1.0),
-                     std::fmod(0.5698402909980532 * pass + 0.308517 * number, 1.0)};
+  double place[2] = {std::fmod(0.7548776662466927 * static_cast<double>(pass) + 0.5545497 * number, 1.0),
+                     std::fmod(0.5698402909980532 * static_cast<double>(pass) + 0.308517 * number, 1.0)};
   std::size_t cell = 0;
   for (int i = 0; i < cuts; ++i) {
     double& next = place[i % 2];
@@ -90,9 +90,9 @@ std::vector<VisibleLight> Occlusion::drawn_lights(std::uint32_t pass) const
       drawn.push_back({glm::dvec3(0), whole_[light].direction});
       continue;
     }
-    // Others while what is drawn is hidden. All cells have the same light.
+    // Others while what is drawn is hidden: the sequence meets every cell. All cells have the same light.
     std::size_t i = 0;
-    for (std::uint32_t number = pass;; number += 1U << 20) {
+    for (std::uint64_t number = pass;; number += 1U << 20) {
       i = samples * light + drawn_cell(number, light, std::countr_zero(samples));
       if (is_seen_[i] != 0) break;
     }
