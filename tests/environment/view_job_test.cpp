@@ -194,6 +194,23 @@ TEST_F(EnvironmentViewJob, AdoptsWhileItBakes)
   expect_same(run(*job), run(p), "while it bakes");
 }
 
+// The job that loads has shown another preset before.
+TEST_F(EnvironmentViewJob, GoesBackToAHalfMadeBake)
+{
+  const preset::Preset p = lit();
+  preset::Preset now = p;
+  look(now, {-3, 1, 2}, {0, -1, 0}, 40);
+  const auto job = job_of(p);
+  job->step();
+  const auto baking = saved(*job);
+  run(*job);
+  ASSERT_TRUE(job->adopt(now));
+  run(*job);
+  EXPECT_TRUE(load(*job, baking));
+  EXPECT_EQ(job->progress().step, 0);
+  expect_same(run(*job), run(now), "a bake again");
+}
+
 // Saved right after a change that came in the middle of a pass: where the surfaces had theirs, but not yet the air.
 TEST_F(EnvironmentViewJob, GoesOnAfterAChange)
 {
