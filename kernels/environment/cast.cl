@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Caustics on what stands around the object (thesis 3.2): E r^2 of all lights in texels of the cube of receivers, by looking up the spheres
-// of every light there (`cast_direct`), or by adding them up into one set of spheres first (`compile`, Algorithm 3.5) and looking that up
-// (`cast_compiled`).
+// of every light there. And light in the air, by adding all those up into one set of spheres first (Algorithm 3.5).
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
@@ -13,7 +12,7 @@ static inline float held(__global const float* radii, float distance)
 }
 
 // caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
-__kernel void cast_direct(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
+__kernel void cast(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
                           __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, __global const uint* list, uint first,
                           uint count, int size, __global const float* distances, __global const float4* normals, __global float* caustics)
 {
@@ -25,29 +24,13 @@ __kernel void cast_direct(__global const ushort* stored, __global const ushort* 
   if (distance < INFINITY) {
     const Maps maps = {stored, ways, way_of};
     const Shells shells = shells_at(radii, &spheres, distance);
-    const float3 normal = normals[texel].xyz;
-    caustic = held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size), &shells, &normal);
+    caustic = held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size), &shells, normals[texel].xyz);
   }
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Texels first .. first + count - 1 of the stored form of all spheres together, whose maps have side x side texels. object_x, y, z: the
+// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Texels first .. first + count - 1 of the stored form of all spheres together, whose maps have side x side texels. object_x, y, z: the
 // object's axes in the scene.
-__kernel void compile(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
-                      __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
-                      float4 object_z, int side, uint first, uint count, __global float* compiled)
-{
-  const uint index = (uint)get_global_id(0);
-  if (index >= count) return;
-  const uint item = first + index, texels = (uint)((side + 2) * (side + 2));
-  const Maps maps = {stored, ways, way_of};
-  const Shells shells = shells_at(radii, &spheres, radii[item / texels]);
-  const float3 way = sphere_direction(texel_of_stored((int)(item % texels), side), side);
-  const float3 direction = way.x * object_x.xyz + way.y * object_y.xyz + way.z * object_z.xyz;
-  vstore3(caustic_of_sets(&maps, &spheres, sets, eights, direction, &shells, 0), (size_t)item, compiled);
-}
-
-// The same of light in the air: compiled_air in spheres.h.
 __kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
                           __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
                           float4 object_z, int side, uint first, uint count, __global float* air)
@@ -64,22 +47,4 @@ __kernel void compile_air(__global const ushort* stored, __global const ushort* 
     for (int k = 0; k < 8; ++k) add_air(&light, &maps, &spheres, sets + i, k, direction, shells.of[sets[i].own]);
   vstore3(light.rgb, 2 * (size_t)item, air);
   vstore3(light.way, 2 * (size_t)item + 1, air);
-}
-
-__kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,
-                            float4 object_z, __global const uint* list, uint first, uint count, int size, __global const float* distances,
-                            __global const float4* normals, __global float* caustics)
-{
-  const uint index = (uint)get_global_id(0);
-  if (index >= count) return;
-  const uint texel = list[first + index];
-  const float distance = distances[texel];
-  float3 caustic = (float3)(0.0f);
-  if (distance < INFINITY) {
-    const float3 d = cube_texel_direction(texel, size);
-    const float3 in_object = (float3)(dot(object_x.xyz, d), dot(object_y.xyz, d), dot(object_z.xyz, d));
-    const float cosine = fmax(-dot(normals[texel].xyz, d), 0.0f);
-    caustic = (held(radii, distance) * cosine) * compiled_caustic(compiled, &spheres, in_object, shell_at(radii, spheres.count, distance));
-  }
-  vstore3(caustic, (size_t)texel, caustics);
 }

@@ -151,10 +151,9 @@ static inline float8 eight_factors(const Maps* maps, __global const DeviceEightS
   return along + beyond * (radial - along);
 }
 
-// E r^2 of all sets in a unit direction of the scene: linear sRGB. On a surface with a unit normal, which is on the object's side; or, with none, on
-// one that faces the middle.
+// E r^2 of all sets in a unit direction of the scene: linear sRGB. On a surface with a unit normal, which is on the object's side.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* sets, int eights,
-                                     float3 direction, const Shells* shells, const float3* normal)
+                                     float3 direction, const Shells* shells, float3 normal)
 {
   const int stride = spheres->side + 2;
   const size_t row_items = (size_t)stride * NEPHROID_CHANNELS, map_texels = (size_t)(stride * stride);
@@ -180,37 +179,14 @@ static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* sphe
     if (shell.part > 0.0f)
       caustics = eight_between(caustics, eight_between(between_columns(at, high, u), between_columns(at, high + row_items, u), v),
                                (float8)(shell.part));
-    float8 factors = 1.0f;
-    if (normal) {
-      const int8 nearest = convert_int8(rows + 0.5f) * stride + convert_int8(columns + 0.5f);
-      factors = eight_factors(maps, eight, shell.part > 0.5f ? upper : lower, nearest, x, y, z, row_of_eight(eight, 0, *normal),
-                              row_of_eight(eight, 1, *normal), row_of_eight(eight, 2, *normal), shells->beyond);
-    }
+    const int8 nearest = convert_int8(rows + 0.5f) * stride + convert_int8(columns + 0.5f);
+    const float8 factors = eight_factors(maps, eight, shell.part > 0.5f ? upper : lower, nearest, x, y, z, row_of_eight(eight, 0, normal),
+                                         row_of_eight(eight, 1, normal), row_of_eight(eight, 2, normal), shells->beyond);
     red += factors * vload8(0, eight->flux[0]) * caustics.channels[0];
     green += factors * vload8(0, eight->flux[1]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 1 : 0];
     blue += factors * vload8(0, eight->flux[2]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 2 : 0];
   }
   return spheres->scale * (float3)(sum_of_eight(red), sum_of_eight(green), sum_of_eight(blue));
-}
-
-// The same of what compile.cl has made of all sets: [sphere][texel of the stored form][3], linear sRGB, in coordinates of the object.
-static inline float3 compiled_caustic(__global const float* compiled, const DeviceSpheres* spheres, float3 in_object, Shell shell)
-{
-  float column, row;
-  stored_place(in_object.x, in_object.y, in_object.z, (float)spheres->side, &column, &row);
-  const int stride = spheres->side + 2, left = (int)column, top = (int)row;
-  const float u = column - (float)left, v = row - (float)top;
-  const size_t map_items = 3 * (size_t)(stride * stride), at = 3 * (size_t)(top * stride + left);
-  __global const float* lower = compiled + (size_t)shell.lower * map_items + at;
-  __global const float* upper = compiled + (size_t)shell.upper * map_items + at;
-  const int t[4] = {0, 1, stride, stride + 1};
-  const float w[4] = {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v};
-  float3 sum = (float3)(0.0f);
-  for (int i = 0; i < 4; ++i) {
-    const float3 a = vload3((size_t)t[i], lower);
-    sum += w[i] * (a + shell.part * (vload3((size_t)t[i], upper) - a));
-  }
-  return sum;
 }
 
 // Light in the air at a place: of each set E r^2 across the way that its light goes there, instead of through the sphere.
@@ -260,7 +236,7 @@ static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres*
   sum->way += luminance_of(rgb) * (way.x * rows[0] + way.y * rows[1] + way.z * rows[2]);
 }
 
-// The same of what compile_air has made of all sets: [sphere][texel of the stored form][6], in coordinates of the object.
+// What compile_air has made of all sets: [sphere][texel of the stored form][6], in coordinates of the object.
 static inline AirLight compiled_air(__global const float* air, const DeviceSpheres* spheres, float3 in_object, Shell shell)
 {
   float column, row;

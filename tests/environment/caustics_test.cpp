@@ -65,8 +65,15 @@ public:
   }
 
   /// E r^2: [texel].
-  std::vector<glm::dvec3> direct(double distance) { return cast(distance, &Caustics::cast_direct); }
-  std::vector<glm::dvec3> compiled(double distance) { return cast(distance, &Caustics::cast_compiled); }
+  std::vector<glm::dvec3> at(double distance)
+  {
+    distances_.write(std::vector<float>(count_, static_cast<float>(distance)));
+    caustics.cast({&list_, &distances_, &normals_, &sums_, size_}, 0, static_cast<std::uint32_t>(count_));
+    const std::vector<float> read = sums_.read();
+    std::vector<glm::dvec3> values;
+    for (std::size_t i = 0; i < count_; ++i) values.emplace_back(read[3 * i], read[3 * i + 1], read[3 * i + 2]);
+    return values;
+  }
   /// Of a texel's middle, unit.
   glm::dvec3 direction(std::size_t texel) const
   {
@@ -78,16 +85,6 @@ public:
   Caustics caustics;
 
 private:
-  std::vector<glm::dvec3> cast(double distance, void (Caustics::*by)(const CastTexels&, std::uint32_t, std::uint32_t))
-  {
-    distances_.write(std::vector<float>(count_, static_cast<float>(distance)));
-    (caustics.*by)({&list_, &distances_, &normals_, &sums_, size_}, 0, static_cast<std::uint32_t>(count_));
-    const std::vector<float> read = sums_.read();
-    std::vector<glm::dvec3> values;
-    for (std::size_t i = 0; i < count_; ++i) values.emplace_back(read[3 * i], read[3 * i + 1], read[3 * i + 2]);
-    return values;
-  }
-
   int size_;
   std::size_t count_;
   compute::Buffer<std::uint32_t> list_;
@@ -136,7 +133,7 @@ TEST(Caustics, AtATexelsMiddleAreWhatWasBaked)
     const std::size_t direction = texel % 26, sphere = texel % 3;
     const glm::dmat3 turn = shortest_turn(bake.map.direction(texel), {1, 0, 0});
     cast.caustics.set_lights({{turn * bake.directions[direction], light}}, turn);
-    const glm::dvec3 expected = 4.0 * light * bake.at(direction, sphere, texel), found = cast.direct(bake.radii[sphere])[0];
+    const glm::dvec3 expected = 4.0 * light * bake.at(direction, sphere, texel), found = cast.at(bake.radii[sphere])[0];
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1.01 * nine_bits * expected[c]) << texel << " " << c;
   }
 }
@@ -150,7 +147,7 @@ TEST(Caustics, BetweenTexelsFollowTheFormula)
     Cast cast(bake, 48);
     const glm::dmat3 turn = scene::rotation({33, -12, 71});
     cast.caustics.set_lights({{turn * bake.directions[7], glm::dvec3(1)}}, turn);
-    const Off o = off(cast, cast.direct(1), [&](const glm::dvec3& d) { return 4.0 * smooth(7, glm::transpose(turn) * d); });
+    const Off o = off(cast, cast.at(1), [&](const glm::dvec3& d) { return 4.0 * smooth(7, glm::transpose(turn) * d); });
     fmt::print("{} x {} texels: {:.3f} % off, {:.3f} % at most\n", side, side, 100 * o.mean, 100 * o.most);
     EXPECT_LT(o.mean, 0.003 + 0.1 / side);
     EXPECT_LT(o.most, 0.012 + 0.9 / side);
@@ -169,7 +166,7 @@ TEST(Caustics, OfABallGoWithTheLight)
   for (int i = 0; i < 20; ++i) {
     const glm::dvec3 light = even_direction(i, 20);
     cast.caustics.set_lights({{light, glm::dvec3(1)}}, turn);
-    const Off o = off(cast, cast.direct(1.5), [&](const glm::dvec3& d) { return 4.0 * of_angle(glm::dot(d, light)); });
+    const Off o = off(cast, cast.at(1.5), [&](const glm::dvec3& d) { return 4.0 * of_angle(glm::dot(d, light)); });
     all = {std::max(all.most, o.most), std::max(all.mean, o.mean)};
   }
   fmt::print("a ball's: {:.3f} % off, {:.3f} % at most\n", 100 * all.mean, 100 * all.most);
@@ -187,7 +184,7 @@ TEST(Caustics, BetweenDirectionsAreWeighted)
   cast.caustics.set_lights({{light, {1, 2, 3}}}, glm::dmat3(1));
   const std::vector<NearDirection> near = near_directions(light, 26);
   ASSERT_EQ(near.size(), 4u);
-  const Off o = off(cast, cast.direct(1), [&](const glm::dvec3& d) {
+  const Off o = off(cast, cast.at(1), [&](const glm::dvec3& d) {
     glm::dvec3 sum(0);
     for (const NearDirection& n : near) {
       const auto i = static_cast<std::size_t>(n.direction);
@@ -207,7 +204,7 @@ TEST(Caustics, BetweenSpheresAreLinear)
   Cast cast(bake, 2);
   cast.caustics.set_lights({{even_direction(3, 10), {1, 10, 0.1}}}, glm::dmat3(1));
   const auto expect = [&](double distance, double value) {
-    for (const glm::dvec3& found : cast.direct(distance)) {
+    for (const glm::dvec3& found : cast.at(distance)) {
       EXPECT_NEAR(found.x, 4 * value, 1e-5 * value) << distance;
       EXPECT_NEAR(found.y, 40 * value, 1e-4 * value) << distance;
       EXPECT_NEAR(found.z, 0.4 * value, 1e-6 * value) << distance;
@@ -218,7 +215,7 @@ TEST(Caustics, BetweenSpheresAreLinear)
       expect(radii[i] + part * (radii[i + 1] - radii[i]), (1 - part) * of_radius(radii[i]) + part * of_radius(radii[i + 1]));
   for (const double beyond : {4.0, 4.001, 10.0, 1e6}) expect(beyond, 2);     // E r^2 stays: the inverse square
   for (const double within : {0.01, 0.999}) expect(within, within * within); // E stays
-  for (const glm::dvec3& found : cast.direct(std::numeric_limits<double>::infinity())) EXPECT_EQ(found, glm::dvec3(0)); // nothing is there
+  for (const glm::dvec3& found : cast.at(std::numeric_limits<double>::infinity())) EXPECT_EQ(found, glm::dvec3(0)); // nothing is there
 }
 
 TEST(Caustics, LightsAdd)
@@ -228,7 +225,7 @@ TEST(Caustics, LightsAdd)
   const DistantLight a{even_direction(3, 10), {1, 2, 3}}, b{even_direction(7, 10), {0.5, 0, 4}};
   const auto of = [&](const std::vector<DistantLight>& lights) {
     cast.caustics.set_lights(lights, scene::rotation({10, 20, 30}));
-    return cast.direct(1.25);
+    return cast.at(1.25);
   };
   // More lights than before, fewer, and black ones.
   const auto first = of({a}), both = of({a, b}), second = of({b}), again = of({{a.direction, glm::dvec3(0)}, a});
@@ -244,13 +241,11 @@ TEST(Caustics, WithoutLightAreBlack)
   const std::vector<glm::dvec3> black(24, glm::dvec3(0));
   const auto expect_black = [&](const std::vector<DistantLight>& lights) {
     cast.caustics.set_lights(lights, glm::dmat3(1));
-    EXPECT_EQ(cast.direct(1), black);
-    cast.caustics.compile(cast.caustics.side());
-    EXPECT_EQ(cast.compiled(1), black);
+    EXPECT_EQ(cast.at(1), black);
   };
   expect_black({});
   cast.caustics.set_lights({{{0, -1, 0}, glm::dvec3(1)}}, glm::dmat3(1));
-  EXPECT_NE(cast.direct(1), black);
+  EXPECT_NE(cast.at(1), black);
   expect_black({{{0, -1, 0}, glm::dvec3(0)}});
 }
 
@@ -268,7 +263,7 @@ TEST(Caustics, OfAnEvenSkyHaveItsPower)
   for (const int q : {8, 24, 64, 256}) {
     const Segmentation lights = segment(sky, {.lights = q});
     cast.caustics.set_lights(environment_lights(whole_lights(lights), 0), glm::dmat3(1));
-    const std::vector<glm::dvec3> found = cast.direct(10);
+    const std::vector<glm::dvec3> found = cast.at(10);
     double power = 0, squares = 0;
     for (std::size_t t = 0; t < found.size(); ++t) {
       const CubePoint at = met_point(cast.direction(t));
@@ -283,32 +278,6 @@ TEST(Caustics, OfAnEvenSkyHaveItsPower)
   }
 }
 
-// By adding up the lights first, texels of the sum are between those of the sets: two straight lines in a row.
-TEST(Caustics, CompiledAreTheSame)
-{
-  const Bake bake = made_bake(48, 3, {1, 1.5, 2}, [](std::size_t i, double r, const glm::dvec3& d) { return r * smooth(i, d); });
-  Cast cast(bake, 32);
-  std::vector<DistantLight> lights;
-  for (int i = 0; i < 5; ++i) lights.push_back({even_direction(i, 5), {1.0 + i, 2, 3.0 - 0.5 * i}});
-  cast.caustics.set_lights(lights, scene::rotation({40, -100, 15}));
-  cast.caustics.compile(cast.caustics.side());
-  for (const double distance : {0.5, 1.0, 1.6, 7.0}) {
-    const std::vector<glm::dvec3> direct = cast.direct(distance), compiled = cast.compiled(distance);
-    double most = 0, squares = 0, sum = 0;
-    for (std::size_t t = 0; t < direct.size(); ++t) {
-      const double away = glm::distance(direct[t], compiled[t]);
-      most = std::max(most, away);
-      squares += away * away;
-      sum += glm::length(direct[t]);
-    }
-    const auto count = static_cast<double>(direct.size());
-    fmt::print("distance {}: compiled is {:.3f} % off, {:.3f} % at most\n", distance, 100 * std::sqrt(squares / count) * count / sum,
-               100 * most * count / sum);
-    EXPECT_LT(std::sqrt(squares / count) * count, 0.003 * sum);
-    EXPECT_LT(most * count, 0.02 * sum);
-  }
-}
-
 // The object turned with its light: the same, turned. A quarter about y takes the cube's texels to each other.
 TEST(Caustics, TurnWithTheObjectAndItsLight)
 {
@@ -317,24 +286,20 @@ TEST(Caustics, TurnWithTheObjectAndItsLight)
   Cast cast(bake, size);
   const glm::dmat3 quarter = scene::rotation({0, 90, 0}), before = scene::rotation({20, 70, -30});
   const DistantLight light{even_direction(4, 9), {1, 2, 3}};
-  const auto of = [&](const glm::dmat3& turn, bool by_compiling) {
+  const auto of = [&](const glm::dmat3& turn) {
     cast.caustics.set_lights({{turn * light.direction, light.irradiance}}, turn * before);
-    if (by_compiling) cast.caustics.compile(cast.caustics.side());
-    return by_compiling ? cast.compiled(1.3) : cast.direct(1.3);
+    return cast.at(1.3);
   };
-  for (const bool by_compiling : {false, true}) {
-    const std::vector<glm::dvec3> a = of(glm::dmat3(1), by_compiling), b = of(quarter, by_compiling);
-    double changes = 0;
-    for (std::size_t t = 0; t < a.size(); ++t) {
-      const CubePoint met = met_point(quarter * cast.direction(t));
-      const std::size_t turned_texel =
-          (static_cast<std::size_t>(met.face) * size + static_cast<std::size_t>(texel_of(met.t, size))) * size +
-          static_cast<std::size_t>(texel_of(met.s, size));
-      EXPECT_LT(glm::distance(a[t], b[turned_texel]), 1e-4 * glm::length(a[t])) << t;
-      changes = std::max(changes, glm::distance(a[t], b[t]));
-    }
-    EXPECT_GT(changes, 1);
+  const std::vector<glm::dvec3> a = of(glm::dmat3(1)), b = of(quarter);
+  double changes = 0;
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    const CubePoint met = met_point(quarter * cast.direction(t));
+    const std::size_t turned_texel = (static_cast<std::size_t>(met.face) * size + static_cast<std::size_t>(texel_of(met.t, size))) * size +
+                                     static_cast<std::size_t>(texel_of(met.s, size));
+    EXPECT_LT(glm::distance(a[t], b[turned_texel]), 1e-4 * glm::length(a[t])) << t;
+    changes = std::max(changes, glm::distance(a[t], b[t]));
   }
+  EXPECT_GT(changes, 1);
 }
 
 TEST(Caustics, OneChannelIsThreeAlike)
@@ -344,7 +309,7 @@ TEST(Caustics, OneChannelIsThreeAlike)
   const std::vector<DistantLight> lights{{even_direction(4, 9), {1, 2, 3}}};
   one.caustics.set_lights(lights, glm::dmat3(1));
   three.caustics.set_lights(lights, glm::dmat3(1));
-  const std::vector<glm::dvec3> a = one.direct(1.7), b = three.direct(1.7);
+  const std::vector<glm::dvec3> a = one.at(1.7), b = three.at(1.7);
   for (std::size_t t = 0; t < a.size(); ++t) EXPECT_LT(glm::distance(a[t], b[t]), 1e-5 * glm::length(a[t]));
 }
 

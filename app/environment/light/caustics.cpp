@@ -117,10 +117,8 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
   radii_.write(std::vector<float>(own_radii.begin(), own_radii.end()), bake.radii.size());
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
-  direct_ = program.kernel("cast_direct");
-  compile_ = program.kernel("compile");
+  cast_ = program.kernel("cast");
   compile_air_ = program.kernel("compile_air");
-  compiled_cast_ = program.kernel("cast_compiled");
 }
 
 std::uint64_t Caustics::bytes(const Bake& bake, int own, const std::vector<double>& own_radii)
@@ -169,41 +167,16 @@ void Caustics::upload(std::vector<TurnedSet> sets, const glm::dmat3& rotation)
   if (eights.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
   if (!eights.empty()) sets_.write(eights);
   used_eights_ = static_cast<int>(eights.size());
-  compiled_.object_x = to_float4(rotation[0]);
-  compiled_.object_y = to_float4(rotation[1]);
-  compiled_.object_z = to_float4(rotation[2]);
-}
-
-void Caustics::compile(int side)
-{
-  compiled_.spheres = {spheres_.count, side, 1, 0};
-  const std::size_t items = stored_texels(side) * static_cast<std::size_t>(spheres_.count);
-  if (compiled_.texels.size() < 3 * items) compiled_.texels = compute::Buffer<float>(context_, "compiled spheres", 3 * items);
-  const std::uint32_t first = 0;
-  const auto count = static_cast<std::uint32_t>(items);
-  compile_.run(count, group,
-               {{"stored", stored_},
-                {"ways", ways_},
-                {"way_of", way_of_},
-                {"radii", radii_},
-                {"sets", sets_},
-                {"eights", used_eights_},
-                {"spheres", spheres_},
-                {"object_x", compiled_.object_x},
-                {"object_y", compiled_.object_y},
-                {"object_z", compiled_.object_z},
-                {"side", side},
-                {"first", first},
-                {"count", count},
-                {"compiled", compiled_.texels}});
-  context_.finish();
+  air_.object_x = to_float4(rotation[0]);
+  air_.object_y = to_float4(rotation[1]);
+  air_.object_z = to_float4(rotation[2]);
 }
 
 void Caustics::compile_air(int side)
 {
-  compiled_.spheres = {spheres_.count, side, 1, 0};
+  air_.spheres = {spheres_.count, side, 1, 0};
   const std::size_t items = stored_texels(side) * static_cast<std::size_t>(spheres_.count);
-  if (compiled_.air.size() < 6 * items) compiled_.air = compute::Buffer<float>(context_, "light in the air", 6 * items);
+  if (air_.light.size() < 6 * items) air_.light = compute::Buffer<float>(context_, "light in the air", 6 * items);
   const std::uint32_t first = 0;
   const auto count = static_cast<std::uint32_t>(items);
   compile_air_.run(count, group,
@@ -214,52 +187,33 @@ void Caustics::compile_air(int side)
                     {"sets", sets_},
                     {"eights", used_eights_},
                     {"spheres", spheres_},
-                    {"object_x", compiled_.object_x},
-                    {"object_y", compiled_.object_y},
-                    {"object_z", compiled_.object_z},
+                    {"object_x", air_.object_x},
+                    {"object_y", air_.object_y},
+                    {"object_z", air_.object_z},
                     {"side", side},
                     {"first", first},
                     {"count", count},
-                    {"air", compiled_.air}});
+                    {"air", air_.light}});
   context_.finish();
 }
 
-void Caustics::cast_direct(const CastTexels& texels, std::uint32_t first, std::uint32_t count)
+void Caustics::cast(const CastTexels& texels, std::uint32_t first, std::uint32_t count)
 {
-  direct_.run(count, group,
-              {{"stored", stored_},
-               {"ways", ways_},
-               {"way_of", way_of_},
-               {"radii", radii_},
-               {"sets", sets_},
-               {"eights", used_eights_},
-               {"spheres", spheres_},
-               {"list", *texels.list},
-               {"first", first},
-               {"count", count},
-               {"size", texels.size},
-               {"distances", *texels.distances},
-               {"normals", *texels.normals},
-               {"caustics", *texels.caustics}});
-  context_.finish();
-}
-
-void Caustics::cast_compiled(const CastTexels& texels, std::uint32_t first, std::uint32_t count)
-{
-  compiled_cast_.run(count, group,
-                     {{"compiled", compiled_.texels},
-                      {"radii", radii_},
-                      {"spheres", compiled_.spheres},
-                      {"object_x", compiled_.object_x},
-                      {"object_y", compiled_.object_y},
-                      {"object_z", compiled_.object_z},
-                      {"list", *texels.list},
-                      {"first", first},
-                      {"count", count},
-                      {"size", texels.size},
-                      {"distances", *texels.distances},
-                      {"normals", *texels.normals},
-                      {"caustics", *texels.caustics}});
+  cast_.run(count, group,
+            {{"stored", stored_},
+             {"ways", ways_},
+             {"way_of", way_of_},
+             {"radii", radii_},
+             {"sets", sets_},
+             {"eights", used_eights_},
+             {"spheres", spheres_},
+             {"list", *texels.list},
+             {"first", first},
+             {"count", count},
+             {"size", texels.size},
+             {"distances", *texels.distances},
+             {"normals", *texels.normals},
+             {"caustics", *texels.caustics}});
   context_.finish();
 }
 

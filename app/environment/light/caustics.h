@@ -40,25 +40,19 @@ public:
   /// The same by drawn_sets, with a quarter of the work.
   void draw_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, std::uint32_t pass);
 
-  /// Adds up the sets of all lights into one (Algorithm 3.5), whose maps have side x side texels. As much work as cast_direct has for half
-  /// as many texels as all those spheres have.
-  void compile(int side);
-  /// The same of light in the air, for kernels that look it up (compiled_air in kernels/environment/spheres.h).
+  /// Texels first .. first + count - 1 of the list.
+  void cast(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
+
+  /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5), whose maps have side x side texels.
   void compile_air(int side);
 
-  /// Texels first .. first + count - 1 of the list.
-  void cast_direct(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
-  /// The same after compile().
-  void cast_compiled(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
-
-  /// What compile() and compile_air() made.
-  struct Compiled {
-    compute::Buffer<float> texels; ///< 3 a texel: compiled_caustic in kernels/environment/spheres.h
-    compute::Buffer<float> air;    ///< 6 a texel: compiled_air there
+  /// What compile_air() made, for kernels that look it up (compiled_air in kernels/environment/spheres.h).
+  struct Air {
+    compute::Buffer<float> light; ///< 6 a texel
     shared::DeviceSpheres spheres{};
     shared::float4 object_x{}, object_y{}, object_z{}; ///< the object's axes in the scene
   };
-  const Compiled& compiled() const { return compiled_; }
+  const Air& air() const { return air_; }
   const compute::Buffer<float>& radii() const { return radii_; }
   int directions() const { return directions_; } ///< of the bake
   const std::vector<glm::dvec3>& own_directions() const { return own_; }
@@ -74,12 +68,12 @@ private:
   std::vector<glm::dvec3> own_; ///< baked for lights of their own, in the bake's coordinates
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_, ways_;
-  compute::Buffer<shared::float4> way_of_; ///< [way_count]
+  compute::Buffer<shared::float4> way_of_; ///< [number of Bake::way_map]
   compute::Buffer<float> radii_;
-  Compiled compiled_;
+  Air air_;
   compute::Buffer<shared::DeviceEightSets> sets_;
   int used_eights_ = 0; ///< of the buffer's
-  compute::Kernel direct_, compile_, compile_air_, compiled_cast_;
+  compute::Kernel cast_, compile_air_;
 };
 
 } // namespace nephroid::environment

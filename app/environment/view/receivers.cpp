@@ -75,7 +75,7 @@ bool Receivers::cast(Caustics& light)
   const auto count = static_cast<std::uint32_t>(
       std::clamp<std::int64_t>(std::llround(texels_a_step_.amount()), 1, static_cast<std::int64_t>(known_ - lit_)));
   const CastTexels texels{&list_, &distances_, &normals_, &caustics_, size_};
-  texels_a_step_.timed(count, [&] { light.cast_direct(texels, static_cast<std::uint32_t>(lit_), count); });
+  texels_a_step_.timed(count, [&] { light.cast(texels, static_cast<std::uint32_t>(lit_), count); });
   lit_ += count;
   return lit_ == known_;
 }

@@ -268,15 +268,15 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
 
 void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
 {
-  const Caustics::Compiled& compiled = caustics_.compiled();
+  const Caustics::Air& air = caustics_.air();
   const int anew = pass_ == 0 ? 1 : 0;
   world_.run(volume_, count, 32,
-             {{"air", compiled.air},
+             {{"air", air.light},
               {"radii", caustics_.radii()},
-              {"spheres", compiled.spheres},
-              {"object_x", compiled.object_x},
-              {"object_y", compiled.object_y},
-              {"object_z", compiled.object_z},
+              {"spheres", air.spheres},
+              {"object_x", air.object_x},
+              {"object_y", air.object_y},
+              {"object_z", air.object_z},
               {"distances", around_->distances()},
               {"size", around_->size()},
               {"middle", to_float4(task_.placement.middle)},
