@@ -23,6 +23,19 @@ struct Choices<environment::SegmentMethod> {
 };
 
 template <>
+struct Choices<environment::Technique> {
+  using T = environment::Technique;
+  static constexpr Choice<T> all[] = {
+      {T::eight_sets, "eight_sets", "Sets of spheres are looked up eight at a time, with the way that their light goes."},
+      {T::direct, "direct", "The thesis': one set after the other, all from one buffer in one launch."},
+      {T::direct_launches, "direct_launches", "The same with a launch for each light."},
+      {T::direct_buffers, "direct_buffers", "The same with a launch for each light, and a buffer for each baked direction."},
+      {T::compiled, "compiled", "The thesis': all sets are added up into one (Algorithm 3.5), and that is looked up."},
+      {T::compiled_launches, "compiled_launches", "The same with a launch for each light."},
+      {T::compiled_buffers, "compiled_buffers", "The same with a launch for each light, and a buffer for each baked direction."}};
+};
+
+template <>
 struct Choices<environment::Settings::Phase> {
   using Phase = environment::Settings::Phase;
   static constexpr Choice<Phase> all[] = {
@@ -81,6 +94,11 @@ void describe(V& v, S& s)
            .sentence = "Whether passes take other directions of each light's region, so that the picture goes towards that of the whole "
                        "environment; false: a light keeps its one direction, as in the thesis."},
           s.refine);
+  v.field({.name = "technique",
+           .sentence =
+               "How caustics on surfaces are put together from spheres. All but the first are there for the comparison of table 3.3: "
+               "they let light come from the object's middle, and have no own directions."},
+          s.technique);
   v.field({.name = "extinction",
            .sentence = "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",
            .unit = "1 / unit",

@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 4;
+constexpr std::uint32_t checkpoint_version = 5;
 
 class EnvironmentJob final : public job::Job {
 public:
@@ -101,6 +101,7 @@ public:
     made.warnings = warnings_;
     made.phases = {{"bake", bake_seconds_}};
     if (render_) made.phases.emplace_back("render", render_seconds_);
+    if (renderer_) made.phases.emplace_back("caustics", caustics_->seconds() - caustics_seconds_before_);
     add_figures(bake, made);
     if (renderer_) add_lights(made);
     return made;
@@ -116,6 +117,7 @@ public:
     to.value(complete);
     if (baker_) baker_->save(to);
     if (!renderer_) return;
+    to.value(caustics_->seconds() - caustics_seconds_before_);
     to.value(static_cast<std::uint8_t>(own_->complete() || resumes_));
     renderer_->save(to);
   }
@@ -143,8 +145,11 @@ public:
       baker_->load(from);
     } else if (renderer_) {
       std::uint8_t had_own = 0;
+      double caustics_seconds = 0;
+      from.value(caustics_seconds);
       from.value(had_own);
       renderer_->load(from);
+      caustics_seconds_before_ = caustics_->seconds() - caustics_seconds;
       resumes_ = had_own != 0 && !own_->complete();
     }
     bake_seconds_ = bake_seconds;
@@ -161,6 +166,7 @@ public:
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
     if (renderer_) {
       resumes_ = false;
+      caustics_seconds_before_ = caustics_->seconds();
       show(preset);
       bake_seconds_ = render_seconds_ = 0; // another picture begins
     }
@@ -182,7 +188,7 @@ private:
     begin_rendering();
   }
 
-  std::vector<glm::dvec3> strong() const { return renderer_->strong_directions(settings(shown_).own_directions); }
+  std::vector<glm::dvec3> strong() const { return renderer_->strong_directions(own_directions(settings(shown_))); }
 
   /// After a first pass, which is thrown away then; before the next one of a run that had them.
   bool bakes_own() const { return renderer_ && (renderer_->passes() > 0 || resumes_) && !own_->complete(); }
@@ -206,7 +212,7 @@ private:
   void begin_rendering()
   {
     if (!render_) return;
-    caustics_.emplace(*bake_, context_, settings(preset_).own_directions, task_->own_radii);
+    caustics_.emplace(*bake_, context_, own_directions(settings(preset_)), task_->own_radii, settings(preset_).technique);
     own_.emplace(*task_, context_);
     renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
     shown_ = loaded_;
@@ -343,8 +349,9 @@ private:
   std::optional<Baker> baker_; ///< while it bakes
   std::optional<Bake> bake_;   ///< when that is done
   std::optional<Caustics> caustics_;
-  std::optional<OwnDirections> own_; ///< with the renderer
-  bool resumes_ = false;             ///< the passes that are done had own directions, which are baked again
+  double caustics_seconds_before_ = 0; ///< of Caustics::seconds(), what was before the newest preset
+  std::optional<OwnDirections> own_;   ///< with the renderer
+  bool resumes_ = false;               ///< the passes that are done had own directions, which are baked again
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
   std::uint64_t photons_ = 0; ///< that the finished bake took here

@@ -70,13 +70,13 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
   return passes;
 }
 
-std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake, int own)
+std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake, const Settings& settings)
 {
   const auto bytes_of = [](const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); };
   const scene::Scene& s = *render.scene;
   const auto pixels = static_cast<std::uint64_t>(s.camera.width) * static_cast<std::uint64_t>(s.camera.height);
   const std::uint64_t sky = s.environment ? bytes_of(s.environment->rgb) : 0;
-  return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), own, bake.own_radii)},
+  return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), own_directions(settings), bake.own_radii, settings.technique)},
           {"whole scene", bytes_of(render.bvh->nodes) + bytes_of(render.bvh->blocks) + bytes_of(s.geometry.triangles) +
                               bytes_of(s.geometry.positions) + bytes_of(s.geometry.normals)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
@@ -124,7 +124,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
   plan.buffers = buffers_of(task, scene, plan.bakes);
   if (plan.render)
-    for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task, s.own_directions)) plan.buffers.push_back(std::move(buffer));
+    for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task, s)) plan.buffers.push_back(std::move(buffer));
   plan.defines = task.defines;
   plan.layers = plan.render ? Renderer::layers(*plan.render) : 1;
   plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The settings of engine 2: the section "environment" of a preset.
 #pragma once
+#include "environment/light/technique.h"
 #include "environment/segment/segment.h"
 #include "preset/preset.h"
 
@@ -23,6 +24,7 @@ struct Settings {
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
   bool refine = true;      ///< each pass takes other directions of each light's region
+  Technique technique = Technique::eight_sets;
   enum class Phase { henyey_greenstein, rayleigh };
   double extinction = 0;                  ///< of the medium around the object, 1 / unit; 0: there is none
   double albedo = 1;                      ///< which part of what is taken is scattered, 0..1
@@ -30,6 +32,9 @@ struct Settings {
   double anisotropy = 0;                  ///< henyey_greenstein: the mean cosine, -1..1
   bool operator==(const Settings&) const = default;
 };
+
+/// How many it bakes: the thesis' techniques know none.
+inline int own_directions(const Settings& s) { return s.technique == Technique::eight_sets ? s.own_directions : 0; }
 
 /// The settings of this engine, as a preset knows them.
 const preset::SettingsType& settings_type();

@@ -4,17 +4,10 @@
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
-// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2 goes to 0.
-static inline float held(__global const float* radii, float distance)
-{
-  const float part = fmin(distance / radii[0], 1.0f);
-  return part * part;
-}
-
 // caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
 __kernel void cast(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
-                          __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, __global const uint* list, uint first,
-                          uint count, int size, __global const float* distances, __global const float4* normals, __global float* caustics)
+                   __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, __global const uint* list, uint first, uint count,
+                   int size, __global const float* distances, __global const float4* normals, __global float* caustics)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
@@ -29,8 +22,8 @@ __kernel void cast(__global const ushort* stored, __global const ushort* ways, _
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Texels first .. first + count - 1 of the stored form of all spheres together, whose maps have side x side texels. object_x, y, z: the
-// object's axes in the scene.
+// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Texels first .. first + count - 1 of the stored form of all
+// spheres together, whose maps have side x side texels. object_x, y, z: the object's axes in the scene.
 __kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
                           __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
                           float4 object_z, int side, uint first, uint count, __global float* air)

@@ -41,6 +41,13 @@ static inline Shells shells_at(__global const float* radii, const DeviceSpheres*
   return shells;
 }
 
+// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2 goes to 0.
+static inline float held(__global const float* radii, float distance)
+{
+  const float part = fmin(distance / radii[0], 1.0f);
+  return part * part;
+}
+
 // Where a unit vector is in a sphere's map, in texels from the middle of the border's outermost texel: rounded down these are the column and
 // the row of the first of the four texels about it, what is left is how far it is to the others. atan(t) / (pi / 2) is a polynomial within
 // 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2 itself would take a third of all time. REAL: float, or float8 for eight
@@ -197,63 +204,88 @@ typedef struct {
 
 static inline float luminance_of(float3 rgb) { return dot(rgb, (float3)(0.2126f, 0.7152f, 0.0722f)); }
 
-// Between the four texels about a place. at: of the first one's first channel.
-static inline float3 stored_between(__global const ushort* at, int stride, float u, float v)
+// The texels about a place of a map in its stored form, whose middles it lies between.
+typedef struct {
+  size_t texels[4];
+  float weights[4];
+  size_t nearest;
+} FourTexels;
+
+// direction: unit, in the map's coordinates.
+static inline FourTexels four_texels(float3 direction, int side)
 {
-  const float w[4] = {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v};
-  const int t[4] = {0, 1, stride, stride + 1};
+  float column, row;
+  stored_place(direction.x, direction.y, direction.z, (float)side, &column, &row);
+  const int stride = side + 2, left = (int)column, top = (int)row;
+  const float u = column - (float)left, v = row - (float)top;
+  const size_t first = (size_t)(top * stride + left);
+  const FourTexels four = {{first, first + 1, first + (size_t)stride, first + (size_t)stride + 1},
+                           {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v},
+                           (size_t)((int)(row + 0.5f) * stride + (int)(column + 0.5f))};
+  return four;
+}
+
+static inline float3 stored_between(__global const ushort* map, const FourTexels* four)
+{
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < 4; ++i) {
 #if NEPHROID_CHANNELS == 1
-    sum += w[i] * as_float((uint)at[t[i]] << 16);
+    sum += four->weights[i] * as_float((uint)map[four->texels[i]] << 16);
 #else
-    sum += w[i] * as_float3(convert_uint3(vload3((size_t)t[i], at)) << 16);
+    sum += four->weights[i] * as_float3(convert_uint3(vload3(four->texels[i], map)) << 16);
 #endif
   }
   return sum;
+}
+
+// Of one set's spheres, in their stored form.
+static inline float3 stored_between_spheres(__global const ushort* set, const DeviceSpheres* spheres, const FourTexels* four, Shell shell)
+{
+  const size_t map_items = NEPHROID_CHANNELS * (size_t)((spheres->side + 2) * (spheres->side + 2));
+  const float3 lower = stored_between(set + (size_t)shell.lower * map_items, four);
+  return lower + shell.part * (stored_between(set + (size_t)shell.upper * map_items, four) - lower);
+}
+
+// Of set k of eight.
+static inline float3 row_of_set(__global const DeviceEightSets* eight, int k, int row)
+{
+  return (float3)(eight->to_bake[3 * row][k], eight->to_bake[3 * row + 1][k], eight->to_bake[3 * row + 2][k]);
+}
+static inline float3 in_set(__global const DeviceEightSets* eight, int k, float3 direction)
+{
+  return (float3)(dot(row_of_set(eight, k, 0), direction), dot(row_of_set(eight, k, 1), direction), dot(row_of_set(eight, k, 2), direction));
+}
+static inline float3 flux_of_set(__global const DeviceEightSets* eight, int k)
+{
+  return (float3)(eight->flux[0][k], eight->flux[1][k], eight->flux[2][k]);
 }
 
 // What set k of eight adds, in a unit direction of the scene.
 static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* eight, int k, float3 direction,
                            Shell shell)
 {
-  const float3 flux = (float3)(eight->flux[0][k], eight->flux[1][k], eight->flux[2][k]);
-  float3 rows[3];
-  for (int i = 0; i < 3; ++i) rows[i] = (float3)(eight->to_bake[3 * i][k], eight->to_bake[3 * i + 1][k], eight->to_bake[3 * i + 2][k]);
-  const float3 outwards = (float3)(dot(rows[0], direction), dot(rows[1], direction), dot(rows[2], direction));
-  float column, row;
-  stored_place(outwards.x, outwards.y, outwards.z, (float)spheres->side, &column, &row);
-  const int stride = spheres->side + 2, left = (int)column, top = (int)row;
-  const float u = column - (float)left, v = row - (float)top;
-  const size_t map_texels = (size_t)(stride * stride), first = (size_t)eight->first[k], corner = (size_t)(top * stride + left);
-  const size_t low = first + (size_t)shell.lower * map_texels, high = first + (size_t)shell.upper * map_texels;
-  const size_t nearest = (size_t)((int)(row + 0.5f) * stride + (int)(column + 0.5f));
-  const float3 way = maps->way_of[maps->ways[(shell.part > 0.5f ? high : low) + nearest]].xyz;
-  const float3 lower = stored_between(maps->stored + NEPHROID_CHANNELS * (low + corner), stride, u, v);
-  const float3 upper = stored_between(maps->stored + NEPHROID_CHANNELS * (high + corner), stride, u, v);
-  const float3 rgb = (spheres->scale / fmax(fabs(dot(outwards, way)), LEAST_COSINE)) * flux * (lower + shell.part * (upper - lower));
+  const float3 outwards = in_set(eight, k, direction);
+  const FourTexels four = four_texels(outwards, spheres->side);
+  const size_t first = (size_t)eight->first[k], map_texels = (size_t)((spheres->side + 2) * (spheres->side + 2));
+  const size_t nearest = first + (size_t)(shell.part > 0.5f ? shell.upper : shell.lower) * map_texels + four.nearest;
+  const float3 way = maps->way_of[maps->ways[nearest]].xyz;
+  const float3 stored = stored_between_spheres(maps->stored + NEPHROID_CHANNELS * first, spheres, &four, shell);
+  const float3 rgb = (spheres->scale / fmax(fabs(dot(outwards, way)), LEAST_COSINE)) * flux_of_set(eight, k) * stored;
   sum->rgb += rgb;
-  sum->way += luminance_of(rgb) * (way.x * rows[0] + way.y * rows[1] + way.z * rows[2]);
+  sum->way += luminance_of(rgb) * (way.x * row_of_set(eight, k, 0) + way.y * row_of_set(eight, k, 1) + way.z * row_of_set(eight, k, 2));
 }
 
 // What compile_air has made of all sets: [sphere][texel of the stored form][6], in coordinates of the object.
 static inline AirLight compiled_air(__global const float* air, const DeviceSpheres* spheres, float3 in_object, Shell shell)
 {
-  float column, row;
-  stored_place(in_object.x, in_object.y, in_object.z, (float)spheres->side, &column, &row);
-  const int stride = spheres->side + 2, left = (int)column, top = (int)row;
-  const float u = column - (float)left, v = row - (float)top;
-  const size_t map_items = 6 * (size_t)(stride * stride), first = 6 * (size_t)(top * stride + left);
-  __global const float* lower = air + (size_t)shell.lower * map_items + first;
-  __global const float* upper = air + (size_t)shell.upper * map_items + first;
-  const int t[4] = {0, 1, stride, stride + 1};
-  const float w[4] = {(1.0f - u) * (1.0f - v), u * (1.0f - v), (1.0f - u) * v, u * v};
+  const FourTexels four = four_texels(in_object, spheres->side);
+  const size_t map_texels = (size_t)((spheres->side + 2) * (spheres->side + 2));
   AirLight sum = {(float3)(0.0f), (float3)(0.0f)};
   for (int i = 0; i < 4; ++i) {
-    const size_t at = 2 * (size_t)t[i];
-    const float3 rgb = vload3(at, lower), way = vload3(at + 1, lower);
-    sum.rgb += w[i] * (rgb + shell.part * (vload3(at, upper) - rgb));
-    sum.way += w[i] * (way + shell.part * (vload3(at + 1, upper) - way));
+    const size_t lower = 2 * ((size_t)shell.lower * map_texels + four.texels[i]), upper = 2 * ((size_t)shell.upper * map_texels + four.texels[i]);
+    const float3 rgb = vload3(lower, air), way = vload3(lower + 1, air);
+    sum.rgb += four.weights[i] * (rgb + shell.part * (vload3(upper, air) - rgb));
+    sum.way += four.weights[i] * (way + shell.part * (vload3(upper + 1, air) - way));
   }
   return sum;
 }

@@ -5,12 +5,14 @@
     tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--size N] [--reference-seconds S] [TABLE...]
 
 Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1: how many, by which segmentation),
-spheres (3.2: how many, with which radii), histogram (figure 3.16), directions, refining. Engine 1 traces photons from every texel of the same environment
+spheres (3.2: how many, with which radii), histogram (figure 3.16), directions, refining; techniques (3.3 and figure 3.19: milliseconds, at 512 x 512, best of
+three runs; the machine should have nothing else to do). Engine 1 traces photons from every texel of the same environment
 through the same objects: no spheres, no segments. Two of its runs with different seeds tell the noise floor. What is in OUT is not made again. Needs numpy
 and ImageMagick.
 """
 import argparse
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -143,11 +145,43 @@ def histogram(bench, preset):
         row(label, 100 * np.histogram(distances, [*BINS, np.inf])[0] / len(distances))
 
 
+LAMP = {"type": "directional", "direction": [0.3, -1, 0.2], "illuminance": 3}
+TECHNIQUES = ["direct_buffers", "compiled_buffers", "direct_launches", "compiled_launches", "direct", "compiled", "eight_sets"]
+
+
+def techniques(bench, preset):
+    """Table 3.3 and figure 3.19: from new lights to the caustics on all that is seen, of a coarse picture and a full one."""
+    def milliseconds(technique, q, s):
+        settings = {"scene.camera.resolution": [512, 512], "stop.passes": 1, **ONE, "environment.technique": technique, "environment.lights": max(q, 6),
+                    "environment.spheres": s}
+        if q == 1:  # a lamp instead of the sky: an environment has six lights at least
+            settings |= {"scene.environment": None, "scene.lights": [LAMP]}
+        sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")]
+        times = []
+        for _ in range(3):
+            folder = bench.out / "technique"
+            shutil.rmtree(folder, ignore_errors=True)
+            bench.call("run", PRESETS / f"{preset}.json", "-o", folder, *sets)
+            times.append(json.loads((folder / "run.json").read_text())["phase_seconds"]["caustics"])
+        return 1000 * min(times)
+
+    head(f"techniques: {preset}, 512 x 512, milliseconds", ["s", *TECHNIQUES])
+    for q in (1, 16, 24, 32, 48):
+        for s in (8, 16, 32):
+            row(str(q), [s, *(milliseconds(technique, q, s) for technique in TECHNIQUES)])
+    head(f"rate against q: {preset}, 512 x 512, s = 16, milliseconds", [str(q) for q in range(8, 65, 8)])
+    for technique in ("compiled_buffers", "direct", "eight_sets"):
+        row(technique, [milliseconds(technique, q, 16) for q in range(8, 65, 8)])
+
+
+ALONE = {"histogram": histogram, "techniques": techniques}
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("program")
     arguments.add_argument("out")
-    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram"], metavar="TABLE")
+    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques"], metavar="TABLE")
     arguments.add_argument("--presets", nargs="+", default=SCENES, help="of `scenes`")
     arguments.add_argument("--size", type=int, default=192)
     arguments.add_argument("--passes", type=int, default=8)
@@ -157,8 +191,8 @@ def main():
     for name in chosen.tables:
         if name == "scenes":
             scenes(bench, chosen.presets)
-        elif name == "histogram":
-            histogram(bench, "bunny")
+        elif name in ALONE:
+            ALONE[name](bench, "bunny")
         else:
             table(bench, "bunny", name)
 

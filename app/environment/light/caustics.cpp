@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <span>
 
@@ -101,7 +102,7 @@ void add_eights(std::vector<shared::DeviceEightSets>& eights, std::span<const Tu
 
 } // namespace
 
-Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, const std::vector<double>& own_radii)
+Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, const std::vector<double>& own_radii, Technique technique)
     : context_(context), directions_(static_cast<int>(bake.directions.size())),
       channels_(static_cast<std::size_t>(bake.channels)), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
                                                                    static_cast<float>(Bake::unit * bake.size * bake.size),
@@ -111,7 +112,8 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
       way_of_(tracing::upload_vector(context, "ways", all_ways())), radii_(context, "radii", bake.radii.size() + own_radii.size()),
       sets_(context, "turned sets", 1)
 {
-  stored_.write(stored_light(bake));
+  const std::vector<std::uint16_t> light = stored_light(bake);
+  stored_.write(light);
   ways_.write(stored_ways(bake));
   radii_.write(std::vector<float>(bake.radii.begin(), bake.radii.end()));
   radii_.write(std::vector<float>(own_radii.begin(), own_radii.end()), bake.radii.size());
@@ -119,12 +121,15 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
   const compute::Program program(context, "environment/cast.cl", defines);
   cast_ = program.kernel("cast");
   compile_air_ = program.kernel("compile_air");
+  if (technique != Technique::eight_sets) one_by_one_.emplace(technique, light, bake.directions.size(), channels_, context);
 }
 
-std::uint64_t Caustics::bytes(const Bake& bake, int own, const std::vector<double>& own_radii)
+std::uint64_t Caustics::bytes(const Bake& bake, int own, const std::vector<double>& own_radii, Technique technique)
 {
   const std::size_t maps = bake.directions.size() * bake.radii.size() + static_cast<std::size_t>(own) * own_radii.size();
-  return sizeof(std::uint16_t) * maps * stored_texels(bake.map.side) * static_cast<std::size_t>(bake.channels + 1);
+  const std::size_t texels = stored_texels(bake.map.side), channels = static_cast<std::size_t>(bake.channels);
+  return sizeof(std::uint16_t) * maps * texels * (channels + 1) +
+         OneByOne::bytes(technique, texels * bake.radii.size(), bake.directions.size(), channels);
 }
 
 std::uint64_t Caustics::air_bytes(const Bake& bake, int side) { return 6 * sizeof(float) * stored_texels(side) * bake.radii.size(); }
@@ -139,12 +144,20 @@ void Caustics::set_own(const Bake& own)
 
 void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
 {
-  upload(turned_sets(lights, rotation, directions_, own_), rotation);
+  timed([&] { upload(turned_sets(lights, rotation, directions_, own_), rotation); });
 }
 
 void Caustics::draw_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, std::uint32_t pass)
 {
-  upload(drawn_sets(lights, rotation, directions_, pass, own_), rotation);
+  timed([&] { upload(drawn_sets(lights, rotation, directions_, pass, own_), rotation); });
+}
+
+template <class Work>
+void Caustics::timed(const Work& work)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 std::size_t Caustics::maps(int own) const
@@ -170,7 +183,10 @@ void Caustics::upload(std::vector<TurnedSet> sets, const glm::dmat3& rotation)
   air_.object_x = to_float4(rotation[0]);
   air_.object_y = to_float4(rotation[1]);
   air_.object_z = to_float4(rotation[2]);
+  if (one_by_one_) one_by_one_->set_lights(turned(), sets);
 }
+
+TurnedSpheres Caustics::turned() const { return {stored_, radii_, sets_, spheres_, air_.object_x, air_.object_y, air_.object_z}; }
 
 void Caustics::compile_air(int side)
 {
@@ -199,22 +215,25 @@ void Caustics::compile_air(int side)
 
 void Caustics::cast(const CastTexels& texels, std::uint32_t first, std::uint32_t count)
 {
-  cast_.run(count, group,
-            {{"stored", stored_},
-             {"ways", ways_},
-             {"way_of", way_of_},
-             {"radii", radii_},
-             {"sets", sets_},
-             {"eights", used_eights_},
-             {"spheres", spheres_},
-             {"list", *texels.list},
-             {"first", first},
-             {"count", count},
-             {"size", texels.size},
-             {"distances", *texels.distances},
-             {"normals", *texels.normals},
-             {"caustics", *texels.caustics}});
-  context_.finish();
+  timed([&] {
+    if (one_by_one_) return one_by_one_->cast(turned(), texels, first, count);
+    cast_.run(count, group,
+              {{"stored", stored_},
+               {"ways", ways_},
+               {"way_of", way_of_},
+               {"radii", radii_},
+               {"sets", sets_},
+               {"eights", used_eights_},
+               {"spheres", spheres_},
+               {"list", *texels.list},
+               {"first", first},
+               {"count", count},
+               {"size", texels.size},
+               {"distances", *texels.distances},
+               {"normals", *texels.normals},
+               {"caustics", *texels.caustics}});
+    context_.finish();
+  });
 }
 
 } // namespace nephroid::environment

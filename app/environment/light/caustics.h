@@ -3,11 +3,13 @@
 #pragma once
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
+#include "environment/light/one_by_one.h"
 #include "environment/light/turned_sets.h"
 #include "kernels/environment/render_types.h"
 #include "tracing/step_size.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
@@ -23,11 +25,13 @@ struct CastTexels {
 
 class Caustics {
 public:
-  /// own: how many directions set_own() has at most. own_radii: of their spheres. Throws failed where the device has not enough memory.
-  Caustics(const Bake& bake, const compute::Context& context, int own = 0, const std::vector<double>& own_radii = {});
+  /// own: how many directions set_own() has at most; 0 by the thesis' techniques. own_radii: of their spheres. Throws failed where the
+  /// device has not enough memory.
+  Caustics(const Bake& bake, const compute::Context& context, int own = 0, const std::vector<double>& own_radii = {},
+           Technique technique = Technique::eight_sets);
 
   /// On a device: of the bake with so many lights' own directions, whose spheres have these radii.
-  static std::uint64_t bytes(const Bake& bake, int own, const std::vector<double>& own_radii);
+  static std::uint64_t bytes(const Bake& bake, int own, const std::vector<double>& own_radii, Technique technique);
   /// Of what compile_air() makes.
   static std::uint64_t air_bytes(const Bake& bake, int side);
 
@@ -42,6 +46,9 @@ public:
 
   /// Texels first .. first + count - 1 of the list.
   void cast(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
+
+  /// Of all calls of set_lights, draw_lights and cast so far.
+  double seconds() const { return seconds_; }
 
   /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5), whose maps have side x side texels.
   void compile_air(int side);
@@ -59,7 +66,10 @@ public:
   int side() const { return spheres_.side; } ///< of the bake's maps
 
 private:
+  template <class Work>
+  void timed(const Work& work);
   void upload(std::vector<TurnedSet> sets, const glm::dmat3& rotation);
+  TurnedSpheres turned() const;
   std::size_t maps(int own) const; ///< of all baked directions and so many of the lights' own
 
   compute::Context context_;
@@ -73,7 +83,9 @@ private:
   Air air_;
   compute::Buffer<shared::DeviceEightSets> sets_;
   int used_eights_ = 0; ///< of the buffer's
+  double seconds_ = 0;
   compute::Kernel cast_, compile_air_;
+  std::optional<OneByOne> one_by_one_; ///< by the thesis' techniques
 };
 
 } // namespace nephroid::environment

@@ -31,10 +31,11 @@ public:
   }
 
   std::vector<NearDirection> near(const DistantLight& light) const { return near_directions(travel(light), count_, own_); }
-  TurnedSet set(const DistantLight& light, const NearDirection& near) const
+  TurnedSet set(const std::vector<DistantLight>& lights, std::size_t number, const NearDirection& near) const
   {
+    const DistantLight& light = lights[number];
     const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked_[static_cast<std::size_t>(near.direction)], travel(light))) * to_object_;
-    return {to_bake, near.weight * light.irradiance, near.direction};
+    return {to_bake, near.weight * light.irradiance, near.direction, number};
   }
 
 private:
@@ -117,9 +118,9 @@ std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, cons
 {
   const SetMaker maker(rotation, count, own);
   std::vector<TurnedSet> sets;
-  for (const DistantLight& light : lights) {
-    if (light.irradiance == glm::dvec3(0)) continue;
-    for (const NearDirection& near : maker.near(light)) sets.push_back(maker.set(light, near));
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].irradiance == glm::dvec3(0)) continue;
+    for (const NearDirection& near : maker.near(lights[i])) sets.push_back(maker.set(lights, i, near));
   }
   return sets;
 }
@@ -136,7 +137,7 @@ std::vector<TurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const
     double left = std::fmod(0.4142135624 * pass + 0.7548776662 * static_cast<double>(i), 1.0);
     std::size_t chosen = 0;
     while (chosen + 1 < near.size() && left >= near[chosen].weight) left -= near[chosen++].weight;
-    sets.push_back(maker.set(lights[i], {near[chosen].direction, 1}));
+    sets.push_back(maker.set(lights, i, {near[chosen].direction, 1}));
   }
   return sets;
 }

@@ -213,7 +213,7 @@ void Renderer::end_pass()
   stage_ = Stage::see;
   shaded_ = false;
   ++pass_;
-  if (pass_ == 1 || drawn_) light_pass(); // else as the pass before
+  if (occlusion_ && task_.refine) light_pass(); // else as the pass before
 }
 
 double Renderer::part() const
