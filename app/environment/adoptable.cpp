@@ -54,6 +54,7 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now)
   same = with_places_of(same, now);
   Settings& s = settings(same);
   const Settings& n = settings(now);
+  s.cast = n.cast;
   s.extinction = n.extinction;
   s.albedo = n.albedo;
   s.phase = n.phase;

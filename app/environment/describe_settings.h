@@ -99,6 +99,7 @@ void describe(V& v, S& s)
                "How caustics on surfaces are put together from spheres. All but the first are there for the comparison of table 3.3: "
                "they let light come from the object's middle, and have no own directions."},
           s.technique);
+  v.field({.name = "cast", .sentence = "Whether caustics fall on surfaces."}, s.cast);
   v.field({.name = "extinction",
            .sentence = "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",
            .unit = "1 / unit",

@@ -61,7 +61,10 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
                     : render->has_surroundings ? fmt::format("{} rays a light from all over the object", samples_per_light(lights))
                                                : "nothing stands around the object"});
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
-  passes.push_back({"cast", receivers, receivers ? "caustics on diffuse surfaces, where a path ends" : "no surface is diffuse"});
+  passes.push_back({"cast", receivers && s.cast,
+                    !s.cast     ? "environment.cast is false"
+                    : receivers ? "caustics on diffuse surfaces, where a path ends"
+                                : "no surface is diffuse"});
   passes.push_back(
       {"volume", render->has_medium,
        render->has_medium ? "caustics in the air: 128 steps a path" : "there is no medium: environment.extinction or albedo is 0"});

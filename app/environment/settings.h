@@ -25,6 +25,7 @@ struct Settings {
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
   bool refine = true;      ///< each pass takes other directions of each light's region
   Technique technique = Technique::eight_sets;
+  bool cast = true; ///< caustics on surfaces
   enum class Phase { henyey_greenstein, rayleigh };
   double extinction = 0;                  ///< of the medium around the object, 1 / unit; 0: there is none
   double albedo = 1;                      ///< which part of what is taken is scattered, 0..1

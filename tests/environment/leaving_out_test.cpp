@@ -49,6 +49,23 @@ TEST_F(EnvironmentLeavesOut, TheVolumeWithoutAMedium)
   EXPECT_LT(mean(layer(with, "volume")).y, 1e-8);
 }
 
+TEST_F(EnvironmentLeavesOut, CausticsThatAreSwitchedOff)
+{
+  const preset::Preset all = over_floor({"environment.extinction=0.1"}),
+                       none = over_floor({"environment.extinction=0.1", "environment.cast=false"});
+  EXPECT_FALSE(pass(none, "cast").runs);
+  EXPECT_EQ(pass(none, "cast").reason, "environment.cast is false");
+  const job::Snapshot with = run(all), without = run(none);
+  for (const char* name : {"background", "direct", "volume"}) EXPECT_EQ(layer(with, name), layer(without, name)) << name;
+  EXPECT_GT(mean(layer(with, "caustic")).y, 0.001);
+  EXPECT_EQ(mean(layer(without, "caustic")), glm::dvec3(0));
+  // And on again in the same job.
+  const auto job = job_of(none);
+  run(*job);
+  ASSERT_TRUE(job->adopt(all));
+  expect_same_layers(run(*job), with);
+}
+
 // The other scene has an object so far away and so small that no ray meets it.
 TEST_F(EnvironmentLeavesOut, RaysToLightsWhereNothingStands)
 {

@@ -145,7 +145,7 @@ def histogram(bench, preset):
         row(label, 100 * np.histogram(distances, [*BINS, np.inf])[0] / len(distances))
 
 
-LAMP = {"type": "directional", "direction": [0.3, -1, 0.2], "illuminance": 3}
+LAMP = {"type": "directional", "direction": [0.3, -1, 0.2], "irradiance_w_m2": 3}
 TECHNIQUES = ["direct_buffers", "compiled_buffers", "direct_launches", "compiled_launches", "direct", "compiled", "eight_sets"]
 
 

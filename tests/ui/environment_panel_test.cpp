@@ -173,6 +173,26 @@ TEST_F(EnvironmentPanelTest, LightsTurnCounterclockwise)
   EXPECT_NEAR(seen(in_front)[0], x + width / 2, 1e-6);
 }
 
+TEST_F(EnvironmentPanelTest, CausticsAreSwitched)
+{
+  open_map();
+  click(place("on surfaces"));
+  EXPECT_FALSE(settings().cast);
+  EXPECT_EQ(workbench.edits()->undo_label(), "caustics on surfaces");
+  drag_between(place("extinction"), {place("extinction")[0] + 50, place("extinction")[1]});
+  EXPECT_EQ(settings().extinction, 0) << "there is no medium yet";
+  click(place("in the air"));
+  EXPECT_NEAR(settings().extinction, 0.2 / std::sqrt(17), 1e-12);
+  drag_between(place("extinction"), {place("extinction")[0] + 50, place("extinction")[1]});
+  EXPECT_GT(settings().extinction, 0.06);
+  click(place("in the air"));
+  EXPECT_EQ(settings().extinction, 0);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_GT(settings().extinction, 0.06) << "of the drag";
+  click(place("on surfaces"));
+  EXPECT_TRUE(settings().cast);
+}
+
 TEST_F(EnvironmentPanelTest, InTheCubeTheFrontFollowsTheMouse)
 {
   open_map();

@@ -28,15 +28,16 @@ protected:
     setenv("POCL_CACHE_DIR", (std::string(home ? home : "/tmp") + "/.cache/pocl/kcache").c_str(), 0);
     setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
   }
-  /// A glass ball under a shipped sky of three lamps; a bake of a second or two.
+  /// A glass ball on a floor under a shipped sky of three lamps; a bake of a second or two.
   std::string written() const
   {
     return folder.write("lamps.json", fmt::format(R"({{
   "name": "Lamps", "engine": "environment", "unit": "cm", "white": 0.2,
   "scene": {{
     "camera": {{"position": [4, 4, 4], "target": [0, -1, 0], "fov_deg": 34, "resolution": [512, 256]}},
-    "materials": {{"glass": {{"type": "dielectric", "dispersion": 1.5}}}},
-    "objects": [{{"name": "ball", "shape": {{"type": "sphere", "radius": 1}}, "material": "glass"}}],
+    "materials": {{"glass": {{"type": "dielectric", "dispersion": 1.5}}, "floor": {{"type": "diffuse", "reflectance": 0.8}}}},
+    "objects": [{{"name": "ball", "shape": {{"type": "sphere", "radius": 1}}, "material": "glass"}},
+                {{"name": "floor", "shape": {{"type": "quad", "size": [30, 1, 30]}}, "material": "floor", "transform": {{"translate": [0, -1.2, 0]}}}}],
     "environment": {{"type": "file", "file": "{}/presets/spectral/three-lamps.hdr", "rotate_deg": 25}}
   }},
   "environment": {{"photons": 8192, "spheres": 4, "resolution": 64}}

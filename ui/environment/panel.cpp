@@ -74,6 +74,7 @@ void EnvironmentPanel::draw(const Context& context)
                              "engine \"environment\".",
                              preset->settings.type().name));
   draw_light_row(context);
+  if (cuts_) draw_caustics_row(context);
   if (!shown_.error.empty()) draw_wrapped(colour::error, shown_.error);
   draw_map(context);
   if (shown_.map)
@@ -198,6 +199,36 @@ void EnvironmentPanel::draw_light_row(const Context& context)
   if (ImGui::IsItemDeactivatedAfterEdit() && std::isfinite(threshold))
     context.edit("threshold of lights", [&](preset::Preset& p) { environment::settings(p).threshold = std::clamp(threshold, 0.0, 1.0); });
   ImGui::SetItemTooltip("A region with no more than this part of the map's light, 0 to 1, is no light of its own.");
+}
+
+/// Where engine 2 shows caustics.
+void EnvironmentPanel::draw_caustics_row(const Context& context)
+{
+  const environment::Settings& settings = environment::settings(*context.preset());
+  label("Caustics");
+  bool cast = settings.cast;
+  if (ImGui::Checkbox("on surfaces", &cast))
+    context.edit("caustics on surfaces", [&](preset::Preset& p) { environment::settings(p).cast = cast; });
+  places_.note("on surfaces");
+  ImGui::SameLine();
+  bool in_air = settings.extinction > 0;
+  if (ImGui::Checkbox("in the air", &in_air))
+    context.edit("caustics in the air", [&](preset::Preset& p) {
+      // Such that about a fifth of the light is lost on the way from what is looked at.
+      const preset::Vec3 &at = p.scene.camera.position, &to = p.scene.camera.target;
+      environment::settings(p).extinction = in_air ? 0.2 / std::hypot(to[0] - at[0], to[1] - at[1], to[2] - at[2]) : 0;
+    });
+  places_.note("in the air");
+  ImGui::SetItemTooltip("Whether a thin medium shows them as beams: environment.extinction.");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(settings.extinction <= 0);
+  ImGui::SetNextItemWidth(-1);
+  double extinction = settings.extinction;
+  const double low = 1e-9, high = 1000;
+  const bool changed = ImGui::DragScalar("##extinction", ImGuiDataType_Double, &extinction, static_cast<float>(0.01 * extinction), &low,
+                                         &high, "extinction %.3g", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
+  follow_number(context, "extinction", changed, "extinction", [&](preset::Preset& p) { environment::settings(p).extinction = extinction; });
+  ImGui::EndDisabled();
 }
 
 MapContents EnvironmentPanel::contents() const { return {shown_, figures_, layout_, environment_.rotate_deg, row_}; }

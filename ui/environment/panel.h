@@ -38,6 +38,7 @@ private:
   void draw_toolbar(const Context& context);
   void draw_lights_row(const Context& context);
   void draw_light_row(const Context& context);
+  void draw_caustics_row(const Context& context);
   void draw_map(const Context& context);
   void draw_summary() const;
   void draw_table();

@@ -24,6 +24,7 @@ Receivers::Receivers(const compute::Context& context, int size)
       normals_(context, "receivers' normals", texels_of(size)), list_(context, "list of receivers", texels_of(size))
 {
   list_on_host_.reserve(texels_of(size));
+  caustics_.fill_zero();
   forget();
 }
 

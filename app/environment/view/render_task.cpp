@@ -81,6 +81,7 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   task.has_surroundings = !task.surroundings.object_of_primitive.empty();
   const Settings& s = settings(preset);
   task.refine = s.refine;
+  task.casts = s.cast;
   task.has_medium = s.extinction > 0 && s.albedo > 0;
   task.extinction = static_cast<float>(s.extinction);
   task.albedo = static_cast<float>(s.albedo);

@@ -33,6 +33,7 @@ struct RenderTask {
   std::vector<DistantLight> lamps;
   bool refine = true; ///< Settings::refine
 
+  bool casts = true;       ///< Settings::cast
   bool has_medium = false; ///< whether caustics are seen in the air
   float extinction = 0, albedo = 0, anisotropy = 0;
   int rayleigh = 0; ///< 1: the phase function is Rayleigh's

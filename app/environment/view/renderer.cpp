@@ -176,6 +176,7 @@ void Renderer::compile(int side)
 
 void Renderer::find_wanted(Receivers& receivers)
 {
+  if (!task_.casts) return; // caustics are 0 where nothing has been looked up
   receivers.find_wanted(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr,
                         task_.placement.middle);
 }
