@@ -32,7 +32,7 @@ protected:
   std::string written() const
   {
     return folder.write("lamps.json", fmt::format(R"({{
-  "name": "Lamps", "engine": "environment", "unit": "cm", "white": 0.2,
+  "name": "Lamps", "engine": "environment", "unit": "cm", "white": 10, "stop": {{"passes": 4}},
   "scene": {{
     "camera": {{"position": [4, 4, 4], "target": [0, -1, 0], "fov_deg": 34, "resolution": [512, 256]}},
     "materials": {{"glass": {{"type": "dielectric", "dispersion": 1.5}}, "floor": {{"type": "diffuse", "reflectance": 0.8}}}},
