@@ -312,13 +312,14 @@ std::shared_ptr<const job::Picture> Renderer::picture() const
   const std::size_t shaded = shaded_ ? count : static_cast<std::size_t>(shade_steps_.done()),
                     scattered = static_cast<std::size_t>(volume_steps_.done());
   for_ranges(count, 1 << 14, [&](std::size_t, const Range& range) {
-    for (std::size_t pixel = range.begin; pixel < range.end; ++pixel)
-      for (std::size_t l = 0; l < picture->layers.size(); ++l) {
-        const std::size_t ahead = l < layer_names.size() ? shaded : scattered;
-        const double samples = std::max<double>(1, static_cast<double>(pass_) + (pixel < ahead ? 1 : 0));
-        const auto scale = static_cast<float>(1 / (white_ * samples));
-        for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) picture->rgb[i] += picture->layers[l].rgb[i] *= scale;
+    for (std::size_t l = 0; l < picture->layers.size(); ++l) {
+      const std::size_t ahead = std::clamp(l < layer_names.size() ? shaded : scattered, range.begin, range.end);
+      for (const bool more : {true, false}) {
+        const auto scale = static_cast<float>(1 / (white_ * static_cast<double>(more ? pass_ + 1 : std::max<std::int64_t>(1, pass_))));
+        const std::size_t end = 3 * (more ? ahead : range.end);
+        for (std::size_t i = 3 * (more ? range.begin : ahead); i < end; ++i) picture->rgb[i] += picture->layers[l].rgb[i] *= scale;
       }
+    }
   });
   return picture;
 }
