@@ -35,8 +35,8 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
 /// pass of the stop is a direction. Throws failed where the device has not enough memory.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context);
 
-/// Whether a job of `before` goes on with `now`, with the same bake: only the camera, light, where objects stand, the medium, the
-/// segmentation or white differ.
+/// Whether a job of `before` goes on with `now`, with the same bake: only the camera, light, where objects stand, the medium,
+/// `cast`, the segmentation, white, name or description differ.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 /// For `nephroid check`, through the kernels that bake.

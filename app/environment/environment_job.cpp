@@ -50,6 +50,8 @@ public:
       bake_own();
     else if (renderer_)
       renderer_->step();
+    else if (bake_)
+      begin_rendering(); // a change of the preset failed and left no renderer
     else
       bake();
     seconds += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -165,10 +167,13 @@ public:
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
     if (renderer_) {
-      resumes_ = false;
-      caustics_seconds_before_ = caustics_->seconds();
-      show(preset);
-      bake_seconds_ = render_seconds_ = 0; // another picture begins
+      const double caustics_seconds = caustics_->seconds();
+      if (go_on_with(preset)) { // another picture begins
+        resumes_ = false;
+        bake_seconds_ = render_seconds_ = 0;
+        caustics_seconds_before_ = caustics_seconds;
+      }
+      want_own();
     }
     preset_ = preset;
     return true;
@@ -216,45 +221,56 @@ private:
     own_.emplace(*task_, context_);
     renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
     shown_ = loaded_;
-    show(preset_);
+    go_on_with(preset_);
+    want_own();
   }
 
-  /// Lets the renderer go from `shown_` to a preset that is adoptable.
-  void show(const preset::Preset& preset)
+  void want_own()
   {
-    go_on_with(preset);
     own_->want(strong());
     if (own_->complete() && caustics_->own_directions() != own_->bake().directions) take_own();
   }
 
-  void render_anew(const preset::Preset& preset)
+  bool render_anew(const preset::Preset& preset)
   {
     const scene::Scene scene = scene::load_scene(preset);
     render_ =
         std::make_shared<const RenderTask>(make_render_task(preset, scene, scene::build_bvh(scene.geometry), task_->caster, render_.get()));
+    loaded_ = preset;
     renderer_.reset(); // its device memory is for the next
     renderer_.emplace(*render_, *caustics_, preset.white, preset.seed, context_);
-    shown_ = loaded_ = preset;
+    shown_ = preset;
+    return true;
   }
 
-  void go_on_with(const preset::Preset& preset)
+  /// Lets the renderer go from `shown_` to a preset that is adoptable. Whether another picture begins.
+  bool go_on_with(const preset::Preset& preset)
   {
     if (!(with_view_of(with_places_of(shown_, preset), preset) == preset)) return render_anew(preset);
+    bool begins = false;
     if (!(with_places_of(shown_, preset) == shown_)) {
       std::optional<MovedObjects> moved = move_objects(*render_, loaded_, shown_, preset, task_->caster);
       if (!moved) return render_anew(preset);
       renderer_->move_objects(std::move(*moved));
-    } else if (!(preset.scene.camera == shown_.scene.camera))
+      begins = true;
+    } else if (!(preset.scene.camera == shown_.scene.camera)) {
       renderer_->set_camera(scene::make_camera(preset.scene.camera, renderer_->scene()), Place(preset.source) / "scene" / "camera");
+      begins = true;
+    }
     const auto same_segmentation = [](const Settings& a, const Settings& b) {
       return a.lights == b.lights && a.segmentation == b.segmentation && a.threshold == b.threshold;
     };
-    if (render_->cube.size > 0 && !same_segmentation(settings(preset), settings(shown_)))
+    if (render_->cube.size > 0 && !same_segmentation(settings(preset), settings(shown_))) {
       renderer_->set_segmentation(segment_by(preset, render_->cube));
-    if (preset.scene.environment && preset.scene.environment->rotate_deg != shown_.scene.environment->rotate_deg)
+      begins = true;
+    }
+    if (preset.scene.environment && preset.scene.environment->rotate_deg != shown_.scene.environment->rotate_deg) {
       renderer_->turn_environment(preset.scene.environment->rotate_deg);
+      begins = true;
+    }
     renderer_->set_white(preset.white);
     shown_ = preset;
+    return begins;
   }
 
   std::int64_t directions_done() const { return static_cast<std::int64_t>((bake_ ? *bake_ : baker_->bake()).baked.size()); }

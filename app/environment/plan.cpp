@@ -63,11 +63,16 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
   passes.push_back({"cast", receivers && s.cast,
                     !s.cast     ? "environment.cast is false"
-                    : receivers ? "caustics on diffuse surfaces, where a path ends"
+                    : receivers ? fmt::format("caustics on diffuse surfaces, where a path ends; {}", preset::word(s.technique))
                                 : "no surface is diffuse"});
   passes.push_back(
       {"volume", render->has_medium,
        render->has_medium ? "caustics in the air: 128 steps a path" : "there is no medium: environment.extinction or albedo is 0"});
+  passes.push_back({"own directions", own_directions(s) > 0,
+                    s.technique != Technique::eight_sets ? fmt::format("environment.technique {} has none", preset::word(s.technique))
+                    : own_directions(s) == 0
+                        ? std::string("environment.own_directions is 0")
+                        : fmt::format("the {} strongest narrow lights at most are baked from where they are", own_directions(s))});
   passes.push_back({"colours of the view", render->coloured,
                     render->coloured ? "glass is looked through in three colours" : "all wavelengths go the same way and lose alike"});
   return passes;

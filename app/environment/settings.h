@@ -30,7 +30,7 @@ struct Settings {
   double extinction = 0;                  ///< of the medium around the object, 1 / unit; 0: there is none
   double albedo = 1;                      ///< which part of what is taken is scattered, 0..1
   Phase phase = Phase::henyey_greenstein; ///< where that goes
-  double anisotropy = 0;                  ///< henyey_greenstein: the mean cosine, -1..1
+  double anisotropy = 0;                  ///< henyey_greenstein: the mean cosine, -.95 to .95
   bool operator==(const Settings&) const = default;
 };
 

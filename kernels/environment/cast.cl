@@ -22,15 +22,15 @@ __kernel void cast(__global const ushort* stored, __global const ushort* ways, _
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Texels first .. first + count - 1 of the stored form of all
-// spheres together, whose maps have side x side texels. object_x, y, z: the object's axes in the scene.
+// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Of all texels of all spheres in their stored
+// form, whose maps have side x side texels. object_x, y, z: the object's axes in the scene.
 __kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
                           __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
-                          float4 object_z, int side, uint first, uint count, __global float* air)
+                          float4 object_z, int side, uint count, __global float* air)
 {
-  const uint index = (uint)get_global_id(0);
-  if (index >= count) return;
-  const uint item = first + index, texels = (uint)((side + 2) * (side + 2));
+  const uint item = (uint)get_global_id(0);
+  if (item >= count) return;
+  const uint texels = (uint)((side + 2) * (side + 2));
   const Maps maps = {stored, ways, way_of};
   const Shells shells = shells_at(radii, &spheres, radii[item / texels]);
   const float3 d = sphere_direction(texel_of_stored((int)(item % texels), side), side);

@@ -51,6 +51,14 @@ static inline float3 cube_texel_direction(uint texel, int size)
   return normalize(cube_direction((int)face, s, t));
 }
 
+// The texel that a direction lies in.
+static inline uint cube_texel(float3 direction, int size)
+{
+  const CubePoint p = cube_point(direction);
+  const int x = clamp((int)(0.5f * (p.s + 1.0f) * (float)size), 0, size - 1), y = clamp((int)(0.5f * (p.t + 1.0f) * (float)size), 0, size - 1);
+  return (uint)((p.face * size + y) * size + x);
+}
+
 // The four texels about a direction with their bilinear weights. Beyond the border of a face its outermost texels go on.
 typedef struct {
   uint texels[4];

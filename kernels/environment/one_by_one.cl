@@ -7,7 +7,9 @@
 #include "kernels/environment/spheres.h"
 
 #if NEPHROID_DIRECTION_BUFFERS
-#define SETS __global const ushort* stored_0, __global const ushort* stored_1, __global const ushort* stored_2, __global const ushort* stored_3, __global const DeviceEightSets* sets, int first_set, int set_count
+#define SETS                                                                                                                       \
+  __global const ushort *stored_0, __global const ushort *stored_1, __global const ushort *stored_2, __global const ushort *stored_3, \
+      __global const DeviceEightSets *sets, int first_set, int set_count
 #define THE_SETS stored_0, stored_1, stored_2, stored_3, sets, first_set, set_count
 #else
 #define SETS __global const ushort* stored, __global const DeviceEightSets* sets, int first_set, int set_count

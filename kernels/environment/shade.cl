@@ -98,7 +98,7 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
   return sum / PI_F;
 }
 
-// Adds to the sums of the pixels of each square, or begins them anew. sums: [layer][pixel][3], of the half that the pass is of.
+// Adds to the sums of the pixels of each square, or begins them anew. sums: [layer][pixel][3].
 __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels, DeviceBackground texels_size, float radiance,
                     __global const float4* lit_rgb, __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit,
                     float4 middle, int size, __global const float* distances, __global const float* caustics, __global float* sums, int width,

@@ -29,7 +29,7 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
 // The same among both kinds of spheres.
 typedef struct {
   Shell of[2]; // [DeviceEightSets::own]
-  float beyond; // the largest sphere: 1 less its radius over the distance
+  float beyond; // of eight_factors: 1 less the largest sphere's radius over the distance, at least 0
 } Shells;
 
 static inline Shells shells_at(__global const float* radii, const DeviceSpheres* spheres, float distance)
@@ -120,10 +120,10 @@ static inline float sum_of_eight(float8 v)
   return two.x + two.y;
 }
 
-static inline float8 row_of_eight(__global const DeviceEightSets* sets, int row, float3 direction)
+static inline float8 row_of_eight(__global const DeviceEightSets* eight, int row, float3 direction)
 {
-  return vload8(3 * row, sets->to_bake[0]) * direction.x + vload8(3 * row + 1, sets->to_bake[0]) * direction.y +
-         vload8(3 * row + 2, sets->to_bake[0]) * direction.z;
+  return vload8(3 * row, eight->to_bake[0]) * direction.x + vload8(3 * row + 1, eight->to_bake[0]) * direction.y +
+         vload8(3 * row + 2, eight->to_bake[0]) * direction.z;
 }
 
 // What the kernels look up. Maps are in their stored form, direction after direction.
@@ -136,9 +136,9 @@ typedef struct {
 // Light that crosses a sphere at more of a slant is held to that.
 #define LEAST_COSINE 0.125f
 
-// Eight times E on a surface over E on the sphere, which faces the middle: x, y, z and normal_x, y, z are the way from the middle and the surface's
-// normal as each set has them. texels: of the maps. The light goes the way that it has in the nearest texel. beyond: how far that is turned away
-// from the middle: where light goes straight on past the largest sphere, its slant grows less as its distance grows.
+// Eight times E on a surface over E on the sphere, which faces the middle. x, y, z and normal_x, y, z: the way from the middle and the surface's
+// normal as each set has them. texels: of the maps. The light goes the way that it has in the nearest texel. beyond: 0 up to the largest sphere,
+// towards 1 far from it, where all light seems to come from the middle; the factor goes from the way's to the middle's with it.
 static inline float8 eight_factors(const Maps* maps, __global const DeviceEightSets* eight, size_t map, int8 texels, float8 x, float8 y, float8 z,
                                    float8 normal_x, float8 normal_y, float8 normal_z, float beyond)
 {
@@ -158,7 +158,7 @@ static inline float8 eight_factors(const Maps* maps, __global const DeviceEightS
   return along + beyond * (radial - along);
 }
 
-// E r^2 of all sets in a unit direction of the scene: linear sRGB. On a surface with a unit normal, which is on the object's side.
+// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on the object's side.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* sets, int eights,
                                      float3 direction, const Shells* shells, float3 normal)
 {

@@ -52,8 +52,7 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const 
       const float distance = length(place);
       if (distance < radii[0]) continue;
       const float3 outwards = place / distance;
-      const CubeTexels four = cube_texels(outwards, size);
-      if (distance > distances[four.texels[0]]) continue; // something stands before it
+      if (distance > distances[cube_texel(outwards, size)]) continue; // something stands before it
       const float3 in_object = (float3)(dot(object_x.xyz, outwards), dot(object_y.xyz, outwards), dot(object_z.xyz, outwards));
       const AirLight light = compiled_air(air, &spheres, in_object, shell_at(radii, spheres.count, distance));
       const float all = luminance_of(light.rgb), length_of_way = length(light.way);

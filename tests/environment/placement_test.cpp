@@ -29,8 +29,7 @@ double largest_distance(const preset::Preset& preset)
     for_each_corner(scene, scene.objects[caster.objects[i]], [&](const glm::dvec3& p) { placed.push_back(p); });
     EXPECT_EQ(baked.size(), placed.size());
     for (std::size_t k = 0; k < std::min(baked.size(), placed.size()); ++k) {
-      largest = std::max(largest, glm::distance(placement.to_scene(baked[k]), placed[k]));
-      largest = std::max(largest, glm::distance(placement.to_bake(placed[k]), baked[k]));
+      largest = std::max(largest, glm::distance(placement.turn * baked[k] + placement.middle, placed[k]));
     }
   }
   return largest;

@@ -211,6 +211,33 @@ TEST_F(EnvironmentViewJob, GoesBackToAHalfMadeBake)
   expect_same(run(*job), run(now), "a bake again");
 }
 
+// The picture is the same, so what it took is, too.
+TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn)
+{
+  const preset::Preset p = lit();
+  preset::Preset brighter = p;
+  brighter.white = 0.5 * p.white;
+  const auto job = job_of(p);
+  while (job->progress().step < 1) job->step();
+  const double seconds = job->progress().work_seconds;
+  ASSERT_TRUE(job->adopt(brighter));
+  EXPECT_EQ(job->progress().step, 1);
+  EXPECT_EQ(job->progress().work_seconds, seconds);
+  expect_same(run(*job), run(brighter), "brighter");
+}
+
+// Then only the lamp is left, which passes do not draw.
+TEST_F(EnvironmentViewJob, AdoptsAThresholdThatDropsTheSky)
+{
+  const preset::Preset p = lit();
+  preset::Preset dropped = p;
+  environment::settings(dropped).threshold = 1;
+  const auto job = job_of(p);
+  run(*job);
+  ASSERT_TRUE(job->adopt(dropped));
+  expect_same(run(*job), run(dropped), "no sky");
+}
+
 // Saved right after a change that came in the middle of a pass: where the surfaces had theirs, but not yet the air.
 TEST_F(EnvironmentViewJob, GoesOnAfterAChange)
 {

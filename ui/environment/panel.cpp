@@ -67,13 +67,13 @@ void EnvironmentPanel::draw(const Context& context)
   follow(context);
   draw_toolbar(context);
   if (cuts_)
-    draw_lights_row(context);
+    draw_segmentation_row(context);
   else
     draw_wrapped(colour::quiet_text,
                  fmt::format("The engine \"{}\" takes the map as it is. How it is cut into lights is for presets of the "
                              "engine \"environment\".",
                              preset->settings.type().name));
-  draw_light_row(context);
+  draw_radiance_row(context);
   if (cuts_) draw_caustics_row(context);
   if (!shown_.error.empty()) draw_wrapped(colour::error, shown_.error);
   draw_map(context);
@@ -150,7 +150,7 @@ void EnvironmentPanel::draw_toolbar(const Context& context)
 }
 
 /// What engine 2 cuts the map into.
-void EnvironmentPanel::draw_lights_row(const Context& context)
+void EnvironmentPanel::draw_segmentation_row(const Context& context)
 {
   const environment::Settings& settings = environment::settings(*context.preset());
   label("Lights");
@@ -177,7 +177,7 @@ void EnvironmentPanel::draw_lights_row(const Context& context)
 }
 
 /// How bright it is, and what is too dark.
-void EnvironmentPanel::draw_light_row(const Context& context)
+void EnvironmentPanel::draw_radiance_row(const Context& context)
 {
   label("Radiance");
   ImGui::SetNextItemWidth(cuts_ ? -13 * em() : -1);
@@ -210,6 +210,7 @@ void EnvironmentPanel::draw_caustics_row(const Context& context)
   if (ImGui::Checkbox("on surfaces", &cast))
     context.edit("caustics on surfaces", [&](preset::Preset& p) { environment::settings(p).cast = cast; });
   places_.note("on surfaces");
+  ImGui::SetItemTooltip("Whether caustics fall on surfaces: environment.cast.");
   ImGui::SameLine();
   bool in_air = settings.extinction > 0;
   if (ImGui::Checkbox("in the air", &in_air))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Environment": the preset's surroundings as a picture that is turned with the mouse; for engine 2 the lights that they are cut
-// into, with their flux and what a run found to be hidden of them, and how well as many lights do.
+// into, with their flux and what a run found to be hidden of them, how well as many lights do, and switches for caustics.
 #pragma once
 #include "ui/environment/lights.h"
 #include "ui/environment/map_view.h"
@@ -36,8 +36,8 @@ private:
   void follow(const Context& context);
   void make_figures(const Context& context);
   void draw_toolbar(const Context& context);
-  void draw_lights_row(const Context& context);
-  void draw_light_row(const Context& context);
+  void draw_segmentation_row(const Context& context);
+  void draw_radiance_row(const Context& context);
   void draw_caustics_row(const Context& context);
   void draw_map(const Context& context);
   void draw_summary() const;

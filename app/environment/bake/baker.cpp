@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "environment/bake/directions.h"
+#include "environment/to_float4.h"
 #include "environment/white_light.h"
 #include "tracing/omissions.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 /// Quanta that a photon with an equal share of all power has: far more than rounding takes, and 2^30 photons of 2^6 times as much fit.
 constexpr double quanta_of_photon = 0x1p24;
-
-shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
 } // namespace
 

@@ -74,8 +74,7 @@ preset::Transform in_frame(const preset::Transform& object, const preset::Transf
   return made;
 }
 
-/// The preset of these objects alone. Photons of white light have the wavelengths of D65, and what each counts baker.cpp's white_light
-/// says.
+/// The preset of these objects alone. Photons have the wavelengths of D65; white_light() says what each counts.
 preset::Preset alone(const preset::Preset& preset, const std::vector<std::size_t>& objects)
 {
   preset::Preset made;

@@ -15,9 +15,6 @@ namespace nephroid::environment {
 struct Placement {
   glm::dmat3 turn{1};   ///< a rotation; its transpose leads back
   glm::dvec3 middle{0}; ///< of the spheres, in the scene's coordinates
-
-  glm::dvec3 to_scene(const glm::dvec3& baked) const { return turn * baked + middle; }
-  glm::dvec3 to_bake(const glm::dvec3& placed) const { return glm::transpose(turn) * (placed - middle); }
 };
 
 /// scene: of the preset. caster: of the preset, or of another one in which only objects, lights and cameras are turned and moved.

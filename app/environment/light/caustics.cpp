@@ -2,6 +2,7 @@
 #include "environment/light/caustics.h"
 
 #include "base/parallel.h"
+#include "environment/to_float4.h"
 #include "tracing/scene_buffers.h"
 
 #include <glm/gtc/packing.hpp>
@@ -16,8 +17,6 @@ namespace nephroid::environment {
 namespace {
 
 constexpr std::size_t group = 32;
-
-shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
 /// Texels of a map in its stored form.
 std::size_t stored_texels(int side) { return static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2); }
@@ -193,7 +192,6 @@ void Caustics::compile_air(int side)
   air_.spheres = {spheres_.count, side, 1, 0};
   const std::size_t items = stored_texels(side) * static_cast<std::size_t>(spheres_.count);
   if (air_.light.size() < 6 * items) air_.light = compute::Buffer<float>(context_, "light in the air", 6 * items);
-  const std::uint32_t first = 0;
   const auto count = static_cast<std::uint32_t>(items);
   compile_air_.run(count, group,
                    {{"stored", stored_},
@@ -207,7 +205,6 @@ void Caustics::compile_air(int side)
                     {"object_y", air_.object_y},
                     {"object_z", air_.object_z},
                     {"side", side},
-                    {"first", first},
                     {"count", count},
                     {"air", air_.light}});
   context_.finish();

@@ -36,10 +36,4 @@ IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, dou
   return polynomial;
 }
 
-glm::dvec3 irradiance(const IrradiancePolynomial& p, const glm::dvec3& n)
-{
-  return p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] + n.z * n.z * p[6] + n.x * n.y * p[7] +
-         n.y * n.z * p[8] + n.z * n.x * p[9];
-}
-
 } // namespace nephroid::environment

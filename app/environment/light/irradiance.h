@@ -25,7 +25,4 @@ IrradianceMoments irradiance_moments(const CubeMap& cube);
 /// irradiance is the sum of that over all light, with t its direction times the normal. rotate_deg: by how much the map is turned.
 IrradiancePolynomial irradiance_polynomial(const IrradianceMoments& moments, double rotate_deg);
 
-/// Of a polynomial for a unit normal.
-glm::dvec3 irradiance(const IrradiancePolynomial& polynomial, const glm::dvec3& normal);
-
 } // namespace nephroid::environment

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/occlusion/occlusion.h"
 
+#include "environment/to_float4.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,8 +10,6 @@
 
 namespace nephroid::environment {
 namespace {
-
-shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
 
 double sum(const glm::dvec3& v) { return v.x + v.y + v.z; }
 

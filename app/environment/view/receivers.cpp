@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/view/receivers.h"
 
+#include "environment/to_float4.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,13 +55,12 @@ void Receivers::find_wanted(tracing::World* surroundings, compute::Kernel* kerne
     distances_.write(std::vector<float>(distances_.size(), std::numeric_limits<float>::infinity()));
     return;
   }
-  const shared::float4 from{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z), 0};
   surroundings->run(*kernel, count, 32,
                     {{"list", list_},
                      {"first", first},
                      {"count", count},
                      {"size", size_},
-                     {"middle", from},
+                     {"middle", to_float4(middle)},
                      {"distances", distances_},
                      {"facing", normals_}});
 }

@@ -37,8 +37,6 @@ public:
   /// So is everything: the object or what stands around it has moved.
   void forget();
 
-  std::size_t known() const { return known_; }
-
 private:
   compute::Context context_;
   int size_;

@@ -47,6 +47,12 @@ bool same_light(const scene::Environment& a, const scene::Environment& b)
 
 bool has_light(const scene::Scene& scene) { return shines(scene) || std::ranges::any_of(scene.lights, tracing::has_power); }
 
+const scene::Environment& backdrop(const scene::Scene& scene)
+{
+  static const scene::Environment black{1, 1, {0, 0, 0}, 0, 0, false};
+  return scene.environment ? *scene.environment : black;
+}
+
 bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube)
 {
   const Settings& s = settings(preset);
@@ -81,7 +87,7 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   task.has_surroundings = !task.surroundings.object_of_primitive.empty();
   const Settings& s = settings(preset);
   task.refine = s.refine;
-  task.casts = s.cast;
+  task.cast = s.cast;
   task.has_medium = s.extinction > 0 && s.albedo > 0;
   task.extinction = static_cast<float>(s.extinction);
   task.albedo = static_cast<float>(s.albedo);

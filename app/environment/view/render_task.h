@@ -33,7 +33,7 @@ struct RenderTask {
   std::vector<DistantLight> lamps;
   bool refine = true; ///< Settings::refine
 
-  bool casts = true;       ///< Settings::cast
+  bool cast = true;        ///< Settings::cast
   bool has_medium = false; ///< whether caustics are seen in the air
   float extinction = 0, albedo = 0, anisotropy = 0;
   int rayleigh = 0; ///< 1: the phase function is Rayleigh's
@@ -55,6 +55,9 @@ bool has_light(const scene::Scene& scene);
 /// caster: of the preset. bvh: of the scene. before: a task whose environment is kept where it is the same. Throws bad_input as `lamps`.
 RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster,
                             const RenderTask* before = nullptr);
+
+/// What is seen behind everything; black where there is no environment.
+const scene::Environment& backdrop(const scene::Scene& scene);
 
 /// Whether the map has one colour all around, so that there is nothing to look for.
 bool is_cut_evenly(const preset::Preset& preset, const CubeMap& cube);

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "environment/occlusion/surroundings.h"
+#include "environment/to_float4.h"
 #include "environment/view/colours.h"
 #include "tracing/sky_tables.h"
 
@@ -17,20 +18,11 @@ constexpr int block_of_coarse = 4;                          ///< pixels across a
 constexpr int coarse_receivers = 128, fine_receivers = 512; ///< texels along an edge of a face
 constexpr std::array<const char*, 3> layer_names{"background", "direct", "caustic"};
 
-shared::float4 to_float4(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
-
 std::size_t ends_of_pixel(const RenderTask& task) { return task.coloured ? 4 : 2; } // ENDS_OF_PIXEL
 
 /// Of compiled spheres for a medium, by the bake's: what is added up along a path is soft.
 int fine_side(int side) { return std::max(side / 2, 8); }
 int coarse_side(int side) { return std::max(side / 4, 8); }
-
-/// What is seen behind everything; black where there is no environment.
-const scene::Environment& backdrop(const scene::Scene& scene)
-{
-  static const scene::Environment black{1, 1, {0, 0, 0}, 0, 0, false};
-  return scene.environment ? *scene.environment : black;
-}
 
 } // namespace
 
@@ -60,7 +52,7 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
       coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192),
       volume_steps_(pixels(), 8192)
 {
-  if (!task_.segmentation.lights.empty()) occlusion_.emplace(context, task_.segmentation, task_.cube);
+  make_occlusion();
   make_kernels();
   if (task_.has_medium) {
     volume_sums_ = compute::Buffer<float>(context, "light in the air", 3 * static_cast<std::size_t>(pixels()));
@@ -70,6 +62,12 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
   find_around();
   light_up();
   begin_anew();
+}
+
+void Renderer::make_occlusion()
+{
+  occlusion_.reset();
+  if (!task_.segmentation.lights.empty()) occlusion_.emplace(context_, task_.segmentation, task_.cube);
 }
 
 void Renderer::make_kernels()
@@ -103,7 +101,7 @@ void Renderer::light_up()
   std::vector<shared::float4> polynomial;
   for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(to_float4(factor));
   irradiance_.write(polynomial);
-  compiled_side_ = 0;
+  air_side_ = 0;
   coarse_.forget_caustics();
   fine_.forget_caustics();
 }
@@ -139,12 +137,12 @@ void Renderer::begin_passes()
 
 void Renderer::take_own_directions(bool passes_had_them)
 {
-  compiled_side_ = 0;
+  air_side_ = 0;
   coarse_.forget_caustics();
   fine_.forget_caustics();
   if (!passes_had_them) return begin_passes();
   caustics_.set_lights(with_lamps(visible_), task_.placement.turn);
-  if (task_.has_medium) compile(fine_side(caustics_.side())); // of the first pass's lights, as always
+  if (task_.has_medium) compile_air(fine_side(caustics_.side())); // of the first pass's lights, as always
   light_pass();
 }
 
@@ -164,19 +162,19 @@ void Renderer::begin_anew()
   }
   shade(coarse_, block_of_coarse, 0, blocks);
   if (!task_.has_medium) return;
-  if (compiled_side_ == 0) compile(coarse_side(caustics_.side()));
+  if (air_side_ == 0) compile_air(coarse_side(caustics_.side()));
   scatter(block_of_coarse, 0, blocks);
 }
 
-void Renderer::compile(int side)
+void Renderer::compile_air(int side)
 {
   caustics_.compile_air(side);
-  compiled_side_ = side;
+  air_side_ = side;
 }
 
 void Renderer::find_wanted(Receivers& receivers)
 {
-  if (!task_.casts) return; // caustics are 0 where nothing has been looked up
+  if (!task_.cast) return; // caustics are 0 where nothing has been looked up
   receivers.find_wanted(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr,
                         task_.placement.middle);
 }
@@ -196,12 +194,12 @@ void Renderer::step()
     if (!shade_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); })) return;
     shaded_ = true;
     if (task_.has_medium)
-      stage_ = Stage::compile;
+      stage_ = Stage::compile_air;
     else
       end_pass();
     return;
-  case Stage::compile:
-    if (const int side = fine_side(caustics_.side()); compiled_side_ != side) compile(side);
+  case Stage::compile_air:
+    if (const int side = fine_side(caustics_.side()); air_side_ != side) compile_air(side);
     stage_ = Stage::volume;
     return;
   case Stage::volume:
@@ -365,7 +363,7 @@ void Renderer::turn_environment(double rotate_deg)
 void Renderer::set_segmentation(Segmentation segmentation)
 {
   task_.segmentation = std::move(segmentation);
-  occlusion_.emplace(context_, task_.segmentation, task_.cube);
+  make_occlusion();
   light_up();
   begin_anew();
 }
@@ -391,7 +389,7 @@ void Renderer::load(tracing::StateReader& from)
   if (task_.has_medium) from.buffer(volume_sums_);
   shaded_ = shaded != 0;
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
-  stage_ = shaded_ ? Stage::compile : Stage::see;
+  stage_ = shaded_ ? Stage::compile_air : Stage::see;
   see_steps_ = tracing::PixelSteps(pixels(), 8192);
   take_own_directions(true);
 }

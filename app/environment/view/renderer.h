@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of a scene with a baked object under an environment: a coarse one at once, then pass after pass of one sample a pixel
-// (kernels/environment/see.cl, shade.cl). What a change does not touch stays.
+// (kernels/environment/see.cl, shade.cl, volume.cl). What a change does not touch stays.
 #pragma once
 #include "environment/light/caustics.h"
 #include "environment/light/irradiance.h"
@@ -24,7 +24,7 @@ public:
   /// Of its buffers on the device: of one pixel, and of the cubes of receivers.
   static std::uint64_t bytes_a_pixel(const RenderTask& task);
   static std::uint64_t receiver_bytes();
-  /// And of compiled spheres and of all directions.
+  /// For a medium: of the compiled spheres, and of the cube of what hides them.
   static std::uint64_t medium_bytes(const Bake& bake);
 
   /// caustics: of task's caster; they outlive the renderer. white: as preset::Preset has it. Throws failed where the device has not enough
@@ -60,9 +60,10 @@ public:
   void load(tracing::StateReader& from);
 
 private:
-  enum class Stage { see, cast, compile, shade, volume };
+  enum class Stage { see, cast, compile_air, shade, volume };
 
   void make_kernels();
+  void make_occlusion();
   void make_surroundings();
   void find_around();
   void light_up();   ///< after a change of lights
@@ -74,7 +75,7 @@ private:
   void see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void scatter(int block, std::uint32_t first, std::uint32_t count);
-  void compile(int side);
+  void compile_air(int side);
   void find_wanted(Receivers& receivers);
   std::int64_t pixels() const { return std::int64_t{task_.tables.camera.width} * task_.tables.camera.height; }
 
@@ -98,7 +99,7 @@ private:
   Caustics& caustics_;
   Receivers coarse_, fine_;
   std::optional<Receivers> around_; ///< of all directions, for what hides a medium
-  int compiled_side_ = 0;           ///< of the spheres that are compiled for the lights as they are; 0: none
+  int air_side_ = 0;                ///< of the spheres that are compiled for the lights as they are; 0: none
   std::vector<VisibleLight> visible_;
   std::vector<DistantLight> lamps_; ///< what is left of each
 
