@@ -138,6 +138,16 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";
   plan.notes = scene.warnings;
   if (fault && !fault->empty()) plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));
+  if (!plan.render && (scene.environment || !scene.lights.empty()))
+    plan.notes.push_back("the scene's lights are black: the picture is a sheet of the baked spheres");
+  if (plan.render && plan.render->cube.size > 0 && plan.render->segmentation.lights.empty())
+    plan.notes.push_back(
+        fmt::format("no part of the environment is above environment.threshold {}, so its light makes no caustics", s.threshold));
+  if (const double depth = s.extinction * task.radii.back(); plan.render && plan.render->has_medium && depth > 2)
+    plan.notes.push_back(
+        fmt::format("environment.extinction {}: the largest sphere has a radius of {:.3g} extinction lengths; caustics in the air "
+                    "are right in a thin medium, of less than 2, and fade in a thicker one",
+                    s.extinction, depth));
   if (!task.caster.extent.middle_inside)
     plan.notes.push_back(fmt::format("{}: its middle, about which the spheres stand, is outside of it; the smallest sphere has the radius "
                                      "{:.4g}, as the surface is {:.4g} from there",

@@ -44,6 +44,8 @@ TEST_F(EnvironmentLeavesOut, TheVolumeWithoutAMedium)
   EXPECT_FALSE(pass(none, "volume").runs);
   EXPECT_EQ(pass(none, "volume").reason, "there is no medium: environment.extinction or albedo is 0");
   EXPECT_TRUE(pass(thin, "volume").runs);
+  EXPECT_TRUE(plan_of(thin).notes.empty());
+  EXPECT_EQ(plan_of(over_floor({"environment.extinction=10"})).notes.size(), 1u) << "too thick";
   const job::Snapshot without = run(none), with = run(thin);
   expect_same_layers(without, with);
   EXPECT_LT(mean(layer(with, "volume")).y, 1e-8);

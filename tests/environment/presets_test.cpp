@@ -31,7 +31,7 @@ protected:
 
 TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets)
 {
-  for (const std::string name : {"ball", "bunny", "glass", "ring", "brilliant"}) {
+  for (const std::string name : {"ball", "beam", "bunny", "glass", "ring", "brilliant"}) {
     SCOPED_TRACE(name);
     const Ended ended = run_to(name, name, {"--passes", "2"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;

@@ -236,6 +236,8 @@ TEST_F(EnvironmentViewJob, AdoptsAThresholdThatDropsTheSky)
   run(*job);
   ASSERT_TRUE(job->adopt(dropped));
   expect_same(run(*job), run(dropped), "no sky");
+  EXPECT_EQ(plan_of(dropped).notes,
+            std::vector<std::string>{"no part of the environment is above environment.threshold 1, so its light makes no caustics"});
 }
 
 // Saved right after a change that came in the middle of a pass: where the surfaces had theirs, but not yet the air.
