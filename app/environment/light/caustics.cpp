@@ -111,8 +111,11 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
       way_of_(tracing::upload_vector(context, "ways", all_ways())), radii_(context, "radii", bake.radii.size() + own_radii.size()),
       sets_(context, "turned sets", 1)
 {
-  const std::vector<std::uint16_t> light = stored_light(bake);
-  stored_.write(light);
+  {
+    const std::vector<std::uint16_t> light = stored_light(bake);
+    stored_.write(light);
+    if (technique != Technique::eight_sets) one_by_one_.emplace(technique, light, bake.directions.size(), channels_, context);
+  }
   ways_.write(stored_ways(bake));
   radii_.write(std::vector<float>(bake.radii.begin(), bake.radii.end()));
   radii_.write(std::vector<float>(own_radii.begin(), own_radii.end()), bake.radii.size());
@@ -120,7 +123,6 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, c
   const compute::Program program(context, "environment/cast.cl", defines);
   cast_ = program.kernel("cast");
   compile_air_ = program.kernel("compile_air");
-  if (technique != Technique::eight_sets) one_by_one_.emplace(technique, light, bake.directions.size(), channels_, context);
 }
 
 std::uint64_t Caustics::bytes(const Bake& bake, int own, const std::vector<double>& own_radii, Technique technique)
