@@ -8,7 +8,6 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <string_view>
 
 namespace nephroid::ui {
 namespace {
@@ -27,7 +26,7 @@ void tooltip(const Action& action, bool enabled, const Context& context, bool wi
 const Action& action(const char* name)
 {
   const auto all = actions();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Action& a) { return std::string_view(a.name) == name; });
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Action& a) { return a.name == name; });
   if (found == all.end()) throw failed("actions", std::string("there is no action \"") + name + "\"");
   return *found;
 }
@@ -47,7 +46,7 @@ void action_button(const char* name, const Context& context)
 void action_item(const Action& action, const Context& context)
 {
   const bool enabled = action.enabled(context);
-  if (ImGui::MenuItem(action.name, keys_of(action), false, enabled)) action.run(context);
+  if (ImGui::MenuItem(action.name.c_str(), keys_of(action), action.checked && action.checked(context), enabled)) action.run(context);
   tooltip(action, enabled, context, false);
 }
 

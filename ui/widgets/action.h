@@ -3,24 +3,26 @@
 #pragma once
 #include "ui/state/context.h"
 
+#include <functional>
 #include <span>
 #include <string>
 
 namespace nephroid::ui {
 
 struct Action {
-  const char* menu; ///< the menu it is in
-  const char* name;
+  std::string menu; ///< the menu it is in
+  std::string name;
   int shortcut;     ///< an ImGuiKeyChord, 0 for none
   bool repeats;     ///< while the keys are held
-  const char* help; ///< a sentence
-  bool (*enabled)(const Context&);
-  void (*run)(const Context&);
-  std::string (*why_not)(const Context&) = nullptr; ///< where it is not enabled and a person may wonder: the reason
-  void (*let_go)(const Context&) = nullptr;         ///< of a key that is held: when it goes up again
+  std::string help; ///< a sentence
+  std::function<bool(const Context&)> enabled;
+  std::function<void(const Context&)> run;
+  std::function<std::string(const Context&)> why_not = nullptr; ///< where it is not enabled and a person may wonder: the reason
+  std::function<void(const Context&)> let_go = nullptr;         ///< of a key that is held: when it goes up again
+  std::function<bool(const Context&)> checked = nullptr;        ///< of what can be on or off: whether it is on
 };
 
-/// The table: shell/actions.cpp.
+/// The table: actions/table.cpp.
 std::span<const Action> actions();
 /// By its name; throws failed where there is none.
 const Action& action(const char* name);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The menu "Edit".
+#include "measure/history_file.h"
+#include "ui/actions/table.h"
+#include "ui/error/panel.h"
+
+namespace nephroid::ui {
+namespace {
+
+using C = const Context&;
+
+bool can_undo(C c) { return c.edits && !c.edits->undo_label().empty(); }
+bool can_redo(C c) { return c.edits && !c.edits->redo_label().empty(); }
+bool has_history(C c) { return c.run.error_history() != nullptr; }
+bool has_plot(C c) { return !shown_metric(c).empty(); }
+bool has_plan(C c) { return c.run.plan() != nullptr; }
+std::string not_measured(C) { return "this run is not measured"; }
+
+void reset_camera(C c)
+{
+  c.edit("reset the camera", [&](preset::Preset& p) { p.scene.camera = c.edits->opened().scene.camera; });
+}
+
+} // namespace
+
+std::vector<Action> edit_actions()
+{
+  const char* menu = "Edit";
+  return {
+      {menu, "Undo", ctrl | ImGuiKey_Z, true, "Take back the newest edit of the preset", can_undo, push<command::Undo>},
+      {menu, "Redo", ctrl | shift | ImGuiKey_Z, true, "Do again what was taken back", can_redo, push<command::Redo>},
+      {menu, "Reset camera", ImGuiKey_Home, false, "The camera of the preset as it was opened", has_preset, reset_camera},
+      {menu, "Copy history as CSV", 0, false, "This run's errors so far, as history.csv has them", has_history,
+       [](C c) { ImGui::SetClipboardText(measure::to_csv(*c.run.error_history()).c_str()); }, not_measured},
+      {menu, "Copy plot as CSV", 0, false, "Every number of the plot of error against time", has_plot,
+       [](C c) { ImGui::SetClipboardText(plot_as_csv(c).c_str()); }, not_measured},
+      {menu, "Copy plan as JSON", 0, false, "As a run writes it to plan.json", has_plan,
+       [](C c) { ImGui::SetClipboardText(plan::to_json(*c.run.plan()).c_str()); }},
+  };
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of actions, a file a menu. shell/menus.cpp, shell/palette.cpp and the buttons of panels are made of it. A new action is an
+// entry in one of these files.
+#pragma once
+#include "ui/widgets/action.h"
+
+#include <imgui.h>
+
+#include <vector>
+
+namespace nephroid::ui {
+
+std::vector<Action> file_actions();
+std::vector<Action> edit_actions();
+std::vector<Action> run_actions();
+std::vector<Action> view_actions();
+std::vector<Action> help_actions();
+
+// What several menus ask.
+inline bool always(const Context&) { return true; }
+inline bool has_preset(const Context& c) { return c.preset() != nullptr; }
+inline bool has_picture(const Context& c) { return c.run.snapshot() != nullptr; }
+
+/// Pushes a command without arguments.
+template <class Pushed>
+void push(const Context& c)
+{
+  c.push(Pushed{});
+}
+
+template <Question question>
+void ask(const Context& c)
+{
+  c.push(command::Ask{question});
+}
+
+inline constexpr int ctrl = ImGuiMod_Ctrl, shift = ImGuiMod_Shift;
+
+} // namespace nephroid::ui

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is made of the table of actions.
+#include "ui/shell/menus.h"
+
+#include "ui/widgets/action.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+namespace nephroid::ui {
+namespace {
+
+struct MouseHabit {
+  const char* how;
+  const char* what;
+};
+
+const MouseHabit mouse_habits[] = {
+    {"Left drag", "Orbit: the scene turns with the mouse"},
+    {"Middle or Shift+left drag", "Pan: move the camera sideways and up"},
+    {"Wheel, or right drag", "Distance of the camera"},
+    {"Ctrl+wheel", "Zoom the picture about the cursor"},
+    {"Ctrl+drag", "Move the picture in the panel"},
+    {"Hover", "Linear values and luminance of the pixel"},
+    {"Drop a file", "Open that preset; pin a run's folder or history.csv"},
+    {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},
+};
+
+void row(const char* how, const char* what)
+{
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(how);
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", what);
+}
+
+/// The key of a chord without its modifiers.
+ImGuiKey key_of(int shortcut) { return static_cast<ImGuiKey>(shortcut & ~ImGuiMod_Mask_); }
+
+} // namespace
+
+void draw_menus(const Context& context)
+{
+  std::string menu;
+  bool open = false;
+  for (const Action& action : actions()) {
+    if (menu != action.menu) {
+      if (open) ImGui::EndMenu();
+      menu = action.menu;
+      open = ImGui::BeginMenu(menu.c_str());
+    }
+    if (open) action_item(action, context);
+  }
+  if (open) ImGui::EndMenu();
+}
+
+void run_shortcuts(const Context& context, bool dialog)
+{
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool elsewhere = dialog || io.WantTextInput;
+  for (const Action& action : actions()) {
+    if (!action.shortcut) continue;
+    // A window that loses the keyboard never hears that the key went up.
+    if (action.let_go && (ImGui::IsKeyReleased(key_of(action.shortcut)) || io.AppFocusLost)) action.let_go(context);
+    // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would be lost.
+    const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
+    if (elsewhere || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
+    if (action.enabled(context))
+      action.run(context);
+    else if (action.why_not)
+      context.note(fmt::format("{}: {}", action.name, action.why_not(context)));
+  }
+}
+
+void draw_help(const Context& context)
+{
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->GetWorkCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
+  bool open = true;
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings;
+  if (ImGui::Begin("Mouse and keys", &open, flags) && ImGui::BeginTable("help", 2, ImGuiTableFlags_RowBg)) {
+    for (const MouseHabit& habit : mouse_habits) row(habit.how, habit.what);
+    for (const Action& action : actions())
+      if (action.shortcut) row(keys_of(action), action.help.c_str());
+    ImGui::EndTable();
+  }
+  ImGui::End();
+  if (!open) context.push(command::ToggleHelp{});
+}
+
+} // namespace nephroid::ui
