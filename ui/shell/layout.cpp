@@ -45,27 +45,23 @@ public:
     build(dock.parts[0], first);
     build(dock.parts[1], second);
   }
-  void build_floating(const std::vector<Floating>& all, float width, float height)
+  /// Those that float are not docked.
+  void let_float(const std::vector<Floating>& all)
   {
-    const ImVec2 corner = ImGui::GetMainViewport()->Pos;
-    for (const auto& [panel, place] : all) {
-      const PanelEntry* entry = find_panel(panel);
-      if (!entry || !placed_.insert(panel).second) continue;
-      ImGui::DockBuilderDockWindow(entry->title, 0);
-      const auto part = [&](std::size_t i) { return static_cast<float>(place[i]) * (i % 2 == 0 ? width : height); };
-      ImGui::SetWindowPos(entry->title, {corner.x + part(0), corner.y + part(1)});
-      ImGui::SetWindowSize(entry->title, {part(2), part(3)});
-    }
+    for (const Floating& one : all)
+      if (const PanelEntry* entry = find_panel(one.panel); entry && placed_.insert(one.panel).second)
+        ImGui::DockBuilderDockWindow(entry->title, 0);
   }
-  void build_rest(ImGuiID root)
+  void build_rest()
   {
     for (const PanelEntry& entry : panel_table())
-      if (!placed_.contains(std::string(entry.name))) ImGui::DockBuilderDockWindow(entry.title, tabs_ ? tabs_ : root);
+      if (!placed_.contains(std::string(entry.name))) ImGui::DockBuilderDockWindow(entry.title, tabs_ ? tabs_ : any_);
   }
 
 private:
   void build_tabs(const Dock& dock, ImGuiID node)
   {
+    any_ = node;
     for (const std::string& name : dock.tabs) {
       const PanelEntry* entry = find_panel(name);
       if (!entry || !placed_.insert(name).second) continue;
@@ -76,7 +72,8 @@ private:
   }
 
   std::set<std::string> placed_;
-  ImGuiID tabs_ = 0; ///< the first place that has more than the picture
+  ImGuiID tabs_ = 0; ///< the first place that has more than the picture,
+  ImGuiID any_ = 0;  ///< and some place
 };
 
 /// The node that a panel's window is docked in, also while it is not drawn; 0: none.
@@ -146,9 +143,17 @@ void apply_layout(const Layout& layout, unsigned dock_space, float width, float 
   ImGui::DockBuilderSetNodeSize(dock_space, {width, height});
   Docking docking;
   docking.build(layout.docks, dock_space);
-  docking.build_floating(layout.floating, width, height);
-  docking.build_rest(dock_space);
+  docking.let_float(layout.floating);
+  docking.build_rest();
   ImGui::DockBuilderFinish(dock_space);
+}
+
+void place_next(const Floating& floating)
+{
+  const ImGuiViewport& viewport = *ImGui::GetMainViewport();
+  const auto part = [&](std::size_t i) { return static_cast<float>(floating.place[i]) * (i % 2 == 0 ? viewport.Size.x : viewport.Size.y); };
+  ImGui::SetNextWindowPos({viewport.Pos.x + part(0), viewport.Pos.y + part(1)});
+  ImGui::SetNextWindowSize({part(2), part(3)});
 }
 
 Layout layout_now(unsigned dock_space)

@@ -13,9 +13,11 @@ namespace nephroid::ui {
 void check_layout(const std::string& name);
 /// The picture at the left, the other panels as tabs at the right of a window of this width. engine: of the preset; empty: none is open.
 Layout starting_layout(const std::string& name, const std::string& engine, float width);
-/// Docks every panel into the dock space of this id (an ImGuiID); those that the layout does not have, as new ones, become tabs beside the
-/// first that it has. Inside of a frame.
+/// Docks every panel that does not float into the dock space of this id (an ImGuiID); those that the layout does not have, as new ones,
+/// become tabs beside the first that it has. Inside of a frame.
 void apply_layout(const Layout& layout, unsigned dock_space, float width, float height);
+/// Where a floating panel's window is that begins next.
+void place_next(const Floating& floating);
 /// What is docked into the dock space now, and what floats.
 Layout layout_now(unsigned dock_space);
 

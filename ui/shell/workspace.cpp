@@ -83,6 +83,11 @@ void Workspace::draw_panel(const Open& open, const Context& context)
   // Without NoFocusOnAppearing the last panel to be drawn would come before the one that the layout has in front.
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
   if (open.entry.name == to_front_) ImGui::SetNextWindowFocus();
+  std::erase_if(to_place_, [&](const Floating& floating) {
+    if (floating.panel != open.entry.name) return false;
+    place_next(floating);
+    return true;
+  });
   bool stays = true;
   if (ImGui::Begin(open.entry.title, can_close(open.entry) ? &stays : nullptr, flags)) open.panel->draw(context);
   ImGui::End();
@@ -99,7 +104,9 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
   if (laid_out_for_ != engine || reset) {
     const auto kept = context.settings.engines.find(engine);
     const bool has_own = name_.empty() && kept != context.settings.engines.end() && !(kept->second.layout == Layout{});
-    apply_layout(has_own ? kept->second.layout : starting_layout(name_, engine, size[0]), id, size[0], size[1]);
+    const Layout layout = has_own ? kept->second.layout : starting_layout(name_, engine, size[0]);
+    apply_layout(layout, id, size[0], size[1]);
+    to_place_ = layout.floating;
     laid_out_for_ = engine;
     frames_since_ = 0;
   } else if (laid_out_size_ != size)

@@ -50,6 +50,7 @@ private:
   std::array<float, 2> laid_out_size_{0, 0}; ///< in a window of this size,
   int frames_since_ = 0;                     ///< so many frames ago;
   Layout before_;                            ///< what it was before a person touched it
+  std::vector<Floating> to_place_;           ///< floating panels that were not drawn yet since
   std::string to_front_;                     ///< the panel that comes to the front in this frame
   PlotContext plots_;                        ///< before the panels, which plot with it
   WavelengthAxis wavelengths_;               ///< before the panels that share it

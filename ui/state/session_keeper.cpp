@@ -75,9 +75,13 @@ SessionKeeper::SessionKeeper(fs::path folder) : folder_(std::move(folder))
 {
   if (folder_.empty()) return;
   const fs::path sessions = folder_ / "sessions";
-  own_ = sessions / fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(std::time(nullptr)), ::getpid());
+  const std::string name = fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(std::time(nullptr)), ::getpid());
   std::error_code error;
-  fs::create_directories(own_, error);
+  fs::create_directories(sessions, error);
+  for (int number = 1; !error; ++number) {
+    own_ = sessions / (number == 1 ? name : fmt::format("{}-{}", name, number));
+    if (fs::create_directory(own_, error)) break; // a new one
+  }
   if (!error) lock_ = lock(own_ / lock_name);
   if (lock_ < 0) {
     const std::string reason = error ? error.message() : "its lock cannot be made";

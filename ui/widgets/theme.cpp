@@ -99,6 +99,8 @@ void set_theme(float scale, Theme theme)
   style.ItemSpacing = {9, 7};
   style.WindowPadding = {9, 8};
   style.WindowMenuButtonPosition = ImGuiDir_None;
+  style.TabCloseButtonMinWidthSelected = 0; // only under the mouse: the titles need the room
+  style.DockingNodeHasCloseButton = false; // a tab has one
   style.ScaleAllSizes(scale);
   style.FontSizeBase = font_size;
   style.FontScaleDpi = scale;
