@@ -58,6 +58,20 @@ Preset moved_to(Preset preset, const fs::path& folder)
   return preset;
 }
 
+std::vector<fs::path> files_of(const Preset& preset)
+{
+  std::vector<fs::path> files;
+  if (!preset.source.empty()) files.emplace_back(preset.source);
+  const fs::path folder = fs::path(preset.source).parent_path();
+  const FileNames::Rename note = [&](std::string& name) {
+    if (const auto found = found_from(folder, name)) files.push_back(*found);
+  };
+  FileNames names(note);
+  Preset looked_at = preset;
+  describe(names, looked_at);
+  return files;
+}
+
 std::string to_json(const Preset& preset) { return pretty(Writer::json(preset)); }
 
 std::string to_json(const Preset& preset, const std::filesystem::path& folder) { return to_json(moved_to(preset, folder)); }

@@ -34,6 +34,9 @@ std::string to_json(const Preset& preset, const std::filesystem::path& folder);
 /// JSON Schema (2020-12) of a preset file, from the same descriptions.
 std::string schema();
 
+/// The files that a preset names, as far as they are there, and its own.
+std::vector<std::filesystem::path> files_of(const Preset& preset);
+
 struct ShippedPreset {
   std::string name; ///< e.g. "first-light"
   std::string description;

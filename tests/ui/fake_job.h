@@ -131,13 +131,15 @@ public:
     made_plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
     return {std::make_unique<FakeJob>(preset, *this), std::make_shared<const plan::Plan>(std::move(made_plan)), reference};
   }
+  void reread_files() override { ++reread; }
+  void reopen_device() override { ++reopened; }
   bool compiling() const override { return compiles; }
   bool take_changed() override { return changed.exchange(false); }
 
   plan::Plan plan;                                     ///< but for its notes; set before a run starts, as is
   std::shared_ptr<const measure::Reference> reference; ///< this
   std::optional<Error> refusal;                        ///< and this: of the preset
-  std::atomic<int> made{0};
+  std::atomic<int> made{0}, reread{0}, reopened{0};
   std::atomic<bool> changed{false}, broken{false}, compiles{false}; ///< the kernels
 };
 

@@ -14,6 +14,8 @@ void save(const Context& c)
     c.push(command::SavePreset{target});
 }
 
+bool has_file(const Context& c) { return c.preset() && !c.preset()->source.empty(); }
+
 } // namespace
 
 std::vector<Action> file_actions()
@@ -27,6 +29,8 @@ std::vector<Action> file_actions()
        [](const Context& c) { return c.has_earlier_session; }, push<command::ReopenSession>,
        [](const Context&) { return std::string("there is no earlier session"); }},
       {menu, "Save preset", ctrl | ImGuiKey_S, false, "Write the preset as it is now to its file", has_preset, save},
+      {menu, "Take the preset from its file", 0, false, "The preset as its file has it now; an edit that can be undone", has_file,
+       push<command::ReloadPreset>, [](const Context&) { return std::string("the preset has no file of its own"); }},
       {menu, "Save preset as...", ctrl | shift | ImGuiKey_S, false, "Write the preset as it is now to another file", has_preset,
        ask<Question::save_preset>},
       {menu, "Save picture as...", ctrl | ImGuiKey_E, false, "Write the picture as it is now: .png as shown, .exr linear", has_picture,

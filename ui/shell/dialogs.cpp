@@ -42,6 +42,17 @@ void Dialogs::begin(const Workbench& workbench)
   shipped_.clear();
   ImGui::OpenPopup(title(shown_));
   if (shown_ == Question::open) shipped_ = preset::shipped_presets();
+  if (shown_ != Question::unsaved) begin_files(workbench);
+}
+
+/// From the folder of the preset in hand, of the kinds that the question is about.
+void Dialogs::begin_files(const Workbench& workbench)
+{
+  std::vector<std::string> endings{".json"};
+  if (shown_ == Question::open_history) endings = {".csv"};
+  if (shown_ == Question::save_picture) endings = {".png", ".exr"};
+  const std::filesystem::path source = save_target(workbench.preset());
+  files_.begin(source.empty() ? std::filesystem::path(".") : source.parent_path(), endings);
 }
 
 void Dialogs::draw(const Workbench& workbench, Commands& commands)
@@ -75,29 +86,51 @@ void Dialogs::draw_open(Commands& commands)
 {
   const float em = ImGui::GetFontSize();
   if (choose_name("path of a preset file, or its name", em * 41, name_, "Open")) commands.push_back(command::Open{name_});
-  ImGui::SeparatorText("Shipped presets");
-  if (ImGui::BeginChild("shipped", {em * 46, em * 14})) {
-    for (const preset::ShippedPreset& shipped : shipped_) {
-      if (ImGui::Selectable(shipped.name.c_str())) commands.push_back(command::Open{shipped.file.string()});
-      ImGui::SameLine(em * 11);
-      ImGui::TextDisabled("%s", shipped.description.c_str());
+  if (!ImGui::BeginTabBar("where")) return;
+  if (ImGui::BeginTabItem("Shipped presets")) {
+    if (ImGui::BeginChild("shipped", {em * 46, em * 16})) {
+      for (const preset::ShippedPreset& shipped : shipped_) {
+        if (ImGui::Selectable(shipped.name.c_str())) commands.push_back(command::Open{shipped.file.string()});
+        ImGui::SameLine(em * 11);
+        ImGui::TextDisabled("%s", shipped.description.c_str());
+      }
     }
+    ImGui::EndChild();
+    ImGui::EndTabItem();
   }
-  ImGui::EndChild();
+  if (ImGui::BeginTabItem("Files")) {
+    if (pick_file()) commands.push_back(command::Open{name_});
+    ImGui::EndTabItem();
+  }
+  ImGui::EndTabBar();
+}
+
+/// The list of files; a click puts a file's name into the text field. True where it is chosen for good.
+bool Dialogs::pick_file()
+{
+  const float em = ImGui::GetFontSize();
+  const FileList::Picked picked = files_.draw(em * 46, em * 14);
+  if (picked != FileList::Picked::nothing) name_ = files_.picked().string();
+  return picked == FileList::Picked::opened;
 }
 
 void Dialogs::draw_open_history(Commands& commands)
 {
-  if (choose_name("folder of a run, or its history.csv", ImGui::GetFontSize() * 30, name_, "Open"))
-    commands.push_back(command::PinFile{name_});
+  const bool typed = choose_name("folder of a run, or its history.csv", ImGui::GetFontSize() * 41, name_, "Open");
+  const bool picked = pick_file();
+  if (typed || picked) commands.push_back(command::PinFile{name_});
   ImGui::TextDisabled("Of a folder the picture is kept too. Dropping it on the window does the same.");
 }
 
 void Dialogs::draw_save(Commands& commands)
 {
   const bool picture = shown_ == Question::save_picture, there = !name_.empty() && is_there(name_);
-  if (choose_name("file", ImGui::GetFontSize() * 30, name_, there ? "Replace" : "Save"))
+  // A file of the list is only named by a click: replacing it takes the button.
+  if (choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save"))
     commands.push_back(picture ? Command(command::SavePicture{name_}) : Command(command::SavePreset{name_}));
+  pick_file();
+  if (ImGui::Button("Save into this folder")) name_ = (files_.folder() / std::filesystem::path(name_).filename()).string();
+  ImGui::SetItemTooltip("The name above, in the folder that is shown");
   if (picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
   if (there) ImGui::TextDisabled("This file is there already.");
 }

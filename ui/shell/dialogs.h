@@ -2,6 +2,7 @@
 // The dialogs: which file to open or to save, and what to do with unsaved changes. Which one is open is the workbench's question().
 #pragma once
 #include "preset/read.h"
+#include "ui/shell/file_list.h"
 #include "ui/state/commands.h"
 
 #include <string>
@@ -14,9 +15,12 @@ class Workbench;
 class Dialogs {
 public:
   void draw(const Workbench& workbench, Commands& commands);
+  const FileList& files() const { return files_; }
 
 private:
   void begin(const Workbench& workbench);
+  void begin_files(const Workbench& workbench);
+  bool pick_file();
   void draw_open(Commands& commands);
   void draw_open_history(Commands& commands);
   void draw_save(Commands& commands);
@@ -25,6 +29,7 @@ private:
   Question shown_ = Question::none;
   std::string name_;                           ///< what the text field holds
   std::vector<preset::ShippedPreset> shipped_; ///< read when the dialog opens
+  FileList files_;
 };
 
 } // namespace nephroid::ui

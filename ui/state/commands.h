@@ -126,6 +126,8 @@ struct Dismiss {
 struct ReopenSession {
   bool sure = false;
 };
+/// The preset as its file has it now, as an edit.
+struct ReloadPreset {};
 struct ToggleHelp {};
 /// The panels of the engine in hand where they were at first, all of them open.
 struct ResetLayout {};
@@ -160,8 +162,8 @@ using Command =
                  command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::PinRun,
                  command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
                  command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss,
-                 command::ReopenSession, command::ToggleHelp, command::ResetLayout, command::KeepLayout, command::ShowPanel,
-                 command::SetAppearance, command::Report, command::Quit>;
+                 command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout,
+                 command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -50,9 +50,11 @@ DeviceRuns::~DeviceRuns() = default;
 
 NewRun DeviceRuns::make(const preset::Preset& preset)
 {
+  if (reread_.exchange(false)) previous_.reset();
   auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get())); });
   const std::lock_guard lock(building_);
   const Lowered compiling{compiling_};
+  if (reopen_.exchange(false)) context_.reset();
   if (!context_) context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
   compute::tell_of_compiling(*context_, [this] { compiling_ = true; });
   // The sources are read below: what changed until here is in this run.

@@ -31,6 +31,8 @@ public:
   ~DeviceRuns() override;
   /// Reads the scene and builds the job. Throws as run::prepare and compute do.
   NewRun make(const preset::Preset& preset) override;
+  void reread_files() override { reread_ = true; }
+  void reopen_device() override { reopen_ = true; }
   bool compiling() const override { return compiling_; }
   /// True once after a file in the kernels folder changed that the newest run was not built from.
   bool take_changed() override { return changed_.exchange(false); }
@@ -45,7 +47,7 @@ private:
   std::mutex building_;
   std::unique_ptr<compute::Context> context_; ///< opened by the first make(): opening a device takes a while
   std::unique_ptr<run::Prepared> previous_;   ///< the worker's thread only
-  std::atomic<bool> compiling_{false}, changed_{false};
+  std::atomic<bool> compiling_{false}, changed_{false}, reread_{false}, reopen_{false};
   std::condition_variable_any stopping_;
   std::jthread watcher_; ///< a thread of its own: neither a frame nor a run waits for the folder's disk. Last: it uses the others.
 };

@@ -106,6 +106,7 @@ void RunInHand::report_failure()
 {
   if (status_.state != job::State::failed || status_.failures == reported_failure_) return;
   reported_failure_ = status_.failures;
+  source_.reopen_device(); // it may be gone; opening it takes a moment, and only after a failure
   messages_.error(*status_.error);
   failure_message_ = messages_.newest();
 }

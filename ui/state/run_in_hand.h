@@ -26,6 +26,12 @@ public:
   void start(const UndoStack& edits);
   /// Where only the light differs, the run in hand takes it on and goes on converging.
   void adopt_or_start(const UndoStack& edits);
+  /// The same preset, but files that it names were changed.
+  void start_with_new_files(const UndoStack& edits)
+  {
+    source_.reread_files();
+    start(edits);
+  }
   /// The preset was edited: the run follows with the next update(). live: the gesture still lasts.
   void follow_edit(bool live);
   void end_gesture() { gesture_lasts_ = false; }

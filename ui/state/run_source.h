@@ -24,6 +24,9 @@ public:
   virtual ~RunSource() = default;
   /// On the worker's thread only. What it throws is why the run failed.
   virtual NewRun make(const preset::Preset& preset) = 0;
+  /// From any thread, at once: the next make() reads every file anew; and opens the device anew, which a run may have lost.
+  virtual void reread_files() {}
+  virtual void reopen_device() {}
   /// From any thread, at once: whether kernels are being compiled.
   virtual bool compiling() const { return false; }
   /// From any thread, at once: true once after what every run is made of (the kernels) changed.

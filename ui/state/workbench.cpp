@@ -235,8 +235,48 @@ std::vector<std::string> Workbench::notes() const
   return all;
 }
 
+bool Workbench::take_over_file()
+{
+  if (!edits_) return false;
+  const std::string source = edits_->current().source;
+  preset::Preset read = preset::read_preset(source);
+  if (read == edits_->current()) return false; // as where this window wrote it
+  edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read));
+  edits_->mark_saved(source);
+  run_.follow_edit(false);
+  return true;
+}
+
+void Workbench::look_at_files()
+{
+  if (const auto& now = edits_ ? edits_->state().entries[edits_->state().index].preset : nullptr; now != watched_) {
+    watched_ = now;
+    watch_.watch(now);
+  }
+  const std::vector<std::filesystem::path> changed = watch_.take_changed();
+  if (changed.empty() || !edits_) return;
+  bool scene_changed = false;
+  for (const std::filesystem::path& file : changed) {
+    const std::string name = file.filename().string();
+    if (file != std::filesystem::path(edits_->current().source)) {
+      scene_changed = true;
+      messages_.note(name + " was changed on disk: the run begins again");
+    } else if (!edits_->modified()) {
+      if (take_over_file()) messages_.note(name + " was changed on disk and is taken over");
+    } else if (preset::read_preset(file.string()) != edits_->current())
+      messages_.error(file.string() + ": another program changed this file, and the preset has edits that are not saved; save them under "
+                                      "another name, or take the preset from its file (File)");
+  }
+  if (scene_changed) run_.start_with_new_files(*edits_);
+}
+
 void Workbench::update(Clock::time_point now)
 {
+  try {
+    look_at_files();
+  } catch (const std::exception& error) {
+    messages_.error(error);
+  }
   run_.update(edits());
   files_.collect(
       messages_, [this](PinnedRun run) { comparing_.pin(std::move(run)); },

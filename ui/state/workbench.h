@@ -5,6 +5,7 @@
 #pragma once
 #include "preset/read.h"
 #include "ui/state/context.h"
+#include "ui/state/file_watch.h"
 #include "ui/state/files.h"
 #include "ui/state/session.h"
 
@@ -84,6 +85,10 @@ private:
   void carry_out(const command::Dismiss& c) { messages_.dismiss(c.message); }
   void carry_out(const command::ToggleHelp&) { help_shown_ = !help_shown_; }
   void carry_out(const command::ReopenSession& c);
+  void carry_out(const command::ReloadPreset&)
+  {
+    if (!take_over_file()) messages_.note("the file has what is shown");
+  }
   void carry_out(const command::ResetLayout&);
   void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].layout = c.layout; }
   void carry_out(const command::ShowPanel& c);
@@ -97,6 +102,9 @@ private:
     comparing_.carry_out(c);
   }
   void ask_first(Command command);
+  void look_at_files();
+  /// What the preset's file has now becomes an edit that counts as saved. False where it is what is there already.
+  bool take_over_file();
   EngineLayout& engine_layout();
 
   std::optional<UndoStack> edits_;
@@ -106,6 +114,8 @@ private:
   Comparing comparing_{run_};
   Chosen chosen_;
   FileWork files_;
+  FileWatch watch_;
+  std::shared_ptr<const preset::Preset> watched_; ///< whose files are watched
   std::vector<std::string> program_notes_;
   Settings settings_;
   std::string panel_to_front_;

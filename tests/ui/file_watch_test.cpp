@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that other programs change while the window is open: the preset's own, and those that it names. Where a device was lost, it is
+// opened again.
+#include "ui/state/file_watch.h"
+#include "workbench_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+class FileWatchTest : public test::WorkbenchFixture {
+protected:
+  std::string file = folder.write("test.json", test::preset_text);
+  /// The preset's text with another seed.
+  static std::string with_seed(int seed) { return "{\"seed\": " + std::to_string(seed) + ", " + std::string(test::preset_text).substr(1); }
+  void open()
+  {
+    ASSERT_TRUE(workbench.open(file));
+    ASSERT_TRUE(until(job::State::running));
+    rest();
+  }
+  /// As long as the watch takes to see everything.
+  void rest()
+  {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1200);
+    (void)until([&] { return std::chrono::steady_clock::now() > end; });
+  }
+};
+
+TEST_F(FileWatchTest, AChangedPresetIsTakenOverAndCanBeUndone)
+{
+  runs.steps = 100000;
+  open();
+  write_file_whole(file, with_seed(77));
+  ASSERT_TRUE(until([&] { return workbench.preset()->seed == 77; }));
+  EXPECT_FALSE(workbench.edits()->modified());
+  EXPECT_EQ(workbench.edits()->undo_label(), "reload test.json");
+  workbench.apply({command::Undo{}});
+  EXPECT_EQ(workbench.preset()->seed, 1u);
+  EXPECT_TRUE(workbench.edits()->modified());
+}
+
+TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept)
+{
+  runs.steps = 100000;
+  open();
+  edit([](preset::Preset& preset) { preset.seed = 5; });
+  write_file_whole(file, with_seed(77));
+  ASSERT_TRUE(until([&] { return !workbench.messages().empty(); }));
+  EXPECT_THAT(workbench.messages()[0].line, ::testing::HasSubstr("another program changed this file"));
+  EXPECT_EQ(workbench.preset()->seed, 5u);
+  workbench.apply({command::ReloadPreset{}});
+  EXPECT_EQ(workbench.preset()->seed, 77u);
+  workbench.apply({command::Undo{}});
+  EXPECT_EQ(workbench.preset()->seed, 5u);
+}
+
+TEST_F(FileWatchTest, WhatTheWindowSavesItselfIsNoChange)
+{
+  runs.steps = 100000;
+  open();
+  edit([](preset::Preset& preset) { preset.seed = 5; });
+  workbench.apply({command::SavePreset{file}});
+  const int made = runs.made;
+  rest();
+  EXPECT_EQ(workbench.edits()->undo_label(), "edit") << "nothing was taken over";
+  EXPECT_LE(runs.made, made + 1) << "the run of the edit";
+}
+
+TEST_F(FileWatchTest, ABrokenPresetIsSaidAndNothingIsLost)
+{
+  runs.steps = 100000;
+  open();
+  write_file_whole(file, "{\"scene\": ");
+  ASSERT_TRUE(until([&] { return !workbench.messages().empty(); }));
+  EXPECT_THAT(workbench.messages()[0].line, ::testing::StartsWith(file));
+  EXPECT_EQ(workbench.preset()->seed, 1u);
+}
+
+TEST_F(FileWatchTest, AFileThatThePresetNamesStartsTheRunAgain)
+{
+  runs.steps = 100000;
+  const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  open();
+  edit([](preset::Preset& preset) {
+    preset.scene.objects[0].shape.reset();
+    preset.scene.objects[0].mesh = "a.obj";
+  });
+  rest();
+  const int made = runs.made, reread = runs.reread;
+  write_file_whole(mesh, "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+  EXPECT_TRUE(until([&] { return runs.made > made; }));
+  EXPECT_GT(runs.reread, reread);
+  std::filesystem::remove(mesh);
+  const int before = runs.made;
+  rest();
+  EXPECT_EQ(runs.made, before) << "a file that is gone may be on its way back";
+}
+
+TEST_F(FileWatchTest, ADeviceThatWasLostIsOpenedAgain)
+{
+  runs.fails = true;
+  ASSERT_TRUE(workbench.open(file));
+  ASSERT_TRUE(until(job::State::failed));
+  EXPECT_EQ(runs.reopened, 1);
+  runs.fails = false;
+  workbench.apply({command::Restart{}});
+  EXPECT_TRUE(until(job::State::finished));
+}
+
+} // namespace
+} // namespace nephroid::ui

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/file_watch.h"
+
+#include "preset/read.h"
+
+#include <chrono>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr std::chrono::milliseconds look_every{300};
+
+} // namespace
+
+FileWatch::FileWatch() : thread_([this](const std::stop_token& stop) { look(stop); }) {}
+
+FileWatch::~FileWatch() = default;
+
+void FileWatch::watch(std::shared_ptr<const preset::Preset> preset)
+{
+  const std::lock_guard lock(mutex_);
+  preset_ = std::move(preset);
+  is_new_ = true;
+}
+
+std::vector<std::filesystem::path> FileWatch::take_changed()
+{
+  const std::lock_guard lock(mutex_);
+  return std::exchange(found_, {});
+}
+
+FileWatch::Stamp FileWatch::stamp_of(const std::filesystem::path& file)
+{
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  if (error) return {};
+  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+  if (error) return {};
+  return std::pair{time, bytes};
+}
+
+void FileWatch::look(const std::stop_token& stop)
+{
+  std::map<std::filesystem::path, Seen> seen;
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    const auto preset = preset_;
+    const bool is_new = std::exchange(is_new_, false);
+    lock.unlock();
+    if (is_new) {
+      std::map<std::filesystem::path, Seen> now;
+      if (preset)
+        for (const auto& file : preset::files_of(*preset)) {
+          const auto before = seen.find(file);
+          const Stamp stamp = stamp_of(file);
+          now[file] = before == seen.end() ? Seen{stamp, stamp} : before->second;
+        }
+      seen = std::move(now);
+    }
+    std::vector<std::filesystem::path> found;
+    for (auto& [file, of_file] : seen) {
+      const Stamp stamp = stamp_of(file);
+      const bool rests = stamp == std::exchange(of_file.last, stamp);
+      if (!stamp || !rests || stamp == of_file.known) continue;
+      of_file.known = stamp;
+      found.push_back(file);
+    }
+    lock.lock();
+    found_.insert(found_.end(), found.begin(), found.end());
+    changed_.wait_for(lock, stop, look_every, [] { return false; });
+  }
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tells when the preset's file, or one that the preset names, was changed by another program. Looks on a thread of its own: no frame waits
+// for a disk.
+#pragma once
+#include "preset/preset.h"
+
+#include <condition_variable>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace nephroid::ui {
+
+class FileWatch {
+public:
+  FileWatch();
+  ~FileWatch();
+  /// The files of this preset from now on; null: none.
+  void watch(std::shared_ptr<const preset::Preset> preset);
+  /// Those that were changed since the last call, and are not being written any more. A file that is gone is none, until it is back.
+  std::vector<std::filesystem::path> take_changed();
+
+private:
+  /// When a file was written, and its bytes; nothing where it is not there.
+  using Stamp = std::optional<std::pair<std::filesystem::file_time_type, std::uintmax_t>>;
+  struct Seen {
+    Stamp known; ///< what nobody needs to be told of any more
+    Stamp last;  ///< at the look before: a file that is being written differs from look to look
+  };
+  void look(const std::stop_token& stop);
+  static Stamp stamp_of(const std::filesystem::path& file);
+
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::shared_ptr<const preset::Preset> preset_; ///< the newest that was asked for,
+  bool is_new_ = false;                          ///< and whether the thread has not taken it yet
+  std::vector<std::filesystem::path> found_;
+  std::jthread thread_; ///< last: it uses the others
+};
+
+} // namespace nephroid::ui
