@@ -7,6 +7,7 @@
 #include "ui/dispersion/panel.h"
 #include "ui/environment/panel.h"
 #include "ui/error/panel.h"
+#include "ui/inspector/panel.h"
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
 #include "ui/spectra/panel.h"
@@ -37,6 +38,7 @@ const PanelEntry table[] = {
     {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>, SeenByGlass::look},
     {"annealing", AnnealingPanel::title, "inverse", make<AnnealingPanel>},
     {"environment", EnvironmentPanel::title, "", make<EnvironmentPanel>, nullptr, EnvironmentPanel::serves},
+    {"inspector", InspectorPanel::title, "", make<InspectorPanel>},
     {"plan", PlanPanel::title, "", make<PlanPanel>},
     {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
 };

@@ -61,6 +61,8 @@ private:
   void carry_out(const command::Cancel&) { run_.cancel(); }
   void carry_out(const command::Pause& c) { run_.pause(c.on); }
   void carry_out(const command::SetLook& c);
+  void carry_out(const command::InspectPixel& c);
+  void carry_out(const command::SelectRegion& c);
   void carry_out(const command::PinFile& c);
   void carry_out(const command::ChooseMetric& c) { chosen_.error_metric = c.metric; }
   void carry_out(const command::ChooseMaterial& c) { chosen_.material = c.material; }
@@ -81,6 +83,8 @@ private:
     comparing_.carry_out(c);
   }
   void ask_first(Command command);
+  /// What the View shows now.
+  PictureToSave shown_picture() const;
 
   std::optional<UndoStack> edits_;
   Messages messages_;
