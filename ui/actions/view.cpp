@@ -176,7 +176,6 @@ std::vector<Action> view_actions()
       {menu, "Copy pixel", 0, false, "The values of the pixel that is inspected, with tabs between", has_pixel, copy_pixel, no_pixel},
       {menu, "Statistics of the picture", shift | ImGuiKey_I, false, "Of all its pixels, or none; Alt and a drag takes a rectangle",
        has_picture, whole_region, nullptr, nullptr, has_region},
-      {menu, "Reset layout", 0, false, "Every panel back to its place", always, push<command::ResetLayout>},
   };
 }
 

@@ -119,7 +119,7 @@ void InspectorPanel::draw_neighbours(const Context& context)
   }
   const ImVec2 own{corner.x + reach * cell, corner.y + reach * cell};
   draw_list->AddRect({own.x - 1, own.y - 1}, {own.x + cell + 1, own.y + cell + 1}, colour::outline);
-  draw_list->AddRect(own, {own.x + cell, own.y + cell}, colour::text);
+  draw_list->AddRect(own, {own.x + cell, own.y + cell}, colour::on_dark);
 }
 
 void InspectorPanel::draw_spectrum(const Context& context)
@@ -139,7 +139,7 @@ void InspectorPanel::draw_spectrum(const Context& context)
     if (spectrum->layers.size() > 1)
       for (const auto& layer : spectrum->layers)
         ImPlot::PlotLine(layer.name.c_str(), nm.data(), layer.radiance.data(), static_cast<int>(nm.size()));
-    ImPlot::PlotLine("this pixel", nm.data(), total.data(), static_cast<int>(nm.size()), line_spec(colour::text, 2));
+    ImPlot::PlotLine("this pixel", nm.data(), total.data(), static_cast<int>(nm.size()), line_spec(colour::on_dark, 2));
     if (ImPlot::IsPlotHovered())
       if (const long w = std::lround(ImPlot::GetPlotMousePos().x) - optics::first_nm; w >= 0 && w < std::ssize(total))
         ImGui::SetTooltip("%ld nm: %.4g W/m2/sr/nm", w + optics::first_nm, total[static_cast<std::size_t>(w)]);

@@ -16,7 +16,7 @@ namespace nephroid::ui {
 
 class InspectorPanel : public Panel {
 public:
-  static constexpr const char* title = inspector_title;
+  static constexpr const char* title = "Inspector";
   /// wavelengths: shared with other panels; outlives this.
   explicit InspectorPanel(WavelengthAxis& wavelengths) : axis_(wavelengths) {}
   void draw(const Context& context) override;

@@ -41,7 +41,7 @@ void draw_scale(const Canvas& canvas, const std::string& title, std::span<const 
                            colour::overlay, 0.4f * em);
   const auto draw_text = [&](const std::string& text, float right, float middle) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-    draw_list->AddText({right - extent.x, middle - extent.y / 2}, colour::text, text.c_str());
+    draw_list->AddText({right - extent.x, middle - extent.y / 2}, colour::on_dark, text.c_str());
   };
   draw_bar(corner, width, height, colour_at);
   if (!title.empty()) draw_text(title, corner.x + width, corner.y - head);

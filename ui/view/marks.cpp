@@ -49,7 +49,7 @@ void draw_marks(const Context& context, const Placement& placement, const std::a
     if (region->from[0] < to[0] && region->from[1] < to[1]) frame(placement, region->from, to, colour::accent, 0);
   }
   if (const auto& pixel = context.chosen.pixel; pixel && (*pixel)[0] < picture[0] && (*pixel)[1] < picture[1])
-    frame(placement, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::text, 5);
+    frame(placement, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
 }
 
 } // namespace nephroid::ui

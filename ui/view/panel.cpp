@@ -10,6 +10,7 @@
 #include "ui/widgets/widgets.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,7 @@ void draw_overlay(const ImVec2& at, const std::string& text)
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->AddRectFilled(at, {at.x + extent.x + 2 * pad, at.y + extent.y + 2 * pad}, colour::overlay, pad);
-  draw_list->AddText({at.x + pad, at.y + pad}, colour::text, text.c_str());
+  draw_list->AddText({at.x + pad, at.y + pad}, colour::on_dark, text.c_str());
 }
 
 } // namespace
@@ -49,6 +50,7 @@ void ViewPanel::draw(const Context& context)
   ImGui::InvisibleButton("picture", vec(canvas_.size),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   hovered_ = ImGui::IsItemHovered();
+  own_keys(context);
   use_mouse(context);
   refresh_texture(context);
   const auto& map = context.comparing.difference();
@@ -56,7 +58,7 @@ void ViewPanel::draw(const Context& context)
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
   draw_picture(context);
-  if (!shown_.hint.empty()) draw_hint(corner, vec(canvas_.size), shown_.hint);
+  if (!shown_.hint.empty()) draw_hint_on_dark(corner, vec(canvas_.size), shown_.hint);
   draw_marks(context, place(context.chosen.look, canvas_, shown_.size), shown_.size);
   if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
   if (map && map == shown_.owner) draw_colour_scale(*map, canvas_);
@@ -133,6 +135,15 @@ void ViewPanel::draw_pixel_value(const Context& context) const
   draw_overlay(vec({canvas_.corner[0] + pad, canvas_.corner[1] + canvas_.size[1] - ImGui::CalcTextSize(text.c_str()).y - 3 * pad}), text);
 }
 
+/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected the arrow keys are its, not the keyboard's cursor's.
+void ViewPanel::own_keys(const Context& context)
+{
+  ImGui::SetItemKeyOwner(ImGuiMod_Alt);
+  if (!context.chosen.pixel || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  for (const ImGuiKey key : {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow})
+    ImGui::SetKeyOwner(key, ImGui::GetItemID());
+}
+
 void ViewPanel::use_mouse(const Context& context)
 {
   if (!context.preset()) return;
@@ -206,7 +217,7 @@ void ViewPanel::mark(const Context& context)
   if (marks_region_) context.push(command::SelectRegion{region_between(placement, shown_.size, drag_from_, mouse())});
   if (ImGui::IsItemActive()) return;
   if (!marks_region_) context.push(command::InspectPixel{pixel_at(placement, shown_.size, mouse())});
-  ImGui::SetWindowFocus(inspector_title); // its tab comes to the front
+  context.push(command::ShowPanel{"inspector"});
 }
 
 void ViewPanel::use_wheel(const Context& context)

@@ -32,6 +32,7 @@ private:
   void draw_toolbar(const Context& context);
   void draw_picture(const Context& context);
   void draw_pixel_value(const Context& context) const;
+  void own_keys(const Context& context);
   void use_mouse(const Context& context);
   void start_drag(const Context& context);
   void continue_drag(const Context& context);

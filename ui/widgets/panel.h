@@ -13,7 +13,4 @@ public:
   virtual void draw(const Context& context) = 0;
 };
 
-/// Of the panel that the View brings to the front where a pixel or a rectangle was marked.
-inline constexpr const char* inspector_title = "Inspector";
-
 } // namespace nephroid::ui
