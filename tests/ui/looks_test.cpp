@@ -3,6 +3,7 @@
 #include "image/image.h"
 #include "layered_runs.h"
 #include "preset/read.h"
+#include "ui/state/session.h"
 #include "ui/state/shown_pixels.h"
 #include "ui/state/tone.h"
 #include "ui/view/camera_text.h"
@@ -294,6 +295,19 @@ TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
     at = text.find('\'', end + 1);
   }
   EXPECT_EQ(preset::parse_preset(test::preset_text, "again", overrides).scene.camera, edited.scene.camera);
+}
+
+TEST(LooksOfASession, AreKept)
+{
+  Session session;
+  session.chosen.look.tone = ToneCurve::false_colour;
+  session.chosen.look.false_colour = LuminanceRange{0.25, 64};
+  const std::string text = SessionText().of(session);
+  EXPECT_EQ(parse_session(text, "session.json").chosen.look, session.chosen.look);
+  EXPECT_EQ(parse_session(SessionText().of({}), "session.json").chosen.look, Look{});
+  std::string other = text;
+  other.replace(other.find("false_colour"), 5, "wrong");
+  EXPECT_ANY_THROW(parse_session(other, "session.json"));
 }
 
 } // namespace

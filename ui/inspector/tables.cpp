@@ -8,6 +8,7 @@
 #include <imgui.h>
 #include <implot.h>
 
+#include <array>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -79,7 +80,10 @@ void draw_histogram(const RegionStatistics& statistics)
   if (!ImPlot::BeginPlot("##histogram", {-1, 11 * ImGui::GetFontSize()}, ImPlotFlags_NoMouseText)) return;
   ImPlot::SetupAxes("W/m2/sr", "pixels", ImPlotAxisFlags_AutoFit, ImPlotAxisFlags_AutoFit);
   ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
-  ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_SymLog);
+  ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_SymLog); // which has 0, and no numbers of its own
+  constexpr std::array numbers{0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e7};
+  constexpr std::array<const char*, numbers.size()> labels{"0", "1", "10", "100", "1e3", "1e4", "1e5", "1e6", "1e7"};
+  ImPlot::SetupAxisTicks(ImAxis_Y1, numbers.data(), static_cast<int>(numbers.size()), labels.data());
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     const std::vector<double>& counts = histogram.counts[i];
     std::vector<double> edges, steps = counts;

@@ -107,7 +107,9 @@ void draw_look_bar(const Context& context, const Tone& tone, WidgetPlaces& place
   ImGui::SameLine();
   draw_tone_choice(context, places);
   if (tone.curve != ToneCurve::false_colour) return;
+  const float width = ImGui::CalcTextSize("Auto range").x + 14 * ImGui::GetFontSize();
   ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
   draw_range_choice(context, tone.range, places);
 }
 

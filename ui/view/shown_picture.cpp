@@ -91,8 +91,8 @@ ShownPicture shown_picture(const Context& context)
     const HeldPicture held = context.comparing.picture();
     shown.owner = held.owner;
     shown.rgb = held.pixels.rgb;
-    shown.hint = context.comparing.why_no_picture();
-    if (!shown.hint.empty()) shown.hint += ": choose a layer that it has above, or all";
+    if (const std::string why = context.comparing.why_no_picture(); !why.empty())
+      shown.hint = fmt::format("Nothing to show: {}. Choose above, or go on with L.", why);
     shown.label = comparison.layer;
   } else if (const HeldPicture other = context.comparing.other_picture(); !other.owner)
     shown.hint = "Nothing to compare with: " + context.comparing.why_not();
