@@ -61,10 +61,13 @@ struct Worker::Impl {
   std::uint64_t adoptions = 0;      ///< its number
   bool cancelled = false, paused = false, ending = false;
   std::chrono::milliseconds interval{100};
-  bool has_job = false; ///< one that could adopt: in hand, or to come from `next`
+  bool has_job = false;                      ///< one that could adopt: in hand, or to come from `next`
+  std::optional<std::array<int, 2>> watched; ///< the pixel of watch_spectrum()
+  bool watch_changed = false;                ///< the thread has not told its spectrum yet
   // What readers see. status.generation is also a command: a job of another generation stops and says nothing more.
   Status status;
   std::shared_ptr<const Snapshot> snapshot;
+  std::shared_ptr<const PixelSpectrum> spectrum;
 
   // The thread's own
   std::uint64_t adopted = 0;       ///< the newest adoption that the job in hand knows of
@@ -126,29 +129,46 @@ struct Worker::Impl {
       std::swap(snapshot, shared);
       status.progress = snapshot->progress;
     });
+    tell_spectrum(generation, job);
   }
 
-  enum class Move { step, adopt, stop };
+  /// Makes the spectrum that is watched.
+  void tell_spectrum(std::uint64_t generation, Job& job)
+  {
+    std::unique_lock lock(mutex);
+    watch_changed = false;
+    const auto pixel = watched;
+    lock.unlock();
+    auto* source = pixel ? dynamic_cast<SpectrumSource*>(&job) : nullptr;
+    auto made = source ? source->spectrum(*pixel) : nullptr;
+    update(generation, [&] {
+      if (watched == pixel) spectrum.swap(made);
+    });
+  }
+
+  enum class Move { step, adopt, tell, stop };
 
   /// What an unfinished job does next. Waits while paused and, after an adoption, a moment for the next: while somebody drags a spectrum
   /// every step would only delay the picture.
   Move next_move(std::uint64_t generation, std::optional<Clock::time_point> adopted_at)
   {
     std::unique_lock lock(mutex);
-    const auto commanded = [&] { return must_stop(generation) || adoption; };
+    const auto commanded = [&] { return must_stop(generation) || adoption || watch_changed; };
     if (adopted_at) changed.wait_until(lock, *adopted_at + adoption_linger, commanded);
     for (; paused && !commanded(); changed.wait(lock))
       if (std::exchange(status.state, State::paused) != State::paused) changed.notify_all();
     if (must_stop(generation)) return Move::stop;
     if (adoption) return Move::adopt;
+    if (watch_changed) return Move::tell;
     status.state = State::running;
     return Move::step;
   }
 
-  bool adoption_waits() const
+  /// What a finished job does next.
+  Move last_move() const
   {
     const std::lock_guard lock(mutex);
-    return adoption.has_value();
+    return adoption ? Move::adopt : watch_changed ? Move::tell : Move::stop;
   }
 
   /// Lets the job take on the newest preset, or makes a new one begin where it cannot. False where it threw, which is the state then.
@@ -178,9 +198,12 @@ struct Worker::Impl {
   {
     std::optional<Clock::time_point> shown, adopted_at;
     while (true) {
-      Move move = adoption_waits() ? Move::adopt : Move::stop;
-      if (!job.finished()) move = next_move(generation, std::exchange(adopted_at, std::nullopt));
+      const Move move = job.finished() ? last_move() : next_move(generation, std::exchange(adopted_at, std::nullopt));
       if (move == Move::stop) break;
+      if (move == Move::tell) {
+        tell_spectrum(generation, job);
+        continue;
+      }
       if (move == Move::adopt) {
         if (!adopt_newest(generation, job)) return State::failed;
         shown = adopted_at = Clock::now();
@@ -208,12 +231,17 @@ struct Worker::Impl {
     return !ending && status.generation == generation;
   }
 
-  /// A job that is finished, or could not adopt, waits for the next adoption. False where it has to go.
-  bool wait_for_adoption(std::uint64_t generation)
+  /// A job that is finished, or could not adopt, waits for the next adoption, and tells spectra. False where it has to go.
+  bool wait_for_adoption(std::uint64_t generation, Job& job)
   {
-    std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return must_stop(generation) || adoption; });
-    return !must_stop(generation);
+    while (true) {
+      std::unique_lock lock(mutex);
+      changed.wait(lock, [&] { return must_stop(generation) || adoption || watch_changed; });
+      if (must_stop(generation)) return false;
+      if (adoption) return true;
+      lock.unlock();
+      tell_spectrum(generation, job);
+    }
   }
 
   void run_one(std::uint64_t generation, const Make& make)
@@ -230,7 +258,7 @@ struct Worker::Impl {
         do {
           const State state = advance(generation, *job);
           if (state != State::failed) set_state(generation, state);
-        } while (wait_for_adoption(generation));
+        } while (wait_for_adoption(generation, *job));
     } catch (...) {
       set_failed(generation, error_of(std::current_exception()));
     }
@@ -313,6 +341,22 @@ std::shared_ptr<const Snapshot> Worker::snapshot() const
 {
   const std::lock_guard lock(impl_->mutex);
   return impl_->snapshot;
+}
+
+void Worker::watch_spectrum(std::optional<std::array<int, 2>> pixel)
+{
+  const std::lock_guard lock(impl_->mutex);
+  if (impl_->watched == pixel) return;
+  impl_->watched = pixel;
+  impl_->watch_changed = true;
+  if (!pixel) impl_->spectrum.reset();
+  impl_->changed.notify_all();
+}
+
+std::shared_ptr<const PixelSpectrum> Worker::spectrum() const
+{
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->spectrum;
 }
 
 void Worker::set_snapshot_interval(std::chrono::milliseconds interval)

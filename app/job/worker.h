@@ -3,7 +3,9 @@
 #pragma once
 #include "base/error.h"
 #include "job/job.h"
+#include "job/spectrum.h"
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -41,6 +43,11 @@ public:
   /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first, so that a
   /// view does not flicker. Never waits for the device.
   std::shared_ptr<const Snapshot> snapshot() const;
+  /// From now on every snapshot comes with the spectrum of this pixel, where the job is a SpectrumSource; nothing: with none. A paused or
+  /// finished job tells it too, as in adopt(). Stays for jobs to come. Returns at once.
+  void watch_spectrum(std::optional<std::array<int, 2>> pixel);
+  /// The newest one of the pixel that is watched; null where there is none.
+  std::shared_ptr<const PixelSpectrum> spectrum() const;
   /// How often snapshots are made while running (default 100 ms; the first after the first step). Where snapshots would take more than a
   /// fifth of the time, they are made less often.
   void set_snapshot_interval(std::chrono::milliseconds interval);

@@ -5,6 +5,7 @@
 #include "base/bytes.h"
 #include "base/error.h"
 #include "job/history.h"
+#include "job/spectrum.h"
 #include "measure/error_estimate.h"
 #include "preset/choices.h"
 #include "preset/field.h"
@@ -125,7 +126,7 @@ void add(Errors& errors, const std::string& prefix, const Metrics& metrics, bool
     if (perceptual || (name != "iw_ssim" && name != "flip" && name != "hdr_flip")) errors.emplace_back(prefix + name, value);
 }
 
-class MeasuredJob final : public job::Job {
+class MeasuredJob final : public job::Job, public job::SpectrumSource {
 public:
   MeasuredJob(std::unique_ptr<job::Job> job, const preset::Preset& preset, std::shared_ptr<const Reference> reference,
               Clock::time_point began, std::vector<double> times)
@@ -181,6 +182,12 @@ public:
   }
 
   std::shared_ptr<const job::History> history() const override { return shown_; }
+
+  std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override
+  {
+    auto* source = dynamic_cast<job::SpectrumSource*>(job_.get());
+    return source ? source->spectrum(pixel) : nullptr;
+  }
 
   void save(ByteSink& to) override
   {

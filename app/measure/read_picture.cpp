@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -22,18 +23,24 @@ void decode(std::vector<float>& rgb)
   });
 }
 
+/// "caustic", where there is a channel "caustic.R".
+std::vector<std::string> layer_names(const image::Image& picture)
+{
+  std::vector<std::string> layers;
+  for (const std::string& channel : picture.channels)
+    if (channel.ends_with(".R")) layers.push_back(channel.substr(0, channel.size() - 2));
+  return layers;
+}
+
 /// The picture's channels of that name, as R, G, B.
 image::Image layer_of(const image::Image& picture, const std::string& layer, const std::string& file)
 {
-  std::vector<std::string> layers;
+  const std::vector<std::string> layers = layer_names(picture);
   std::array<std::size_t, 3> at{};
   std::size_t found = 0;
-  for (std::size_t c = 0; c < picture.channels.size(); ++c) {
-    const std::string& channel = picture.channels[c];
-    if (channel.ends_with(".R")) layers.push_back(channel.substr(0, channel.size() - 2));
+  for (std::size_t c = 0; c < picture.channels.size(); ++c)
     for (std::size_t i = 0; i < at.size(); ++i)
-      if (channel == layer + "." + "RGB"[i]) at[i] = c, ++found;
-  }
+      if (picture.channels[c] == layer + "." + "RGB"[i]) at[i] = c, ++found;
   if (found != at.size())
     throw bad_input(file, fmt::format("has no layer '{}'", layer),
                     layers.empty() ? "expected a picture with layers" : fmt::format("expected one of {}", fmt::join(layers, ", ")),
@@ -55,6 +62,16 @@ LinearPicture linear(image::Image picture, const std::filesystem::path& file)
 } // namespace
 
 LinearPicture read_linear_rgb(const std::filesystem::path& file) { return linear(image::read_image(file), file); }
+
+LinearPicture read_linear_rgb(const std::filesystem::path& file, std::vector<job::Layer>& layers)
+{
+  const image::Image picture = image::read_image(file);
+  layers.clear();
+  for (const std::string& name : layer_names(picture))
+    if (std::ranges::count(picture.channels, name + ".G") == 1 && std::ranges::count(picture.channels, name + ".B") == 1)
+      layers.push_back({name, linear(layer_of(picture, name, file.string()), file).rgb});
+  return linear(picture, file);
+}
 
 LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer)
 {

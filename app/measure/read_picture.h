@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Picture files as comparisons take them: linear sRGB, and masks.
 #pragma once
+#include "job/job.h"
 #include "measure/metrics.h"
 
 #include <filesystem>
@@ -22,6 +23,8 @@ struct LinearPicture {
 /// channels R, G, B or, alone or with alpha, Y; alpha and further layers are left out. Values may be NaN or infinite: comparisons
 /// refuse them. Throws bad_input naming the file: no picture, or its channels where they are others.
 LinearPicture read_linear_rgb(const std::filesystem::path& file);
+/// The same, and in `layers` those that the file has, as read_linear_layer reads them: NAME.R, NAME.G, NAME.B.
+LinearPicture read_linear_rgb(const std::filesystem::path& file, std::vector<job::Layer>& layers);
 /// The same of one of its layers, whose channels are LAYER.R, LAYER.G, LAYER.B. Throws bad_input naming the layers there are.
 LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer);
 

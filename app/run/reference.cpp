@@ -22,7 +22,7 @@ namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* first_channels[] = {"first_seed.R", "first_seed.G", "first_seed.B"};
+constexpr const char* first_seed = "first_seed"; ///< the further channels' layer
 
 Place place(const Prepared& prepared, const char* field) { return Place(prepared.preset.source) / "reference" / field; }
 
@@ -57,22 +57,6 @@ fs::path cache_file(const Prepared& prepared, const compute::Context& context)
   return references_folder() / fmt::format("{:016x}.exr", hash);
 }
 
-/// The picture of the first seed, where the file has it.
-std::vector<float> first_seed_of(const image::Image& file)
-{
-  std::size_t channel[3];
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto found = std::find(file.channels.begin(), file.channels.end(), first_channels[c]);
-    if (found == file.channels.end()) return {};
-    channel[c] = static_cast<std::size_t>(found - file.channels.begin());
-  }
-  std::vector<float> rgb;
-  rgb.reserve(file.data.size() / file.channels.size() * 3);
-  for (std::size_t pixel = 0; pixel < file.data.size(); pixel += file.channels.size())
-    for (const std::size_t c : channel) rgb.push_back(file.data[pixel + c]);
-  return rgb;
-}
-
 /// What a mean of two seeds is off by: half of their difference is a draw of its error, as halves of a film are. The perceptual metrics
 /// have no estimate: there it is the distance of one seed from the mean.
 measure::Metrics noise_floor(const measure::Reference& mean, const std::vector<float>& first, measure::Mask mask, bool perceptual)
@@ -93,7 +77,8 @@ measure::Metrics noise_floor(const measure::Reference& mean, const std::vector<f
 
 std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, const Prepared& prepared)
 {
-  const measure::LinearPicture picture = measure::read_linear_rgb(file);
+  std::vector<job::Layer> layers;
+  const measure::LinearPicture picture = measure::read_linear_rgb(file, layers);
   measure::Reference reference{picture.width, picture.height, picture.rgb, file.string(), {}, {}, {}};
   const auto [width, height] = prepared.preset.scene.camera.resolution;
   if (reference.width != width || reference.height != height)
@@ -108,11 +93,16 @@ std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, c
     const FileFinder finder(fs::path(prepared.preset.source).parent_path());
     reference.mask = measure::read_mask(finder.find(*mask, Place(prepared.preset.source) / "measure" / "mask"), width, height);
   }
-  if (const std::vector<float> first = first_seed_of(image::read_image(file)); !first.empty()) {
+  const auto is_first_seed = [](const job::Layer& layer) { return layer.name == first_seed; };
+  if (const auto found = std::ranges::find_if(layers, is_first_seed); found != layers.end()) {
+    const std::vector<float> first = std::move(found->rgb);
+    layers.erase(found);
+    for (std::size_t i = 0; i < first.size(); ++i) reference.error_draw.push_back(first[i] - reference.rgb[i]);
     reference.noise_floor = noise_floor(reference, first, {}, prepared.preset.measure.perceptual);
     if (!reference.mask.empty())
       reference.masked_noise_floor = noise_floor(reference, first, reference.mask, prepared.preset.measure.perceptual);
   }
+  reference.layers = std::move(layers);
   return std::make_shared<const measure::Reference>(std::move(reference));
 }
 
@@ -162,7 +152,7 @@ void write_reference(const fs::path& file, const Prepared& prepared, const std::
   image.width = width;
   image.height = height;
   image.channels = {"R", "G", "B"};
-  image.channels.insert(image.channels.end(), std::begin(first_channels), std::end(first_channels));
+  for (const char* channel : {".R", ".G", ".B"}) image.channels.push_back(first_seed + std::string(channel));
   for (std::size_t i = 0; i < first.size(); i += 3) {
     for (std::size_t c = i; c < i + 3; ++c) image.data.push_back(0.5f * first[c] + 0.5f * second[c]);
     for (std::size_t c = i; c < i + 3; ++c) image.data.push_back(first[c]);

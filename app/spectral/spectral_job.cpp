@@ -49,7 +49,7 @@ struct TimedStage {
   double seconds = 0;
 };
 
-class SpectralJob final : public job::Job {
+class SpectralJob final : public job::Job, public job::SpectrumSource {
 public:
   SpectralJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
               const compute::Context& context)
@@ -157,6 +157,23 @@ public:
     for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
     add_energy(energy, snapshot);
     return snapshot;
+  }
+
+  std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override
+  {
+    const auto [x, y] = pixel;
+    if (x < 0 || y < 0 || x >= world_.tables.camera.width || y >= world_.tables.camera.height) return nullptr;
+    auto made = std::make_shared<job::PixelSpectrum>();
+    made->pixel = pixel;
+    if (!relighting_) {
+      made->why_not = "the film adds up colours, and a spectrum is not kept; spectral.relight true keeps a layer for each cluster";
+      return made;
+    }
+    for (std::size_t s = 0; s < stages_.size(); ++s)
+      if (!stages_[s].stage->add_spectrum(at_.pass, s < at_.stage, *made))
+        made->notes.push_back(fmt::format("Without the layer \"{}\", of which no spectrum is kept.", stages_[s].stage->name()));
+    if (smoothing_) made->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
+    return made;
   }
 
   void save(ByteSink& sink) override

@@ -4,6 +4,7 @@
 // NAME_stage.cpp has one.
 #pragma once
 #include "job/job.h"
+#include "job/spectrum.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "spectral/energy.h"
@@ -47,6 +48,8 @@ public:
   /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes
   /// and what is done of the one in hand, which has the number `passes`; done: whether it has had its turn in that pass already.
   virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
+  /// Adds the radiance of its layer in a pixel, as develop; false where its film knows colours only.
+  virtual bool add_spectrum(std::int64_t /*passes*/, bool /*done*/, job::PixelSpectrum& /*to*/) { return false; }
   /// Adds where the power of its photons went in the same passes, if it keeps counters of its own.
   virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
   /// Work of a pass on pixels of glass, in photons, as the mean of passes; 0: it is not to be shared out.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window's fast bytes against image::shown, which files are written with.
 #include "image/image.h"
-#include "ui/widgets/shown_pixels.h"
+#include "ui/state/shown_pixels.h"
 
 #include <gtest/gtest.h>
 

@@ -114,4 +114,17 @@ TEST_F(ReadPicture, MasksThatDoNotFitAreRefused)
   EXPECT_THAT(refusal_of([&] { read_mask(bad, 2, 1); }), HasSubstr("n.exr: pixel (1, 0) has NaN"));
 }
 
+TEST_F(ReadPicture, LayersComeWithThePicture)
+{
+  std::vector<job::Layer> layers;
+  const fs::path file = write_exr("a.exr", {"R", "G", "B", "caustic.R", "caustic.G", "caustic.B", "depth.R"}, {1, 2, 3, 4, 5, 6, 7});
+  const LinearPicture picture = read_linear_rgb(file, layers);
+  EXPECT_THAT(picture.rgb, ElementsAre(1, 2, 3));
+  ASSERT_EQ(layers.size(), 1u) << "a layer has three channels";
+  EXPECT_EQ(layers[0].name, "caustic");
+  EXPECT_THAT(layers[0].rgb, ElementsAre(4, 5, 6));
+  read_linear_rgb(write_exr("b.exr", {"R", "G", "B"}, {1, 2, 3}), layers);
+  EXPECT_TRUE(layers.empty());
+}
+
 } // namespace

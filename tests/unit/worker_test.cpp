@@ -61,6 +61,32 @@ auto counting(int steps, std::atomic<int>* alive = nullptr)
   return [=] { return std::make_unique<CountingJob>(steps, alive); };
 }
 
+/// Tells its count as every pixel's spectrum.
+class SpectrumJob : public CountingJob, public SpectrumSource {
+public:
+  using CountingJob::CountingJob;
+  std::shared_ptr<const PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override
+  {
+    if (pixel[0] < 0) return nullptr;
+    if (pixel[0] == 13) throw failed("clEnqueueReadBuffer", "the device is gone");
+    auto made = std::make_shared<PixelSpectrum>();
+    made->pixel = pixel;
+    made->layers = {{"direct", {double(count_)}}};
+    return made;
+  }
+};
+
+auto with_spectra(int steps)
+{
+  return [=] { return std::make_unique<SpectrumJob>(steps); };
+}
+
+/// Whether the worker comes to tell the spectrum of this pixel.
+bool tells(const Worker& worker, std::array<int, 2> pixel)
+{
+  return eventually([&] { return worker.spectrum() && worker.spectrum()->pixel == pixel; });
+}
+
 TEST(Worker, IsIdleAtFirst)
 {
   Worker worker;
@@ -324,6 +350,67 @@ TEST(Worker, ManyReadersAndCommandsAtOnce)
   worker.start(counting(2));
   worker.wait();
   EXPECT_EQ(worker.status().state, State::finished);
+}
+
+TEST(Worker, TellsTheSpectrumOfThePixelThatIsWatched)
+{
+  Worker worker;
+  worker.set_snapshot_interval(0ms);
+  worker.start(with_spectra(endless));
+  ASSERT_TRUE(eventually([&] { return worker.snapshot() != nullptr; }));
+  EXPECT_EQ(worker.spectrum(), nullptr) << "nobody asked";
+  worker.watch_spectrum(std::array{1, 2});
+  ASSERT_TRUE(tells(worker, {1, 2}));
+  const double first = worker.spectrum()->layers[0].radiance[0];
+  EXPECT_TRUE(eventually([&] { return worker.spectrum()->layers[0].radiance[0] > first; })) << "it goes on with the run";
+  worker.watch_spectrum(std::nullopt);
+  EXPECT_EQ(worker.spectrum(), nullptr);
+}
+
+TEST(Worker, APausedAndAFinishedJobTellSpectraWithoutAnotherPicture)
+{
+  Worker worker;
+  worker.set_snapshot_interval(0ms);
+  worker.start(with_spectra(endless));
+  ASSERT_TRUE(eventually([&] { return worker.snapshot() != nullptr; }));
+  worker.pause(true);
+  ASSERT_TRUE(eventually([&] { return worker.status().state == State::paused; }));
+  const auto paused = worker.snapshot();
+  worker.watch_spectrum(std::array{3, 3});
+  EXPECT_TRUE(tells(worker, {3, 3}));
+  EXPECT_EQ(worker.status().state, State::paused);
+  EXPECT_EQ(worker.snapshot(), paused);
+  worker.start(with_spectra(5));
+  worker.wait();
+  EXPECT_TRUE(eventually([&] { return worker.spectrum() && worker.spectrum()->layers[0].radiance[0] == 5; }))
+      << "the next job is watched too";
+  const auto last = worker.snapshot();
+  worker.watch_spectrum(std::array{4, 4});
+  EXPECT_TRUE(tells(worker, {4, 4}));
+  EXPECT_EQ(worker.snapshot(), last);
+  EXPECT_EQ(worker.status().state, State::finished);
+}
+
+TEST(Worker, AJobWithoutSpectraTellsNone)
+{
+  Worker worker;
+  worker.watch_spectrum(std::array{1, 1});
+  worker.start(counting(5));
+  worker.wait();
+  EXPECT_EQ(worker.spectrum(), nullptr);
+}
+
+TEST(Worker, ASpectrumThatFailsIsTheState)
+{
+  Worker worker;
+  worker.start(with_spectra(5));
+  worker.wait();
+  worker.watch_spectrum(std::array{13, 0});
+  ASSERT_TRUE(eventually([&] { return worker.status().state == State::failed; }));
+  worker.watch_spectrum(std::array{1, 0});
+  worker.start(with_spectra(5));
+  worker.wait();
+  EXPECT_TRUE(tells(worker, {1, 0}));
 }
 
 } // namespace

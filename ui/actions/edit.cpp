@@ -3,6 +3,7 @@
 #include "measure/history_file.h"
 #include "ui/actions/table.h"
 #include "ui/error/panel.h"
+#include "ui/view/camera_text.h"
 
 namespace nephroid::ui {
 namespace {
@@ -34,6 +35,10 @@ std::vector<Action> edit_actions()
        [](C c) { ImGui::SetClipboardText(measure::to_csv(*c.run.error_history()).c_str()); }, not_measured},
       {menu, "Copy plot as CSV", 0, false, "Every number of the plot of error against time", has_plot,
        [](C c) { ImGui::SetClipboardText(plot_as_csv(c).c_str()); }, not_measured},
+      {menu, "Copy camera as JSON", 0, false, "The preset's camera, as its file has it", has_preset,
+       [](C c) { ImGui::SetClipboardText(camera_json(*c.preset()).c_str()); }},
+      {menu, "Copy camera as --set", 0, false, "The preset's camera, as the command line takes it", has_preset,
+       [](C c) { ImGui::SetClipboardText(camera_settings(*c.preset()).c_str()); }},
       {menu, "Copy plan as JSON", 0, false, "As a run writes it to plan.json", has_plan,
        [](C c) { ImGui::SetClipboardText(plan::to_json(*c.run.plan()).c_str()); }},
   };

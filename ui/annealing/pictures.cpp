@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/annealing/pictures.h"
 
-#include "ui/widgets/shown_pixels.h"
+#include "ui/state/shown_pixels.h"
 #include "ui/widgets/theme.h"
 
 #include <imgui.h>

@@ -22,6 +22,7 @@ const MouseHabit mouse_habits[] = {
     {"Wheel, or right drag", "Distance of the camera"},
     {"Ctrl+wheel", "Zoom the picture about the cursor"},
     {"Ctrl+drag", "Move the picture in the panel"},
+    {"Alt+click, Alt+drag", "Inspect a pixel; statistics of a rectangle"},
     {"Hover", "Linear values and luminance of the pixel"},
     {"Drop a file", "Open that preset; pin a run's folder or history.csv"},
     {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},

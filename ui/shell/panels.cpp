@@ -6,6 +6,7 @@
 #include "ui/dispersion/panel.h"
 #include "ui/environment/panel.h"
 #include "ui/error/panel.h"
+#include "ui/inspector/panel.h"
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
 #include "ui/spectra/panel.h"
@@ -32,6 +33,7 @@ const PanelEntry table[] = {
     {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>, SeenByGlass::look},
     {"annealing", AnnealingPanel::title, "inverse", make<AnnealingPanel>, nullptr, nullptr, "inverse"},
     {"environment", EnvironmentPanel::title, "", make<EnvironmentPanel>, nullptr, EnvironmentPanel::serves, "environment"},
+    {"inspector", InspectorPanel::title, "", make<InspectorPanel>},
     {"plan", PlanPanel::title, "", make<PlanPanel>},
     {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
 };

@@ -9,18 +9,31 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace nephroid::ui {
 
+/// How linear values become what a display shows. standard: as image.png. filmic: for a wide range (state/tone.h). false_colour: of the
+/// luminance, logarithmic; exposure plays no part.
+enum class ToneCurve { standard, filmic, false_colour };
+
+/// The luminance at the two ends of false colour.
+struct LuminanceRange {
+  double low = 0, high = 0; ///< W/m^2/sr, 0 < low < high
+  bool operator==(const LuminanceRange&) const = default;
+};
+
 /// How the picture is shown. Nothing here needs a new run.
 struct Look {
-  double exposure_stops = 0;          ///< -20..20
-  bool fit = true;                    ///< the whole picture in the panel; zoom and centre are not used then
-  double zoom = 1;                    ///< screen pixels a picture pixel
-  std::array<double, 2> centre{0, 0}; ///< the picture's point, in pixels, that is at the panel's middle
+  double exposure_stops = 0; ///< -20..20
+  ToneCurve tone = ToneCurve::standard;
+  std::optional<LuminanceRange> false_colour; ///< nothing: automatic_range of what is shown
+  bool fit = true;                            ///< the whole picture in the panel; zoom and centre are not used then
+  double zoom = 1;                            ///< screen pixels a picture pixel
+  std::array<double, 2> centre{0, 0};         ///< the picture's point, in pixels, that is at the panel's middle
   bool operator==(const Look&) const = default;
 };
 
@@ -30,8 +43,15 @@ struct Comparison {
   bool flip = false;       ///< the other picture is shown in place of the run's
   bool difference = false; ///< a map of their difference is shown; flip goes before it
   measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
-  double scale = 0; ///< the value at the end of the map's colours; 0: measure::colour_scale
+  double scale = 0;  ///< the value at the end of the map's colours; 0: measure::colour_scale
+  std::string layer; ///< of both pictures; empty: all of their light
   bool operator==(const Comparison&) const = default;
+};
+
+/// Pixels of the picture: from a column and row to before another.
+struct PixelRegion {
+  std::array<int, 2> from{0, 0}, to{0, 0};
+  bool operator==(const PixelRegion&) const = default;
 };
 
 /// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
@@ -76,6 +96,18 @@ struct ShowDifference {
   bool on = true;
   measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
   double scale = 0; ///< as Comparison::scale
+};
+/// Which layer of the pictures is shown and compared: a name of job::Picture::layers; empty: all of their light.
+struct ShowLayer {
+  std::string layer;
+};
+/// The pixel (column, row) that the panel Inspector shows; nothing: none. It need not be in the picture, whose size may change.
+struct InspectPixel {
+  std::optional<std::array<int, 2>> pixel;
+};
+/// The pixels that the panel Inspector has statistics of; nothing, or none in it: no statistics.
+struct SelectRegion {
+  std::optional<PixelRegion> region;
 };
 /// Keeps the history and the picture of the run as they are now.
 struct PinRun {};
@@ -157,13 +189,13 @@ struct Quit {
 
 } // namespace command
 
-using Command =
-    std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
-                 command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::PinRun,
-                 command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
-                 command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss,
-                 command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout,
-                 command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
+using Command = std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart,
+                             command::Cancel, command::Pause, command::SetLook, command::Flip, command::CompareWith,
+                             command::ShowDifference, command::ShowLayer, command::InspectPixel, command::SelectRegion, command::PinRun,
+                             command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
+                             command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles,
+                             command::Dismiss, command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout,
+                             command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

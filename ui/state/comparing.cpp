@@ -2,11 +2,43 @@
 #include "ui/state/comparing.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace nephroid::ui {
+
+namespace {
+
+/// Null where there is no layer of this name.
+const job::Layer* find_layer(const std::vector<job::Layer>& layers, const std::string& name)
+{
+  const auto found = std::ranges::find(layers, name, &job::Layer::name);
+  return found == layers.end() ? nullptr : &*found;
+}
+
+/// Why a picture (its name as a sentence begins) has no such layer; empty where it has it, or where none is asked for.
+std::string why_no_layer(const std::string& picture, const std::vector<job::Layer>& layers, const std::string& name)
+{
+  if (name.empty() || find_layer(layers, name)) return {};
+  if (layers.empty()) return fmt::format("{} has no layers, and \"{}\" is chosen", picture, name);
+  std::vector<std::string> names;
+  for (const job::Layer& layer : layers) names.push_back(layer.name);
+  return fmt::format("{} has no layer \"{}\", only {}", picture, name, fmt::join(names, ", "));
+}
+
+/// All of a picture or one of its layers; the layer is there. Other pixels have another owner.
+template <class Picture>
+HeldPicture held(const std::shared_ptr<const Picture>& of, const std::string& layer, const std::string& name)
+{
+  const job::Layer* found = layer.empty() ? nullptr : find_layer(of->layers, layer);
+  const std::vector<float>& rgb = found ? found->rgb : of->rgb;
+  return {std::shared_ptr<const void>(of, &rgb), {of->width, of->height, rgb, name}};
+}
+
+} // namespace
 
 void Comparing::carry_out(const command::ShowDifference& c)
 {
@@ -32,9 +64,21 @@ void Comparing::carry_out(const command::Unpin& c)
   if (comparison_.pin == c.pin) comparison_.pin = 0;
 }
 
-std::string Comparing::why_not() const
+std::string Comparing::why_no_picture() const
 {
   if (!run_.snapshot()) return "there is no picture yet";
+  return why_no_layer("the run's picture", run_.snapshot()->picture->layers, comparison_.layer);
+}
+
+HeldPicture Comparing::picture() const
+{
+  if (!why_no_picture().empty()) return {};
+  return held(run_.snapshot()->picture, comparison_.layer, "the run");
+}
+
+std::string Comparing::why_not() const
+{
+  if (const std::string why = why_no_picture(); !why.empty()) return why;
   const PinnedRun* pin = pinned_.find(comparison_.pin);
   const measure::Reference* reference = run_.reference().get();
   if (!pin && !reference) {
@@ -45,7 +89,8 @@ std::string Comparing::why_not() const
   const auto [width, height] =
       pin ? std::array{pin->picture->width, pin->picture->height} : std::array{reference->width, reference->height};
   const job::Picture& picture = *run_.snapshot()->picture;
-  if (width == picture.width && height == picture.height) return {};
+  if (width == picture.width && height == picture.height)
+    return why_no_layer(pin ? '"' + pin->name + '"' : "the reference", pin ? pin->picture->layers : reference->layers, comparison_.layer);
   return fmt::format("{} is {} x {}, the picture {} x {}", pin ? '"' + pin->name + '"' : "the reference", width, height, picture.width,
                      picture.height);
 }
@@ -53,9 +98,8 @@ std::string Comparing::why_not() const
 HeldPicture Comparing::other_picture() const
 {
   if (!why_not().empty()) return {};
-  if (const PinnedRun* pin = pinned_.find(comparison_.pin))
-    return {pin->picture, {pin->picture->width, pin->picture->height, pin->picture->rgb, pin->name}};
-  return {run_.reference(), run_.reference()->pixels()};
+  if (const PinnedRun* pin = pinned_.find(comparison_.pin)) return held(pin->picture, comparison_.layer, pin->name);
+  return held(run_.reference(), comparison_.layer, run_.reference()->origin);
 }
 
 void Comparing::update(DifferenceMaker::Clock::time_point now)
@@ -63,9 +107,7 @@ void Comparing::update(DifferenceMaker::Clock::time_point now)
   if (!comparison_.difference) return;
   const HeldPicture other = other_picture();
   if (!other.owner) return;
-  const std::shared_ptr<const job::Picture>& picture = run_.snapshot()->picture;
-  difference_.want({{picture, {picture->width, picture->height, picture->rgb, "the run"}}, other, comparison_.metric, comparison_.scale},
-                   now);
+  difference_.want({picture(), other, comparison_.metric, comparison_.scale}, now);
 }
 
 } // namespace nephroid::ui

@@ -18,7 +18,11 @@ public:
 
   const PinnedRuns& pinned() const { return pinned_; }
   const Comparison& comparison() const { return comparison_; }
-  /// The reference, or the pinned run that comparison() names; its owner is null where why_not() is not empty.
+  /// The run's picture, or its layer that comparison() names; its owner is null where why_no_picture() is not empty.
+  HeldPicture picture() const;
+  /// Why there is no such picture: a sentence without a full stop; else empty.
+  std::string why_no_picture() const;
+  /// The same of the reference, or of the pinned run that comparison() names; its owner is null where why_not() is not empty.
   HeldPicture other_picture() const;
   /// Why the run's picture and the other one cannot be held against each other: a sentence without a full stop; else empty.
   std::string why_not() const;
@@ -28,12 +32,17 @@ public:
   void carry_out(const command::Flip& c) { comparison_.flip = c.on; }
   void carry_out(const command::CompareWith& c) { comparison_.pin = pinned_.find(c.pin) ? c.pin : 0; }
   void carry_out(const command::ShowDifference& c);
+  void carry_out(const command::ShowLayer& c) { comparison_.layer = c.layer; }
   void carry_out(const command::PinRun&);
   void carry_out(const command::ChangePin& c) { pinned_.change(c.pin, c.name, c.colour, c.shown); }
   void carry_out(const command::Unpin& c);
   void pin(PinnedRun run) { pinned_.add(std::move(run)); }
   /// The map is of another preset.
-  void forget() { difference_.forget(); }
+  void forget()
+  {
+    difference_.forget();
+    comparison_.layer.clear();
+  }
   /// Once a frame: asks for the map of what is shown now.
   void update(DifferenceMaker::Clock::time_point now);
 

@@ -8,6 +8,8 @@
 #include "ui/state/settings.h"
 #include "ui/state/undo.h"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,8 +18,10 @@ namespace nephroid::ui {
 /// What a person chose to see. Nothing here needs a new run.
 struct Chosen {
   Look look;
-  std::string error_metric; ///< to be plotted; empty: the run's own. Not every run has it.
-  std::string material;     ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
+  std::string error_metric;                ///< to be plotted; empty: the run's own. Not every run has it.
+  std::optional<std::array<int, 2>> pixel; ///< that is inspected: column and row; may lie outside of the picture
+  std::optional<PixelRegion> region;       ///< that there are statistics of; may reach out of the picture, is never empty
+  std::string material;                    ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
   bool operator==(const Chosen&) const = default;
 };
 
@@ -35,6 +39,13 @@ struct Context {
   /// Its engine; empty before a preset is opened.
   std::string engine() const { return edits ? std::string(edits->current().settings.type().name) : std::string(); }
   void push(Command command) const { commands.push_back(std::move(command)); }
+  /// The look as the commands of this frame leave it: two keys in one frame must not undo each other.
+  Look look() const
+  {
+    for (auto c = commands.rbegin(); c != commands.rend(); ++c)
+      if (const auto* set = std::get_if<command::SetLook>(&*c)) return set->look;
+    return chosen.look;
+  }
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
   /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.
   template <class Change>

@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "image/image.h"
 #include "run/picture.h"
+#include "ui/state/tone.h"
 
 #include <fmt/format.h>
 
@@ -35,6 +36,27 @@ constexpr std::array kinds{
          "a run's pictures lie beside its preset.json: open that; an environment is named in a preset as scene.environment"},
     Kind{".cl ", "is a kernel source", "start with --kernels and its folder"},
 };
+
+/// Writes the PNG; returns what else is worth saying of it.
+std::string write_shown(const std::filesystem::path& file, const PictureToSave& shown)
+{
+  if (!shown.why_not.empty()) throw failed(file.string(), "nothing to save: " + shown.why_not, "", "show the picture, then save it");
+  const measure::Pixels& pixels = shown.picture.pixels;
+  if (shown.map) {
+    image::write_png_bytes(file, pixels.width, pixels.height, shown.map->rgba);
+    return fmt::format(", a difference whose colours end at {:.3g}", shown.map->scale);
+  }
+  const Tone tone = tone_of(shown.look, shown.white, pixels.rgb);
+  if (tone.curve == ToneCurve::standard) {
+    image::write_png(file, pixels.width, pixels.height, {pixels.rgb.begin(), pixels.rgb.end()}, tone.exposure_stops);
+    return {};
+  }
+  std::vector<unsigned char> rgba(pixels.rgb.size() / 3 * 4);
+  toned_pixels(pixels.rgb, tone, rgba);
+  image::write_png_bytes(file, pixels.width, pixels.height, rgba);
+  if (tone.curve == ToneCurve::filmic) return ", with the filmic curve";
+  return fmt::format(", false colour of {:.3g} to {:.3g} W/m2/sr", tone.range.low, tone.range.high);
+}
 
 std::string lower_ending(const std::filesystem::path& file)
 {
@@ -105,17 +127,17 @@ std::string proposed_name(const preset::Preset* preset, const std::string& endin
   return (!preset || preset->source.empty() ? "untitled" : std::filesystem::path(preset->source).stem().string()) + ending;
 }
 
-void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops)
+void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown)
 {
   background_.push_back(std::async(std::launch::async, [=] {
     const std::string extension = file.extension().string();
-    if (extension == ".png")
-      image::write_png(file, picture->width, picture->height, picture->rgb, exposure_stops);
-    else if (extension == ".exr")
+    if (extension == ".exr")
       image::write_exr(file, run::with_layers(*picture));
-    else
+    else if (extension != ".png")
       throw bad_input(file.string(), "a picture cannot be saved as \"" + extension + "\"",
                       "expected .png (as shown) or .exr (linear, with layers)");
+    else
+      return Done{"saved " + file.string() + write_shown(file, shown)};
     return Done{"saved " + file.string()};
   }));
 }

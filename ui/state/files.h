@@ -3,6 +3,8 @@
 #pragma once
 #include "job/job.h"
 #include "preset/preset.h"
+#include "ui/state/commands.h"
+#include "ui/state/difference.h"
 #include "ui/state/messages.h"
 #include "ui/state/pinned_runs.h"
 
@@ -29,11 +31,20 @@ std::filesystem::path save_target(const preset::Preset* preset);
 /// A proposal for a file's name in the current folder: the preset's own with another ending.
 std::string proposed_name(const preset::Preset* preset, const std::string& ending);
 
+/// The View's picture, for a file.
+struct PictureToSave {
+  HeldPicture picture;
+  std::shared_ptr<const ShownDifference> map; ///< in place of the picture; null: none
+  Look look;
+  double white = 1;    ///< preset::Preset::white
+  std::string why_not; ///< there is none: a sentence without a full stop
+};
+
 /// Files that are read and written away from the window's thread.
 class FileWork {
 public:
-  /// By the extension of file: .png as shown with this exposure, .exr linear with every layer.
-  void save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops);
+  /// By the extension of file: .png as shown, .exr the run's picture, linear with every layer.
+  void save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown);
   /// The files of a run, into a folder that is made where it is not there. open: the one to be opened then.
   void save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open);
   /// read_pin() of a path; as `like` in name, colour and whether it is shown, where that is given.

@@ -99,8 +99,8 @@ PinnedRun read_pin(const std::filesystem::path& path)
   run.history = std::make_shared<job::History>(is_of_folder ? measure::read_run_history(folder) : measure::read_history(file));
   run.name = is_of_folder ? folder.filename().string() : file.stem().string();
   if (const std::filesystem::path image = folder / "image.exr"; is_of_folder && is_there(image)) {
-    measure::LinearPicture read = measure::read_linear_rgb(image);
     auto picture = std::make_shared<job::Picture>();
+    measure::LinearPicture read = measure::read_linear_rgb(image, picture->layers);
     picture->width = read.width;
     picture->height = read.height;
     picture->rgb = std::move(read.rgb);

@@ -115,6 +115,7 @@ void RunInHand::update(const UndoStack* edits)
 {
   // In this order: the worker makes a run's last snapshot before it says that the run is over.
   status_ = worker_.status();
+  spectrum_ = worker_.spectrum();
   take_snapshot();
   take_arrival();
   report_failure();

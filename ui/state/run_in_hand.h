@@ -9,8 +9,10 @@
 #include "ui/state/undo.h"
 
 #include <any>
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,8 @@ public:
   void end_gesture() { gesture_lasts_ = false; }
   void cancel();
   void pause(bool on) { worker_.pause(on); }
+  /// As job::Worker's.
+  void watch_spectrum(std::optional<std::array<int, 2>> pixel) { worker_.watch_spectrum(pixel); }
   /// Once a frame: takes the newest snapshot, and starts the run that edits ask for. edits: null before a preset is opened.
   void update(const UndoStack* edits);
 
@@ -47,6 +51,8 @@ public:
   const std::shared_ptr<const job::Snapshot>& snapshot() const { return snapshot_; }
   /// Whether snapshot() is of the preset as it is now.
   bool snapshot_is_current() const { return snapshot_is_current_; }
+  /// Of the pixel that is watched, as of snapshot() or a little newer; null where there is none.
+  const std::shared_ptr<const job::PixelSpectrum>& spectrum() const { return spectrum_; }
   /// Of the run that snapshot() is of: "Ball lens: distance of the camera", the preset and the newest edit.
   const std::string& snapshot_name() const { return snapshot_name_; }
   /// What the run's error was so far, of snapshot(); null where nothing is measured.
@@ -88,6 +94,7 @@ private:
   std::uint64_t adoption_ = 0;                   ///< of it by the run in hand: Snapshot::adoption of a picture of it is not less
   job::Status status_;
   std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
+  std::shared_ptr<const job::PixelSpectrum> spectrum_;
   std::shared_ptr<Arrival> arrival_; ///< where the run in hand leaves what came with it
   std::shared_ptr<const plan::Plan> plan_;
   std::shared_ptr<const measure::Reference> reference_;

@@ -4,11 +4,13 @@
 #include "base/error.h"
 #include "base/json_output.h"
 #include "preset/read.h"
+#include "ui/state/tone.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -19,9 +21,17 @@ using PresetPtr = std::shared_ptr<const preset::Preset>;
 
 constexpr int version = 1;
 
+constexpr std::array tone_names{"standard", "filmic", "false_colour"}; ///< in the order of ToneCurve
+
 Json look_json(const Look& look)
 {
-  return {{"exposure_stops", look.exposure_stops}, {"fit", look.fit}, {"zoom", look.zoom}, {"centre", look.centre}};
+  Json json{{"exposure_stops", look.exposure_stops},
+            {"tone", tone_names[static_cast<std::size_t>(look.tone)]},
+            {"fit", look.fit},
+            {"zoom", look.zoom},
+            {"centre", look.centre}};
+  if (look.false_colour) json["false_colour"] = {look.false_colour->low, look.false_colour->high};
+  return json;
 }
 
 double finite(const Json& value, double low, double high)
@@ -36,6 +46,11 @@ Look read_look(const Json& value)
   constexpr double far = 1e6;
   Look look;
   look.exposure_stops = finite(value.at("exposure_stops"), -20, 20);
+  const auto tone = std::ranges::find(tone_names, value.value("tone", std::string(tone_names[0])));
+  if (tone == tone_names.end()) throw std::out_of_range("there is no such tone curve");
+  look.tone = static_cast<ToneCurve>(tone - tone_names.begin());
+  if (value.contains("false_colour"))
+    look.false_colour = valid_range({value["false_colour"].at(0).get<double>(), value["false_colour"].at(1).get<double>()});
   look.fit = value.at("fit").get<bool>();
   look.zoom = finite(value.at("zoom"), 1.0 / 1024, 1024);
   for (std::size_t i = 0; i < 2; ++i) look.centre[i] = finite(value.at("centre").at(i), -far, far);

@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "preset/settings_type.h"
 #include "ui/state/dielectrics.h"
+#include "ui/state/tone.h"
 
 #include <algorithm>
 #include <exception>
@@ -55,6 +56,8 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
   comparing_.forget();
   run_.forget();
   chosen_.look = Look{};
+  chosen_.region.reset();
+  carry_out(command::InspectPixel{});
   question_ = Question::none;
   waiting_.reset();
   run_.start(*edits_);
@@ -133,7 +136,20 @@ void Workbench::carry_out(const command::Restart&)
 void Workbench::carry_out(const command::SetLook& c)
 {
   chosen_.look = c.look;
+  if (c.look.false_colour) chosen_.look.false_colour = valid_range(*c.look.false_colour);
   chosen_.look.exposure_stops = std::clamp(c.look.exposure_stops, -20.0, 20.0);
+}
+
+void Workbench::carry_out(const command::InspectPixel& c)
+{
+  chosen_.pixel = c.pixel;
+  run_.watch_spectrum(c.pixel);
+}
+
+void Workbench::carry_out(const command::SelectRegion& c)
+{
+  chosen_.region = c.region;
+  if (c.region && (c.region->from[0] >= c.region->to[0] || c.region->from[1] >= c.region->to[1])) chosen_.region.reset();
 }
 
 void Workbench::carry_out(const command::PinFile& c)
@@ -175,7 +191,18 @@ void Workbench::carry_out(const command::SavePicture& c)
 {
   if (!run_.snapshot()) return;
   question_ = Question::none;
-  files_.save_picture(c.file, run_.snapshot()->picture, chosen_.look.exposure_stops);
+  files_.save_picture(c.file, run_.snapshot()->picture, shown_picture());
+}
+
+PictureToSave Workbench::shown_picture() const
+{
+  const Comparison& comparison = comparing_.comparison();
+  const double white = edits_ ? edits_->current().white : 1;
+  if (comparison.flip) return {comparing_.other_picture(), {}, chosen_.look, white, comparing_.why_not()};
+  if (!comparison.difference) return {comparing_.picture(), {}, chosen_.look, white, comparing_.why_no_picture()};
+  const auto& map = comparing_.difference();
+  if (!map) return {{}, {}, {}, 1, "the difference is not computed yet"};
+  return {map->of.picture, map, chosen_.look, white, map->error};
 }
 
 void Workbench::carry_out(const command::SaveFiles& c)

@@ -74,6 +74,8 @@ private:
   void carry_out(const command::Cancel&) { run_.cancel(); }
   void carry_out(const command::Pause& c) { run_.pause(c.on); }
   void carry_out(const command::SetLook& c);
+  void carry_out(const command::InspectPixel& c);
+  void carry_out(const command::SelectRegion& c);
   void carry_out(const command::PinFile& c);
   void carry_out(const command::ChooseMetric& c) { chosen_.error_metric = c.metric; }
   void carry_out(const command::ChooseMaterial& c) { chosen_.material = c.material; }
@@ -105,6 +107,8 @@ private:
   void look_at_files();
   /// What the preset's file has now becomes an edit that counts as saved. False where it is what is there already.
   bool take_over_file();
+  /// What the View shows now.
+  PictureToSave shown_picture() const;
   EngineLayout& engine_layout();
 
   std::optional<UndoStack> edits_;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/comparison_bar.h"
 
+#include "ui/view/colour_scale.h"
 #include "ui/widgets/action.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 namespace nephroid::ui {
 namespace {
@@ -110,35 +110,13 @@ void draw_comparison_bar(const Context& context)
 void draw_colour_scale(const ShownDifference& map, const Canvas& canvas)
 {
   const bool is_signed = measure::is_signed(map.of.metric);
-  const float em = ImGui::GetFontSize();
-  const float height = std::min(16 * em, 0.7f * static_cast<float>(canvas.size[1])), width = em;
-  const ImVec2 corner{static_cast<float>(canvas.corner[0] + canvas.size[0]) - 2 * width, static_cast<float>(canvas.corner[1]) + 1.5f * em};
-  ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  std::array<std::string, 5> numbers;
-  float text_width = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const double position = static_cast<double>(i) / (numbers.size() - 1);
-    numbers[i] = fmt::format("{:.3g}", map.scale * (is_signed ? 2 * position - 1 : position));
-    text_width = std::max(text_width, ImGui::CalcTextSize(numbers[i].c_str()).x);
+  constexpr int numbers = 5;
+  std::vector<ScaleMark> marks;
+  for (int i = 0; i < numbers; ++i) {
+    const double position = static_cast<double>(i) / (numbers - 1);
+    marks.emplace_back(position, fmt::format("{:.3g}", map.scale * (is_signed ? 2 * position - 1 : position)));
   }
-  draw_list->AddRectFilled({corner.x - text_width - em, corner.y - em}, {corner.x + 1.5f * width, corner.y + height + em}, colour::overlay,
-                           0.4f * em);
-  const auto colour_at = [&](float position) {
-    const auto [r, g, b] = measure::map_colour(position, is_signed);
-    return IM_COL32(r, g, b, 255);
-  };
-  constexpr int parts = 64;
-  for (int part = 0; part < parts; ++part) {
-    const float low = static_cast<float>(part) / parts, high = static_cast<float>(part + 1) / parts;
-    const ImU32 above = colour_at(high), below = colour_at(low);
-    draw_list->AddRectFilledMultiColor({corner.x, corner.y + (1 - high) * height}, {corner.x + width, corner.y + (1 - low) * height}, above,
-                                       above, below, below);
-  }
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const float y = corner.y + height * (1 - static_cast<float>(i) / (numbers.size() - 1));
-    const ImVec2 extent = ImGui::CalcTextSize(numbers[i].c_str());
-    draw_list->AddText({corner.x - extent.x - 0.4f * em, y - extent.y / 2}, colour::on_dark, numbers[i].c_str());
-  }
+  draw_scale(canvas, "", marks, [&](float position) { return measure::map_colour(static_cast<double>(position), is_signed); });
 }
 
 } // namespace nephroid::ui

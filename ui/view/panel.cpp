@@ -3,12 +3,14 @@
 
 #include "ui/view/camera_moves.h"
 #include "ui/view/comparison_bar.h"
+#include "ui/view/look_bar.h"
+#include "ui/view/marks.h"
 #include "ui/widgets/action.h"
-#include "ui/widgets/shown_pixels.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,12 +42,15 @@ void ViewPanel::draw(const Context& context)
 {
   shown_ = shown_picture(context);
   draw_toolbar(context);
+  places_.clear();
+  draw_look_bar(context, tone_, places_);
   draw_comparison_bar(context);
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   canvas_ = {{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
   ImGui::InvisibleButton("picture", vec(canvas_.size),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   hovered_ = ImGui::IsItemHovered();
+  own_keys(context);
   use_mouse(context);
   refresh_texture(context);
   const auto& map = context.comparing.difference();
@@ -54,15 +59,17 @@ void ViewPanel::draw(const Context& context)
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
   draw_picture(context);
   if (!shown_.hint.empty()) draw_hint_on_dark(corner, vec(canvas_.size), shown_.hint);
+  draw_marks(context, place(context.chosen.look, canvas_, shown_.size), shown_.size);
   if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
   if (map && map == shown_.owner) draw_colour_scale(*map, canvas_);
+  if (!shown_.rgb.empty() && tone_.curve == ToneCurve::false_colour) draw_luminance_scale(tone_.range, canvas_);
   draw_pixel_value(context);
   draw_list->PopClipRect();
 }
 
 void ViewPanel::draw_toolbar(const Context& context)
 {
-  Look look = context.chosen.look;
+  Look look = context.look();
   float stops = static_cast<float>(look.exposure_stops);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Exposure");
@@ -83,15 +90,22 @@ void ViewPanel::draw_toolbar(const Context& context)
 
 void ViewPanel::refresh_texture(const Context& context)
 {
-  const double stops = shown_.rgba.empty() ? context.chosen.look.exposure_stops : 0;
-  if (!shown_.owner || (shown_.owner == in_texture_ && stops == stops_in_texture_)) return;
+  if (!shown_.owner) return;
+  const Look& look = context.chosen.look;
+  const double white = context.preset() ? context.preset()->white : 1;
+  const bool toned = !shown_.rgb.empty(), same_tone = look.exposure_stops == look_in_texture_.exposure_stops &&
+                                                      look.tone == look_in_texture_.tone &&
+                                                      look.false_colour == look_in_texture_.false_colour && white == white_in_texture_;
+  if (shown_.owner == in_texture_ && (!toned || same_tone)) return;
   const std::span<unsigned char> bytes = texture_.edit(shown_.size[0], shown_.size[1]);
-  if (shown_.rgba.empty())
-    shown_pixels(shown_.rgb, stops, bytes);
-  else
+  if (toned) {
+    tone_ = tone_of(look, white, shown_.rgb);
+    toned_pixels(shown_.rgb, tone_, bytes);
+  } else
     std::copy(shown_.rgba.begin(), shown_.rgba.end(), bytes.begin());
   in_texture_ = shown_.owner;
-  stops_in_texture_ = stops;
+  look_in_texture_ = look;
+  white_in_texture_ = white;
 }
 
 void ViewPanel::draw_picture(const Context& context)
@@ -121,6 +135,15 @@ void ViewPanel::draw_pixel_value(const Context& context) const
   draw_overlay(vec({canvas_.corner[0] + pad, canvas_.corner[1] + canvas_.size[1] - ImGui::CalcTextSize(text.c_str()).y - 3 * pad}), text);
 }
 
+/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected the arrow keys are its, not the keyboard's cursor's.
+void ViewPanel::own_keys(const Context& context)
+{
+  ImGui::SetItemKeyOwner(ImGuiMod_Alt);
+  if (!context.chosen.pixel || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  for (const ImGuiKey key : {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow})
+    ImGui::SetKeyOwner(key, ImGui::GetItemID());
+}
+
 void ViewPanel::use_mouse(const Context& context)
 {
   if (!context.preset()) return;
@@ -134,6 +157,8 @@ void ViewPanel::start_drag(const Context& context)
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl)
     drag_ = Drag::move_picture;
+  else if (io.KeyAlt && ImGui::IsMouseDown(ImGuiMouseButton_Left))
+    drag_ = Drag::mark, marks_region_ = false;
   else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || (ImGui::IsMouseDown(ImGuiMouseButton_Left) && io.KeyShift))
     drag_ = Drag::pan;
   else if (ImGui::IsMouseDown(ImGuiMouseButton_Right))
@@ -152,12 +177,16 @@ void ViewPanel::continue_drag(const Context& context)
   const Point delta{mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]};
   if (step.x != 0 || step.y != 0) {
     if (drag_ == Drag::move_picture) {
-      Look look = dragged(look_at_start_, canvas_, shown_.size, delta);
-      look.exposure_stops = context.chosen.look.exposure_stops;
+      const Look moved = dragged(look_at_start_, canvas_, shown_.size, delta);
+      Look look = context.look();
+      look.fit = moved.fit;
+      look.zoom = moved.zoom;
+      look.centre = moved.centre;
       context.push(command::SetLook{look});
-    } else
+    } else if (drag_ != Drag::mark)
       move_camera(context, delta);
   }
+  if (drag_ == Drag::mark) mark(context);
   if (ImGui::IsItemActive()) return;
   drag_ = Drag::none;
   context.push(command::EndGesture{});
@@ -179,11 +208,23 @@ void ViewPanel::move_camera(const Context& context, const Point& delta) const
     edit("distance of the camera", dolly(camera_at_start_, std::exp2(2 * down)));
 }
 
+/// A click takes a pixel, a drag a rectangle, which follows the mouse.
+void ViewPanel::mark(const Context& context)
+{
+  const Placement placement = place(context.chosen.look, canvas_, shown_.size);
+  const double way = std::hypot(mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]);
+  marks_region_ = marks_region_ || way >= ImGui::GetIO().MouseDragThreshold;
+  if (marks_region_) context.push(command::SelectRegion{region_between(placement, shown_.size, drag_from_, mouse())});
+  if (ImGui::IsItemActive()) return;
+  if (!marks_region_) context.push(command::InspectPixel{pixel_at(placement, shown_.size, mouse())});
+  context.push(command::ShowPanel{"inspector"});
+}
+
 void ViewPanel::use_wheel(const Context& context)
 {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl) {
-    context.push(command::SetLook{zoomed(context.chosen.look, canvas_, shown_.size, mouse(), std::pow(notch, io.MouseWheel))});
+    context.push(command::SetLook{zoomed(context.look(), canvas_, shown_.size, mouse(), std::pow(notch, io.MouseWheel))});
     return;
   }
   const double now = ImGui::GetTime();

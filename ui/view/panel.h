@@ -2,10 +2,12 @@
 // The View panel: the picture as it converges, or what it is compared with. The mouse moves the camera (edits of the preset) or the picture
 // in the panel (its look); docs/window.md says which does what.
 #pragma once
+#include "ui/state/tone.h"
 #include "ui/view/placement.h"
 #include "ui/view/shown_picture.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/picture_texture.h"
+#include "ui/widgets/widgets.h"
 
 #include <memory>
 
@@ -19,30 +21,38 @@ public:
   /// Where the picture's part of the panel was drawn last, and the picture in it; for tests.
   const Canvas& canvas() const { return canvas_; }
   const PictureTexture& texture() const { return texture_; }
+  const Tone& tone() const { return tone_; }
+  const WidgetPlaces& places() const { return places_; }
   /// What it showed last; for tests.
   const ShownPicture& shown() const { return shown_; }
 
 private:
-  enum class Drag { none, orbit, pan, dolly, move_picture };
+  enum class Drag { none, orbit, pan, dolly, move_picture, mark };
 
   void draw_toolbar(const Context& context);
   void draw_picture(const Context& context);
   void draw_pixel_value(const Context& context) const;
+  void own_keys(const Context& context);
   void use_mouse(const Context& context);
   void start_drag(const Context& context);
   void continue_drag(const Context& context);
   void move_camera(const Context& context, const Point& delta) const;
+  void mark(const Context& context);
   void use_wheel(const Context& context);
   void refresh_texture(const Context& context);
 
+  WidgetPlaces places_;
   Canvas canvas_;
   ShownPicture shown_; ///< of the frame that is being drawn
   PictureTexture texture_;
   std::shared_ptr<const void> in_texture_; ///< what the texture shows,
-  double stops_in_texture_ = 0;            ///< and with which exposure
+  Look look_in_texture_;                   ///< of which its exposure and tone curve,
+  double white_in_texture_ = 1;            ///< and for which white
+  Tone tone_;                              ///< that it was made with
 
   Drag drag_ = Drag::none;
   Point drag_from_{0, 0};
+  bool marks_region_ = false;      ///< the mouse went too far for a click
   preset::Camera camera_at_start_; ///< a drag is measured from its start, so that rounding does not add up
   Look look_at_start_;
   std::uint64_t gesture_ = 0; ///< number of the newest gesture

@@ -88,14 +88,18 @@ ShownPicture shown_picture(const Context& context)
   const Comparison& comparison = context.comparing.comparison();
   if (shown.hint = too_large_hint(shown.size); !shown.hint.empty()) return shown;
   if (!comparison.flip && !comparison.difference) {
-    shown.owner = snapshot;
-    shown.rgb = picture.rgb;
+    const HeldPicture held = context.comparing.picture();
+    shown.owner = held.owner;
+    shown.rgb = held.pixels.rgb;
+    if (const std::string why = context.comparing.why_no_picture(); !why.empty())
+      shown.hint = fmt::format("Nothing to show: {}. Choose above, or go on with L.", why);
+    shown.label = comparison.layer;
   } else if (const HeldPicture other = context.comparing.other_picture(); !other.owner)
     shown.hint = "Nothing to compare with: " + context.comparing.why_not();
   else if (comparison.flip) {
     shown.owner = other.owner;
     shown.rgb = other.pixels.rgb;
-    shown.label = other_name(context);
+    shown.label = other_name(context) + (comparison.layer.empty() ? "" : ": " + comparison.layer);
   } else
     show_difference(context, other, shown);
   return shown;
@@ -109,7 +113,8 @@ std::string pixel_text(const Context& context, const std::array<int, 2>& pixel)
   const std::array<int, 2> size{picture.width, picture.height};
   const double white = context.preset()->white;
   constexpr const char* format = "R {:.4g}   G {:.4g}   B {:.4g}   Y {:.4g} W/m2/sr";
-  const Rgb of_run = value_at(picture.rgb, size, pixel);
+  const HeldPicture held = context.comparing.picture();
+  const Rgb of_run = value_at(held.owner ? held.pixels.rgb : std::span<const float>(picture.rgb), size, pixel);
   std::string text = fmt::format("({}, {})   ", pixel[0], pixel[1]) + text_of(of_run, white, format);
   const Comparison& comparison = context.comparing.comparison();
   const HeldPicture other = context.comparing.other_picture();

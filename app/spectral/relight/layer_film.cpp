@@ -52,6 +52,26 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
   return pictures;
 }
 
+std::vector<LayerSums> LayerFilm::pixel(std::size_t index) const
+{
+  std::vector<LayerSums> all;
+  std::array<int, 2> range{};
+  first_.RawBuffer::read(range.data(), sizeof(range), index * sizeof(int));
+  for (int i = range[0]; i < range[1]; ++i) {
+    shared::LayerCell cell{};
+    cells_.RawBuffer::read(&cell, sizeof(cell), static_cast<std::size_t>(i) * sizeof(cell));
+    const auto number = static_cast<std::size_t>(cell.cell);
+    std::vector<std::int64_t> block(halves_ * layers_ * LAYER_BLOCK);
+    const std::size_t bytes = block.size() * sizeof(std::int64_t);
+    sums_.RawBuffer::read(block.data(), bytes, number / LAYER_BLOCK * bytes);
+    LayerSums sums{cell.reflector, {}};
+    for (std::size_t row = 0; row < halves_ * layers_; ++row)
+      sums.sums.push_back(static_cast<double>(block[row * LAYER_BLOCK + number % LAYER_BLOCK]));
+    all.push_back(std::move(sums));
+  }
+  return all;
+}
+
 namespace {
 
 /// factors(half, layer): what a layer's colours are multiplied by in the two pictures.

@@ -26,6 +26,12 @@ struct LayerFilmWeights {
   int exponent = 0;
 };
 
+/// Of one reflector that a pixel sees.
+struct LayerSums {
+  int reflector = 0;
+  std::vector<double> sums; ///< [half][layer], in the film's quanta
+};
+
 class LayerFilm {
 public:
   LayerFilm() = default;
@@ -42,6 +48,9 @@ public:
 
   /// Two pictures, each [pixel][3]: sums over halves, layers and the pixel's cells, times the weights.
   std::array<std::vector<float>, 2> weigh(const LayerFilmWeights& by);
+
+  /// What a pixel's cells hold.
+  std::vector<LayerSums> pixel(std::size_t index) const;
 
   void save(tracing::StateWriter& to) const { to.buffer(sums_); }
   void load(tracing::StateReader& from) { from.buffer(sums_); }

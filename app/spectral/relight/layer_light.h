@@ -33,6 +33,11 @@ struct LayerWeights {
 };
 LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTables& tables);
 
+/// Adds to radiance [wavelength], W m^-2 sr^-1 nm^-1, what a layer of this value is where a reflector is seen. cluster: of
+/// WavelengthTables::clusters; -1: all wavelengths.
+void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t of_light, int cluster, int reflector,
+                  double value, std::vector<double>& radiance);
+
 /// What kernels ask of reflectors where a pixel's survey missed one.
 struct FlatLight {
   std::vector<float> mean_reflectance; ///< [cluster][reflector], then by luminance over all wavelengths: [reflector]

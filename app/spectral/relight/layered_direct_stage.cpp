@@ -71,8 +71,7 @@ public:
     std::vector<float>& rgb = tracing::layer_of(picture, "direct").rgb;
     const std::size_t row_length = 3 * static_cast<std::size_t>(picture.width);
     for (std::size_t row = 0; row < static_cast<std::size_t>(picture.height); ++row) {
-      const bool sampled = done || static_cast<std::int64_t>(row) < rows_.done();
-      const auto [a, b] = passes >= pixel_samples_ ? tracing::halves_of(pixel_samples_, 0) : tracing::halves_of(passes, sampled ? 1 : 0);
+      const auto [a, b] = samples_of_row(row, passes, done);
       if (a <= 0 || b <= 0 || world_.halves == 1) picture.error_draw.clear();
       const double mean = a + b > 0 ? 1 / (a + b) : 0, of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
       for (std::size_t i = row * row_length; i < (row + 1) * row_length; ++i) {
@@ -81,6 +80,25 @@ public:
         if (!picture.error_draw.empty()) picture.error_draw[i] += static_cast<float>(of_a * first - of_b * second);
       }
     }
+  }
+
+  bool add_spectrum(std::int64_t passes, bool done, job::PixelSpectrum& to) override
+  {
+    std::vector<double>& radiance = to.layers.emplace_back("direct", std::vector<double>(optics::wavelength_count)).radiance;
+    const auto [x, y] = to.pixel;
+    const auto [a, b] = samples_of_row(static_cast<std::size_t>(y), passes, done);
+    const double unit = a + b > 0 ? 1 / ((a + b) * world_.tables.direct_scale) : 0;
+    const int clusters = static_cast<int>(world_.tables.wavelengths.clusters.size());
+    const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.tables.camera.width) + static_cast<std::size_t>(x);
+    for (const LayerFilm* film : {&unbent_, &bent_})
+      for (const LayerSums& seen : film->pixel(pixel))
+        for (std::size_t i = 0; i < seen.sums.size(); ++i) {
+          const auto layer = static_cast<int>(i % film->layers());
+          const int light = film == &bent_ ? layer / clusters : layer, cluster = film == &bent_ ? layer % clusters : -1;
+          add_radiance(relighting_.light, world_.tables.wavelengths, static_cast<std::size_t>(light), cluster, seen.reflector,
+                       seen.sums[i] * unit, radiance);
+        }
+    return true;
   }
 
   void save(tracing::StateWriter& to) const override
@@ -97,6 +115,13 @@ public:
   }
 
 private:
+  /// Of each half of the film.
+  std::array<double, 2> samples_of_row(std::size_t row, std::int64_t passes, bool done) const
+  {
+    const bool sampled = done || static_cast<std::int64_t>(row) < rows_.done();
+    return passes >= pixel_samples_ ? tracing::halves_of(pixel_samples_, 0) : tracing::halves_of(passes, sampled ? 1 : 0);
+  }
+
   DeviceWorld& world_;
   const Relighting& relighting_;
   std::int64_t pixel_samples_;

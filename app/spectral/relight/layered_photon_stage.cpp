@@ -61,19 +61,31 @@ public:
 
   void develop(std::int64_t, bool, job::Picture& picture) override
   {
-    std::vector<HalfCounts> counts(film_.layers(), HalfCounts{0, 0});
-    for (std::size_t e = 0; e < emitters_.size(); ++e) {
-      HalfCounts& layer = counts[layer_of_emitter(e)];
-      layer = {static_cast<double>(sent_[e][0]), static_cast<double>(sent_[e][1])};
-      layer[at_.half] += sent_in_hand(emitters_[e]);
-      if (layer[0] <= 0 || layer[1] <= 0) picture.error_draw.clear();
-    }
+    const std::vector<HalfCounts> counts = photons_of_layers();
+    for (std::size_t e = 0; e < emitters_.size(); ++e)
+      if (const HalfCounts& layer = counts[layer_of_emitter(e)]; layer[0] <= 0 || layer[1] <= 0) picture.error_draw.clear();
     if (world_.halves == 1) picture.error_draw.clear();
     const int reflectors = world_.tables.wavelengths.reflector_count;
     const auto [mean, draw] = film_.weigh(mean_and_draw(relighting_.weights.clusters, counts, reflectors, world_.halves, scale_));
     std::vector<float>& rgb = tracing::layer_of(picture, "caustic").rgb;
     for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] += mean[i];
     for (std::size_t i = 0; i < picture.error_draw.size(); ++i) picture.error_draw[i] += draw[i];
+  }
+
+  bool add_spectrum(std::int64_t, bool, job::PixelSpectrum& to) override
+  {
+    std::vector<double>& radiance = to.layers.emplace_back("caustic", std::vector<double>(optics::wavelength_count)).radiance;
+    const std::vector<HalfCounts> counts = photons_of_layers();
+    const auto [x, y] = to.pixel;
+    const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.tables.camera.width) + static_cast<std::size_t>(x);
+    for (const LayerSums& seen : film_.pixel(pixel))
+      for (std::size_t i = 0; i < seen.sums.size(); ++i) {
+        const std::size_t layer = i % film_.layers();
+        if (const double sent = counts[layer][0] + counts[layer][1]; sent > 0)
+          add_radiance(relighting_.light, world_.tables.wavelengths, layer / cluster_count(), static_cast<int>(layer % cluster_count()),
+                       seen.reflector, seen.sums[i] / (sent * scale_), radiance);
+      }
+    return true;
   }
 
   void save(tracing::StateWriter& to) const override
@@ -118,6 +130,18 @@ private:
   double sent_in_hand(const shared::DeviceEmitter& emitter) const
   {
     return slices_.done_of(emitter.first_photon + emitter.photon_count) - slices_.done_of(emitter.first_photon);
+  }
+
+  /// [layer], with the part of the pass in hand.
+  std::vector<HalfCounts> photons_of_layers() const
+  {
+    std::vector<HalfCounts> counts(film_.layers(), HalfCounts{0, 0});
+    for (std::size_t e = 0; e < emitters_.size(); ++e) {
+      HalfCounts& layer = counts[layer_of_emitter(e)];
+      layer = {static_cast<double>(sent_[e][0]), static_cast<double>(sent_[e][1])};
+      layer[at_.half] += sent_in_hand(emitters_[e]);
+    }
+    return counts;
   }
 
   /// Photons of a light to one half of the film, in the complete passes.

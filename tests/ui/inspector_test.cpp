@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies.
+#include "layered_runs.h"
+#include "spectral/settings.h"
+#include "ui/inspector/panel.h"
+#include "ui/inspector/pixel.h"
+#include "ui/widgets/action.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using test::eventually;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Optional;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+using Pixel = std::array<int, 2>;
+
+class InspectorTest : public test::WindowFixtureOf<test::LayeredRuns> {
+protected:
+  InspectorTest() : WindowFixtureOf("inspector") {}
+  void start()
+  {
+    open();
+    finish();
+  }
+  const InspectorPanel& inspector() { return workspace.panel<InspectorPanel>(); }
+  std::optional<Pixel> pixel() { return workbench.chosen().pixel; }
+  /// The middle of a pixel on the screen.
+  Point place_of(int x, int y)
+  {
+    return place(workbench.chosen().look, workspace.panel<ViewPanel>().canvas(), {64, 48}).to_screen({x + 0.5, y + 0.5});
+  }
+  void with_alt(const std::function<void()>& what)
+  {
+    imgui.key(ImGuiMod_Alt, true);
+    what();
+    imgui.key(ImGuiMod_Alt, false);
+    frames(2);
+  }
+  void click_on(const std::string& widget)
+  {
+    const auto at = inspector().places().of(widget);
+    ASSERT_TRUE(at) << widget;
+    click(*at);
+    frames(2);
+  }
+  PixelRow row(const std::string& name)
+  {
+    for (const PixelRow& row : pixel_rows(context(), pixel().value()))
+      if (row.name == name) return row;
+    ADD_FAILURE() << "no row " << name;
+    return {};
+  }
+  bool has_statistics()
+  {
+    return eventually([&] { frame(); }, [&] { return inspector().statistics() != nullptr; });
+  }
+};
+
+TEST_F(InspectorTest, AltAndAClickTakesAPixelAndArrowsMoveIt)
+{
+  start();
+  const preset::Camera before = camera();
+  with_alt([&] { click(place_of(40, 11)); });
+  EXPECT_THAT(pixel(), Optional(Pixel{40, 11}));
+  EXPECT_EQ(camera(), before) << "the camera stays";
+  EXPECT_FALSE(workbench.chosen().region);
+  press(ImGuiKey_LeftArrow);
+  EXPECT_THAT(pixel(), Optional(Pixel{39, 11}));
+  press(ImGuiKey_DownArrow);
+  press(ImGuiKey_DownArrow);
+  press(ImGuiKey_RightArrow);
+  press(ImGuiKey_UpArrow);
+  EXPECT_THAT(pixel(), Optional(Pixel{40, 12}));
+  workbench.apply({command::InspectPixel{Pixel{63, 0}}});
+  press(ImGuiKey_RightArrow);
+  press(ImGuiKey_UpArrow);
+  EXPECT_THAT(pixel(), Optional(Pixel{63, 0})) << "not beyond the picture";
+  frames(2);
+  click_on("let go");
+  EXPECT_FALSE(pixel());
+  press(ImGuiKey_LeftArrow);
+  EXPECT_FALSE(pixel());
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(InspectorTest, AKeyTakesThePixelInTheMiddleAndLetsItGo)
+{
+  start();
+  press(ImGuiKey_I);
+  EXPECT_THAT(pixel(), Optional(Pixel{32, 24}));
+  press(ImGuiKey_I);
+  EXPECT_FALSE(pixel());
+  Look near;
+  near.fit = false;
+  near.zoom = 8;
+  near.centre = {10.5, 1e9};
+  workbench.apply({command::SetLook{near}});
+  press(ImGuiKey_I);
+  EXPECT_THAT(pixel(), Optional(Pixel{10, 47}));
+}
+
+TEST_F(InspectorTest, SaysValuesLayersAndTheReference)
+{
+  runs.reference = test::even_reference({1, 1, 1}, {0.5f, 0, 0});
+  std::const_pointer_cast<measure::Reference>(runs.reference)->error_draw.assign(3 * 64 * 48, -0.01f);
+  start();
+  workbench.apply({command::InspectPixel{Pixel{32, 12}}});
+  EXPECT_THAT(row("this run").rgb, ElementsAre(0.75f, 0.75f, 0.125f));
+  EXPECT_NEAR(row("this run").luminance, 0.704875, 1e-6) << ".2126 .75 + .7152 .75 + .0722 .125";
+  // L* = 116 (Y)^(1/3) - 16
+  EXPECT_NEAR(row("this run").lab[0], 116 * std::cbrt(0.704875) - 16, 1e-3);
+  EXPECT_THAT(row("direct").rgb, ElementsAre(0.25f, 0.5f, 0.125f));
+  EXPECT_THAT(row("caustic").rgb, ElementsAre(0.5f, 0.25f, 0));
+  EXPECT_THAT(row("reference").rgb, ElementsAre(1, 1, 1));
+  EXPECT_THAT(row("difference").rgb, ElementsAre(-0.25f, -0.25f, -0.875f));
+  EXPECT_FALSE(row("difference").is_colour);
+  EXPECT_THAT(row("reference's standard error").rgb, Each(0.01f));
+  workbench.apply({command::ShowLayer{"caustic"}});
+  EXPECT_THAT(row("reference: caustic").rgb, ElementsAre(0.5f, 0, 0));
+  EXPECT_THAT(row("difference").rgb, ElementsAre(0, 0.25f, 0));
+  frames(2);
+  click_on("copy pixel");
+  EXPECT_THAT(ImGui::GetClipboardText(), StartsWith("pixel (32, 12)\tR\tG\tB\tY W/m2/sr\tL*\ta*\tb*\nthis run\t0.75\t0.75\t0.125\t0.704"));
+  EXPECT_THAT(ImGui::GetClipboardText(), HasSubstr("\ncaustic\t0.5\t0.25\t0\t"));
+}
+
+TEST_F(InspectorTest, APixelOutsideOfThePictureIsSaidAndComesBack)
+{
+  start();
+  workbench.apply({command::InspectPixel{Pixel{500, -3}}});
+  frames(2);
+  EXPECT_TRUE(pixel_rows(context(), *pixel()).empty());
+  press(ImGuiKey_LeftArrow);
+  EXPECT_THAT(pixel(), Optional(Pixel{63, 0}));
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(InspectorTest, TheSpectrumOfThePixelIsShownAndCopied)
+{
+  open(std::string(test::preset_text).replace(std::string(test::preset_text).find("\"stop\""), 0, "\"spectral\": {\"relight\": true}, "));
+  finish();
+  workbench.apply({command::InspectPixel{Pixel{3, 4}}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() != nullptr; }));
+  EXPECT_EQ(workbench.run().spectrum()->pixel, (Pixel{3, 4}));
+  frames(2);
+  click_on("copy spectrum");
+  EXPECT_THAT(ImGui::GetClipboardText(), StartsWith("wavelength_nm,"));
+  EXPECT_THAT(ImGui::GetClipboardText(), HasSubstr("\n380,3,4,7\n381,3,4,7\n"));
+  press(ImGuiKey_RightArrow);
+  EXPECT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum()->pixel == Pixel{4, 4}; })) << "of a finished run too";
+  press(ImGuiKey_I);
+  frames(2);
+  EXPECT_EQ(workbench.run().spectrum(), nullptr);
+}
+
+TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit)
+{
+  start();
+  workbench.apply({command::InspectPixel{Pixel{3, 4}}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().places().of("keep spectra"); }));
+  click_on("keep spectra");
+  EXPECT_TRUE(spectral::settings(*workbench.preset()).relight);
+  EXPECT_EQ(workbench.edits()->undo_label(), "keep spectra");
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && workbench.run().spectrum()->why_not.empty(); }));
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_FALSE(spectral::settings(*workbench.preset()).relight);
+}
+
+TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered)
+{
+  open(std::string(test::preset_text).replace(std::string(test::preset_text).find("\"stop\""), 0, "\"spectral\": {\"indirect\": true}, "));
+  finish();
+  workbench.apply({command::InspectPixel{Pixel{3, 4}}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().places().of("keep spectra"); }));
+  click_on("keep spectra");
+  EXPECT_FALSE(spectral::settings(*workbench.preset()).relight);
+  EXPECT_EQ(workbench.edits()->undo_label(), "");
+}
+
+TEST_F(InspectorTest, AltAndADragTakesARectangle)
+{
+  start();
+  const preset::Camera before = camera();
+  with_alt([&] { drag_between(place_of(31, 13), place_of(10, 4)); });
+  EXPECT_THAT(workbench.chosen().region, Optional(PixelRegion{{10, 4}, {32, 14}})) << "both corners are in it";
+  EXPECT_FALSE(pixel()) << "a drag is no click";
+  EXPECT_EQ(camera(), before);
+  ASSERT_TRUE(has_statistics());
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return inspector().statistics()->of.region == PixelRegion{{10, 4}, {32, 14}}; }));
+  const PictureStatistics run = inspector().statistics()->pictures.at(0);
+  EXPECT_EQ(run.pixels, 220u);
+  EXPECT_NEAR(run.of[1].mean, 0.25 + 20.5 / 64, 1e-6) << "red: columns 10 to 31";
+  EXPECT_NEAR(run.of[2].median, 0.5 + 8.5 / 48, 1e-6) << "green: rows 4 to 13";
+  click_on("copy region");
+  EXPECT_THAT(ImGui::GetClipboardText(), HasSubstr("\n10,4,32,14,\"run\",luminance,W/m2/sr,"));
+  click_on("clear");
+  EXPECT_FALSE(workbench.chosen().region);
+  frames(2);
+  EXPECT_EQ(inspector().statistics(), nullptr);
+}
+
+TEST_F(InspectorTest, AKeyTakesTheWholePictureAndTheReferenceIsHeldAgainst)
+{
+  runs.reference = test::even_reference({1, 1, 1}, {0.5f, 0, 0});
+  start();
+  press(ImGuiKey_I, ImGuiMod_Shift);
+  EXPECT_THAT(workbench.chosen().region, Optional(PixelRegion{{0, 0}, {64, 48}}));
+  ASSERT_TRUE(has_statistics());
+  const auto statistics = inspector().statistics();
+  ASSERT_THAT(statistics->pictures, SizeIs(3));
+  EXPECT_EQ(statistics->pictures[1].name, "reference");
+  EXPECT_NEAR(statistics->pictures[1].of[0].mean, 1, 1e-6);
+  EXPECT_NEAR(statistics->pictures[2].of[3].mean, 0.125 - 1, 1e-6) << "blue of the difference";
+  EXPECT_THAT(statistics->histogram.counts, SizeIs(2));
+  press(ImGuiKey_I, ImGuiMod_Shift);
+  EXPECT_FALSE(workbench.chosen().region);
+}
+
+TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm)
+{
+  start();
+  for (const PixelRegion& region : {PixelRegion{{900, 900}, {1000, 1000}}, PixelRegion{{-50, -50}, {5, 5}}, PixelRegion{{5, 5}, {5, 9}}}) {
+    workbench.apply({command::SelectRegion{region}});
+    frames(3);
+  }
+  EXPECT_FALSE(workbench.chosen().region) << "the last one is empty";
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+} // namespace
+} // namespace nephroid::ui

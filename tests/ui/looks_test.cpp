@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the View shows a picture: layers, tone curves, false colour; and that a picture is saved as it is shown.
+#include "image/image.h"
+#include "layered_runs.h"
+#include "preset/read.h"
+#include "ui/state/session.h"
+#include "ui/state/shown_pixels.h"
+#include "ui/state/tone.h"
+#include "ui/view/camera_text.h"
+#include "ui/widgets/action.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using test::eventually;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class LooksTest : public test::WindowFixtureOf<test::LayeredRuns> {
+protected:
+  void SetUp() override
+  {
+    open();
+    finish();
+  }
+  const ViewPanel& view() { return workspace.panel<ViewPanel>(); }
+  std::array<int, 3> texel(int x, int y)
+  {
+    const auto pixels = view().texture().pixels().subspan(4 * static_cast<std::size_t>(64 * y + x));
+    return {pixels[0], pixels[1], pixels[2]};
+  }
+  static std::array<int, 3> bytes(float r, float g, float b) { return {shown_byte(r, 1), shown_byte(g, 1), shown_byte(b, 1)}; }
+  const std::string& layer() { return workbench.comparing().comparison().layer; }
+  const Look& look() { return workbench.chosen().look; }
+  void click_on(const std::string& widget)
+  {
+    const auto place = view().places().of(widget);
+    ASSERT_TRUE(place) << widget;
+    click(*place);
+    frames(2);
+  }
+  image::Image saved(const std::string& name)
+  {
+    const std::filesystem::path file = folder.path() / name;
+    workbench.apply({command::SavePicture{file}});
+    EXPECT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
+    return image::read_image(file);
+  }
+  /// The picture's file holds what the texture shows.
+  void expect_saved_as_shown(const std::string& name)
+  {
+    const image::Image file = saved(name);
+    ASSERT_EQ(file.width, 64);
+    ASSERT_EQ(file.height, 48);
+    const std::size_t channels = file.channels.size();
+    for (const auto& [x, y] : {std::array{0, 0}, std::array{40, 11}, std::array{63, 47}})
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_EQ(std::lround(255 * file.data[channels * static_cast<std::size_t>(64 * y + x) + c]), texel(x, y)[c]) << name;
+  }
+};
+
+TEST_F(LooksTest, AKeyGoesThroughTheLayers)
+{
+  EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
+  press(ImGuiKey_L);
+  frames(2);
+  EXPECT_EQ(layer(), "direct");
+  EXPECT_EQ(view().shown().label, "direct");
+  EXPECT_EQ(texel(32, 12), bytes(0.25f, 0.5f, 0.125f));
+  press(ImGuiKey_L);
+  frames(2);
+  EXPECT_EQ(layer(), "caustic");
+  EXPECT_EQ(texel(32, 12), bytes(0.5f, 0.25f, 0));
+  press(ImGuiKey_L);
+  frames(2);
+  EXPECT_EQ(layer(), "");
+  EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
+  press(ImGuiKey_L, ImGuiMod_Shift);
+  frames(2);
+  EXPECT_EQ(layer(), "caustic") << "back";
+  EXPECT_EQ(runs.made, 1) << "no new run";
+  EXPECT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
+  EXPECT_EQ(layer(), "") << "another preset, another picture";
+}
+
+TEST_F(LooksTest, TheBoxesChooseLayerAndTone)
+{
+  click_on("layer");
+  click_on("layer caustic");
+  EXPECT_EQ(layer(), "caustic");
+  click_on("tone");
+  click_on("tone filmic");
+  EXPECT_EQ(look().tone, ToneCurve::filmic);
+  click_on("tone");
+  click_on("tone false colour");
+  EXPECT_EQ(look().tone, ToneCurve::false_colour);
+  EXPECT_FALSE(look().false_colour) << "automatic";
+  click_on("auto range");
+  ASSERT_TRUE(look().false_colour);
+  EXPECT_EQ(*look().false_colour, view().tone().range) << "as it was";
+  click_on("auto range");
+  EXPECT_FALSE(look().false_colour);
+}
+
+TEST_F(LooksTest, ARangeIsTyped)
+{
+  workbench.apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.01, 1}}}});
+  frames(3);
+  const auto type = [&](const std::string& field, const char* text) {
+    click_on(field);
+    press(ImGuiKey_A, ImGuiMod_Ctrl);
+    ImGui::GetIO().AddInputCharactersUTF8(text);
+    frames(2);
+    press(ImGuiKey_Enter);
+    frames(2);
+  };
+  type("high", "50");
+  EXPECT_EQ(*look().false_colour, (LuminanceRange{0.01, 50}));
+  type("low", "0.5");
+  EXPECT_EQ(*look().false_colour, (LuminanceRange{0.5, 50}));
+  type("low", "60");
+  EXPECT_EQ(*look().false_colour, (LuminanceRange{0.5, 50})) << "the low end is not above the high one";
+  ASSERT_THAT(workbench.messages(), SizeIs(1));
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("0 < low < high"));
+}
+
+TEST_F(LooksTest, RangesThatAreNoneAreNotTaken)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (const LuminanceRange& range : {LuminanceRange{nan, 1}, LuminanceRange{1, infinity}, LuminanceRange{0, -1}}) {
+    workbench.apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = range}}});
+    EXPECT_FALSE(look().false_colour);
+    frames(2);
+  }
+  workbench.apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{5, 1}}}});
+  ASSERT_TRUE(look().false_colour);
+  EXPECT_LT(look().false_colour->low, look().false_colour->high);
+  EXPECT_TRUE(workbench.messages().empty());
+}
+
+TEST_F(LooksTest, AKeyGoesThroughTheToneCurves)
+{
+  press(ImGuiKey_T);
+  frames(2);
+  EXPECT_EQ(look().tone, ToneCurve::filmic);
+  EXPECT_EQ(texel(32, 12), bytes(static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.125))));
+  press(ImGuiKey_T);
+  frames(2);
+  EXPECT_EQ(look().tone, ToneCurve::false_colour);
+  // (32, 12) is (.75, .75, .125): Y = .2126 .75 + .7152 .75 + .0722 .125 = .7049
+  const Rgb8 wanted = luminance_colour(0.704875, view().tone().range);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel(32, 12)[c], wanted[c], 2);
+  press(ImGuiKey_T);
+  frames(2);
+  EXPECT_EQ(look().tone, ToneCurve::standard);
+  EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
+  for (const char* name : {"Filmic tone", "False colour", "Tone as image.png"}) {
+    Commands commands;
+    action(name).run(workbench.context(commands));
+    workbench.apply(commands);
+    EXPECT_TRUE(action(name).checked(context())) << name;
+  }
+  EXPECT_EQ(look().tone, ToneCurve::standard);
+}
+
+TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure)
+{
+  workbench.apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.1, 10}}}});
+  frames(2);
+  const std::array<int, 3> before = texel(32, 12);
+  press(ImGuiKey_E);
+  frames(2);
+  EXPECT_EQ(look().exposure_stops, 0.5);
+  EXPECT_EQ(texel(32, 12), before);
+  preset::Preset edited = *workbench.preset();
+  edited.white = 2; // the same numbers are twice the light
+  workbench.apply({command::Edit{"white", edited}});
+  frames(3);
+  const Rgb8 wanted = luminance_colour(2 * 0.704875, {0.1, 10});
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel(32, 12)[c], wanted[c], 2);
+}
+
+TEST_F(LooksTest, KeysOfOneFrameDoNotUndoEachOther)
+{
+  imgui.key(ImGuiKey_E, true);
+  imgui.key(ImGuiKey_T, true);
+  imgui.key(ImGuiKey_L, true);
+  frame();
+  EXPECT_EQ(look().exposure_stops, 0.5);
+  EXPECT_EQ(look().tone, ToneCurve::filmic);
+  EXPECT_EQ(layer(), "direct");
+}
+
+TEST_F(LooksTest, PicturesAreSavedAsShown)
+{
+  expect_saved_as_shown("standard.png");
+  press(ImGuiKey_E);
+  frame();
+  expect_saved_as_shown("brighter.png");
+  press(ImGuiKey_L);
+  frame();
+  expect_saved_as_shown("direct.png");
+  press(ImGuiKey_T);
+  frame();
+  expect_saved_as_shown("filmic.png");
+  EXPECT_THAT(workbench.messages().back().line, HasSubstr("filmic"));
+  press(ImGuiKey_T);
+  frame();
+  expect_saved_as_shown("false.png");
+  EXPECT_THAT(workbench.messages().back().line, HasSubstr("W/m2/sr"));
+  EXPECT_THAT(saved("linear.exr").channels, SizeIs(9)) << "the whole picture with both layers, whatever is shown";
+}
+
+TEST_F(LooksTest, ALayerThatThePictureDoesNotHaveIsSaid)
+{
+  workbench.apply({command::ShowLayer{"indirect"}});
+  frames(2);
+  EXPECT_THAT(view().shown().hint, HasSubstr("has no layer \"indirect\", only direct, caustic"));
+  workbench.apply({command::SavePicture{folder.path() / "none.png"}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.png"));
+  ASSERT_FALSE(workbench.messages().empty());
+  EXPECT_THAT(workbench.messages().back().line, HasSubstr("nothing to save"));
+  press(ImGuiKey_L);
+  EXPECT_EQ(layer(), "direct");
+}
+
+TEST_F(LooksTest, PinnedRunsHaveTheirLayers)
+{
+  press(ImGuiKey_P);
+  press(ImGuiKey_N);
+  workbench.apply({command::ShowLayer{"caustic"}, command::Flip{}});
+  frames(2);
+  EXPECT_EQ(texel(32, 12), bytes(0.5f, 0.25f, 0));
+  EXPECT_EQ(view().shown().label, "\"Test\": caustic");
+}
+
+class LooksWithReference : public LooksTest {
+protected:
+  void SetUp() override
+  {
+    runs.reference = test::even_reference({1, 1, 1}, {0.5f, 0, 0});
+    LooksTest::SetUp();
+  }
+};
+
+TEST_F(LooksWithReference, TheReferenceShowsTheSameLayer)
+{
+  workbench.apply({command::ShowLayer{"caustic"}, command::Flip{}});
+  frames(2);
+  EXPECT_EQ(texel(32, 12), bytes(0.5f, 0, 0));
+  workbench.apply({command::ShowLayer{"direct"}});
+  frames(2);
+  EXPECT_THAT(view().shown().hint, HasSubstr("the reference has no layer \"direct\", only caustic"));
+  workbench.apply({command::ShowLayer{}});
+  frames(2);
+  EXPECT_EQ(texel(32, 12), bytes(1, 1, 1));
+}
+
+TEST_F(LooksWithReference, TheDifferenceIsThatOfTheLayer)
+{
+  workbench.apply({command::ShowLayer{"caustic"}, command::ShowDifference{true, measure::DifferenceMetric::absolute}});
+  const auto at = [&] { return (*workbench.comparing().difference()->values)[64 * 12 + 32]; };
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().difference() != nullptr; }));
+  EXPECT_NEAR(at(), 0.25 / 3, 1e-6) << "(.5, .25, 0) - (.5, 0, 0)";
+  frames(2);
+  expect_saved_as_shown("difference.png");
+  workbench.apply({command::ShowLayer{}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return at() > 0.2; }));
+  EXPECT_NEAR(at(), (0.25 + 0.25 + 0.875) / 3, 1e-6) << "(.75, .75, .125) - (1, 1, 1)";
+}
+
+TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
+{
+  preset::Preset edited = *workbench.preset();
+  edited.scene.camera.position = {1.5, -0.25, 3};
+  edited.scene.camera.fov_deg = 31;
+  const auto copied = [&](const char* name) {
+    action(name).run(context());
+    return std::string(ImGui::GetClipboardText());
+  };
+  workbench.apply({command::Edit{"camera", edited}});
+  EXPECT_THAT(copied("Copy camera as JSON"), HasSubstr("\"fov_deg\": 31"));
+  // Every --set of the text, without its quotes, makes the camera of a preset that had another.
+  preset::Overrides overrides;
+  std::string text = copied("Copy camera as --set");
+  for (std::size_t at = text.find('\''); at != std::string::npos;) {
+    const std::size_t end = text.find('\'', at + 1);
+    overrides.push_back(text.substr(at + 1, end - at - 1));
+    at = text.find('\'', end + 1);
+  }
+  EXPECT_EQ(preset::parse_preset(test::preset_text, "again", overrides).scene.camera, edited.scene.camera);
+}
+
+TEST(LooksOfASession, AreKept)
+{
+  Session session;
+  session.chosen.look.tone = ToneCurve::false_colour;
+  session.chosen.look.false_colour = LuminanceRange{0.25, 64};
+  const std::string text = SessionText().of(session);
+  EXPECT_EQ(parse_session(text, "session.json").chosen.look, session.chosen.look);
+  EXPECT_EQ(parse_session(SessionText().of({}), "session.json").chosen.look, Look{});
+  std::string other = text;
+  other.replace(other.find("false_colour"), 5, "wrong");
+  EXPECT_ANY_THROW(parse_session(other, "session.json"));
+}
+
+} // namespace
+} // namespace nephroid::ui

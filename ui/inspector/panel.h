@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel Inspector: one pixel with all its values, its neighbours and its spectrum, and statistics of a rectangle of pixels. Which they
+// are the View's mouse says, and actions (commands InspectPixel and SelectRegion).
+#pragma once
+#include "ui/inspector/region_maker.h"
+#include "ui/state/tone.h"
+#include "ui/widgets/panel.h"
+#include "ui/widgets/plots.h"
+#include "ui/widgets/widgets.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+class InspectorPanel : public Panel {
+public:
+  static constexpr const char* title = "Inspector";
+  /// wavelengths: shared with other panels; outlives this.
+  explicit InspectorPanel(WavelengthAxis& wavelengths) : axis_(wavelengths) {}
+  void draw(const Context& context) override;
+
+  /// Of the region; null where there is none yet. For tests, as is places().
+  const std::shared_ptr<const RegionStatistics>& statistics() const { return maker_.newest(); }
+  const WidgetPlaces& places() const { return places_; }
+
+private:
+  void draw_pixel(const Context& context);
+  void draw_neighbours(const Context& context);
+  void draw_spectrum(const Context& context);
+  void offer_spectra(const Context& context, const std::string& why_not);
+  void draw_region(const Context& context);
+
+  /// Of the neighbours that are drawn: kept while nothing changes, since an automatic range takes the whole picture.
+  struct Neighbours {
+    std::shared_ptr<const void> owner;
+    std::array<int, 2> pixel{};
+    Look look;
+    double white = 1;
+    std::vector<unsigned char> rgba; ///< transparent outside of the picture
+  };
+
+  WavelengthAxis& axis_;
+  RegionMaker maker_;
+  Neighbours neighbours_;
+  WidgetPlaces places_;
+};
+
+} // namespace nephroid::ui

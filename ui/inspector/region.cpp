@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/inspector/region.h"
+
+#include "measure/lab.h"
+#include "ui/widgets/plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+using Rgb = std::array<float, 3>;
+
+/// The pixels of a region, row by row.
+std::vector<Rgb> pixels_of(const measure::Pixels& picture, const PixelRegion& region)
+{
+  std::vector<Rgb> pixels;
+  pixels.reserve(static_cast<std::size_t>(region.to[0] - region.from[0]) * static_cast<std::size_t>(region.to[1] - region.from[1]));
+  for (int y = region.from[1]; y < region.to[1]; ++y)
+    for (int x = region.from[0]; x < region.to[0]; ++x) {
+      const float* rgb =
+          &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x))];
+      pixels.push_back({rgb[0], rgb[1], rgb[2]});
+    }
+  return pixels;
+}
+
+PictureStatistics statistics(std::string name, const std::vector<Rgb>& pixels, double white)
+{
+  PictureStatistics made;
+  made.name = std::move(name);
+  made.pixels = pixels.size();
+  std::array<std::vector<double>, 4> values;
+  for (auto& list : values) list.reserve(pixels.size());
+  for (const Rgb& rgb : pixels) {
+    if (std::ranges::any_of(rgb, [](float v) { return std::isnan(v); })) {
+      ++made.nan;
+      continue;
+    }
+    if (std::ranges::any_of(rgb, [](float v) { return std::isinf(v); })) {
+      ++made.infinite;
+      continue;
+    }
+    const double luminance = white * measure::luminance(rgb.data());
+    made.dark += luminance < 0;
+    made.coloured += std::ranges::any_of(rgb, [](float v) { return v < 0; });
+    values[0].push_back(luminance);
+    for (std::size_t c = 0; c < 3; ++c) values[c + 1].push_back(static_cast<double>(rgb[c]));
+  }
+  for (std::size_t q = 0; q < 4; ++q) made.of[q] = moments(std::move(values[q]));
+  return made;
+}
+
+Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double white)
+{
+  constexpr double bins_a_decade = 10;
+  const auto log_of = [&](const Rgb& rgb) {
+    const double y = white * measure::luminance(rgb.data());
+    return y > 0 && std::isfinite(y) ? std::log10(y) : std::numeric_limits<double>::quiet_NaN();
+  };
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto* pixels : pictures)
+    for (const Rgb& rgb : *pixels)
+      if (const double l = log_of(rgb); !std::isnan(l)) low = std::min(low, l), high = std::max(high, l);
+  Histogram made;
+  if (low > high) low = 0, high = 1;
+  made.last = std::floor(high * bins_a_decade + 1) / bins_a_decade;
+  made.first = std::max(std::floor(low * bins_a_decade) / bins_a_decade, made.last - 12); // twelve decades are enough for an eye
+  const auto bins = static_cast<std::size_t>(std::lround((made.last - made.first) * bins_a_decade));
+  for (const auto* pixels : pictures) {
+    std::vector<double>& counts = made.counts.emplace_back(bins, 0.0);
+    for (const Rgb& rgb : *pixels)
+      if (const double l = log_of(rgb); l >= made.first)
+        ++counts[std::min(static_cast<std::size_t>((l - made.first) * bins_a_decade), bins - 1)];
+  }
+  return made;
+}
+
+} // namespace
+
+Moments moments(std::vector<double> values)
+{
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return {none, none, none, none, none};
+  const auto n = static_cast<double>(values.size());
+  Moments made{0, 0, values[0], values[0], 0};
+  double sum = 0, squares = 0;
+  for (const double v : values) sum += v;
+  made.mean = sum / n;
+  for (const double v : values) {
+    squares += (v - made.mean) * (v - made.mean);
+    made.least = std::min(made.least, v);
+    made.most = std::max(made.most, v);
+  }
+  made.deviation = std::sqrt(squares / n);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  made.median = values.size() % 2 == 1 ? *middle : (*middle + *std::max_element(values.begin(), middle)) / 2;
+  return made;
+}
+
+std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int height)
+{
+  const PixelRegion cut{{std::max(region.from[0], 0), std::max(region.from[1], 0)},
+                        {std::min(region.to[0], width), std::min(region.to[1], height)}};
+  if (cut.from[0] >= cut.to[0] || cut.from[1] >= cut.to[1]) return std::nullopt;
+  return cut;
+}
+
+RegionStatistics region_statistics(RegionRequest request)
+{
+  RegionStatistics made;
+  request.region = *cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height);
+  const std::vector<Rgb> run = pixels_of(request.picture.pixels, request.region);
+  made.pictures.push_back(statistics("run", run, request.white));
+  if (request.other.owner) {
+    const std::vector<Rgb> other = pixels_of(request.other.pixels, request.region);
+    std::vector<Rgb> difference = run;
+    for (std::size_t i = 0; i < run.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c) difference[i][c] -= other[i][c];
+    made.pictures.push_back(statistics(request.other_name, other, request.white));
+    made.pictures.push_back(statistics("difference", difference, request.white));
+    made.histogram = histogram({&run, &other}, request.white);
+  } else
+    made.histogram = histogram({&run}, request.white);
+  made.of = std::move(request);
+  return made;
+}
+
+std::string to_csv(const RegionStatistics& statistics)
+{
+  std::string csv = "x0,y0,x1,y1,picture,quantity,unit,mean,standard_deviation,min,max,median,pixels,nan,infinite,negative_luminance,"
+                    "negative_channel\n";
+  const PixelRegion& region = statistics.of.region;
+  for (const PictureStatistics& picture : statistics.pictures)
+    for (std::size_t q = 0; q < region_quantities.size(); ++q) {
+      const Moments& m = picture.of[q];
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", region.from[0], region.from[1], region.to[0], region.to[1],
+                         in_csv(picture.name), region_quantities[q], q == 0 ? "W/m2/sr" : "linear", m.mean, m.deviation, m.least, m.most,
+                         m.median, picture.pixels, picture.nan, picture.infinite, picture.dark, picture.coloured);
+    }
+  return csv;
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Statistics of a rectangle of pixels: of the run's picture, of the one it is compared with, and of their difference.
+#pragma once
+#include "ui/state/commands.h"
+#include "ui/state/difference.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+/// NaN where there is no value.
+struct Moments {
+  double mean, deviation, least, most, median; ///< deviation: the root of the mean square distance from the mean
+};
+/// All values are finite.
+Moments moments(std::vector<double> values);
+
+inline constexpr std::array<const char*, 4> region_quantities{"luminance", "R", "G", "B"};
+
+struct PictureStatistics {
+  std::string name;
+  std::array<Moments, 4> of; ///< region_quantities: luminance in W/m^2/sr, channels linear; of the pixels that are finite
+  std::size_t pixels = 0;
+  std::size_t nan = 0, infinite = 0; ///< pixels with such a channel; NaN goes first
+  std::size_t dark = 0;              ///< pixels whose luminance is negative
+  std::size_t coloured = 0;          ///< pixels with a negative channel: as a colour outside of sRGB has
+};
+
+struct Histogram {
+  double first = 0, last = 1;              ///< log10 of W/m^2/sr: where the bins begin and end
+  std::vector<std::vector<double>> counts; ///< [picture][bin]: pixels above 0
+};
+
+struct RegionRequest {
+  HeldPicture picture, other; ///< other: null where there is none
+  std::string other_name;
+  PixelRegion region;
+  double white = 1; ///< preset::Preset::white
+};
+
+struct RegionStatistics {
+  RegionRequest of;                        ///< its region is cut to the picture
+  std::vector<PictureStatistics> pictures; ///< the run; where there is another: that and "difference"
+  Histogram histogram;                     ///< of the run and, where there is one, of the other
+};
+
+/// The part of a region that is in a picture; nothing where none is.
+std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int height);
+/// The region reaches into the picture; both pictures have one size.
+RegionStatistics region_statistics(RegionRequest request);
+/// A row a picture and quantity, under a line of names.
+std::string to_csv(const RegionStatistics& statistics);
+
+} // namespace nephroid::ui

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/tone.h"
+
+#include "image/image.h"
+#include "measure/difference.h"
+#include "measure/lab.h"
+#include "ui/state/byte_table.h"
+#include "ui/state/shown_pixels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr double brightening = 2, white_point = 11.2; ///< of the filmic curve, as published
+
+double hable(double x)
+{
+  constexpr double a = 0.15, b = 0.5, c = 0.1, d = 0.2, e = 0.02, f = 0.3;
+  return (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f;
+}
+
+unsigned char exact_filmic(float value) { return image::shown(static_cast<float>(filmic(static_cast<double>(value))), 1); }
+
+void filmic_pixels(std::span<const float> rgb, double exposure_stops, std::span<unsigned char> rgba8)
+{
+  static const ByteTable<exact_filmic> bytes(static_cast<float>(white_point / brightening));
+  const float scale = static_cast<float>(std::exp2(exposure_stops));
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) rgba8[4 * i + c] = bytes(rgb[3 * i + c] * scale);
+    rgba8[4 * i + 3] = 255;
+  }
+}
+
+/// Of a pixel whose luminance is not a number above 0.
+Rgb8 odd_colour(const float* rgb, double luminance, const LuminanceRange& range)
+{
+  if (std::any_of(rgb, rgb + 3, [](float v) { return std::isnan(v); })) return nan_colour;
+  if (std::any_of(rgb, rgb + 3, [](float v) { return std::isinf(v); })) return infinite_colour;
+  return luminance < 0 ? negative_colour : luminance_colour(luminance, range);
+}
+
+/// Positive floats sort like their bits: without the last of them they are steps of 0.4 % at most, few enough for a table.
+constexpr int left_out_bits = 15;
+std::uint32_t step_of(double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)) >> left_out_bits; }
+
+void false_colour_pixels(std::span<const float> rgb, const Tone& tone, std::span<unsigned char> rgba8)
+{
+  const std::uint32_t first = step_of(tone.range.low), last = std::max(step_of(tone.range.high), first);
+  std::vector<Rgb8> colours;
+  for (std::uint32_t i = first; i <= last; ++i)
+    colours.push_back(
+        luminance_colour(static_cast<double>(std::bit_cast<float>((i << left_out_bits) + (1u << (left_out_bits - 1)))), tone.range));
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+    const float* pixel = &rgb[3 * i];
+    const double luminance = tone.white * measure::luminance(pixel);
+    const bool ordinary = luminance > 0 && luminance <= static_cast<double>(std::numeric_limits<float>::max());
+    const Rgb8 colour = ordinary ? colours[std::clamp(step_of(luminance), first, last) - first] : odd_colour(pixel, luminance, tone.range);
+    std::copy(colour.begin(), colour.end(), &rgba8[4 * i]);
+    rgba8[4 * i + 3] = 255;
+  }
+}
+
+/// The next of 1, 2, 5 times a power of ten, not above or not below the value, which is above 0.
+double round_number(double value, bool up)
+{
+  const double decade = std::pow(10, std::floor(std::log10(value)));
+  const double tolerance = 1 + 1e-6; // 5e-324 to 1e308: a power of ten is not exact
+  double best = up ? 10 * decade : decade;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (up ? factor * decade * tolerance >= value : factor * decade <= value * tolerance) {
+      best = factor * decade;
+      if (!up) break;
+    }
+  return best;
+}
+
+} // namespace
+
+double filmic(double linear)
+{
+  if (!(linear > 0)) return 0;
+  return std::min(hable(brightening * std::min(linear, white_point)) / hable(white_point), 1.0);
+}
+
+Tone tone_of(const Look& look, double white, std::span<const float> rgb)
+{
+  if (look.tone != ToneCurve::false_colour) return {look.tone, look.exposure_stops, {}, 1};
+  return {look.tone, 0, look.false_colour ? *look.false_colour : automatic_range(rgb, white), white};
+}
+
+LuminanceRange automatic_range(std::span<const float> rgb, double white)
+{
+  constexpr int bits_left_out = 20; // eight steps an octave
+  std::vector<std::size_t> counts((std::size_t{1} << (31 - bits_left_out)), 0);
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
+    if (const double y = white * measure::luminance(&rgb[i]); y > 0 && y <= static_cast<double>(std::numeric_limits<float>::max()))
+      ++counts[std::bit_cast<std::uint32_t>(static_cast<float>(y)) >> bits_left_out];
+  const std::size_t all = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  if (all == 0) return {0.01, 1};
+  const auto step_with = [&](double part) {
+    std::size_t sum = 0;
+    std::uint32_t step = 0;
+    while (static_cast<double>(sum += counts[step]) < part * static_cast<double>(all)) ++step;
+    return step;
+  };
+  const auto value = [](std::uint32_t step) { return static_cast<double>(std::bit_cast<float>(step << bits_left_out)); };
+  const double high = round_number(std::clamp(value(step_with(0.999) + 1), 1e-20, 1e30), true);
+  const double low = round_number(std::clamp(value(step_with(0.01)), 1e-8 * high, 0.1 * high), false);
+  return {low, high};
+}
+
+std::optional<LuminanceRange> valid_range(const LuminanceRange& range)
+{
+  if (!std::isfinite(range.low) || !std::isfinite(range.high) || !(range.high > 0)) return std::nullopt;
+  const double high = std::clamp(range.high, 2e-30, 1e30);
+  return LuminanceRange{std::clamp(range.low, 1e-30, high / 1.01), high};
+}
+
+Rgb8 luminance_colour(double luminance, const LuminanceRange& range)
+{
+  if (!(luminance > 0)) return measure::map_colour(0);
+  return measure::map_colour(std::log(luminance / range.low) / std::log(range.high / range.low));
+}
+
+void toned_pixels(std::span<const float> rgb, const Tone& tone, std::span<unsigned char> rgba8)
+{
+  switch (tone.curve) {
+  case ToneCurve::standard:
+    return shown_pixels(rgb, tone.exposure_stops, rgba8);
+  case ToneCurve::filmic:
+    return filmic_pixels(rgb, tone.exposure_stops, rgba8);
+  case ToneCurve::false_colour:
+    return false_colour_pixels(rgb, tone, rgba8);
+  }
+}
+
+} // namespace nephroid::ui
