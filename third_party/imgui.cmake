@@ -6,7 +6,8 @@
 #   nephroid_imgui_backend  GLFW and OpenGL: what the window links
 #   nephroid_ui_font        the font of the window, as bytes (third_party/embedded_font.h)
 #   nephroid_implot         ImPlot: plots in panels
-# ImGuizmo and the command palette lie beside it under external/: a panel that needs one adds a library here.
+#   nephroid_imguizmo       ImGuizmo: handles to move, turn and scale things in the View
+# The command palette lies beside it under external/: a panel that needs it adds a library here.
 set(imgui_version 1.93.0)
 
 find_package(OpenGL QUIET COMPONENTS OpenGL GLX)
@@ -38,6 +39,11 @@ add_library(nephroid_implot STATIC ${implot}/implot.cpp ${implot}/implot_items.c
 target_include_directories(nephroid_implot SYSTEM PUBLIC ${implot})
 target_compile_definitions(nephroid_implot PRIVATE "IMPLOT_CUSTOM_NUMERIC_TYPES=(double)")
 target_link_libraries(nephroid_implot PUBLIC nephroid_imgui)
+
+set(imguizmo ${imgui_bundle}/external/ImGuizmo/ImGuizmo/src)
+add_library(nephroid_imguizmo STATIC ${imguizmo}/ImGuizmo.cpp)
+target_include_directories(nephroid_imguizmo SYSTEM PUBLIC ${imguizmo})
+target_link_libraries(nephroid_imguizmo PUBLIC nephroid_imgui)
 
 add_library(nephroid_imgui_backend STATIC
   ${imgui}/backends/imgui_impl_glfw.cpp ${imgui}/backends/imgui_impl_opengl3.cpp)

@@ -11,6 +11,7 @@
 #include "ui/plan/panel.h"
 #include "ui/spectra/panel.h"
 #include "ui/view/panel.h"
+#include "ui/view/picking.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -31,10 +32,13 @@ std::unique_ptr<Panel> make([[maybe_unused]] WavelengthAxis& wavelengths)
 }
 
 const PanelEntry table[] = {
-    {"view", ViewPanel::title, "", make<ViewPanel>},
+    {"view", ViewPanel::title, "", make<ViewPanel>, SeenScene::look},
     {"error", ErrorPanel::title, "", make<ErrorPanel>},
     {"dispersion", DispersionPanel::title, "spectral", make<DispersionPanel>},
-    {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>, SeenByGlass::look},
+    {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>,
+     [](const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded) {
+       return SeenByGlass::look(preset, loaded->scene, *loaded->bvh);
+     }},
     {"annealing", AnnealingPanel::title, "inverse", make<AnnealingPanel>},
     {"environment", EnvironmentPanel::title, "", make<EnvironmentPanel>, nullptr, EnvironmentPanel::serves},
     {"plan", PlanPanel::title, "", make<PlanPanel>},
@@ -61,11 +65,11 @@ bool serves(const PanelEntry& entry, const preset::Preset* preset)
   return !preset || entry.engine.empty() || entry.engine == preset->settings.type().name;
 }
 
-std::vector<std::any> look_around(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
+std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
 {
   std::vector<std::any> seen;
   for (const PanelEntry& entry : table)
-    if (entry.look_around && serves(entry, &preset)) seen.push_back(entry.look_around(preset, scene, bvh));
+    if (entry.look_around && serves(entry, &preset)) seen.push_back(entry.look_around(preset, loaded));
   return seen;
 }
 

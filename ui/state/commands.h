@@ -4,8 +4,10 @@
 #pragma once
 #include "measure/difference.h"
 #include "preset/preset.h"
+#include "ui/state/selection.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -103,6 +105,30 @@ struct ChooseMaterial {
 struct LoadDispersion {
   std::string file;
 };
+/// What is selected, to be moved; and how it is moved.
+struct Select {
+  Selection selection;
+};
+struct SetHandles {
+  Handles handles;
+};
+/// The newest edit was a nudge: one that follows soon goes into the same entry to undo.
+struct Nudged {
+  double at_s = -1e9;        ///< ImGui::GetTime
+  std::uint64_t gesture = 0; ///< its number; 0: there was none
+};
+/// Bookmarks of cameras. Going to one is an edit.
+struct AddBookmark {};
+struct GoToBookmark {
+  std::size_t index = 0;
+};
+struct RenameBookmark {
+  std::size_t index = 0;
+  std::string name;
+};
+struct DeleteBookmark {
+  std::size_t index = 0;
+};
 struct Ask {
   Question question = Question::none;
 };
@@ -135,12 +161,13 @@ struct Quit {
 
 } // namespace command
 
-using Command =
-    std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
-                 command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::PinRun,
-                 command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
-                 command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss,
-                 command::ToggleHelp, command::ResetLayout, command::Report, command::Quit>;
+using Command = std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart,
+                             command::Cancel, command::Pause, command::SetLook, command::Flip, command::CompareWith,
+                             command::ShowDifference, command::PinRun, command::PinFile, command::ChangePin, command::Unpin,
+                             command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles,
+                             command::Nudged, command::AddBookmark, command::GoToBookmark, command::RenameBookmark, command::DeleteBookmark,
+                             command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss,
+                             command::ToggleHelp, command::ResetLayout, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where what it asks for goes. Made anew for every frame.
 #pragma once
+#include "ui/state/bookmarks.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
 #include "ui/state/run_in_hand.h"
@@ -8,6 +9,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace nephroid::ui {
 
@@ -16,6 +18,10 @@ struct Chosen {
   Look look;
   std::string error_metric; ///< to be plotted; empty: the run's own. Not every run has it.
   std::string material;     ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
+  Selection selection;      ///< may be of a preset that was: in_preset()
+  Handles handles;
+  command::Nudged nudged;          ///< the newest
+  std::vector<Bookmark> bookmarks; ///< of cameras
 };
 
 struct Context {
@@ -27,6 +33,8 @@ struct Context {
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
+  /// What is selected of it.
+  Selection selection() const { return in_preset(chosen.selection, preset()); }
   void push(Command command) const { commands.push_back(std::move(command)); }
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
   /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.

@@ -54,6 +54,8 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
   comparing_.forget();
   run_.forget();
   chosen_.look = Look{};
+  chosen_.selection = {};
+  meshes_.forget();
   question_ = Question::none;
   waiting_.reset();
   run_.start(*edits_);
@@ -75,6 +77,7 @@ void Workbench::carry_out(const command::Open& c)
     carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
     return messages_.note(name + " is the environment");
   }
+  if (edits_ && is_mesh_file(c.name) && has_scene(edits_->current())) return meshes_.read(c.name);
   if (c.sure || !edits_ || !edits_->modified()) {
     open(c.name);
     return;
@@ -190,6 +193,7 @@ void Workbench::update(Clock::time_point now)
   files_.collect(
       messages_, [this](PinnedRun run) { comparing_.pin(std::move(run)); },
       [this](const std::filesystem::path& file) { carry_out(command::Open{file.string()}); });
+  meshes_.collect(messages_, [this](const DroppedMesh& mesh) { add_object(mesh); });
   messages_.expire(now);
   comparing_.update(now);
 }

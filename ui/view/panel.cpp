@@ -3,6 +3,7 @@
 
 #include "ui/view/camera_moves.h"
 #include "ui/view/comparison_bar.h"
+#include "ui/view/selection_bar.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/shown_pixels.h"
 #include "ui/widgets/theme.h"
@@ -17,6 +18,7 @@ namespace nephroid::ui {
 namespace {
 
 constexpr double orbit_deg_per_height = 180; ///< dragging over the picture's height goes half round
+constexpr double click_trembles = 3;         ///< pixels at scale 1: a mouse that went no farther was clicked
 constexpr double notch = 1.1;                ///< a notch of the wheel changes distance or zoom by this factor
 constexpr double wheel_gesture_s = 0.6;      ///< a longer rest starts a new entry to undo
 constexpr double pixel_squares_from = 3;     ///< at this zoom and above pixels are shown as squares
@@ -41,18 +43,22 @@ void ViewPanel::draw(const Context& context)
   shown_ = shown_picture(context);
   draw_toolbar(context);
   draw_comparison_bar(context);
+  draw_selection_bar(context, places_);
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   canvas_ = {{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
   ImGui::InvisibleButton("picture", vec(canvas_.size),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   hovered_ = ImGui::IsItemHovered();
-  use_mouse(context);
+  pressed_ = ImGui::IsItemActivated();
+  held_ = ImGui::IsItemActive();
   refresh_texture(context);
   const auto& map = context.comparing.difference();
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
   draw_picture(context);
+  overlay_.draw(context, canvas_, shown_.size, hovered_);
+  use_mouse(context); // after the handles, which have it first
   if (!shown_.hint.empty()) draw_hint(corner, vec(canvas_.size), shown_.hint);
   if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
   if (map && map == shown_.owner) draw_colour_scale(*map, canvas_);
@@ -124,7 +130,7 @@ void ViewPanel::draw_pixel_value(const Context& context) const
 void ViewPanel::use_mouse(const Context& context)
 {
   if (!context.preset()) return;
-  if (ImGui::IsItemActivated()) start_drag(context);
+  if (pressed_ && !overlay_.has_mouse()) start_drag(context);
   if (drag_ != Drag::none) continue_drag(context);
   if (hovered_ && ImGui::GetIO().MouseWheel != 0) use_wheel(context);
 }
@@ -141,6 +147,7 @@ void ViewPanel::start_drag(const Context& context)
   else
     drag_ = Drag::orbit;
   drag_from_ = mouse();
+  moved_ = false;
   camera_at_start_ = context.preset()->scene.camera;
   look_at_start_ = context.chosen.look;
   ++gesture_;
@@ -150,7 +157,8 @@ void ViewPanel::continue_drag(const Context& context)
 {
   const ImVec2 step = ImGui::GetIO().MouseDelta;
   const Point delta{mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]};
-  if (step.x != 0 || step.y != 0) {
+  moved_ = moved_ || std::hypot(delta[0], delta[1]) > click_trembles * scale();
+  if (moved_ && (step.x != 0 || step.y != 0)) {
     if (drag_ == Drag::move_picture) {
       Look look = dragged(look_at_start_, canvas_, shown_.size, delta);
       look.exposure_stops = context.chosen.look.exposure_stops;
@@ -158,7 +166,8 @@ void ViewPanel::continue_drag(const Context& context)
     } else
       move_camera(context, delta);
   }
-  if (ImGui::IsItemActive()) return;
+  if (held_) return;
+  if (drag_ == Drag::orbit && !moved_) overlay_.click(context, drag_from_);
   drag_ = Drag::none;
   context.push(command::EndGesture{});
 }

@@ -3,11 +3,15 @@
 // in the panel (its look); docs/window.md says which does what.
 #pragma once
 #include "ui/view/placement.h"
+#include "ui/view/scene_overlay.h"
 #include "ui/view/shown_picture.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/picture_texture.h"
+#include "ui/widgets/widgets.h"
 
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace nephroid::ui {
 
@@ -21,6 +25,9 @@ public:
   const PictureTexture& texture() const { return texture_; }
   /// What it showed last; for tests.
   const ShownPicture& shown() const { return shown_; }
+  /// For tests: what is over it, and the middle of a widget of the row of what is selected (selection_bar.h).
+  const SceneOverlay& overlay() const { return overlay_; }
+  std::optional<Point> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   enum class Drag { none, orbit, pan, dolly, move_picture };
@@ -41,7 +48,12 @@ private:
   std::shared_ptr<const void> in_texture_; ///< what the texture shows,
   double stops_in_texture_ = 0;            ///< and with which exposure
 
+  SceneOverlay overlay_;
+  WidgetPlaces places_;
+
   Drag drag_ = Drag::none;
+  bool pressed_ = false, held_ = false; ///< a button of the mouse, on the picture
+  bool moved_ = false;                  ///< the drag is one: the mouse went farther than a click's hand trembles
   Point drag_from_{0, 0};
   preset::Camera camera_at_start_; ///< a drag is measured from its start, so that rounding does not add up
   Look look_at_start_;
