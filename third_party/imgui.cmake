@@ -7,7 +7,7 @@
 #   nephroid_ui_font        the font of the window, as bytes (third_party/embedded_font.h)
 #   nephroid_implot         ImPlot: plots in panels
 #   nephroid_imguizmo       ImGuizmo: handles to move, turn and scale things in the View
-# The command palette lies beside it under external/: a panel that needs it adds a library here.
+#   nephroid_fuzzy_search   the search of the command palette
 set(imgui_version 1.93.0)
 
 find_package(OpenGL QUIET COMPONENTS OpenGL GLX)
@@ -44,6 +44,11 @@ set(imguizmo ${imgui_bundle}/external/ImGuizmo/ImGuizmo/src)
 add_library(nephroid_imguizmo STATIC ${imguizmo}/ImGuizmo.cpp)
 target_include_directories(nephroid_imguizmo SYSTEM PUBLIC ${imguizmo})
 target_link_libraries(nephroid_imguizmo PUBLIC nephroid_imgui)
+
+# How well words fit what is typed: of the command palette of the bundle only its search.
+set(command_palette ${imgui_bundle}/external/imgui-command-palette/imgui-command-palette)
+add_library(nephroid_fuzzy_search STATIC ${command_palette}/imcmd_fuzzy_search.cpp)
+target_include_directories(nephroid_fuzzy_search SYSTEM PUBLIC ${command_palette})
 
 add_library(nephroid_imgui_backend STATIC
   ${imgui}/backends/imgui_impl_glfw.cpp ${imgui}/backends/imgui_impl_opengl3.cpp)

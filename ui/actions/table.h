@@ -16,6 +16,7 @@ std::vector<Action> select_actions();
 std::vector<Action> camera_actions();
 std::vector<Action> run_actions();
 std::vector<Action> view_actions();
+std::vector<Action> window_actions();
 std::vector<Action> help_actions();
 
 // What several menus ask.

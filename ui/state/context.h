@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where what it asks for goes. Made anew for every frame.
 #pragma once
+#include "preset/settings_type.h"
 #include "ui/state/bookmarks.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
 #include "ui/state/run_in_hand.h"
+#include "ui/state/settings.h"
 #include "ui/state/undo.h"
 
 #include <string>
@@ -22,6 +24,7 @@ struct Chosen {
   Handles handles;
   command::Nudged nudged;          ///< the newest
   std::vector<Bookmark> bookmarks; ///< of cameras
+  bool operator==(const Chosen&) const = default;
 };
 
 struct Context {
@@ -29,12 +32,16 @@ struct Context {
   const RunInHand& run;
   const Comparing& comparing;
   const Chosen& chosen;
+  const Settings& settings;
+  bool has_earlier_session; ///< that could be reopened
   Commands& commands;
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
   /// What is selected of it.
   Selection selection() const { return in_preset(chosen.selection, preset()); }
+  /// Its engine; empty before a preset is opened.
+  std::string engine() const { return edits ? std::string(edits->current().settings.type().name) : std::string(); }
   void push(Command command) const { commands.push_back(std::move(command)); }
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
   /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.

@@ -140,7 +140,7 @@ void draw_text_at(const Point& at, const std::string& text)
   const float em = ImGui::GetFontSize(), pad = 0.3f * em;
   const ImVec2 corner{static_cast<float>(at[0]) + em, static_cast<float>(at[1]) + em}, extent = ImGui::CalcTextSize(text.c_str());
   draw_list->AddRectFilled({corner.x - pad, corner.y - pad}, {corner.x + extent.x + pad, corner.y + extent.y + pad}, colour::overlay, pad);
-  draw_list->AddText(corner, colour::text, text.c_str());
+  draw_list->AddText(corner, colour::on_dark, text.c_str());
 }
 
 const char* verb(Tool tool) { return tool == Tool::move ? "move" : tool == Tool::turn ? "turn" : "scale"; }
