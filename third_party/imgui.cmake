@@ -6,8 +6,8 @@
 #   nephroid_imgui_backend  GLFW and OpenGL: what the window links
 #   nephroid_ui_font        the font of the window, as bytes (third_party/embedded_font.h)
 #   nephroid_implot         ImPlot: plots in panels
+#   nephroid_imguizmo       ImGuizmo: handles to move, turn and scale things in the View
 #   nephroid_fuzzy_search   the search of the command palette
-# ImGuizmo lies beside it under external/: a panel that needs one adds a library here.
 set(imgui_version 1.93.0)
 
 find_package(OpenGL QUIET COMPONENTS OpenGL GLX)
@@ -39,6 +39,11 @@ add_library(nephroid_implot STATIC ${implot}/implot.cpp ${implot}/implot_items.c
 target_include_directories(nephroid_implot SYSTEM PUBLIC ${implot})
 target_compile_definitions(nephroid_implot PRIVATE "IMPLOT_CUSTOM_NUMERIC_TYPES=(double)")
 target_link_libraries(nephroid_implot PUBLIC nephroid_imgui)
+
+set(imguizmo ${imgui_bundle}/external/ImGuizmo/ImGuizmo/src)
+add_library(nephroid_imguizmo STATIC ${imguizmo}/ImGuizmo.cpp)
+target_include_directories(nephroid_imguizmo SYSTEM PUBLIC ${imguizmo})
+target_link_libraries(nephroid_imguizmo PUBLIC nephroid_imgui)
 
 # How well words fit what is typed: of the command palette of the bundle only its search.
 set(command_palette ${imgui_bundle}/external/imgui-command-palette/imgui-command-palette)

@@ -64,10 +64,21 @@ struct LibraryRule {
 };
 
 const std::vector<LibraryRule> library_rules{
-    {"CL/", "compute"},      {"OpenImageIO/", "image"}, {"assimp/", "scene"},  {"embree", "scene"},
-    {"CLI/", "cli"},         {"yaml-cpp/", "optics"},   {"GLFW/", "ui"},       {"GL/", "ui"},
-    {"imgui", "ui"},         {"implot", "ui"},          {"imcmd_", "ui"},          {"FLIP.h", "measure"}, {"Eigen/", "measure, inverse"},
+    {"CL/", "compute"},
+    {"OpenImageIO/", "image"},
+    {"assimp/", "scene"},
+    {"embree", "scene"},
+    {"CLI/", "cli"},
+    {"yaml-cpp/", "optics"},
+    {"GLFW/", "ui"},
+    {"GL/", "ui"},
+    {"imgui", "ui"},
+    {"implot", "ui"},
+    {"imcmd_", "ui"},
+    {"FLIP.h", "measure"},
+    {"Eigen/", "measure, inverse"},
     {"qrencode", "inverse"},
+    {"ImGuizmo", "ui"},
 };
 
 /// What is wrong with one include of a file of `folder`; empty where nothing is.

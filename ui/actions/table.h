@@ -12,6 +12,8 @@ namespace nephroid::ui {
 
 std::vector<Action> file_actions();
 std::vector<Action> edit_actions();
+std::vector<Action> select_actions();
+std::vector<Action> camera_actions();
 std::vector<Action> run_actions();
 std::vector<Action> view_actions();
 std::vector<Action> window_actions();

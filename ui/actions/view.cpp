@@ -110,6 +110,8 @@ void next_tone(C c)
 }
 
 bool has_pixel(C c) { return c.chosen.pixel.has_value(); }
+/// The arrow keys are those of what is selected, where something is.
+bool can_step(C c) { return has_pixel(c) && c.selection() == Selection{}; }
 
 /// The pixel in the middle of what is shown; none where one was.
 void inspect(C c)
@@ -169,10 +171,10 @@ std::vector<Action> view_actions()
        nullptr, has_tone<ToneCurve::false_colour>},
       {menu, "Inspect pixel", ImGuiKey_I, false, "The pixel in the middle, or none; Alt and a click takes another", has_picture, inspect,
        nullptr, nullptr, has_pixel},
-      {menu, "Pixel to the left", ImGuiKey_LeftArrow, true, "Inspect the pixel beside", has_pixel, move_pixel<-1, 0>},
-      {menu, "Pixel to the right", ImGuiKey_RightArrow, true, "Inspect the pixel beside", has_pixel, move_pixel<1, 0>},
-      {menu, "Pixel above", ImGuiKey_UpArrow, true, "Inspect the pixel above", has_pixel, move_pixel<0, -1>},
-      {menu, "Pixel below", ImGuiKey_DownArrow, true, "Inspect the pixel below", has_pixel, move_pixel<0, 1>},
+      {menu, "Pixel to the left", ImGuiKey_LeftArrow, true, "Inspect the pixel beside", can_step, move_pixel<-1, 0>},
+      {menu, "Pixel to the right", ImGuiKey_RightArrow, true, "Inspect the pixel beside", can_step, move_pixel<1, 0>},
+      {menu, "Pixel above", ImGuiKey_UpArrow, true, "Inspect the pixel above", can_step, move_pixel<0, -1>},
+      {menu, "Pixel below", ImGuiKey_DownArrow, true, "Inspect the pixel below", can_step, move_pixel<0, 1>},
       {menu, "Copy pixel", 0, false, "The values of the pixel that is inspected, with tabs between", has_pixel, copy_pixel, no_pixel},
       {menu, "Statistics of the picture", shift | ImGuiKey_I, false, "Of all its pixels, or none; Alt and a drag takes a rectangle",
        has_picture, whole_region, nullptr, nullptr, has_region},

@@ -98,6 +98,10 @@ void ParametersPanel::draw(const Context& context)
   }
   draft_.follow(*context.preset());
   places_.clear();
+  if (const Selection selection = context.selection(); selection != revealed_) {
+    revealed_ = selection;
+    if (const std::string pointer = pointer_of(selection); !pointer.empty()) reveal_ = pointer;
+  }
   const std::string revealing = reveal_;
   follow_run(context);
   draw_top();

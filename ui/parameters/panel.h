@@ -94,6 +94,7 @@ private:
   std::optional<Problem> wrong_;
   std::optional<Problem> told_;    ///< the error of the run
   std::string reveal_;             ///< the pointer of a field that is to be brought into sight
+  Selection revealed_;             ///< what was selected when its fields were brought into sight last
   std::string help_;               ///< of the field under the mouse
   std::string folder_;             ///< that the choice of a file shows,
   std::vector<std::string> files_; ///< and what is in it

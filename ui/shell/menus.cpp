@@ -17,6 +17,8 @@ struct MouseHabit {
 };
 
 const MouseHabit mouse_habits[] = {
+    {"Click", "Select the object or light that is there, or nothing"},
+    {"Left drag on a handle", "Move, turn or scale what is selected; Ctrl: in steps"},
     {"Left drag", "Orbit: the scene turns with the mouse"},
     {"Middle or Shift+left drag", "Pan: move the camera sideways and up"},
     {"Wheel, or right drag", "Distance of the camera"},
@@ -24,7 +26,7 @@ const MouseHabit mouse_habits[] = {
     {"Ctrl+drag", "Move the picture in the panel"},
     {"Alt+click, Alt+drag", "Inspect a pixel; statistics of a rectangle"},
     {"Hover", "Linear values and luminance of the pixel"},
-    {"Drop a file", "Open that preset; pin a run's folder or history.csv"},
+    {"Drop a file", "Open that preset; pin a run's folder or history.csv; add a mesh to the scene"},
     {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},
 };
 
@@ -61,16 +63,18 @@ void run_shortcuts(const Context& context, bool dialog)
 {
   const ImGuiIO& io = ImGui::GetIO();
   const bool elsewhere = dialog || io.WantTextInput;
+  int taken = 0; // of actions with the same keys the first that is enabled has them
   for (const Action& action : actions()) {
     if (!action.shortcut) continue;
     // A window that loses the keyboard never hears that the key went up.
     if (action.let_go && (ImGui::IsKeyReleased(key_of(action.shortcut)) || io.AppFocusLost)) action.let_go(context);
     // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would be lost.
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
-    if (elsewhere || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
-    if (action.enabled(context))
+    if (elsewhere || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
+    if (action.enabled(context)) {
       action.run(context);
-    else if (action.why_not)
+      taken = action.shortcut;
+    } else if (action.why_not)
       context.note(fmt::format("{}: {}", action.name, action.why_not(context)));
   }
 }

@@ -11,6 +11,7 @@
 #include "ui/plan/panel.h"
 #include "ui/spectra/panel.h"
 #include "ui/view/panel.h"
+#include "ui/view/picking.h"
 
 #include <type_traits>
 
@@ -27,10 +28,13 @@ std::unique_ptr<Panel> make([[maybe_unused]] WavelengthAxis& wavelengths)
 }
 
 const PanelEntry table[] = {
-    {"view", ViewPanel::title, "", make<ViewPanel>},
+    {"view", ViewPanel::title, "", make<ViewPanel>, SeenScene::look},
     {"error", ErrorPanel::title, "", make<ErrorPanel>},
     {"dispersion", DispersionPanel::title, "spectral", make<DispersionPanel>},
-    {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>, SeenByGlass::look},
+    {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>,
+     [](const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded) {
+       return SeenByGlass::look(preset, loaded->scene, *loaded->bvh);
+     }},
     {"annealing", AnnealingPanel::title, "inverse", make<AnnealingPanel>, nullptr, nullptr, "inverse"},
     {"environment", EnvironmentPanel::title, "", make<EnvironmentPanel>, nullptr, EnvironmentPanel::serves, "environment"},
     {"inspector", InspectorPanel::title, "", make<InspectorPanel>},
@@ -56,11 +60,11 @@ bool serves(const PanelEntry& entry, const preset::Preset* preset)
   return !preset || entry.engine.empty() || entry.engine == preset->settings.type().name;
 }
 
-std::vector<std::any> look_around(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
+std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
 {
   std::vector<std::any> seen;
   for (const PanelEntry& entry : table)
-    if (entry.look_around && serves(entry, &preset)) seen.push_back(entry.look_around(preset, scene, bvh));
+    if (entry.look_around && serves(entry, &preset)) seen.push_back(entry.look_around(preset, loaded));
   return seen;
 }
 

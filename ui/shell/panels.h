@@ -2,8 +2,7 @@
 // The table of panels, a line each. The first is the picture; shell/layout.h says where the others are.
 #pragma once
 #include "preset/preset.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
+#include "run/run.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
@@ -23,7 +22,7 @@ struct PanelEntry {
   /// wavelengths: the axis that plots of several panels share; outlives the panel.
   std::unique_ptr<Panel> (*make)(WavelengthAxis& wavelengths);
   /// What it wants to know of the loaded scene; called on the thread that made a run ready. Null: nothing.
-  std::any (*look_around)(const preset::Preset&, const scene::Scene&, const scene::Bvh&) = nullptr;
+  std::any (*look_around)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&) = nullptr;
   /// Whether it is for a preset, where the engine does not decide on that. Null: it does.
   bool (*serves)(const preset::Preset&) = nullptr;
   /// The engine whose presets are opened with this tab in front; empty: none.
@@ -39,6 +38,6 @@ bool is_open(const PanelEntry& entry, const Context& context);
 /// Whether the panel is for this preset; null: none is open, and every panel says what it is for.
 bool serves(const PanelEntry& entry, const preset::Preset* preset);
 /// What the panels of the preset's engine look for in a scene (LookAround of state/device_runs.h).
-std::vector<std::any> look_around(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
+std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded);
 
 } // namespace nephroid::ui

@@ -4,9 +4,11 @@
 #pragma once
 #include "measure/difference.h"
 #include "preset/preset.h"
+#include "ui/state/selection.h"
 #include "ui/state/settings.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -136,6 +138,31 @@ struct ChooseMaterial {
 struct LoadDispersion {
   std::string file;
 };
+/// What is selected, to be moved; and how it is moved.
+struct Select {
+  Selection selection;
+};
+struct SetHandles {
+  Handles handles;
+};
+/// The newest edit was a nudge: one that follows soon goes into the same entry to undo.
+struct Nudged {
+  double at_s = -1e9;        ///< ImGui::GetTime
+  std::uint64_t gesture = 0; ///< its number; 0: there was none
+  bool operator==(const Nudged&) const = default;
+};
+/// Bookmarks of cameras. Going to one is an edit.
+struct AddBookmark {};
+struct GoToBookmark {
+  std::size_t index = 0;
+};
+struct RenameBookmark {
+  std::size_t index = 0;
+  std::string name;
+};
+struct DeleteBookmark {
+  std::size_t index = 0;
+};
 struct Ask {
   Question question = Question::none;
 };
@@ -189,13 +216,15 @@ struct Quit {
 
 } // namespace command
 
-using Command = std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart,
-                             command::Cancel, command::Pause, command::SetLook, command::Flip, command::CompareWith,
-                             command::ShowDifference, command::ShowLayer, command::InspectPixel, command::SelectRegion, command::PinRun,
-                             command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
-                             command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles,
-                             command::Dismiss, command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout,
-                             command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
+using Command =
+    std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
+                 command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::ShowLayer,
+                 command::InspectPixel, command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin, command::Unpin,
+                 command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles,
+                 command::Nudged, command::AddBookmark, command::GoToBookmark, command::RenameBookmark, command::DeleteBookmark,
+                 command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss, command::ReopenSession,
+                 command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout, command::ShowPanel,
+                 command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

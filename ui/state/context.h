@@ -2,6 +2,7 @@
 // What a panel reads, and where what it asks for goes. Made anew for every frame.
 #pragma once
 #include "preset/settings_type.h"
+#include "ui/state/bookmarks.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
 #include "ui/state/run_in_hand.h"
@@ -12,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace nephroid::ui {
 
@@ -22,6 +24,10 @@ struct Chosen {
   std::optional<std::array<int, 2>> pixel; ///< that is inspected: column and row; may lie outside of the picture
   std::optional<PixelRegion> region;       ///< that there are statistics of; may reach out of the picture, is never empty
   std::string material;                    ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
+  Selection selection;                     ///< may be of a preset that was: in_preset()
+  Handles handles;
+  command::Nudged nudged;          ///< the newest
+  std::vector<Bookmark> bookmarks; ///< of cameras
   bool operator==(const Chosen&) const = default;
 };
 
@@ -36,6 +42,8 @@ struct Context {
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
+  /// What is selected of it.
+  Selection selection() const { return in_preset(chosen.selection, preset()); }
   /// Its engine; empty before a preset is opened.
   std::string engine() const { return edits ? std::string(edits->current().settings.type().name) : std::string(); }
   void push(Command command) const { commands.push_back(std::move(command)); }

@@ -66,7 +66,7 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
   auto job = measure::measured(run::make_job(*previous_, *context_), preset, reference);
   compute::tell_of_compiling(*context_, [] {}); // what a job builds later is short
   std::vector<std::any> seen;
-  if (look_around_) seen = look_around_(preset, previous_->loaded->scene, *previous_->loaded->bvh);
+  if (look_around_) seen = look_around_(preset, previous_->loaded);
   return {std::move(job), std::move(plan), std::move(reference), std::move(seen)};
 }
 

@@ -12,17 +12,14 @@
 #include <thread>
 
 namespace nephroid::run {
+struct LoadedScene;
 struct Prepared;
-}
-namespace nephroid::scene {
-struct Scene;
-struct Bvh;
-} // namespace nephroid::scene
+} // namespace nephroid::run
 
 namespace nephroid::ui {
 
 /// NewRun::seen of a loaded scene; on the worker's thread.
-using LookAround = std::vector<std::any> (*)(const preset::Preset&, const scene::Scene&, const scene::Bvh&);
+using LookAround = std::vector<std::any> (*)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&);
 
 class DeviceRuns : public RunSource {
 public:

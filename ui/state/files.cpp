@@ -29,7 +29,8 @@ struct Kind {
 constexpr std::array kinds{
     Kind{".yml .yaml ", "is dispersion data",
          "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion {}`"},
-    Kind{".obj .ply .stl .gltf .glb .3ds ", "is a mesh", "name it in a preset as an object's \"mesh\""},
+    Kind{".obj .ply .stl .gltf .glb .3ds ", "is a mesh",
+         "drop it on the window once a preset with a scene is open, or name it in one as an object's \"mesh\""},
     Kind{".exr .hdr ", "is a picture",
          "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
     Kind{".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",

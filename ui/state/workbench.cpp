@@ -58,6 +58,8 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
   chosen_.look = Look{};
   chosen_.region.reset();
   carry_out(command::InspectPixel{});
+  chosen_.selection = {};
+  meshes_.forget();
   question_ = Question::none;
   waiting_.reset();
   run_.start(*edits_);
@@ -100,6 +102,7 @@ void Workbench::carry_out(const command::Open& c)
     carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
     return messages_.note(name + " is the environment");
   }
+  if (edits_ && is_mesh_file(c.name) && has_scene(edits_->current())) return meshes_.read(c.name);
   if (c.sure || !edits_ || !edits_->modified()) {
     open(c.name);
     return;
@@ -143,6 +146,7 @@ void Workbench::carry_out(const command::SetLook& c)
 void Workbench::carry_out(const command::InspectPixel& c)
 {
   chosen_.pixel = c.pixel;
+  if (c.pixel) chosen_.selection = {}; // the arrow keys are the pixel's now
   run_.watch_spectrum(c.pixel);
 }
 
@@ -308,6 +312,7 @@ void Workbench::update(Clock::time_point now)
   files_.collect(
       messages_, [this](PinnedRun run) { comparing_.pin(std::move(run)); },
       [this](const std::filesystem::path& file) { carry_out(command::Open{file.string()}); });
+  meshes_.collect(messages_, [this](const DroppedMesh& mesh) { add_object(mesh); });
   messages_.expire(now);
   comparing_.update(now);
 }

@@ -5,6 +5,7 @@
 #pragma once
 #include "preset/read.h"
 #include "ui/state/context.h"
+#include "ui/state/dropped_meshes.h"
 #include "ui/state/file_watch.h"
 #include "ui/state/files.h"
 #include "ui/state/session.h"
@@ -48,7 +49,7 @@ public:
   const Chosen& chosen() const { return chosen_; }
   const std::vector<Message>& messages() const { return messages_.all(); }
   /// Whether a file is being read or written in the background: its pin or its message is to come.
-  bool works_on_files() const { return files_.busy(); }
+  bool works_on_files() const { return files_.busy() || meshes_.busy(); }
   /// What is worth knowing and needs no answer: the program's notes, then those of the newest plan.
   std::vector<std::string> notes() const;
   Question question() const { return question_; }
@@ -80,6 +81,13 @@ private:
   void carry_out(const command::ChooseMetric& c) { chosen_.error_metric = c.metric; }
   void carry_out(const command::ChooseMaterial& c) { chosen_.material = c.material; }
   void carry_out(const command::LoadDispersion& c);
+  void carry_out(const command::Select& c);
+  void carry_out(const command::SetHandles& c) { chosen_.handles = c.handles; }
+  void carry_out(const command::Nudged& c) { chosen_.nudged = c; }
+  void carry_out(const command::AddBookmark&);
+  void carry_out(const command::GoToBookmark& c);
+  void carry_out(const command::RenameBookmark& c);
+  void carry_out(const command::DeleteBookmark& c);
   void carry_out(const command::Ask& c);
   void carry_out(const command::SavePreset& c);
   void carry_out(const command::SavePicture& c);
@@ -109,6 +117,7 @@ private:
   bool take_over_file();
   /// What the View shows now.
   PictureToSave shown_picture() const;
+  void add_object(const DroppedMesh& mesh);
   EngineLayout& engine_layout();
 
   std::optional<UndoStack> edits_;
@@ -120,6 +129,7 @@ private:
   FileWork files_;
   FileWatch watch_;
   std::shared_ptr<const preset::Preset> watched_; ///< whose files are watched
+  DroppedMeshes meshes_;
   std::vector<std::string> program_notes_;
   Settings settings_;
   std::string panel_to_front_;

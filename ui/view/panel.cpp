@@ -5,6 +5,7 @@
 #include "ui/view/comparison_bar.h"
 #include "ui/view/look_bar.h"
 #include "ui/view/marks.h"
+#include "ui/view/selection_bar.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
@@ -19,6 +20,7 @@ namespace nephroid::ui {
 namespace {
 
 constexpr double orbit_deg_per_height = 180; ///< dragging over the picture's height goes half round
+constexpr double click_trembles = 3;         ///< pixels at scale 1: a mouse that went no farther was clicked
 constexpr double notch = 1.1;                ///< a notch of the wheel changes distance or zoom by this factor
 constexpr double wheel_gesture_s = 0.6;      ///< a longer rest starts a new entry to undo
 constexpr double pixel_squares_from = 3;     ///< at this zoom and above pixels are shown as squares
@@ -45,19 +47,23 @@ void ViewPanel::draw(const Context& context)
   places_.clear();
   draw_look_bar(context, tone_, places_);
   draw_comparison_bar(context);
+  draw_selection_bar(context, places_);
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   canvas_ = {{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
   ImGui::InvisibleButton("picture", vec(canvas_.size),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   hovered_ = ImGui::IsItemHovered();
   own_keys(context);
-  use_mouse(context);
+  pressed_ = ImGui::IsItemActivated();
+  held_ = ImGui::IsItemActive();
   refresh_texture(context);
   const auto& map = context.comparing.difference();
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
   draw_picture(context);
+  overlay_.draw(context, canvas_, shown_.size, hovered_);
+  use_mouse(context); // after the handles, which have it first
   if (!shown_.hint.empty()) draw_hint_on_dark(corner, vec(canvas_.size), shown_.hint);
   draw_marks(context, place(context.chosen.look, canvas_, shown_.size), shown_.size);
   if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
@@ -135,11 +141,11 @@ void ViewPanel::draw_pixel_value(const Context& context) const
   draw_overlay(vec({canvas_.corner[0] + pad, canvas_.corner[1] + canvas_.size[1] - ImGui::CalcTextSize(text.c_str()).y - 3 * pad}), text);
 }
 
-/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected the arrow keys are its, not the keyboard's cursor's.
+/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected or a thing is selected the arrow keys are theirs, not the keyboard's cursor's.
 void ViewPanel::own_keys(const Context& context)
 {
   ImGui::SetItemKeyOwner(ImGuiMod_Alt);
-  if (!context.chosen.pixel || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  if ((!context.chosen.pixel && context.selection() == Selection{}) || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
   for (const ImGuiKey key : {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow})
     ImGui::SetKeyOwner(key, ImGui::GetItemID());
 }
@@ -147,7 +153,7 @@ void ViewPanel::own_keys(const Context& context)
 void ViewPanel::use_mouse(const Context& context)
 {
   if (!context.preset()) return;
-  if (ImGui::IsItemActivated()) start_drag(context);
+  if (pressed_ && !overlay_.has_mouse()) start_drag(context);
   if (drag_ != Drag::none) continue_drag(context);
   if (hovered_ && ImGui::GetIO().MouseWheel != 0) use_wheel(context);
 }
@@ -166,6 +172,7 @@ void ViewPanel::start_drag(const Context& context)
   else
     drag_ = Drag::orbit;
   drag_from_ = mouse();
+  moved_ = false;
   camera_at_start_ = context.preset()->scene.camera;
   look_at_start_ = context.chosen.look;
   ++gesture_;
@@ -175,7 +182,8 @@ void ViewPanel::continue_drag(const Context& context)
 {
   const ImVec2 step = ImGui::GetIO().MouseDelta;
   const Point delta{mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]};
-  if (step.x != 0 || step.y != 0) {
+  moved_ = moved_ || std::hypot(delta[0], delta[1]) > click_trembles * scale();
+  if (moved_ && (step.x != 0 || step.y != 0)) {
     if (drag_ == Drag::move_picture) {
       const Look moved = dragged(look_at_start_, canvas_, shown_.size, delta);
       Look look = context.look();
@@ -187,7 +195,8 @@ void ViewPanel::continue_drag(const Context& context)
       move_camera(context, delta);
   }
   if (drag_ == Drag::mark) mark(context);
-  if (ImGui::IsItemActive()) return;
+  if (held_) return;
+  if (drag_ == Drag::orbit && !moved_) overlay_.click(context, drag_from_);
   drag_ = Drag::none;
   context.push(command::EndGesture{});
 }
@@ -215,7 +224,7 @@ void ViewPanel::mark(const Context& context)
   const double way = std::hypot(mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]);
   marks_region_ = marks_region_ || way >= ImGui::GetIO().MouseDragThreshold;
   if (marks_region_) context.push(command::SelectRegion{region_between(placement, shown_.size, drag_from_, mouse())});
-  if (ImGui::IsItemActive()) return;
+  if (held_) return;
   if (!marks_region_) context.push(command::InspectPixel{pixel_at(placement, shown_.size, mouse())});
   context.push(command::ShowPanel{"inspector"});
 }

@@ -4,12 +4,15 @@
 #pragma once
 #include "ui/state/tone.h"
 #include "ui/view/placement.h"
+#include "ui/view/scene_overlay.h"
 #include "ui/view/shown_picture.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/picture_texture.h"
 #include "ui/widgets/widgets.h"
 
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace nephroid::ui {
 
@@ -22,9 +25,11 @@ public:
   const Canvas& canvas() const { return canvas_; }
   const PictureTexture& texture() const { return texture_; }
   const Tone& tone() const { return tone_; }
-  const WidgetPlaces& places() const { return places_; }
   /// What it showed last; for tests.
   const ShownPicture& shown() const { return shown_; }
+  /// For tests: what is over it, and the middle of a widget of the rows above it (look_bar.h, selection_bar.h).
+  const SceneOverlay& overlay() const { return overlay_; }
+  std::optional<Point> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   enum class Drag { none, orbit, pan, dolly, move_picture, mark };
@@ -41,7 +46,6 @@ private:
   void use_wheel(const Context& context);
   void refresh_texture(const Context& context);
 
-  WidgetPlaces places_;
   Canvas canvas_;
   ShownPicture shown_; ///< of the frame that is being drawn
   PictureTexture texture_;
@@ -50,7 +54,12 @@ private:
   double white_in_texture_ = 1;            ///< and for which white
   Tone tone_;                              ///< that it was made with
 
+  SceneOverlay overlay_;
+  WidgetPlaces places_;
+
   Drag drag_ = Drag::none;
+  bool pressed_ = false, held_ = false; ///< a button of the mouse, on the picture
+  bool moved_ = false;                  ///< the drag is one: the mouse went farther than a click's hand trembles
   Point drag_from_{0, 0};
   bool marks_region_ = false;      ///< the mouse went too far for a click
   preset::Camera camera_at_start_; ///< a drag is measured from its start, so that rounding does not add up

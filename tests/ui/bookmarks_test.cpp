@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bookmarks of cameras in the whole window: made, gone to, renamed and deleted by keys and mouse.
+#include "ui/state/bookmarks.h"
+
+#include "window_fixture.h"
+
+namespace nephroid::ui {
+namespace {
+
+class Bookmarks : public test::WindowFixture {
+protected:
+  const std::vector<Bookmark>& all() const { return workbench.chosen().bookmarks; }
+  const ViewPanel& view() const { return workspace.panel<ViewPanel>(); }
+  void bookmark() { press(ImGuiKey_B, ImGuiMod_Ctrl); }
+  void show_list()
+  {
+    click(*view().place_of("cameras"));
+    frames(2);
+  }
+};
+
+TEST_F(Bookmarks, KeepACameraToComeBackTo)
+{
+  open();
+  const preset::Camera first = camera();
+  bookmark();
+  ASSERT_EQ(all().size(), 1U);
+  EXPECT_EQ(all()[0], (Bookmark{"Test 1", first}));
+  drag(0, 60, 20);
+  const preset::Camera second = camera();
+  ASSERT_NE(second, first);
+  bookmark();
+  ASSERT_EQ(all().size(), 2U);
+  EXPECT_EQ(all()[1].name, "Test 2");
+  press(ImGuiKey_1, ImGuiMod_Ctrl);
+  EXPECT_EQ(camera(), first);
+  EXPECT_EQ(workbench.edits()->undo_label(), "go to Test 1");
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(camera(), second);
+  press(ImGuiKey_3, ImGuiMod_Ctrl);
+  EXPECT_EQ(camera(), second) << "there is no third";
+}
+
+TEST_F(Bookmarks, KeepThePicturesSize)
+{
+  open();
+  bookmark();
+  preset::Preset edited = *workbench.preset();
+  edited.scene.camera.resolution = {32, 24};
+  edited.scene.camera.position = {1, 1, 4};
+  workbench.apply({command::Edit{"smaller", edited}});
+  press(ImGuiKey_1, ImGuiMod_Ctrl);
+  EXPECT_EQ(camera().position, (preset::Vec3{0, 0, 4}));
+  EXPECT_EQ(camera().resolution, (std::array{32, 24}));
+}
+
+TEST_F(Bookmarks, AreInAList)
+{
+  open();
+  show_list();
+  click(*view().place_of("bookmark"));
+  ASSERT_EQ(all().size(), 1U);
+  click(middle()); // closes the list
+  drag(0, 60, 20);
+  const preset::Camera away = camera();
+  frames(2);
+  show_list();
+  click(*view().place_of("name 0"));
+  frames(2);
+  press(ImGuiKey_A, ImGuiMod_Ctrl);
+  ImGui::GetIO().AddInputCharactersUTF8("from the front");
+  frames(2);
+  press(ImGuiKey_Enter);
+  EXPECT_EQ(all()[0].name, "from the front");
+  click(*view().place_of("go 0"));
+  EXPECT_NE(camera(), away);
+  EXPECT_EQ(workbench.edits()->undo_label(), "go to from the front");
+  show_list();
+  click(*view().place_of("delete 0"));
+  EXPECT_TRUE(all().empty());
+}
+
+TEST_F(Bookmarks, StayWhenAnotherPresetIsOpened)
+{
+  open();
+  bookmark();
+  ASSERT_TRUE(workbench.open("spectral/prism"));
+  frames(3);
+  EXPECT_EQ(all().size(), 1U);
+  bookmark();
+  EXPECT_NE(all()[1].name, all()[0].name);
+}
+
+} // namespace
+} // namespace nephroid::ui

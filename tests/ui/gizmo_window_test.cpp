@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// The handles in the real window: a ball is clicked and its arrow dragged by real X events, and the saved preset has it where it was
+// dragged to. With the folder docs in NEPHROID_PICTURES the picture of docs/window.md is written there. Skipped where there is no Xvfb, no
+// xdotool or no ImageMagick.
+#include "places.h"
+#include "preset/read.h"
+#include "real_window.h"
+#include "seen_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace nephroid::ui {
+namespace {
+
+using test::Pixel, test::pixel;
+
+constexpr std::array<int, 2> size{1200, 900};
+constexpr double right_by = 0.8; ///< metres
+
+/// A glass ball over a floor, seen from above its side, so that no axis is straight across the picture.
+constexpr const char* scene_text = R"({
+  "name": "Handles", "engine": "spectral", "unit": "m", "white": 1.5,
+  "scene": {
+    "camera": {"position": [1.5, 2.2, 5], "target": [0, 0.4, 0], "fov_deg": 40, "resolution": [480, 360]},
+    "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "floor": {"type": "diffuse", "reflectance": 0.8}},
+    "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.5}, "material": "glass", "transform": {"translate": [-0.7, 0.6, 0]}},
+                {"name": "floor", "shape": {"type": "quad", "size": [6, 1, 6]}, "material": "floor"}],
+    "lights": [{"type": "spot", "power_w": 40, "position": [0.6, 1.7, -1], "direction": [-0.75, -1, 0.5], "half_angle_deg": 40},
+               {"type": "area", "power_w": 30, "position": [-1.6, 1.5, 0.6], "direction": [0.6, -1, 0], "size": [0.5, 0.3]}]
+  },
+  "stop": {"passes": 1000000}
+})";
+
+/// The same ball for the engine that takes moves on; a bake of a second or two.
+constexpr const char* environment_text = R"({
+  "name": "Handles", "engine": "environment", "unit": "m", "white": 3, "stop": {"passes": 4},
+  "scene": {
+    "camera": {"position": [1.5, 2.2, 5], "target": [0, 0.4, 0], "fov_deg": 40, "resolution": [256, 192]},
+    "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "floor": {"type": "diffuse", "reflectance": 0.8}},
+    "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.5}, "material": "glass", "transform": {"translate": [-0.7, 0.6, 0]}},
+                {"name": "floor", "shape": {"type": "quad", "size": [6, 1, 6]}, "material": "floor"}],
+    "lights": [{"type": "directional", "irradiance_w_m2": 10, "direction": [0.3, -1, -0.2]}]
+  },
+  "environment": {"photons": 8192, "spheres": 4, "resolution": 64}
+})";
+
+class GizmoWindowTest : public test::RealWindow {
+protected:
+  GizmoWindowTest() : RealWindow({"Xvfb", "xdotool", "import"})
+  {
+    // Bakes go with the test; compiled kernels stay.
+    const char* const home = std::getenv("HOME");
+    setenv("POCL_CACHE_DIR", (std::string(home ? home : "/tmp") + "/.cache/pocl/kcache").c_str(), 0);
+    setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
+  }
+};
+
+struct Places {
+  Pixel ball, tip, end; ///< of the arrow along x: where it is, and where it goes
+};
+
+/// Where a window shows the ball of a preset's first object, and its arrow once it is selected.
+Places places_in(const std::string& file)
+{
+  const preset::Preset before = preset::read_preset(file);
+  return test::in_window_like<test::SceneRuns>(size, "", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
+    const ViewPanel& view = workspace.panel<ViewPanel>();
+    const auto& resolution = before.scene.camera.resolution;
+    const Sight sight = *make_sight(before.scene.camera, place(Look{}, view.canvas(), resolution), resolution);
+    const glm::dvec3 middle = to_vector(before.scene.objects[0].transform.translate);
+    const Point at = *sight.to_screen(middle);
+    imgui.move(at[0], at[1]);
+    draw();
+    for (const bool down : {true, false}) {
+      imgui.button(0, down);
+      draw();
+    }
+    for (int i = 0; i < 3; ++i) draw();
+    const Point arrow = view.overlay().gizmo().places().value()[1];
+    // The tip stays under the mouse. The arrow is as long on the screen everywhere, so it shortens in the scene as it comes nearer.
+    const Ray ray = sight.ray(arrow);
+    const double away = (middle.z - ray.origin.z) / ray.direction.z; // in the plane of x and y through the middle
+    const glm::dvec3 there = middle + glm::dvec3(right_by, 0, 0);
+    const double length = (ray.origin + away * ray.direction - middle).x * sight.depth(there) / sight.depth(middle);
+    return Places{pixel(at), pixel(arrow), pixel(*sight.to_screen(there + glm::dvec3(length, 0, 0)))};
+  });
+}
+
+TEST_F(GizmoWindowTest, AnArrowMovesABall)
+{
+  const std::string file = folder.write("handles.json", scene_text);
+  const preset::Preset before = preset::read_preset(file);
+  const preset::Vec3 from = before.scene.objects[0].transform.translate;
+  const auto [ball, tip, end] = places_in(file);
+  test::PlayedWindow window(file, {"--size", fmt::format("{}x{}", size[0], size[1])}, folder.path());
+  window.click(ball);
+  window.move(tip);
+  window.press();
+  window.glide(tip, end);
+  const Pixel lit{ball[0], ball[1] + 150};
+  window.until("the floor is lit", [&] { return test::bytes_at(window.picture("held.png"), lit[0], lit[1])[1] > 40; });
+  window.let_go();
+  window.save();
+  const test::Ended ended = window.quit();
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const preset::Preset after = preset::read_preset(file);
+  const preset::Vec3 to = after.scene.objects[0].transform.translate;
+  EXPECT_NEAR(to[0] - from[0], right_by, 0.02 * right_by);
+  EXPECT_EQ(to[1], from[1]);
+  EXPECT_EQ(to[2], from[2]);
+  EXPECT_EQ(after.scene.camera, before.scene.camera) << "nothing orbited";
+  if (const char* docs = std::getenv("NEPHROID_PICTURES"))
+    std::filesystem::copy_file(folder.path() / "held.png", std::filesystem::path(docs) / "window-handles.png",
+                               std::filesystem::copy_options::overwrite_existing);
+}
+
+TEST_F(GizmoWindowTest, TheEnvironmentsRunGoesOnWithAMovedBall)
+{
+  const std::string file = folder.write("handles.json", environment_text);
+  const preset::Vec3 from = preset::read_preset(file).scene.objects[0].transform.translate;
+  const Places places = places_in(file);
+  test::PlayedWindow window(file, {"--size", fmt::format("{}x{}", size[0], size[1])}, folder.path());
+  const auto preparing = [&] {
+    const auto states = window.states();
+    return std::ranges::count_if(states, [](const auto& state) { return state.name == "preparing"; });
+  };
+  const auto before = preparing();
+  window.click(places.ball);
+  window.drag(places.tip, places.end);
+  window.until("the run is over", [&] { return window.states().back().name == "finished"; });
+  window.save();
+  EXPECT_EQ(preparing(), before) << "it was not started again";
+  const test::Ended ended = window.quit();
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NEAR(preset::read_preset(file).scene.objects[0].transform.translate[0] - from[0], right_by, 0.02 * right_by);
+}
+
+} // namespace
+} // namespace nephroid::ui

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/dropped_meshes.h"
+
+#include "base/error.h"
+#include "preset/read.h"
+#include "scene/mesh.h"
+#include "ui/state/dielectrics.h"
+#include "ui/state/selection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <numbers>
+#include <string_view>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr double part_of_view = 0.4; ///< of what the camera sees at its target: the new object's longest edge
+
+/// To so many digits that count: 0.123456 -> 0.123.
+double rounded(double value, int digits)
+{
+  if (value == 0 || !std::isfinite(value)) return value;
+  const int decimals = digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const double power = std::pow(10.0, std::abs(decimals));
+  return decimals >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
+}
+
+/// The shorter side of what the camera sees in the plane of its target.
+double view_at_target(const preset::Camera& camera)
+{
+  double square = 0;
+  for (std::size_t i = 0; i < 3; ++i) square += std::pow(camera.target[i] - camera.position[i], 2);
+  const double height = 2 * std::sqrt(square) * std::tan(camera.fov_deg / 2 * std::numbers::pi / 180);
+  return height * std::min(1.0, static_cast<double>(camera.resolution[0]) / camera.resolution[1]);
+}
+
+std::string new_name(const preset::Scene& scene, const std::string& wanted)
+{
+  const auto taken = [&](const std::string& name) {
+    return std::ranges::any_of(scene.objects, [&](const preset::Object& object) { return object.name == name; });
+  };
+  std::string name = wanted;
+  for (int number = 2; taken(name); ++number) name = fmt::format("{} {}", wanted, number);
+  return name;
+}
+
+std::string material_for(preset::Scene& scene)
+{
+  preset::Preset of;
+  of.scene = scene;
+  if (std::string glass = shown_dielectric(of, {}); !glass.empty()) return glass;
+  if (scene.materials.empty()) scene.materials["glass"].type = preset::Material::Type::dielectric;
+  return scene.materials.begin()->first;
+}
+
+} // namespace
+
+bool is_mesh_file(const std::filesystem::path& file)
+{
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array<std::string_view, 6> endings{".obj", ".ply", ".stl", ".gltf", ".glb", ".3ds"};
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+DroppedMesh read_dropped_mesh(const std::filesystem::path& file)
+{
+  std::error_code ignored;
+  DroppedMesh dropped;
+  dropped.file = std::filesystem::absolute(file, ignored);
+  const scene::Mesh mesh = scene::load_mesh(dropped.file);
+  for (const glm::uvec3& triangle : mesh.triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const glm::dvec3 p = mesh.positions[triangle[corner]];
+      dropped.box = scene::enclosing(dropped.box, {p, p});
+    }
+  dropped.closed = scene::inspect(mesh).closed();
+  return dropped;
+}
+
+WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh)
+{
+  preset::Scene& scene = preset.scene;
+  preset::Object object;
+  object.name = new_name(scene, mesh.file.stem().string());
+  object.mesh = mesh.file.string();
+  object.material = material_for(scene);
+  const bool dielectric = scene.materials.at(object.material).type == preset::Material::Type::dielectric;
+  if (dielectric && !mesh.closed && scene.damaged_meshes == preset::Scene::DamagedMeshes::refuse)
+    throw bad_input(mesh.file.string(), "is not closed, so it cannot be of '" + object.material + "', a dielectric",
+                    "a closed mesh, as the preset's damaged_meshes is \"refuse\"", "mend it, or set damaged_meshes to \"report\"");
+  const glm::dvec3 edges = mesh.box.high - mesh.box.low;
+  const double longest = std::max({edges.x, edges.y, edges.z});
+  const double factor = rounded(part_of_view * view_at_target(scene.camera) / longest, 3);
+  const glm::dvec3 middle = 0.5 * mesh.box.low + 0.5 * mesh.box.high;
+  const double grid_digits = std::floor(std::log10(factor * longest)) - 3; // a thousandth of its size
+  const double grid = std::pow(10.0, std::abs(grid_digits));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double at = scene.camera.target[i] - factor * middle[static_cast<int>(i)];
+    object.transform.scale[i] = factor;
+    object.transform.translate[i] = grid_digits < 0 ? std::round(at * grid) / grid : std::round(at / grid) * grid;
+  }
+  std::string note = fmt::format("{} is the object '{}' of '{}', scaled by {:g} to {:.3g} {}, at the camera's target",
+                                 mesh.file.filename().string(), object.name, object.material, factor, factor * longest, unit_word(preset));
+  if (dielectric && !mesh.closed) note += "; it is not closed: light that enters may never leave";
+  scene.objects.push_back(std::move(object));
+  preset::check(preset, [&](const std::string& pointer) { return Place(mesh.file.string(), pointer); });
+  return {std::move(preset), std::move(note)};
+}
+
+void DroppedMeshes::read(const std::filesystem::path& file)
+{
+  reading_.push_back({std::async(std::launch::async, [file] { return read_dropped_mesh(file); })});
+}
+
+void DroppedMeshes::forget()
+{
+  for (Reading& reading : reading_) reading.wanted = false;
+}
+
+void DroppedMeshes::collect(Messages& messages, const std::function<void(const DroppedMesh&)>& take)
+{
+  for (Reading& reading : reading_) {
+    if (reading.mesh.wait_for(std::chrono::seconds(0)) != std::future_status::ready) continue;
+    try {
+      const DroppedMesh mesh = reading.mesh.get();
+      if (reading.wanted) take(mesh);
+    } catch (const std::exception& error) {
+      messages.error(error);
+    }
+  }
+  std::erase_if(reading_, [](const Reading& reading) { return !reading.mesh.valid(); });
+}
+
+} // namespace nephroid::ui

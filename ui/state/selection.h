@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of the preset is selected, so that it can be moved with the mouse or the keys, and with which handles.
+#pragma once
+#include "preset/preset.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+struct Selection {
+  enum class Kind { nothing, object, light, camera };
+  Kind kind = Kind::nothing;
+  std::size_t index = 0; ///< of scene.objects or scene.lights; else 0
+  bool operator==(const Selection&) const = default;
+};
+
+/// How what is selected is moved.
+struct Handles {
+  enum class Tool { move, turn, scale };
+  Tool tool = Tool::move;
+  bool own_axes = false; ///< along the axes of what is selected; false: along those of the scene
+  bool snap = false;     ///< in steps
+  bool shown = true;     ///< over the picture, with the lights' icons
+  bool operator==(const Handles&) const = default;
+};
+
+/// Whether the preset has a scene that one can select something of. An inverse preset has a camera only.
+bool has_scene(const preset::Preset& preset);
+/// The selection as far as it is in the preset; nothing where it is not, and where there is no preset (null).
+Selection in_preset(const Selection& selection, const preset::Preset* preset);
+/// All that can be selected: objects, lights, the camera; empty without a scene.
+std::vector<Selection> selectable(const preset::Preset& preset);
+/// "bunny", "object 2" where it has no name, "light 1 (spot)", "camera's target"; of what is in the preset. Empty for nothing.
+std::string name_of(const preset::Preset& preset, const Selection& selection);
+/// The preset's unit of length, as its file has it: "mm".
+std::string unit_word(const preset::Preset& preset);
+/// Where its fields are: "/scene/objects/0". Empty for nothing.
+std::string pointer_of(const Selection& selection);
+
+} // namespace nephroid::ui

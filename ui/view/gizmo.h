@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The handles on what is selected: ImGuizmo drawn over the picture with the camera's own projection, and what a drag of one of them does to
+// the preset. What is edited is worked out in double precision from the start of the drag; ImGuizmo only says how far it went.
+#pragma once
+#include "ui/state/context.h"
+#include "ui/view/gizmo_edits.h"
+#include "ui/view/placement.h"
+#include "ui/view/sight.h"
+#include "ui/widgets/widgets.h"
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace nephroid::ui {
+
+/// What ImGuizmo calculates in: single precision, so lengths are in distances from the camera, and places from the middle of the handles.
+struct GizmoFrame {
+  Sight sight;
+  glm::dvec3 base{0}; ///< the frame's origin
+  double unit = 1;    ///< how far that is in front of the camera
+};
+using Matrix16 = std::array<float, 16>; ///< column after column, as OpenGL and ImGuizmo have it
+Matrix16 view_matrix(const GizmoFrame& frame);
+/// Of a canvas that the picture may fill in part, or be larger than.
+Matrix16 projection_matrix(const Sight& sight, const Canvas& canvas);
+
+class Gizmo {
+public:
+  Gizmo();
+  /// Inside of the View's window, after the picture. hovered: the mouse is over the picture's canvas and nothing else.
+  void draw(const Context& context, const Sight& sight, const Canvas& canvas, bool hovered);
+  /// In a frame where nothing can be taken hold of: a drag ends.
+  void rest(const Context& context);
+  /// Whether a handle is being dragged, so that the mouse means nothing else.
+  bool has_mouse() const { return drag_.has_value(); }
+  /// For tests: the middle of the handles and the tips of the three arrows, or of what they are when turning and scaling, where they were
+  /// drawn last; nothing where there are none.
+  const std::optional<std::array<Point, 4>>& places() const { return places_; }
+
+private:
+  struct Drag {
+    preset::Preset start, newest; ///< newest: what was pushed last
+    Selection selection;
+    Grip grip;
+    GizmoFrame frame;
+    Handles::Tool tool = Handles::Tool::move;
+    bool own_axes = false;
+    int handle = 0;        ///< ImGuizmo::MOVETYPE
+    Point from{0, 0};      ///< where the mouse took hold
+    Matrix16 matrix{};     ///< as ImGuizmo goes on from
+    bool snaps = false;    ///< now
+    std::string text = {}; ///< what was done so far
+  };
+  void end_drag(const Context& context);
+  void follow(const Context& context, const Matrix16& matrix);
+  std::string edit(preset::Preset& edited, const Matrix16& matrix) const;
+  void note_places(const GizmoFrame& frame, const glm::dmat3& axes);
+
+  Gestures gestures_{"gizmo"};
+  std::optional<Drag> drag_;
+  std::optional<std::array<Point, 4>> places_;
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a preset's camera sees, on the screen: from points of the scene to points of the screen and back as rays, however the picture is
+// placed in its panel. In the preset's coordinates and in double precision.
+#pragma once
+#include "preset/preset.h"
+#include "ui/view/placement.h"
+
+#include <glm/glm.hpp>
+
+#include <optional>
+
+namespace nephroid::ui {
+
+inline glm::dvec3 to_vector(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
+inline preset::Vec3 to_stored(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+struct Ray {
+  glm::dvec3 origin{0}, direction{0, 0, -1}; ///< of any length but 0
+};
+
+/// A pinhole, as scene::make_camera has it, and where its picture lies.
+struct Sight {
+  glm::dvec3 position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; ///< the last three are orthonormal
+  double tan_x = 1, tan_y = 1;                                            ///< of half the fields of view
+  Point corner{0, 0}, size{1, 1};                                         ///< of the whole picture on the screen
+
+  /// How far in front of the camera; not above 0 behind it.
+  double depth(const glm::dvec3& p) const { return glm::dot(p - position, forward); }
+  /// Where a point in front of the camera is seen, also outside of the picture.
+  std::optional<Point> to_screen(const glm::dvec3& p) const;
+  Ray ray(const Point& screen) const;
+};
+
+/// shown: the size in pixels of the picture that `placement` places, which may still be of another size than the camera's. Nothing for a
+/// camera that sees nothing: at its own target, or looking along its up.
+std::optional<Sight> make_sight(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown);
+
+} // namespace nephroid::ui
