@@ -32,10 +32,10 @@ struct LuminanceRange {
 struct Look {
   double exposure_stops = 0; ///< -20..20
   ToneCurve tone = ToneCurve::standard;
-  std::optional<LuminanceRange> false_colour; ///< nothing: automatic_range of what is shown
-  bool fit = true;                            ///< the whole picture in the panel; zoom and centre are not used then
-  double zoom = 1;                            ///< screen pixels a picture pixel
-  std::array<double, 2> centre{0, 0};         ///< the picture's point, in pixels, that is at the panel's middle
+  std::optional<LuminanceRange> false_colour = {}; ///< nothing: automatic_range of what is shown
+  bool fit = true;                                 ///< the whole picture in the panel; zoom and centre are not used then
+  double zoom = 1;                                 ///< screen pixels a picture pixel
+  std::array<double, 2> centre{0, 0};              ///< the picture's point, in pixels, that is at the panel's middle
   bool operator==(const Look&) const = default;
 };
 
