@@ -62,7 +62,7 @@ public:
   {
     bool holds = false;
     eventually([&] { return (holds = condition()) || gone(); });
-    return holds;
+    return holds || condition(); // what it waited for may be the child's last deed, or its end
   }
 
   bool gone() const

@@ -101,8 +101,11 @@ TEST_F(GizmoWindowTest, AnArrowMovesABall)
   window.move(tip);
   window.press();
   window.glide(tip, end);
-  const Pixel lit{ball[0], ball[1] + 150};
-  window.until("the floor is lit", [&] { return test::bytes_at(window.picture("held.png"), lit[0], lit[1])[1] > 40; });
+  window.until("the picture follows while the ball is held", [&] {
+    const image::Image picture = window.picture("held.png");
+    const auto green = [&](const Pixel& at) { return test::bytes_at(picture, at[0], at[1])[1]; };
+    return green({ball[0], ball[1] + 150}) > 40 && green({ball[0] - 20, ball[1] - 55}) < 20; // the floor is lit; where it was it is dark
+  });
   window.let_go();
   window.save();
   const test::Ended ended = window.quit();
