@@ -14,12 +14,23 @@ void save(const Context& c)
     c.push(command::SavePreset{target});
 }
 
+template <NewScene kind>
+void begin(const Context& c)
+{
+  c.push(command::New{kind});
+}
+
 } // namespace
 
 std::vector<Action> file_actions()
 {
   const char* menu = "File";
   return {
+      {menu, "New scene", ctrl | ImGuiKey_N, false, "A glass sphere on a floor under a lamp, to begin with", always,
+       begin<NewScene::spectral>},
+      {menu, "New scene: environment", 0, false, "A glass sphere under a sky, for the engine environment", always,
+       begin<NewScene::environment>},
+      {menu, "New scene: inverse", 0, false, "An object that casts two drawings, for the engine inverse", always, begin<NewScene::inverse>},
       {menu, "Open...", ctrl | ImGuiKey_O, false, "A preset file, or one of the shipped presets", always, ask<Question::open>},
       {menu, "Open history...", ctrl | shift | ImGuiKey_O, false, "Pin an earlier run by its folder or its history.csv", always,
        ask<Question::open_history>},

@@ -3,7 +3,10 @@
 #pragma once
 #include "preset/read.h"
 #include "ui/state/commands.h"
+#include "ui/widgets/widgets.h"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,8 @@ class Workbench;
 class Dialogs {
 public:
   void draw(const Workbench& workbench, Commands& commands);
+  /// For tests: the middle of a widget on the screen.
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   void begin(const Workbench& workbench);
@@ -25,6 +30,9 @@ private:
   Question shown_ = Question::none;
   std::string name_;                           ///< what the text field holds
   std::vector<preset::ShippedPreset> shipped_; ///< read when the dialog opens
+  std::string parent_;                         ///< that a saved preset may keep; empty: none
+  bool keep_parent_ = true;
+  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

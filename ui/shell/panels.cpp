@@ -9,6 +9,7 @@
 #include "ui/error/panel.h"
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
+#include "ui/presets/panel.h"
 #include "ui/spectra/panel.h"
 #include "ui/view/panel.h"
 
@@ -39,6 +40,7 @@ const PanelEntry table[] = {
     {"environment", EnvironmentPanel::title, "", make<EnvironmentPanel>, nullptr, EnvironmentPanel::serves},
     {"plan", PlanPanel::title, "", make<PlanPanel>},
     {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
+    {"presets", PresetsPanel::title, "", make<PresetsPanel>},
 };
 
 std::span<const PanelEntry> tabs() { return panel_table().subspan(1); }
@@ -90,7 +92,8 @@ void build_layout(const std::string& name, unsigned dock_space, float width, flo
   // Beside what an engine's own panel shows the fields are under the picture, so that both are in sight together.
   const PanelEntry& front = *find(name);
   const ImGuiID fields = front.engine.empty() ? right : ImGui::DockBuilderSplitNode(left, ImGuiDir_Down, 0.42f, nullptr, &left);
-  for (const PanelEntry& tab : tabs()) ImGui::DockBuilderDockWindow(tab.title, tab.name == "parameters" ? fields : right);
+  for (const PanelEntry& tab : tabs())
+    ImGui::DockBuilderDockWindow(tab.title, tab.name == "parameters" || tab.name == "presets" ? fields : right);
   ImGui::DockBuilderDockWindow(panel_table().front().title, left);
   // A tab's identifier is that of its window's name in its window (ImGuiWindow::TabId).
   ImGui::DockBuilderGetNode(right)->SelectedTabId = ImHashStr("#TAB", 0, ImHashStr(front.title));

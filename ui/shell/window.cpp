@@ -2,6 +2,7 @@
 #include "ui/shell/window.h"
 
 #include "base/error.h"
+#include "base/files.h"
 #include "image/image.h"
 #include "preset/read.h"
 #include "ui/shell/glfw_window.h"
@@ -45,6 +46,8 @@ void open_first(Workbench& workbench, const Options& options)
   for (const std::string& file : options.files)
     if (opened || is_history(file))
       workbench.apply({command::PinFile{file}});
+    else if (is_scene_file(file))
+      workbench.apply({command::Open{file}});
     else
       opened = workbench.open(file, options.overrides);
   if (options.files.empty()) workbench.apply({command::Ask{Question::open}});
@@ -231,6 +234,8 @@ int open_window(const Options& options)
   DeviceRuns runs(device, look_around);
   Workbench workbench(runs);
   if (!cache_note.empty()) workbench.add_note(cache_note);
+  if (const std::filesystem::path folder = state_folder(); !folder.empty())
+    workbench.remember({folder / "recent.json", cache_folder("thumbnails")});
   open_first(workbench, options);
   {
     Workspace workspace(options.layout);

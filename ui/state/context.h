@@ -3,6 +3,7 @@
 #pragma once
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
+#include "ui/state/recent_files.h"
 #include "ui/state/run_in_hand.h"
 #include "ui/state/undo.h"
 
@@ -24,6 +25,7 @@ struct Context {
   const Comparing& comparing;
   const Chosen& chosen;
   Commands& commands;
+  const RecentFiles& recent;
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }

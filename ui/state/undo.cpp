@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/undo.h"
 
+#include "preset/differences.h"
+
 #include <utility>
 
 namespace nephroid::ui {
@@ -44,7 +46,7 @@ bool UndoStack::redo()
 void UndoStack::mark_saved(const std::string& source)
 {
   for (Entry& entry : entries_) {
-    entry.preset.source = source;
+    entry.preset = preset::moved_to_file(std::move(entry.preset), source);
     entry.preset.provenance = {}; // the file holds every value now
   }
   saved_ = index_;

@@ -25,7 +25,7 @@ public:
   /// What undo() would undo and redo() redo; empty where there is nothing.
   std::string undo_label() const { return index_ > 0 ? entries_[index_].label : std::string(); }
   std::string redo_label() const { return index_ + 1 < entries_.size() ? entries_[index_ + 1].label : std::string(); }
-  /// The current state has been saved as `source`.
+  /// The current state has been saved as `source`. All states belong to that file now: what they name is named as from its folder.
   void mark_saved(const std::string& source);
   bool modified() const { return saved_ != index_; }
 

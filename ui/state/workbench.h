@@ -25,19 +25,22 @@ public:
   void apply(const Commands& commands);
   /// Opens a preset with overrides (--set). False, with a message, where it cannot be read.
   bool open(const std::string& name, const preset::Overrides& overrides = {});
+  /// From now on presets that are opened or saved are remembered there.
+  void remember(RecentFiles recent);
   /// One more line for notes(), from the program itself.
   void add_note(std::string line) { program_notes_.push_back(std::move(line)); }
   /// Once a frame: takes the newest snapshot, starts the run that edits ask for, collects what finished in the background.
   void update(Clock::time_point now = Clock::now());
 
   /// For one frame; what is asked for goes to `commands`.
-  Context context(Commands& commands) const { return {edits(), run_, comparing_, chosen_, commands}; }
+  Context context(Commands& commands) const { return {edits(), run_, comparing_, chosen_, commands, recent_}; }
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }
   const RunInHand& run() const { return run_; }
   const Comparing& comparing() const { return comparing_; }
   const Chosen& chosen() const { return chosen_; }
+  const RecentFiles& recent() const { return recent_; }
   const std::vector<Message>& messages() const { return messages_.all(); }
   /// Whether a file is being read or written in the background: its pin or its message is to come.
   bool works_on_files() const { return files_.busy(); }
@@ -53,6 +56,7 @@ public:
 
 private:
   void carry_out(const command::Open& c);
+  void carry_out(const command::New& c);
   void carry_out(const command::Edit& c);
   void carry_out(const command::EndGesture&) { run_.end_gesture(); }
   void carry_out(const command::Undo&);
@@ -81,6 +85,7 @@ private:
     comparing_.carry_out(c);
   }
   void ask_first(Command command);
+  void begin(preset::Preset preset);
 
   std::optional<UndoStack> edits_;
   Messages messages_;
@@ -89,6 +94,7 @@ private:
   Comparing comparing_{run_};
   Chosen chosen_;
   FileWork files_;
+  RecentFiles recent_;
   std::vector<std::string> program_notes_;
 
   Question question_ = Question::none;
