@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The menu "View": how the picture is shown, and what it is held against.
 #include "ui/actions/table.h"
-#include "ui/presets/panel.h"
 
 #include <algorithm>
 
@@ -87,8 +86,9 @@ std::vector<Action> view_actions()
       {menu, "Darker", shift | ImGuiKey_E, true, "Half a stop less exposure", always, expose<-1>},
       {menu, "Exposure 0", ImGuiKey_0, false, "The picture as image.png shows it", always, as_it_is},
       {menu, "Find a preset", ctrl | ImGuiKey_P, false, "The panel Presets, to type what is looked for", always,
-       [](C) { ImGui::SetWindowFocus(PresetsPanel::title); }},
-      {menu, "Reset layout", 0, false, "Every panel back to its place", always, push<command::ResetLayout>},
+       [](C c) {
+         c.push(command::ShowPanel{"presets", true});
+       }},
   };
 }
 

@@ -41,7 +41,7 @@ void draw_picture(const PictureTexture* picture, const CatalogueEntry& entry, co
   const std::string text = entry.problem.empty() ? entry.engine : "not readable";
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
   list->PushClipRect(corner, end, true);
-  list->AddText({corner.x + std::max(2.0f, (size.x - extent.x) / 2), corner.y + (size.y - extent.y) / 2}, colour::text, text.c_str());
+  list->AddText({corner.x + std::max(2.0f, (size.x - extent.x) / 2), corner.y + (size.y - extent.y) / 2}, colour::on_dark, text.c_str());
   list->PopClipRect();
 }
 

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -69,17 +68,6 @@ void write_list(const fs::path& file, const std::vector<RecentFile>& files)
 }
 
 } // namespace
-
-fs::path state_folder()
-{
-  const auto variable = [](const char* key) {
-    const char* value = std::getenv(key);
-    return fs::path(value ? value : "");
-  };
-  if (const fs::path state = variable("XDG_STATE_HOME"); state.is_absolute()) return state / "nephroid";
-  if (const fs::path home = variable("HOME"); !home.empty()) return home / ".local/state/nephroid";
-  return {};
-}
 
 RecentFiles::RecentFiles(fs::path list, fs::path thumbnails) : list_(std::move(list)), thumbnails_(std::move(thumbnails))
 {

@@ -14,9 +14,6 @@
 
 namespace nephroid::ui {
 
-/// The folder of what the window remembers: $XDG_STATE_HOME/nephroid, else ~/.local/state/nephroid. Empty where HOME is not set either.
-std::filesystem::path state_folder();
-
 struct RecentFile {
   std::string file;        ///< an absolute path
   std::int64_t opened = 0; ///< when, in seconds since 1970
