@@ -46,13 +46,15 @@ void Workbench::apply(const Commands& commands)
 
 bool Workbench::open(const std::string& name, const preset::Overrides& overrides)
 {
+  std::optional<preset::Preset> read;
   try {
     refuse_other_kinds(name);
-    begin(preset::read_preset(name, overrides));
+    read = preset::read_preset(name, overrides);
   } catch (const std::exception& error) {
     messages_.error(error);
     return false;
   }
+  begin(*std::move(read));
   recent_.add(edits_->current().source, std::time(nullptr));
   return true;
 }

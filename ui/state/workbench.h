@@ -57,7 +57,7 @@ public:
   /// What is worth knowing and needs no answer: the program's notes, then those of the newest plan.
   std::vector<std::string> notes() const;
   Question question() const { return question_; }
-  /// With Question::unsaved: what waits for the answer, an Open or a Quit that asks no more. Else null.
+  /// With Question::unsaved: what waits for the answer, an Open, a New or a Quit that asks no more. Else null.
   const Command* waiting() const { return waiting_ ? &*waiting_ : nullptr; }
   bool help_shown() const { return help_shown_; }
   bool quitting() const { return quitting_; }
