@@ -6,7 +6,8 @@
 #   nephroid_imgui_backend  GLFW and OpenGL: what the window links
 #   nephroid_ui_font        the font of the window, as bytes (third_party/embedded_font.h)
 #   nephroid_implot         ImPlot: plots in panels
-# ImGuizmo and the command palette lie beside it under external/: a panel that needs one adds a library here.
+#   nephroid_fuzzy_search   the search of the command palette
+# ImGuizmo lies beside it under external/: a panel that needs one adds a library here.
 set(imgui_version 1.93.0)
 
 find_package(OpenGL QUIET COMPONENTS OpenGL GLX)
@@ -38,6 +39,11 @@ add_library(nephroid_implot STATIC ${implot}/implot.cpp ${implot}/implot_items.c
 target_include_directories(nephroid_implot SYSTEM PUBLIC ${implot})
 target_compile_definitions(nephroid_implot PRIVATE "IMPLOT_CUSTOM_NUMERIC_TYPES=(double)")
 target_link_libraries(nephroid_implot PUBLIC nephroid_imgui)
+
+# How well words fit what is typed: of the command palette of the bundle only its search.
+set(command_palette ${imgui_bundle}/external/imgui-command-palette/imgui-command-palette)
+add_library(nephroid_fuzzy_search STATIC ${command_palette}/imcmd_fuzzy_search.cpp)
+target_include_directories(nephroid_fuzzy_search SYSTEM PUBLIC ${command_palette})
 
 add_library(nephroid_imgui_backend STATIC
   ${imgui}/backends/imgui_impl_glfw.cpp ${imgui}/backends/imgui_impl_opengl3.cpp)

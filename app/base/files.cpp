@@ -288,16 +288,29 @@ bool is_temporary_name(const fs::path& path)
   return std::regex_match(path.filename().string(), form);
 }
 
-fs::path cache_folder(const std::string& name)
+namespace {
+
+/// nephroid in the folder that a variable of the XDG base directory specification names, else in this one of the user's; empty without HOME.
+fs::path user_folder(const char* variable, const char* in_home)
 {
-  const auto variable = [](const char* key) {
-    const char* value = std::getenv(key);
-    return fs::path(value ? value : "");
+  const auto value = [](const char* key) {
+    const char* text = std::getenv(key);
+    return fs::path(text ? text : "");
   };
-  if (const fs::path cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache / "nephroid" / name;
-  if (const fs::path home = variable("HOME"); !home.empty()) return home / ".cache/nephroid" / name;
+  if (const fs::path folder = value(variable); !folder.empty()) return folder / "nephroid";
+  if (const fs::path home = value("HOME"); !home.empty()) return home / in_home / "nephroid";
   return {};
 }
+
+} // namespace
+
+fs::path cache_folder(const std::string& name)
+{
+  const fs::path folder = user_folder("XDG_CACHE_HOME", ".cache");
+  return folder.empty() ? folder : folder / name;
+}
+
+fs::path state_folder() { return user_folder("XDG_STATE_HOME", ".local/state"); }
 
 fs::path presets_folder()
 {

@@ -40,6 +40,9 @@ std::filesystem::path presets_folder();
 /// set either.
 std::filesystem::path cache_folder(const std::string& name);
 
+/// nephroid in the user's folder of what programs keep between their runs: XDG_STATE_HOME, else ~/.local/state. As cache_folder().
+std::filesystem::path state_folder();
+
 /// lib/nephroid/NAME of the build or installation folder that the program lies in: a module or a helper of ours.
 /// Throws failed where it is not there.
 std::filesystem::path library_file(const std::string& name);

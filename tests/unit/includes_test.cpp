@@ -66,7 +66,7 @@ struct LibraryRule {
 const std::vector<LibraryRule> library_rules{
     {"CL/", "compute"},      {"OpenImageIO/", "image"}, {"assimp/", "scene"},  {"embree", "scene"},
     {"CLI/", "cli"},         {"yaml-cpp/", "optics"},   {"GLFW/", "ui"},       {"GL/", "ui"},
-    {"imgui", "ui"},         {"implot", "ui"},          {"FLIP.h", "measure"}, {"Eigen/", "measure, inverse"},
+    {"imgui", "ui"},         {"implot", "ui"},          {"imcmd_", "ui"},          {"FLIP.h", "measure"}, {"Eigen/", "measure, inverse"},
     {"qrencode", "inverse"},
 };
 

@@ -7,7 +7,7 @@ std::span<const Action> actions()
 {
   static const std::vector<Action> table = [] {
     std::vector<Action> all;
-    for (const auto& menu : {file_actions(), edit_actions(), run_actions(), view_actions(), help_actions()})
+    for (const auto& menu : {file_actions(), edit_actions(), run_actions(), view_actions(), window_actions(), help_actions()})
       all.insert(all.end(), menu.begin(), menu.end());
     return all;
   }();

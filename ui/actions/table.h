@@ -14,6 +14,7 @@ std::vector<Action> file_actions();
 std::vector<Action> edit_actions();
 std::vector<Action> run_actions();
 std::vector<Action> view_actions();
+std::vector<Action> window_actions();
 std::vector<Action> help_actions();
 
 // What several menus ask.

@@ -85,7 +85,6 @@ std::vector<Action> view_actions()
       {menu, "Brighter", ImGuiKey_E, true, "Half a stop more exposure", always, expose<1>},
       {menu, "Darker", shift | ImGuiKey_E, true, "Half a stop less exposure", always, expose<-1>},
       {menu, "Exposure 0", ImGuiKey_0, false, "The picture as image.png shows it", always, as_it_is},
-      {menu, "Reset layout", 0, false, "Every panel back to its place", always, push<command::ResetLayout>},
   };
 }
 

@@ -82,7 +82,7 @@ void plot_line(const char* label, const std::vector<double>& x, const std::vecto
 void plot_curve(const char* label, const GlassCurve& curve, const std::vector<double>& y, ImU32 colour)
 {
   const auto& x = curve.line_nm;
-  plot_line(label, x, y, colour::quiet_text, 0, x.size());
+  plot_line(label, x, y, colour::quiet_on_dark, 0, x.size());
   const auto first = std::lower_bound(x.begin(), x.end(), curve.data_nm[0]), last = std::upper_bound(first, x.end(), curve.data_nm[1]);
   const std::string inside = std::string(label) + " data";
   if (last - first > 1)
@@ -230,18 +230,18 @@ RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAx
   if (columns) draw_bands(model, *columns, under_mouse);
   if (has_k) {
     ImPlot::SetAxes(ImAxis_X1, ImAxis_Y2);
-    plot_curve("k", curve, curve.line_k, contents.absorbs ? colour::note : colour::quiet_text);
+    plot_curve("k", curve, curve.line_k, contents.absorbs ? colour::note_on_dark : colour::quiet_on_dark);
     ImPlot::SetAxes(ImAxis_X1, ImAxis_Y1);
   }
   RowGesture gesture;
   if (sorted)
-    plot_line("n", x, n, colour::text, 0, x.size());
+    plot_line("n", x, n, colour::on_dark, 0, x.size());
   else
-    plot_curve("n", curve, curve.line_n, colour::text);
+    plot_curve("n", curve, curve.line_n, colour::on_dark);
   if (sorted || contents.points.empty())
     handles_.leave();
   else
-    gesture = handles_.draw(contents.points, contents.selected, {colour::text, colour::note, point_text});
+    gesture = handles_.draw(contents.points, contents.selected, {colour::on_dark, colour::note_on_dark, point_text});
   if (under_mouse >= 0 && !handles_.over_row()) draw_values(model, under_mouse);
   const bool hovered = ImPlot::IsPlotHovered();
   ImPlot::EndPlot();

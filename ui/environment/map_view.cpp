@@ -142,7 +142,7 @@ void MapView::draw_front(const MapContents& contents) const
   const ImVec2 at = vec(to_screen(contents, environment::turned({0, 0, -1}, -contents.rotate_deg)));
   const float arm = 7 * scale();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (const auto& [colour, width] : {std::pair{colour::outline, 3.0f}, std::pair{colour::text, 1.0f}}) {
+  for (const auto& [colour, width] : {std::pair{colour::outline, 3.0f}, std::pair{colour::on_dark, 1.0f}}) {
     list.AddLine({at.x - arm, at.y}, {at.x + arm, at.y}, colour, width * scale());
     list.AddLine({at.x, at.y - arm}, {at.x, at.y + arm}, colour, width * scale());
   }
@@ -150,7 +150,7 @@ void MapView::draw_front(const MapContents& contents) const
   const ImVec2 extent = ImGui::CalcTextSize(word);
   const ImVec2 text{at.x - extent.x / 2, at.y + arm + 2 * scale()};
   list.AddText({text.x + scale(), text.y + scale()}, colour::outline, word);
-  list.AddText(text, colour::text, word);
+  list.AddText(text, colour::on_dark, word);
 }
 
 void MapView::draw_outline(const MapContents& contents, const environment::Region& region) const

@@ -86,7 +86,7 @@ void ErrorPanel::collect(const Context& context)
     if (const RunLines& of_pin = lines(pin.id, pin.history); pin.shown && !of_pin.empty())
       contents_.runs.push_back({pin.name, pin.colour, 1.5f, &of_pin});
   if (const RunLines& present = lines(0, context.run.error_history()); !present.empty())
-    contents_.runs.push_back({this_run, colour::text, 2, &present});
+    contents_.runs.push_back({this_run, colour::on_dark, 2, &present});
 }
 
 void ErrorPanel::draw(const Context& context)
@@ -100,7 +100,7 @@ void ErrorPanel::draw(const Context& context)
   plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em));
   if (contents_.runs.empty()) {
     const auto& area = plot_.area();
-    draw_hint({static_cast<float>(area[0]), static_cast<float>(area[1])}, {static_cast<float>(area[2]), static_cast<float>(area[3])},
+    draw_hint_on_dark({static_cast<float>(area[0]), static_cast<float>(area[1])}, {static_cast<float>(area[2]), static_cast<float>(area[3])},
               empty_hint(context));
   }
   if (pins > 0) draw_pins(context);

@@ -151,8 +151,8 @@ void plot_runs(const PlotContents& contents)
               run, true);
   }
   if (noise_floor)
-    plot_level(fmt::format("noise floor of the reference {:.3g}###floor", *noise_floor), *noise_floor, colour::quiet_text, true);
-  if (contents.target) plot_level(fmt::format("target {:.3g}###target", *contents.target), *contents.target, colour::note, false);
+    plot_level(fmt::format("noise floor of the reference {:.3g}###floor", *noise_floor), *noise_floor, colour::quiet_on_dark, true);
+  if (contents.target) plot_level(fmt::format("target {:.3g}###target", *contents.target), *contents.target, colour::note_on_dark, false);
 }
 
 } // namespace

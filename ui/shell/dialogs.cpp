@@ -14,7 +14,7 @@ namespace {
 
 /// In the order of Question.
 constexpr const char* titles[] = {
-    "", "Open a preset", "Open the history of a run", "Save the preset as", "Save the picture as", "Unsaved changes"};
+    "", "Open a preset", "Open the history of a run", "Save the preset as", "Save the picture as", "Unsaved changes", ""};
 
 const char* title(Question question) { return titles[static_cast<std::size_t>(question)]; }
 
@@ -46,7 +46,7 @@ void Dialogs::begin(const Workbench& workbench)
 
 void Dialogs::draw(const Workbench& workbench, Commands& commands)
 {
-  if (workbench.question() == Question::none) {
+  if (workbench.question() == Question::none || workbench.question() == Question::command) {
     shown_ = Question::none;
     return;
   }

@@ -56,8 +56,8 @@ GlfwWindow::GlfwWindow(const std::string& title, std::array<int, 2> size) : wind
   });
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.ConfigFlags |= ImGuiConfigFlags_DockingEnable;
-  io.IniFilename = nullptr; // the layout is built at every start (panels.h)
+  io.ConfigFlags |= ImGuiConfigFlags_DockingEnable | ImGuiConfigFlags_NavEnableKeyboard;
+  io.IniFilename = nullptr; // layouts are kept by ui/state/settings.h
   add_font();
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   back_ends_ = ImGui_ImplOpenGL3_Init("#version 130");
@@ -79,14 +79,14 @@ void GlfwWindow::shut_down_back_ends()
   ImGui_ImplGlfw_Shutdown();
 }
 
-/// The scale changes when the window moves to another display.
+/// The scale changes when the window moves to another display, or when a person wants another.
 void GlfwWindow::follow_scale()
 {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
-  const float scale = std::clamp(std::max(x, y), 0.5f, 8.0f);
-  if (scale == std::exchange(scale_, scale)) return;
-  set_theme(scale);
+  const Appearance now{wanted_.theme, wanted_.scale * std::clamp(std::max(x, y), 0.5f, 8.0f)};
+  if (now == std::exchange(shown_, now)) return;
+  set_theme(now.scale, now.theme);
 }
 
 void GlfwWindow::begin_frame()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The display side of the window: GLFW, OpenGL and Dear ImGui's two back ends, from opening to closing. Nothing of the workbench.
 #pragma once
+#include "ui/state/settings.h"
+
 #include <array>
 #include <string>
 #include <utility>
@@ -18,6 +20,8 @@ public:
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
 
+  /// Theme and size of text from the next frame on.
+  void set_appearance(Theme theme, double text_size) { wanted_ = {theme, static_cast<float>(text_size)}; }
   /// Takes the events that are there and begins a frame of Dear ImGui.
   void begin_frame();
   /// Draws the frame into the back buffer; present() shows it.
@@ -46,7 +50,12 @@ private:
   GLFWwindow* window_ = nullptr;
   std::string title_;
   std::vector<std::string> dropped_;
-  float scale_ = 0;
+  struct Appearance {
+    Theme theme = Theme::dark;
+    float scale = 1;
+    bool operator==(const Appearance&) const = default;
+  };
+  Appearance wanted_, shown_{Theme::dark, 0}; ///< by the person; of the display and the person together
   bool back_ends_ = false, activity_ = false;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of panels, a line each, and where they are: the first at the left, the others as tabs at the right. A layout is named after the
-// panel that is in front of the tabs.
+// The table of panels, a line each. The first is the picture; shell/layout.h says where the others are.
 #pragma once
 #include "preset/preset.h"
 #include "scene/bvh.h"
@@ -27,18 +26,19 @@ struct PanelEntry {
   std::any (*look_around)(const preset::Preset&, const scene::Scene&, const scene::Bvh&) = nullptr;
   /// Whether it is for a preset, where the engine does not decide on that. Null: it does.
   bool (*serves)(const preset::Preset&) = nullptr;
+  /// The engine whose presets are opened with this tab in front; empty: none.
+  std::string_view front_for = "";
 };
 
 /// In the order of their tabs.
 std::span<const PanelEntry> panel_table();
+/// All but the picture can be closed.
+bool can_close(const PanelEntry& entry);
+/// Whether a person has not closed it for the engine in hand.
+bool is_open(const PanelEntry& entry, const Context& context);
 /// Whether the panel is for this preset; null: none is open, and every panel says what it is for.
 bool serves(const PanelEntry& entry, const preset::Preset* preset);
 /// What the panels of the preset's engine look for in a scene (LookAround of state/device_runs.h).
 std::vector<std::any> look_around(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
-
-/// Throws bad_input naming the layouts there are. Empty means the default.
-void check_layout(const std::string& name);
-/// Docks every panel into the dock space of this id (an ImGuiID). Inside of a frame.
-void build_layout(const std::string& name, unsigned dock_space, float width, float height);
 
 } // namespace nephroid::ui

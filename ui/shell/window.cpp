@@ -2,12 +2,14 @@
 #include "ui/shell/window.h"
 
 #include "base/error.h"
+#include "base/files.h"
 #include "image/image.h"
 #include "preset/read.h"
 #include "ui/shell/glfw_window.h"
 #include "ui/shell/status_line.h"
 #include "ui/shell/workspace.h"
 #include "ui/state/device_runs.h"
+#include "ui/state/session_keeper.h"
 
 #include <fmt/format.h>
 
@@ -47,7 +49,32 @@ void open_first(Workbench& workbench, const Options& options)
       workbench.apply({command::PinFile{file}});
     else
       opened = workbench.open(file, options.overrides);
-  if (options.files.empty()) workbench.apply({command::Ask{Question::open}});
+}
+
+/// An unattended window keeps nothing and begins as a new one.
+bool keeps_sessions(const Options& options) { return options.screenshot.empty(); }
+
+std::unique_ptr<SessionKeeper> make_keeper(const Options& options, Workbench& workbench)
+{
+  try {
+    return std::make_unique<SessionKeeper>(keeps_sessions(options) ? state_folder() : std::filesystem::path());
+  } catch (const std::exception& error) {
+    workbench.apply({command::Report{error.what()}});
+    return std::make_unique<SessionKeeper>(std::filesystem::path());
+  }
+}
+
+/// A window that was killed is shown as it was, unless there is something else to show.
+void begin_session(Workbench& workbench, SessionKeeper& keeper, const Options& options)
+{
+  const std::string killed = keeper.killed_session();
+  if (killed.empty()) return;
+  if (options.files.empty()) {
+    keeper.reopen(workbench);
+    workbench.apply({command::Report{"the last window was not closed: this is how it was at " + killed, false}});
+  } else
+    workbench.apply(
+        {command::Report{"a window that was not closed left a session of " + killed + ": File, Reopen the last session", false}});
 }
 
 double milliseconds(Clock::duration time) { return std::chrono::duration<double, std::milli>(time).count(); }
@@ -123,8 +150,8 @@ private:
 /// The loop of one window, from its first frame to its last.
 class Loop {
 public:
-  Loop(const Options& options, GlfwWindow& window, Workbench& workbench, Workspace& workspace)
-      : options_(options), window_(window), workbench_(workbench), workspace_(workspace),
+  Loop(const Options& options, GlfwWindow& window, Workbench& workbench, Workspace& workspace, SessionKeeper& keeper)
+      : options_(options), window_(window), workbench_(workbench), workspace_(workspace), keeper_(keeper),
         clock_(options.frames > 0 || !options.frame_times.empty(), options.frame_times)
   {
     limit_ = options.frames > 0 ? options.frames : options.screenshot.empty() ? 0 : frames_before_screenshot;
@@ -143,6 +170,7 @@ private:
   void frame()
   {
     clock_.begin();
+    window_.set_appearance(workbench_.settings().theme, workbench_.settings().text_size);
     window_.begin_frame();
     if (window_.take_activity()) last_touch_ = Clock::now();
     workbench_.update();
@@ -156,6 +184,9 @@ private:
     if (done_ && !options_.screenshot.empty()) screen = window_.read_back(width, height);
     window_.present();
     workbench_.apply(commands);
+    if (workbench_.take_reopen()) keeper_.reopen(workbench_);
+    workbench_.offer_earlier(keeper_.has_earlier());
+    keeper_.update(workbench_);
     window_.set_title(title(workbench_));
     clock_.end(workbench_.run().status());
     if (!screen.empty()) image::write_png_bytes(options_.screenshot, width, height, screen);
@@ -185,6 +216,7 @@ private:
   GlfwWindow& window_;
   Workbench& workbench_;
   Workspace& workspace_;
+  SessionKeeper& keeper_;
   FrameClock clock_;
   Clock::time_point last_touch_{};
   int limit_ = 0; ///< frames to draw before closing, 0: until the person closes it
@@ -231,10 +263,14 @@ int open_window(const Options& options)
   DeviceRuns runs(device, look_around);
   Workbench workbench(runs);
   if (!cache_note.empty()) workbench.add_note(cache_note);
+  const std::unique_ptr<SessionKeeper> keeper = make_keeper(options, workbench);
+  keeper->load_settings(workbench);
   open_first(workbench, options);
+  begin_session(workbench, *keeper, options);
   {
     Workspace workspace(options.layout);
-    Loop(options, *window, workbench, workspace).run();
+    Loop(options, *window, workbench, workspace, *keeper).run();
+    keeper->close(workbench);
     window->shut_down_back_ends(); // before the panels: their textures belong to the renderer
   }
   return report_errors(workbench, !options.screenshot.empty());

@@ -41,19 +41,11 @@ void strip(const char* name, float height, Draw draw)
   ImGui::End();
 }
 
-void draw_panel(const char* title, Panel& panel, const Context& context)
-{
-  // Without NoFocusOnAppearing the last panel to be drawn would come before the one that the layout has in front.
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin(title, nullptr, flags)) panel.draw(context);
-  ImGui::End();
-}
-
 } // namespace
 
-Workspace::Workspace(std::string layout) : layout_(std::move(layout))
+Workspace::Workspace(std::string layout) : name_(std::move(layout))
 {
-  check_layout(layout_);
+  check_layout(name_);
   for (const PanelEntry& entry : panel_table()) add(entry, entry.make(wavelengths_));
 }
 
@@ -76,22 +68,59 @@ Commands Workspace::draw(Workbench& workbench)
     const float height = messages_height(workbench.messages(), ImGui::GetMainViewport()->Size.x);
     if (height > 0) strip("messages", height, [&] { draw_messages(workbench.messages(), context); });
   });
-  guarded("layout", commands, [&] { draw_dock_space(workbench); });
+  guarded("layout", commands, [&] { draw_dock_space(workbench, context); });
   for (const Open& open : panels_)
-    if (serves(open.entry, context.preset()))
-      guarded(open.entry.title, commands, [&] { draw_panel(open.entry.title, *open.panel, context); });
+    if (serves(open.entry, context.preset()) && is_open(open.entry, context))
+      guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
   if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
+  guarded("commands", commands, [&] { palette_.draw(context, workbench.question() == Question::command); });
   return commands;
 }
 
-void Workspace::draw_dock_space(Workbench& workbench)
+void Workspace::draw_panel(const Open& open, const Context& context)
+{
+  // Without NoFocusOnAppearing the last panel to be drawn would come before the one that the layout has in front.
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
+  if (open.entry.name == to_front_) ImGui::SetNextWindowFocus();
+  std::erase_if(to_place_, [&](const Floating& floating) {
+    if (floating.panel != open.entry.name) return false;
+    place_next(floating);
+    return true;
+  });
+  bool stays = true;
+  if (ImGui::Begin(open.entry.title, can_close(open.entry) ? &stays : nullptr, flags)) open.panel->draw(context);
+  ImGui::End();
+  if (!stays) context.push(command::ShowPanel{std::string(open.entry.name), false});
+}
+
+void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
 {
   const ImGuiID id = ImGui::DockSpaceOverViewport(ImGui::GetID("panels"), ImGui::GetMainViewport());
-  if (laid_out_ && !workbench.take_layout_reset()) return;
-  laid_out_ = true;
-  const ImVec2 size = ImGui::GetMainViewport()->WorkSize;
-  build_layout(layout_, id, size.x, size.y);
+  const std::array<float, 2> size{ImGui::GetMainViewport()->WorkSize.x, ImGui::GetMainViewport()->WorkSize.y};
+  const std::string engine = context.engine();
+  to_front_ = workbench.take_panel_to_front();
+  const bool reset = workbench.take_layout_reset();
+  if (laid_out_for_ != engine || reset) {
+    const auto kept = context.settings.engines.find(engine);
+    const bool has_own = name_.empty() && kept != context.settings.engines.end() && !(kept->second.layout == Layout{});
+    const Layout layout = has_own ? kept->second.layout : starting_layout(name_, engine, size[0]);
+    apply_layout(layout, id, size[0], size[1]);
+    to_place_ = layout.floating;
+    laid_out_for_ = engine;
+    frames_since_ = 0;
+  } else if (laid_out_size_ != size)
+    frames_since_ = 0;
+  laid_out_size_ = size;
+  // A few frames later docks have their sizes. From then on another layout is what the mouse made of it.
+  constexpr int settled = 3;
+  if (frames_since_ < settled) {
+    if (++frames_since_ == settled) before_ = layout_now(id);
+  } else if (ImGui::IsMouseReleased(ImGuiMouseButton_Left))
+    if (Layout now = layout_now(id); !(now == before_)) {
+      before_ = now;
+      context.push(command::KeepLayout{engine, std::move(now)});
+    }
 }
 
 } // namespace nephroid::ui

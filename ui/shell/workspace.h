@@ -2,11 +2,15 @@
 // One frame of the whole window, from menu bar to status line, without a back end: the window and the tests draw the same thing.
 #pragma once
 #include "ui/shell/dialogs.h"
+#include "ui/shell/layout.h"
+#include "ui/shell/palette.h"
 #include "ui/shell/panels.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/plots.h"
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <typeinfo>
 #include <vector>
@@ -31,19 +35,28 @@ public:
     throw std::bad_cast();
   }
 
+  const Palette& palette() const { return palette_; }
+
 private:
   struct Open {
     PanelEntry entry;
     std::unique_ptr<Panel> panel;
   };
-  void draw_dock_space(Workbench& workbench);
+  void draw_dock_space(Workbench& workbench, const Context& context);
+  void draw_panel(const Open& open, const Context& context);
 
-  std::string layout_;
-  bool laid_out_ = false;
-  PlotContext plots_;          ///< before the panels, which plot with it
-  WavelengthAxis wavelengths_; ///< before the panels that share it
+  std::string name_;                         ///< of the layout that was asked for; empty: each engine has its own
+  std::optional<std::string> laid_out_for_;  ///< this engine
+  std::array<float, 2> laid_out_size_{0, 0}; ///< in a window of this size,
+  int frames_since_ = 0;                     ///< so many frames ago;
+  Layout before_;                            ///< what it was before a person touched it
+  std::vector<Floating> to_place_;           ///< floating panels that were not drawn yet since
+  std::string to_front_;                     ///< the panel that comes to the front in this frame
+  PlotContext plots_;                        ///< before the panels, which plot with it
+  WavelengthAxis wavelengths_;               ///< before the panels that share it
   std::vector<Open> panels_;
   Dialogs dialogs_;
+  Palette palette_;
 };
 
 } // namespace nephroid::ui

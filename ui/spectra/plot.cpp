@@ -206,7 +206,7 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
     plot_spectrum("u", contents.spectra->importance.u, 1, line_spec(spectra_colour::u, 2.5f));
   const bool rows = shown.light && contents.edited && has_rows(*contents.edited);
   if (rows) {
-    gesture = handles_.draw(contents.edited->table, contents.selected, {spectra_colour::light, colour::text, row_text, unit_});
+    gesture = handles_.draw(contents.edited->table, contents.selected, {spectra_colour::light, colour::on_dark, row_text, unit_});
     gesture.to[1] = std::clamp(gesture.to[1], 0.0, top * unit_); // up to the top of the plot
   } else
     handles_.leave();
@@ -242,7 +242,7 @@ void SpectraPlot::draw_pointer(const SpectraPlotContents& contents, std::optiona
   if (here) pointed = here;
   if (const std::optional<int> at = here ? here : pointed_) {
     const double nm = wavelength_nm(*at);
-    ImPlot::PlotInfLines("pointer", &nm, 1, line_spec(with_alpha(colour::text, 0.43f), 1));
+    ImPlot::PlotInfLines("pointer", &nm, 1, line_spec(with_alpha(colour::on_dark, 0.43f), 1));
   }
   if (here) draw_values(contents, *here);
 }

@@ -4,6 +4,7 @@
 #pragma once
 #include "measure/difference.h"
 #include "preset/preset.h"
+#include "ui/state/settings.h"
 
 #include <array>
 #include <cstdint>
@@ -34,7 +35,7 @@ struct Comparison {
 };
 
 /// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
-enum class Question { none, open, open_history, save_preset, save_picture, unsaved };
+enum class Question { none, open, open_history, save_preset, save_picture, unsaved, command };
 
 namespace command {
 
@@ -121,8 +122,27 @@ struct SaveFiles {
 struct Dismiss {
   std::uint64_t message = 0;
 };
+/// What the window was at that was closed, or killed, last: asks first where there are unsaved changes, unless sure.
+struct ReopenSession {
+  bool sure = false;
+};
 struct ToggleHelp {};
+/// The panels of the engine in hand where they were at first, all of them open.
 struct ResetLayout {};
+/// What a person made of the layout for the presets of an engine.
+struct KeepLayout {
+  std::string engine;
+  Layout layout;
+};
+/// Opens a panel and brings it to the front, or closes it.
+struct ShowPanel {
+  std::string name; ///< shell/panels.h
+  bool on = true;
+};
+struct SetAppearance {
+  Theme theme = Theme::dark;
+  double text_size = 1; ///< Settings::smallest_text..largest_text; beyond it stays at the end
+};
 /// Becomes a message: an error from a panel that could not go on, or a note that goes by itself.
 struct Report {
   std::string line;
@@ -140,7 +160,8 @@ using Command =
                  command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::PinRun,
                  command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
                  command::LoadDispersion, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss,
-                 command::ToggleHelp, command::ResetLayout, command::Report, command::Quit>;
+                 command::ReopenSession, command::ToggleHelp, command::ResetLayout, command::KeepLayout, command::ShowPanel,
+                 command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

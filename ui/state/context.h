@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where what it asks for goes. Made anew for every frame.
 #pragma once
+#include "preset/settings_type.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
 #include "ui/state/run_in_hand.h"
+#include "ui/state/settings.h"
 #include "ui/state/undo.h"
 
 #include <string>
@@ -16,6 +18,7 @@ struct Chosen {
   Look look;
   std::string error_metric; ///< to be plotted; empty: the run's own. Not every run has it.
   std::string material;     ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
+  bool operator==(const Chosen&) const = default;
 };
 
 struct Context {
@@ -23,10 +26,14 @@ struct Context {
   const RunInHand& run;
   const Comparing& comparing;
   const Chosen& chosen;
+  const Settings& settings;
+  bool has_earlier_session; ///< that could be reopened
   Commands& commands;
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
+  /// Its engine; empty before a preset is opened.
+  std::string engine() const { return edits ? std::string(edits->current().settings.type().name) : std::string(); }
   void push(Command command) const { commands.push_back(std::move(command)); }
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
   /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.

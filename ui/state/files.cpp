@@ -131,9 +131,17 @@ void FileWork::save_files(const std::filesystem::path& folder, std::shared_ptr<c
   }));
 }
 
-void FileWork::pin(const std::filesystem::path& path)
+void FileWork::pin(const std::filesystem::path& path, const std::optional<PinnedRun>& like)
 {
-  background_.push_back(std::async(std::launch::async, [path] { return Done{{}, read_pin(path)}; }));
+  background_.push_back(std::async(std::launch::async, [=] {
+    PinnedRun run = read_pin(path);
+    if (like) {
+      run.name = like->name;
+      run.colour = like->colour;
+      run.shown = like->shown;
+    }
+    return Done{{}, std::move(run)};
+  }));
 }
 
 void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,

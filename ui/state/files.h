@@ -36,8 +36,8 @@ public:
   void save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops);
   /// The files of a run, into a folder that is made where it is not there. open: the one to be opened then.
   void save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open);
-  /// read_pin() of a path.
-  void pin(const std::filesystem::path& path);
+  /// read_pin() of a path; as `like` in name, colour and whether it is shown, where that is given.
+  void pin(const std::filesystem::path& path, const std::optional<PinnedRun>& like = {});
   bool busy() const { return !background_.empty(); }
   /// Once a frame: says what is done, and hands over the runs that were read and the files to be opened.
   void collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,

@@ -65,7 +65,7 @@ const PinnedRun& PinnedRuns::add(PinnedRun run)
 {
   run.id = ++last_id_;
   run.name = own_name(run.name, run.id);
-  run.colour = free_colour();
+  if (run.colour == 0) run.colour = free_colour();
   return runs_.emplace_back(std::move(run));
 }
 

@@ -26,7 +26,7 @@ public:
   const std::vector<PinnedRun>& all() const { return runs_; }
   /// Null where there is none of this id.
   const PinnedRun* find(std::uint64_t id) const;
-  /// Gives it an id, a colour that no other has while there are such, and a name of its own ("glass", "glass (2)").
+  /// Gives it an id, where it has no colour one that no other has while there are such, and a name of its own ("glass", "glass (2)").
   const PinnedRun& add(PinnedRun run);
   /// An empty name leaves the name. Nothing where there is no such run, here and below.
   void change(std::uint64_t id, std::string name, std::uint32_t colour, bool shown);

@@ -5,49 +5,60 @@
 
 namespace nephroid::ui {
 
-UndoStack::UndoStack(preset::Preset opened) : opened_(opened), entries_{{"", std::move(opened), 0}} {}
+UndoStack::UndoStack(preset::Preset opened)
+{
+  state_.opened = std::make_shared<const preset::Preset>(std::move(opened));
+  state_.entries = {{"", state_.opened, 0}};
+  state_.saved = 0;
+}
 
 void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t gesture)
 {
-  entries_.resize(index_ + 1);
-  if (saved_ && *saved_ > index_) saved_.reset();
-  if (gesture != 0 && entries_.back().gesture == gesture) {
-    entries_.back().preset = std::move(preset);
-    if (saved_ == index_) saved_.reset();
+  auto& [opened, entries, index, saved] = state_;
+  entries.resize(index + 1);
+  if (saved && *saved > index) saved.reset();
+  auto pushed = std::make_shared<const preset::Preset>(std::move(preset));
+  if (gesture != 0 && entries.back().gesture == gesture) {
+    entries.back().preset = std::move(pushed);
+    if (saved == index) saved.reset();
     return;
   }
-  entries_.push_back({std::move(label), std::move(preset), gesture});
-  ++index_;
-  if (entries_.size() <= limit) return;
-  entries_.pop_front();
-  --index_;
-  if (saved_) saved_ = *saved_ > 0 ? std::optional(*saved_ - 1) : std::nullopt;
+  entries.push_back({std::move(label), std::move(pushed), gesture});
+  ++index;
+  if (entries.size() <= limit) return;
+  entries.pop_front();
+  --index;
+  if (saved) saved = *saved > 0 ? std::optional(*saved - 1) : std::nullopt;
 }
 
 bool UndoStack::undo()
 {
-  if (index_ == 0) return false;
-  entries_[index_].gesture = 0; // a gesture that goes on after undo is a new entry
-  --index_;
-  entries_[index_].gesture = 0;
+  auto& [opened, entries, index, saved] = state_;
+  if (index == 0) return false;
+  entries[index].gesture = 0; // a gesture that goes on after undo is a new entry
+  --index;
+  entries[index].gesture = 0;
   return true;
 }
 
 bool UndoStack::redo()
 {
-  if (index_ + 1 >= entries_.size()) return false;
-  entries_[index_].gesture = 0;
-  ++index_;
+  auto& [opened, entries, index, saved] = state_;
+  if (index + 1 >= entries.size()) return false;
+  entries[index].gesture = 0;
+  ++index;
   return true;
 }
 
 void UndoStack::mark_saved(const std::string& source)
 {
-  for (Entry& entry : entries_) {
-    entry.preset.source = source;
-    entry.preset.provenance = {}; // the file holds every value now
+  for (Entry& entry : state_.entries) {
+    preset::Preset saved = *entry.preset;
+    saved.source = source;
+    saved.provenance = {}; // the file holds every value now
+    entry.preset = std::make_shared<const preset::Preset>(std::move(saved));
   }
-  saved_ = index_;
+  state_.saved = state_.index;
 }
 
 } // namespace nephroid::ui

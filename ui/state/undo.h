@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -12,34 +13,47 @@ namespace nephroid::ui {
 
 class UndoStack {
 public:
+  struct Entry {
+    std::string label;
+    std::shared_ptr<const preset::Preset> preset; ///< another preset is another object
+    std::uint64_t gesture = 0;
+    bool operator==(const Entry&) const = default;
+  };
+  /// All there is to know of it, to be kept.
+  struct State {
+    std::shared_ptr<const preset::Preset> opened;
+    std::deque<Entry> entries; ///< at least one
+    std::size_t index = 0;     ///< of the current entry
+    std::optional<std::size_t> saved;
+    bool operator==(const State&) const = default;
+  };
+
   /// Starts over with one preset that counts as saved.
   explicit UndoStack(preset::Preset opened);
+  /// As state() was.
+  explicit UndoStack(State state) : state_(std::move(state)) {}
   /// A new state after the current one; what could be redone is dropped. The same gesture (not 0) as the current entry's replaces it.
   void push(std::string label, preset::Preset preset, std::uint64_t gesture = 0);
   /// One entry back or forth; false where there is none.
   bool undo();
   bool redo();
-  const preset::Preset& current() const { return entries_[index_].preset; }
+  const preset::Preset& current() const { return *state_.entries[state_.index].preset; }
   /// As it was read.
-  const preset::Preset& opened() const { return opened_; }
+  const preset::Preset& opened() const { return *state_.opened; }
   /// What undo() would undo and redo() redo; empty where there is nothing.
-  std::string undo_label() const { return index_ > 0 ? entries_[index_].label : std::string(); }
-  std::string redo_label() const { return index_ + 1 < entries_.size() ? entries_[index_ + 1].label : std::string(); }
+  std::string undo_label() const { return state_.index > 0 ? state_.entries[state_.index].label : std::string(); }
+  std::string redo_label() const
+  {
+    return state_.index + 1 < state_.entries.size() ? state_.entries[state_.index + 1].label : std::string();
+  }
   /// The current state has been saved as `source`.
   void mark_saved(const std::string& source);
-  bool modified() const { return saved_ != index_; }
+  bool modified() const { return state_.saved != state_.index; }
+  const State& state() const { return state_; }
 
 private:
-  struct Entry {
-    std::string label;
-    preset::Preset preset;
-    std::uint64_t gesture = 0;
-  };
   static constexpr std::size_t limit = 1000; ///< entries kept: a preset is a few kilobytes
-  preset::Preset opened_;
-  std::deque<Entry> entries_;
-  std::size_t index_ = 0;
-  std::optional<std::size_t> saved_ = 0;
+  State state_;
 };
 
 } // namespace nephroid::ui

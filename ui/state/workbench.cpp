@@ -2,6 +2,7 @@
 #include "ui/state/workbench.h"
 
 #include "base/files.h"
+#include "preset/settings_type.h"
 #include "ui/state/dielectrics.h"
 
 #include <algorithm>
@@ -58,6 +59,27 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
   waiting_.reset();
   run_.start(*edits_);
   return true;
+}
+
+void Workbench::restore(Session session, const std::filesystem::path& folder)
+{
+  comparing_.forget();
+  run_.forget();
+  question_ = Question::none;
+  waiting_.reset();
+  edits_.reset();
+  if (session.edits) edits_.emplace(std::move(*session.edits));
+  chosen_ = std::move(session.chosen);
+  for (const Session::Pin& pin : session.pins) files_.pin(folder / pin.folder, PinnedRun{0, pin.name, pin.colour, pin.shown, {}, {}});
+  if (edits_) run_.start(*edits_);
+}
+
+void Workbench::carry_out(const command::ReopenSession& c)
+{
+  if (c.sure || !edits_ || !edits_->modified())
+    reopen_ = true;
+  else
+    ask_first(command::ReopenSession{true});
 }
 
 void Workbench::ask_first(Command command)
@@ -159,6 +181,35 @@ void Workbench::carry_out(const command::SavePicture& c)
 void Workbench::carry_out(const command::SaveFiles& c)
 {
   if (run_.snapshot()) files_.save_files(c.folder, run_.snapshot(), c.open);
+}
+
+/// What is kept for the presets of the engine in hand.
+EngineLayout& Workbench::engine_layout()
+{
+  return settings_.engines[edits_ ? std::string(edits_->current().settings.type().name) : std::string()];
+}
+
+void Workbench::carry_out(const command::ResetLayout&)
+{
+  engine_layout() = {};
+  layout_reset_ = true;
+}
+
+void Workbench::carry_out(const command::ShowPanel& c)
+{
+  std::set<std::string>& closed = engine_layout().closed;
+  if (!c.on) {
+    closed.insert(c.name);
+    return;
+  }
+  closed.erase(c.name);
+  panel_to_front_ = c.name;
+}
+
+void Workbench::carry_out(const command::SetAppearance& c)
+{
+  settings_.theme = c.theme;
+  settings_.text_size = std::clamp(c.text_size, Settings::smallest_text, Settings::largest_text);
 }
 
 void Workbench::carry_out(const command::Report& c)

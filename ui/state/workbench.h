@@ -6,6 +6,7 @@
 #include "preset/read.h"
 #include "ui/state/context.h"
 #include "ui/state/files.h"
+#include "ui/state/session.h"
 
 #include <optional>
 #include <string>
@@ -25,13 +26,19 @@ public:
   void apply(const Commands& commands);
   /// Opens a preset with overrides (--set). False, with a message, where it cannot be read.
   bool open(const std::string& name, const preset::Overrides& overrides = {});
+  /// As a session was; `folder` holds its pinned runs, which are read in the background. The run starts.
+  void restore(Session session, const std::filesystem::path& folder);
+  /// True once after ReopenSession.
+  bool take_reopen() { return std::exchange(reopen_, false); }
+  /// Whether there is an earlier session to reopen.
+  void offer_earlier(bool there_is) { has_earlier_session_ = there_is; }
   /// One more line for notes(), from the program itself.
   void add_note(std::string line) { program_notes_.push_back(std::move(line)); }
   /// Once a frame: takes the newest snapshot, starts the run that edits ask for, collects what finished in the background.
   void update(Clock::time_point now = Clock::now());
 
   /// For one frame; what is asked for goes to `commands`.
-  Context context(Commands& commands) const { return {edits(), run_, comparing_, chosen_, commands}; }
+  Context context(Commands& commands) const { return {edits(), run_, comparing_, chosen_, settings_, has_earlier_session_, commands}; }
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }
@@ -48,8 +55,13 @@ public:
   const Command* waiting() const { return waiting_ ? &*waiting_ : nullptr; }
   bool help_shown() const { return help_shown_; }
   bool quitting() const { return quitting_; }
+  const Settings& settings() const { return settings_; }
+  /// As they were kept; before the first frame.
+  void set_settings(Settings settings) { settings_ = std::move(settings); }
   /// True once after ResetLayout.
   bool take_layout_reset() { return std::exchange(layout_reset_, false); }
+  /// Once after ShowPanel the panel to be brought to the front; else empty.
+  std::string take_panel_to_front() { return std::exchange(panel_to_front_, {}); }
 
 private:
   void carry_out(const command::Open& c);
@@ -71,7 +83,11 @@ private:
   void carry_out(const command::SaveFiles& c);
   void carry_out(const command::Dismiss& c) { messages_.dismiss(c.message); }
   void carry_out(const command::ToggleHelp&) { help_shown_ = !help_shown_; }
-  void carry_out(const command::ResetLayout&) { layout_reset_ = true; }
+  void carry_out(const command::ReopenSession& c);
+  void carry_out(const command::ResetLayout&);
+  void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].layout = c.layout; }
+  void carry_out(const command::ShowPanel& c);
+  void carry_out(const command::SetAppearance& c);
   void carry_out(const command::Report& c);
   void carry_out(const command::Quit& c);
   /// What holds runs against each other is the business of Comparing.
@@ -81,6 +97,7 @@ private:
     comparing_.carry_out(c);
   }
   void ask_first(Command command);
+  EngineLayout& engine_layout();
 
   std::optional<UndoStack> edits_;
   Messages messages_;
@@ -90,10 +107,12 @@ private:
   Chosen chosen_;
   FileWork files_;
   std::vector<std::string> program_notes_;
+  Settings settings_;
+  std::string panel_to_front_;
 
   Question question_ = Question::none;
   std::optional<Command> waiting_;
-  bool help_shown_ = false, quitting_ = false, layout_reset_ = false;
+  bool help_shown_ = false, quitting_ = false, layout_reset_ = false, reopen_ = false, has_earlier_session_ = false;
 };
 
 } // namespace nephroid::ui

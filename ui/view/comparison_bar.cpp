@@ -137,7 +137,7 @@ void draw_colour_scale(const ShownDifference& map, const Canvas& canvas)
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const float y = corner.y + height * (1 - static_cast<float>(i) / (numbers.size() - 1));
     const ImVec2 extent = ImGui::CalcTextSize(numbers[i].c_str());
-    draw_list->AddText({corner.x - extent.x - 0.4f * em, y - extent.y / 2}, colour::text, numbers[i].c_str());
+    draw_list->AddText({corner.x - extent.x - 0.4f * em, y - extent.y / 2}, colour::on_dark, numbers[i].c_str());
   }
 }
 

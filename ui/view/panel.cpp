@@ -31,7 +31,7 @@ void draw_overlay(const ImVec2& at, const std::string& text)
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->AddRectFilled(at, {at.x + extent.x + 2 * pad, at.y + extent.y + 2 * pad}, colour::overlay, pad);
-  draw_list->AddText({at.x + pad, at.y + pad}, colour::text, text.c_str());
+  draw_list->AddText({at.x + pad, at.y + pad}, colour::on_dark, text.c_str());
 }
 
 } // namespace
@@ -53,7 +53,7 @@ void ViewPanel::draw(const Context& context)
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
   draw_picture(context);
-  if (!shown_.hint.empty()) draw_hint(corner, vec(canvas_.size), shown_.hint);
+  if (!shown_.hint.empty()) draw_hint_on_dark(corner, vec(canvas_.size), shown_.hint);
   if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
   if (map && map == shown_.owner) draw_colour_scale(*map, canvas_);
   draw_pixel_value(context);

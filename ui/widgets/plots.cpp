@@ -61,6 +61,8 @@ void PlotContext::follow_scale()
   style.Colors[ImPlotCol_PlotBg] = ImGui::ColorConvertU32ToFloat4(colour::surround);
   style.Colors[ImPlotCol_LegendBg] = ImGui::ColorConvertU32ToFloat4(colour::overlay);
   style.Colors[ImPlotCol_LegendBorder] = {0, 0, 0, 0};
+  style.Colors[ImPlotCol_LegendText] = style.Colors[ImPlotCol_InlayText] = ImGui::ColorConvertU32ToFloat4(colour::on_dark);
+  style.Colors[ImPlotCol_AxisGrid] = ImGui::ColorConvertU32ToFloat4(with_alpha(colour::on_dark, 0.25f));
   ImPlot::GetStyle() = style;
 }
 

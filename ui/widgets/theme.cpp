@@ -17,35 +17,59 @@ ImVec4 accent(float alpha)
   return made;
 }
 
-void set_colours(ImGuiStyle& style)
+/// What differs between the themes: greys from the lowest ground to the text, and the colours of words on a panel.
+struct Shades {
+  void (*base)(ImGuiStyle*);
+  float bar, popup, button, window, tab, frame, hovered, active, line;
+  ImU32 text, quiet_text, error, note;
+};
+
+constexpr ImU32 grey_text(int value) { return IM_COL32(value, value, value, 255); }
+
+const Shades& shades(Theme theme)
 {
-  ImGui::StyleColorsDark(&style);
+  static const Shades dark{[](ImGuiStyle* style) { ImGui::StyleColorsDark(style); },
+                           0.13f, 0.14f, 0.28f, 0.17f, 0.22f, 0.25f, 0.31f, 0.36f, 0.30f,
+                           colour::on_dark, colour::quiet_on_dark, IM_COL32(240, 128, 112, 255), colour::note_on_dark};
+  static const Shades light{[](ImGuiStyle* style) { ImGui::StyleColorsLight(style); },
+                            0.80f, 0.96f, 0.80f, 0.90f, 0.92f, 0.98f, 0.85f, 0.78f, 0.70f,
+                            grey_text(24), grey_text(84), IM_COL32(176, 28, 16, 255), IM_COL32(122, 82, 0, 255)};
+  return theme == Theme::light ? light : dark;
+}
+
+void set_colours(ImGuiStyle& style, const Shades& shade)
+{
+  colour::text = shade.text;
+  colour::quiet_text = shade.quiet_text;
+  colour::error = shade.error;
+  colour::note = shade.note;
+  shade.base(&style);
   ImVec4* c = style.Colors;
   c[ImGuiCol_Text] = ImGui::ColorConvertU32ToFloat4(colour::text);
   c[ImGuiCol_TextDisabled] = ImGui::ColorConvertU32ToFloat4(colour::quiet_text);
-  c[ImGuiCol_WindowBg] = grey(0.17f);
-  c[ImGuiCol_PopupBg] = grey(0.14f, 0.98f);
-  c[ImGuiCol_MenuBarBg] = grey(0.13f);
-  c[ImGuiCol_Border] = grey(0.30f);
-  c[ImGuiCol_FrameBg] = grey(0.25f);
-  c[ImGuiCol_FrameBgHovered] = grey(0.31f);
-  c[ImGuiCol_FrameBgActive] = grey(0.36f);
-  c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = c[ImGuiCol_TitleBgCollapsed] = grey(0.13f);
-  c[ImGuiCol_Button] = grey(0.28f);
-  c[ImGuiCol_ButtonHovered] = grey(0.35f);
+  c[ImGuiCol_WindowBg] = grey(shade.window);
+  c[ImGuiCol_PopupBg] = grey(shade.popup, 0.98f);
+  c[ImGuiCol_MenuBarBg] = grey(shade.bar);
+  c[ImGuiCol_Border] = grey(shade.line);
+  c[ImGuiCol_FrameBg] = grey(shade.frame);
+  c[ImGuiCol_FrameBgHovered] = grey(shade.hovered);
+  c[ImGuiCol_FrameBgActive] = grey(shade.active);
+  c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = c[ImGuiCol_TitleBgCollapsed] = grey(shade.bar);
+  c[ImGuiCol_Button] = grey(shade.button);
+  c[ImGuiCol_ButtonHovered] = grey(shade.active);
   c[ImGuiCol_ButtonActive] = accent(0.9f);
-  c[ImGuiCol_Header] = grey(0.28f);
+  c[ImGuiCol_Header] = grey(shade.button);
   c[ImGuiCol_HeaderHovered] = accent(0.45f);
   c[ImGuiCol_HeaderActive] = accent(0.7f);
   c[ImGuiCol_SliderGrab] = c[ImGuiCol_CheckMark] = accent(1);
-  c[ImGuiCol_SliderGrabActive] = grey(0.9f);
+  c[ImGuiCol_SliderGrabActive] = ImGui::ColorConvertU32ToFloat4(colour::text);
   c[ImGuiCol_PlotHistogram] = accent(1);
-  c[ImGuiCol_Tab] = c[ImGuiCol_TabDimmed] = grey(0.13f);
-  c[ImGuiCol_TabHovered] = grey(0.30f);
-  c[ImGuiCol_TabSelected] = c[ImGuiCol_TabDimmedSelected] = grey(0.22f);
+  c[ImGuiCol_Tab] = c[ImGuiCol_TabDimmed] = grey(shade.bar);
+  c[ImGuiCol_TabHovered] = grey(shade.line);
+  c[ImGuiCol_TabSelected] = c[ImGuiCol_TabDimmedSelected] = grey(shade.tab);
   c[ImGuiCol_TabSelectedOverline] = accent(1);
   c[ImGuiCol_TabDimmedSelectedOverline] = accent(0.4f);
-  c[ImGuiCol_Separator] = grey(0.28f);
+  c[ImGuiCol_Separator] = grey(shade.line);
   c[ImGuiCol_DockingEmptyBg] = grey(0.11f);
   c[ImGuiCol_DockingPreview] = accent(0.6f);
   c[ImGuiCol_NavCursor] = accent(1);
@@ -63,10 +87,10 @@ void add_font()
   ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size()), font_size, &config);
 }
 
-void set_theme(float scale)
+void set_theme(float scale, Theme theme)
 {
   ImGuiStyle style;
-  set_colours(style);
+  set_colours(style, shades(theme));
   style.WindowRounding = style.FrameRounding = style.PopupRounding = style.GrabRounding = 4;
   style.TabRounding = 4;
   style.WindowBorderSize = 0;
@@ -75,6 +99,8 @@ void set_theme(float scale)
   style.ItemSpacing = {9, 7};
   style.WindowPadding = {9, 8};
   style.WindowMenuButtonPosition = ImGuiDir_None;
+  style.TabCloseButtonMinWidthSelected = 0; // only under the mouse: the titles need the room
+  style.DockingNodeHasCloseButton = false; // a tab has one
   style.ScaleAllSizes(scale);
   style.FontSizeBase = font_size;
   style.FontScaleDpi = scale;

@@ -38,12 +38,23 @@ void draw_wrapped(std::uint32_t colour, const std::string& text)
   ImGui::PopTextWrapPos();
 }
 
-void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint)
+namespace {
+
+void hint_in(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint)
 {
   const float wrap = 0.9f * size.x;
   const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
   const ImVec2 at{corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2};
-  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour::quiet_text, hint.c_str(), nullptr, wrap);
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, hint.c_str(), nullptr, wrap);
+}
+
+} // namespace
+
+void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint) { hint_in(colour::quiet_text, corner, size, hint); }
+
+void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::string& hint)
+{
+  hint_in(colour::quiet_on_dark, corner, size, hint);
 }
 
 bool delete_pressed()

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions: what is kept is what was there; a window that was killed is opened again with it; what cannot be read loses nothing.
+#include "base/files.h"
+#include "preset/read.h"
+#include "ui/state/session_keeper.h"
+#include "workbench_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+namespace nephroid::ui {
+namespace {
+
+using test::FakeRuns;
+using test::TemporaryFolder;
+
+/// A window without a display: a workbench with its keeper.
+struct Window {
+  explicit Window(const std::filesystem::path& state) : keeper(state) {}
+  /// Until everything is in the files.
+  void settle()
+  {
+    const auto later = SessionKeeper::Clock::now() + std::chrono::seconds(5);
+    ASSERT_TRUE(test::eventually([&] { workbench.update(); }, [&] { return !workbench.works_on_files(); }));
+    for (int i = 0; i < 100; ++i) {
+      keeper.update(workbench, later);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+  void edit(const std::function<void(preset::Preset&)>& change)
+  {
+    preset::Preset edited = *workbench.preset();
+    change(edited);
+    workbench.apply({command::Edit{"edit", edited}});
+  }
+
+  FakeRuns runs;
+  Workbench workbench{runs};
+  SessionKeeper keeper;
+};
+
+class SessionTest : public ::testing::Test {
+protected:
+  TemporaryFolder folder;
+  std::filesystem::path state() const { return folder.path() / "state"; }
+  std::string preset_file() const { return folder.write("test.json", test::preset_text); }
+  std::string text_of(const Workbench& workbench) const
+  {
+    Session session;
+    session.edits = workbench.edits()->state();
+    session.chosen = workbench.chosen();
+    return SessionText().of(session);
+  }
+};
+
+/// An edit of some field, of list or map, at random.
+void change_something(preset::Preset& preset, std::mt19937& random)
+{
+  const auto draw = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  auto& scene = preset.scene;
+  switch (random() % 9) {
+  case 0:
+    scene.camera.position = {draw(-9, 9), draw(1, 9), draw(2, 9)};
+    break;
+  case 1:
+    scene.camera.fov_deg = draw(1, 170);
+    break;
+  case 2:
+    preset.seed = random();
+    break;
+  case 3:
+    preset.description = "written \"by\" chance \u00e9 " + std::to_string(random());
+    break;
+  case 4: {
+    preset::Material& glass = scene.materials["glass" + std::to_string(random() % 4)];
+    glass.type = preset::Material::Type::dielectric;
+    glass.dispersion.n = draw(1, 3);
+    break;
+  }
+  case 5: {
+    preset::Object& ball = scene.objects.emplace_back();
+    ball.shape.emplace().radius = draw(0.1, 2);
+    ball.material = "wall";
+    break;
+  }
+  case 6:
+    if (scene.objects.size() > 1) scene.objects.erase(scene.objects.begin());
+    break;
+  case 7:
+    scene.lights.emplace_back().power_w = draw(1e-9, 1e9);
+    break;
+  default:
+    preset.stop.error = random() % 2 ? std::optional(draw(1e-6, 1)) : std::nullopt;
+  }
+}
+
+TEST_F(SessionTest, AHundredEditsUndoneGiveTheSameBytes)
+{
+  Window window(state());
+  ASSERT_TRUE(window.workbench.open(preset_file()));
+  std::mt19937 random(7);
+  std::vector<std::string> states{preset::to_json(*window.workbench.preset())};
+  for (int i = 0; i < 100; ++i) {
+    window.edit([&](preset::Preset& preset) { change_something(preset, random); });
+    states.push_back(preset::to_json(*window.workbench.preset()));
+  }
+  for (std::size_t i = states.size(); i-- > 0;) {
+    EXPECT_EQ(preset::to_json(*window.workbench.preset()), states[i]) << i;
+    window.workbench.apply({command::Undo{}});
+  }
+  for (const std::string& state : states) {
+    EXPECT_EQ(preset::to_json(*window.workbench.preset()), state);
+    window.workbench.apply({command::Redo{}});
+  }
+}
+
+TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
+{
+  std::mt19937 random(3);
+  std::vector<std::string> states;
+  {
+    Window window(state());
+    EXPECT_TRUE(window.keeper.killed_session().empty());
+    ASSERT_TRUE(window.workbench.open(preset_file()));
+    states.push_back(preset::to_json(*window.workbench.preset()));
+    for (int i = 0; i < 60; ++i) {
+      window.edit([&](preset::Preset& preset) { change_something(preset, random); });
+      states.push_back(preset::to_json(*window.workbench.preset()));
+    }
+    for (int i = 0; i < 20; ++i) window.workbench.apply({command::Undo{}});
+    Look look;
+    look.exposure_stops = 1.5;
+    window.workbench.apply({command::SetLook{look}, command::ChooseMetric{"mse"}});
+    window.settle();
+  } // not closed
+  Window window(state());
+  EXPECT_FALSE(window.keeper.killed_session().empty());
+  window.keeper.reopen(window.workbench);
+  ASSERT_NE(window.workbench.preset(), nullptr);
+  EXPECT_TRUE(window.workbench.messages().empty());
+  EXPECT_TRUE(window.workbench.edits()->modified());
+  EXPECT_EQ(window.workbench.chosen().look.exposure_stops, 1.5);
+  EXPECT_EQ(window.workbench.chosen().error_metric, "mse");
+  EXPECT_EQ(window.workbench.preset()->source, (folder.path() / "test.json").string());
+  for (int i = 0; i < 20; ++i) window.workbench.apply({command::Redo{}});
+  for (std::size_t i = states.size(); i-- > 0;) {
+    EXPECT_EQ(preset::to_json(*window.workbench.preset()), states[i]) << i;
+    window.workbench.apply({command::Undo{}});
+  }
+  EXPECT_FALSE(window.workbench.edits()->modified()) << "back at what the file has";
+  window.settle();
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(state() / "sessions"), {}), 1) << "the old one is not needed any more";
+}
+
+TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures)
+{
+  {
+    Window window(state());
+    window.runs.history = [](int steps) { return test::falling_history(steps); };
+    ASSERT_TRUE(window.workbench.open(preset_file()));
+    ASSERT_TRUE(test::eventually([&] { window.workbench.update(); },
+                                 [&] { return window.workbench.run().status().state == job::State::finished; }));
+    window.workbench.apply({command::PinRun{}, command::ChangePin{1, "kept", 0xff112233, false}});
+    window.settle();
+  }
+  Window window(state());
+  window.keeper.reopen(window.workbench);
+  window.settle();
+  ASSERT_EQ(window.workbench.comparing().pinned().all().size(), 1u);
+  const PinnedRun& pin = window.workbench.comparing().pinned().all().front();
+  EXPECT_EQ(pin.name, "kept");
+  EXPECT_EQ(pin.colour, 0xff112233);
+  EXPECT_FALSE(pin.shown);
+  EXPECT_EQ(pin.history->rows.size(), 20u);
+  ASSERT_NE(pin.picture, nullptr);
+  EXPECT_EQ(pin.picture->rgb[2], 4) << "the camera's z, which the fake picture has as its blue";
+}
+
+TEST_F(SessionTest, AClosedWindowIsOfferedButNotOpened)
+{
+  {
+    Window window(state());
+    ASSERT_TRUE(window.workbench.open(preset_file()));
+    window.keeper.close(window.workbench);
+  }
+  Window window(state());
+  EXPECT_TRUE(window.keeper.killed_session().empty());
+  EXPECT_TRUE(window.keeper.has_earlier());
+  window.workbench.apply({command::ReopenSession{}});
+  ASSERT_TRUE(window.workbench.take_reopen());
+  window.keeper.reopen(window.workbench);
+  EXPECT_NE(window.workbench.preset(), nullptr);
+  EXPECT_FALSE(window.keeper.has_earlier());
+}
+
+TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn)
+{
+  Window first(state());
+  ASSERT_TRUE(first.workbench.open(preset_file()));
+  first.settle();
+  Window second(state());
+  EXPECT_TRUE(second.keeper.killed_session().empty());
+  EXPECT_FALSE(second.keeper.has_earlier());
+}
+
+TEST_F(SessionTest, WhatIsCutIsRefusedInOneLine)
+{
+  Window window(state());
+  ASSERT_TRUE(window.workbench.open(preset_file()));
+  window.edit([](preset::Preset& preset) { preset.seed = 5; });
+  const std::string whole = text_of(window.workbench);
+  EXPECT_NO_THROW(parse_session(whole, "whole"));
+  for (std::size_t length = 0; length < whole.size(); length += 7) {
+    try {
+      parse_session(whole.substr(0, length), "cut.json");
+      FAIL() << "at " << length;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.line(), ::testing::StartsWith("cut.json: "));
+      EXPECT_THAT(error.line(), ::testing::Not(::testing::HasSubstr("\n")));
+    }
+  }
+}
+
+TEST_F(SessionTest, WrongValuesAreRefused)
+{
+  Window window(state());
+  ASSERT_TRUE(window.workbench.open(preset_file()));
+  const std::string whole = text_of(window.workbench);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  };
+  EXPECT_THROW(parse_session(with("\"index\":0", "\"index\":7"), ""), Error);
+  EXPECT_THROW(parse_session(with("\"index\":0", "\"index\":-1"), ""), Error);
+  EXPECT_THROW(parse_session(with("\"saved\":0", "\"saved\":4"), ""), Error);
+  EXPECT_THROW(parse_session(with("\"version\":1", "\"version\":2"), ""), Error);
+  EXPECT_THROW(parse_session(with("\"zoom\":1.0", "\"zoom\":1e300"), ""), Error);
+  EXPECT_THROW(parse_session(with("\"fov_deg\":40.0", "\"fov_deg\":400.0"), ""), Error) << "no preset may have it";
+  EXPECT_THROW(parse_session("[[[[", ""), Error);
+  EXPECT_THROW(parse_session("null", ""), Error);
+}
+
+TEST_F(SessionTest, AnUnreadableSessionIsKeptUnderAnotherName)
+{
+  std::filesystem::path session;
+  {
+    Window window(state());
+    ASSERT_TRUE(window.workbench.open(preset_file()));
+    window.settle();
+    session = std::filesystem::directory_iterator(state() / "sessions")->path();
+  }
+  write_file_whole(session / "session.json", "{\"version\": 1, \"closed\": false, ");
+  Window window(state());
+  EXPECT_FALSE(window.keeper.killed_session().empty());
+  window.keeper.reopen(window.workbench);
+  EXPECT_EQ(window.workbench.preset(), nullptr);
+  ASSERT_EQ(window.workbench.messages().size(), 1u);
+  EXPECT_TRUE(window.workbench.messages()[0].error);
+  EXPECT_TRUE(std::filesystem::exists(session.string() + ".unreadable/session.json"));
+  EXPECT_FALSE(window.keeper.has_earlier());
+}
+
+TEST_F(SessionTest, WhereNothingCanBeKeptItIsSaidOnceAndTheWindowGoesOn)
+{
+  Window window(state());
+  ASSERT_TRUE(window.workbench.open(preset_file()));
+  const std::filesystem::path own = std::filesystem::directory_iterator(state() / "sessions")->path();
+  std::filesystem::remove_all(own);
+  write_file_whole(own, "a file where the folder was");
+  window.settle();
+  window.edit([](preset::Preset& preset) { preset.seed = 9; });
+  window.settle();
+  ASSERT_EQ(window.workbench.messages().size(), 1u);
+  EXPECT_THAT(window.workbench.messages()[0].line, ::testing::HasSubstr("save the preset elsewhere"));
+  EXPECT_EQ(window.workbench.preset()->seed, 9u);
+}
+
+TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow)
+{
+  {
+    Window window(state());
+    window.workbench.apply(
+        {command::SetAppearance{Theme::light, 1.21}, command::ShowPanel{"plan", false},
+         command::KeepLayout{"inverse", {{.tabs = {"view", "plan"}, .front = "plan"}, {{"error", {0.1, 0.2, 0.3, 0.4}}}}}});
+    window.settle();
+  }
+  Window window(state());
+  window.keeper.load_settings(window.workbench);
+  EXPECT_EQ(window.workbench.settings().theme, Theme::light);
+  EXPECT_EQ(window.workbench.settings().text_size, 1.21);
+  EXPECT_EQ(window.workbench.settings().engines.at("").closed, std::set<std::string>{"plan"});
+  EXPECT_EQ(window.workbench.settings().engines.at("inverse").layout.docks.front, "plan");
+  EXPECT_EQ(window.workbench.settings().engines.at("inverse").layout.floating.at(0).place[3], 0.4);
+}
+
+TEST(Settings, WhatCannotBeIsRefused)
+{
+  Settings settings;
+  settings.engines["spectral"].layout.docks = {
+      .split = Dock::Split::columns, .first_part = 0.3, .parts = {{.tabs = {"view"}}, {.tabs = {"plan"}}}};
+  const std::string text = to_json(settings);
+  EXPECT_EQ(parse_settings(text, ""), settings);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    const std::size_t at = changed.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return changed.replace(at, from.size(), to);
+  };
+  EXPECT_THROW(parse_settings(with("0.3", "0"), ""), Error);
+  EXPECT_THROW(parse_settings(with("columns", "diagonals"), ""), Error);
+  EXPECT_THROW(parse_settings(with("\"text_size\": 1.0", "\"text_size\": 1e9"), ""), Error);
+  for (std::size_t length = 0; length < text.size(); length += 3) EXPECT_THROW(parse_settings(text.substr(0, length), ""), Error) << length;
+  std::string deep = "{\"version\":1,\"theme\":\"dark\",\"text_size\":1,\"engines\":{\"a\":{\"closed\":[],\"floating\":[],\"docks\":";
+  for (int i = 0; i < 1000; ++i) deep += "{\"split\":\"rows\",\"first_part\":0.5,\"parts\":[{\"tabs\":[],\"front\":\"\"},";
+  EXPECT_THROW(parse_settings(deep, ""), Error);
+}
+
+} // namespace
+} // namespace nephroid::ui

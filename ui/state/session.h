@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window is at, as a file: the preset with its undo, how it is looked at, the pinned runs. A window that was killed is opened
+// again with it. ui/state/session_keeper.h writes and finds the files.
+#pragma once
+#include "ui/state/commands.h"
+#include "ui/state/context.h"
+#include "ui/state/undo.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+struct Session {
+  /// A pinned run: its history and picture are files of their own.
+  struct Pin {
+    std::string folder; ///< in the session's folder: a name that measure reads as a run's
+    std::string name;
+    std::uint32_t colour = 0; ///< IM_COL32
+    bool shown = true;
+    bool operator==(const Pin&) const = default;
+  };
+  static constexpr std::size_t most_entries = 100; ///< of undo: those about the current one are kept
+
+  bool closed = false; ///< by a person; else the window ended in some other way
+  std::optional<UndoStack::State> edits;
+  Chosen chosen;
+  std::vector<Pin> pins;
+};
+
+/// Makes the text of a session. Keeps what it made of each preset, so that the next text costs only what changed.
+class SessionText {
+public:
+  std::string of(const Session& session);
+
+private:
+  struct Known;
+  std::vector<std::shared_ptr<const Known>> known_;
+};
+
+/// Throws bad_input at source where the text is no session, is cut, or holds a preset that cannot be.
+Session parse_session(const std::string& text, const std::string& source);
+
+} // namespace nephroid::ui

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/session_keeper.h"
+
+#include "base/files.h"
+#include "image/image.h"
+#include "measure/history_file.h"
+#include "run/picture.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <ctime>
+
+namespace nephroid::ui {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr auto period = 1s;         ///< between two writes
+constexpr auto after_failure = 10s; ///< a full disk is not asked every second
+constexpr std::size_t most_earlier = 10;
+constexpr std::uintmax_t most_bytes = 64u << 20; ///< of a session that somebody may have put there
+constexpr const char *session_name = "session.json", *settings_name = "settings.json", *lock_name = "lock";
+
+/// A file that this process alone holds open; -1 where another one has it, or it cannot be made.
+int lock(const fs::path& file)
+{
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  ::close(descriptor);
+  return -1;
+}
+
+std::string read_limited(const fs::path& file)
+{
+  std::error_code ignored;
+  if (fs::file_size(file, ignored) > most_bytes && !ignored)
+    throw bad_input(file.string(), "the file is larger than any that a window writes");
+  return read_file(file);
+}
+
+/// Whether a window that was closed wrote it; a file that cannot be read is none.
+bool was_closed(const fs::path& file)
+{
+  try {
+    return parse_session(read_limited(file), file.string()).closed;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+bool same_state(const Session& a, const Session& b)
+{
+  return a.closed == b.closed && a.edits == b.edits && a.chosen == b.chosen && a.pins == b.pins;
+}
+
+void write_pin(const fs::path& folder, const PinnedRun& run)
+{
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw failed(folder.string(), "cannot be made: " + error.message());
+  write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
+  if (run.picture) image::write_exr(folder / "image.exr", run::with_layers(*run.picture));
+}
+
+} // namespace
+
+SessionKeeper::SessionKeeper(fs::path folder) : folder_(std::move(folder))
+{
+  if (folder_.empty()) return;
+  const fs::path sessions = folder_ / "sessions";
+  const std::string name = fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(std::time(nullptr)), ::getpid());
+  std::error_code error;
+  fs::create_directories(sessions, error);
+  for (int number = 1; !error; ++number) {
+    own_ = sessions / (number == 1 ? name : fmt::format("{}-{}", name, number));
+    if (fs::create_directory(own_, error)) break; // a new one
+  }
+  if (!error) lock_ = lock(own_ / lock_name);
+  if (lock_ < 0) {
+    const std::string reason = error ? error.message() : "its lock cannot be made";
+    folder_.clear();
+    throw failed(own_.string(), "the window's session cannot be kept here: " + reason, "",
+                 "set XDG_STATE_HOME to a folder that can be written to");
+  }
+  find_earlier();
+}
+
+SessionKeeper::~SessionKeeper()
+{
+  if (writing_.valid()) writing_.wait();
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void SessionKeeper::find_earlier()
+{
+  std::error_code error;
+  std::vector<fs::path> folders;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "sessions", error))
+    if (entry.path() != own_ && entry.path().extension() != ".unreadable") folders.push_back(entry.path());
+  for (const fs::path& folder : folders) {
+    const int held = lock(folder / lock_name);
+    if (held < 0) continue; // its window is open
+    if (const fs::file_time_type kept = fs::last_write_time(folder / session_name, error); !error)
+      earlier_.push_back({folder, was_closed(folder / session_name), kept});
+    else
+      fs::remove_all(folder, error); // nothing was ever kept
+    ::close(held);
+  }
+  std::sort(earlier_.begin(), earlier_.end(),
+            [](const Earlier& a, const Earlier& b) { return a.closed != b.closed ? b.closed : a.kept > b.kept; });
+  // Of the windows that were closed the newest is enough.
+  std::size_t closed = 0;
+  std::erase_if(earlier_, [&](const Earlier& one) {
+    const bool old = (one.closed && closed++ > 0);
+    if (old) fs::remove_all(one.folder, error);
+    return old;
+  });
+  for (; earlier_.size() > most_earlier; earlier_.pop_back()) fs::remove_all(earlier_.back().folder, error);
+}
+
+void SessionKeeper::load_settings(Workbench& workbench) const
+{
+  const fs::path file = folder_ / settings_name;
+  if (folder_.empty() || !is_there(file)) return;
+  try {
+    workbench.set_settings(parse_settings(read_limited(file), file.string()));
+  } catch (const std::exception& error) {
+    workbench.apply({command::Report{error.what()}});
+  }
+}
+
+std::string SessionKeeper::killed_session() const
+{
+  if (earlier_.empty() || earlier_.front().closed) return {};
+  const auto age = fs::file_time_type::clock::now() - earlier_.front().kept;
+  const auto at = std::chrono::system_clock::now() - std::chrono::duration_cast<std::chrono::seconds>(age);
+  return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(at)));
+}
+
+void SessionKeeper::reopen(Workbench& workbench)
+{
+  if (earlier_.empty()) return;
+  const fs::path folder = earlier_.front().folder;
+  earlier_.erase(earlier_.begin());
+  try {
+    workbench.restore(parse_session(read_limited(folder / session_name), (folder / session_name).string()), folder);
+    taken_over_ = folder;
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    const fs::path kept = folder.string() + ".unreadable";
+    fs::rename(folder, kept, ignored);
+    workbench.apply({command::Report{fmt::format("{}; what there is of it lies in {}", error.what(), kept.string())}});
+  }
+}
+
+SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
+{
+  Work work;
+  if (workbench.edits()) work.session.edits = workbench.edits()->state();
+  work.session.chosen = workbench.chosen();
+  work.pins = workbench.comparing().pinned().all();
+  for (const PinnedRun& run : work.pins) work.session.pins.push_back({fmt::format("pin-{}", run.id), run.name, run.colour, run.shown});
+  work.settings = workbench.settings();
+  return work;
+}
+
+bool SessionKeeper::is_kept(const Work& work) const
+{
+  return newest_ && same_state(newest_->session, work.session) && newest_->settings == work.settings;
+}
+
+void SessionKeeper::write(const Work& work)
+{
+  for (std::size_t i = 0; i < work.pins.size(); ++i)
+    if (const fs::path folder = own_ / work.session.pins[i].folder; !is_there(folder / "history.csv")) write_pin(folder, work.pins[i]);
+  write_file_whole(own_ / session_name, text_.of(work.session));
+  if (const std::string settings = to_json(work.settings);
+      !is_there(folder_ / settings_name) || read_file(folder_ / settings_name) != settings)
+    write_file_whole(folder_ / settings_name, settings);
+}
+
+void SessionKeeper::say_once(Workbench& workbench, const std::string& error)
+{
+  if (error == std::exchange(said_, error)) return;
+  workbench.apply({command::Report{error + "; the window goes on, but would lose its edits if it ended now: save the preset elsewhere"}});
+}
+
+void SessionKeeper::collect(Workbench& workbench)
+{
+  try {
+    writing_.get();
+    said_.clear();
+    if (taken_over_.empty() || !newest_->session.edits) return;
+    if (workbench.works_on_files()) return; // its pins are still being read
+    std::error_code ignored;
+    fs::remove_all(std::exchange(taken_over_, {}), ignored);
+  } catch (const std::exception& error) {
+    newest_.reset();
+    next_ = Clock::now() + after_failure;
+    say_once(workbench, error.what());
+  }
+}
+
+void SessionKeeper::update(Workbench& workbench, Clock::time_point now)
+{
+  if (folder_.empty()) return;
+  if (writing_.valid()) {
+    if (writing_.wait_for(0s) != std::future_status::ready) return;
+    collect(workbench);
+  }
+  if (now < next_) return;
+  Work work = work_of(workbench);
+  if (is_kept(work)) return;
+  next_ = now + period;
+  newest_ = std::move(work);
+  writing_ = std::async(std::launch::async, [this] { write(*newest_); });
+}
+
+void SessionKeeper::close(Workbench& workbench)
+{
+  if (folder_.empty()) return;
+  if (writing_.valid()) collect(workbench);
+  Work work = work_of(workbench);
+  work.session.closed = true;
+  try {
+    write(work);
+  } catch (const std::exception& error) {
+    say_once(workbench, error.what());
+  }
+}
+
+} // namespace nephroid::ui
