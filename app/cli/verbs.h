@@ -19,6 +19,7 @@ void add_importance(CLI::App& program, Session& session);
 void add_segment(CLI::App& program, Session& session);
 void add_report(CLI::App& program, Session& session);
 void add_compare(CLI::App& program, Session& session);
+void add_import(CLI::App& program, Session& session);
 void add_presets(CLI::App& program, Session& session);
 void add_devices(CLI::App& program, Session& session);
 void add_check(CLI::App& program, Session& session);

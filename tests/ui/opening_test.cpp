@@ -175,7 +175,8 @@ TEST_F(OpeningTest, SaysWhatOtherFilesAreAndWhatCanBeDoneWithThem)
   EXPECT_THAT(refusal(glass), StartsWith(glass + ": is dispersion data; the window opens presets; "));
   EXPECT_THAT(refusal(glass), HasSubstr("`nephroid dispersion " + glass + "`"));
   EXPECT_THAT(refusal(folder.write("BALL.OBJ", "v 0 0 0\n")), HasSubstr("is a mesh; the window opens presets; drop it on the window once"));
-  EXPECT_THAT(refusal(folder.write("scene.gltf", "{\"asset\": {}}")), HasSubstr("is a mesh"));
+  EXPECT_THAT(refusal(folder.write("scene.gltf", "{\"asset\": {}}")),
+              HasSubstr("is a scene; the window opens presets; drop it on the window"));
   EXPECT_THAT(refusal(folder.write("sky.exr", "v/1")), HasSubstr("is a picture"));
   EXPECT_THAT(refusal(folder.write("direct.cl", "__kernel")), HasSubstr("--kernels"));
   EXPECT_THAT(refusal(folder.write("notes.txt", "hello")), HasSubstr("is no preset"));

@@ -15,6 +15,11 @@ void save(const Context& c)
 }
 
 bool has_file(const Context& c) { return c.preset() && !c.preset()->source.empty(); }
+template <NewScene kind>
+void begin(const Context& c)
+{
+  c.push(command::New{kind});
+}
 
 } // namespace
 
@@ -22,6 +27,11 @@ std::vector<Action> file_actions()
 {
   const char* menu = "File";
   return {
+      {menu, "New scene", ctrl | ImGuiKey_N, false, "A glass sphere on a floor under a lamp, to begin with", always,
+       begin<NewScene::spectral>},
+      {menu, "New scene: environment", 0, false, "A glass sphere under a sky, for the engine environment", always,
+       begin<NewScene::environment>},
+      {menu, "New scene: inverse", 0, false, "An object that casts two drawings, for the engine inverse", always, begin<NewScene::inverse>},
       {menu, "Open...", ctrl | ImGuiKey_O, false, "A preset file, or one of the shipped presets", always, ask<Question::open>},
       {menu, "Open history...", ctrl | shift | ImGuiKey_O, false, "Pin an earlier run by its folder or its history.csv", always,
        ask<Question::open_history>},

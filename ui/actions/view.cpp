@@ -178,6 +178,10 @@ std::vector<Action> view_actions()
       {menu, "Copy pixel", 0, false, "The values of the pixel that is inspected, with tabs between", has_pixel, copy_pixel, no_pixel},
       {menu, "Statistics of the picture", shift | ImGuiKey_I, false, "Of all its pixels, or none; Alt and a drag takes a rectangle",
        has_picture, whole_region, nullptr, nullptr, has_region},
+      {menu, "Find a preset", ctrl | ImGuiKey_P, false, "The panel Presets, to type what is looked for", always,
+       [](C c) {
+         c.push(command::ShowPanel{"presets", true});
+       }},
   };
 }
 

@@ -2,6 +2,7 @@
 #include "ui/shell/dialogs.h"
 
 #include "base/files.h"
+#include "preset/differences.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/widgets.h"
 
@@ -39,6 +40,11 @@ void Dialogs::begin(const Workbench& workbench)
   name_.clear();
   const bool picture = shown_ == Question::save_picture;
   if (picture || shown_ == Question::save_preset) name_ = proposed_name(workbench.preset(), picture ? ".png" : "-edited.json");
+  parent_.clear();
+  if (shown_ == Question::save_preset && workbench.preset()) {
+    parent_ = parent_to_keep(*workbench.preset());
+    keep_parent_ = !preset::own_parent(workbench.preset()->source).empty();
+  }
   shipped_.clear();
   ImGui::OpenPopup(title(shown_));
   if (shown_ == Question::open) shipped_ = preset::shipped_presets();
@@ -126,8 +132,18 @@ void Dialogs::draw_save(Commands& commands)
 {
   const bool picture = shown_ == Question::save_picture, there = !name_.empty() && is_there(name_);
   // A file of the list is only named by a click: replacing it takes the button.
-  if (choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save"))
-    commands.push_back(picture ? Command(command::SavePicture{name_}) : Command(command::SavePreset{name_}));
+  const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save");
+  places_.note("save");
+  if (chosen)
+    commands.push_back(picture ? Command(command::SavePicture{name_})
+                               : Command(command::SavePreset{name_, keep_parent_ && !parent_.empty()}));
+  if (!parent_.empty()) {
+    ImGui::Checkbox("Keep the parent", &keep_parent_);
+    places_.note("keep the parent");
+    ImGui::SetItemTooltip("Write only what differs from '%s', so that the file follows its changes", parent_.c_str());
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", parent_.c_str());
+  }
   pick_file();
   if (ImGui::Button("Save into this folder")) name_ = (files_.folder() / std::filesystem::path(name_).filename()).string();
   ImGui::SetItemTooltip("The name above, in the folder that is shown");

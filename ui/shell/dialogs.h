@@ -4,7 +4,10 @@
 #include "preset/read.h"
 #include "ui/shell/file_list.h"
 #include "ui/state/commands.h"
+#include "ui/widgets/widgets.h"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,8 @@ class Dialogs {
 public:
   void draw(const Workbench& workbench, Commands& commands);
   const FileList& files() const { return files_; }
+  /// For tests: the middle of a widget on the screen.
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   void begin(const Workbench& workbench);
@@ -30,6 +35,9 @@ private:
   std::string name_;                           ///< what the text field holds
   std::vector<preset::ShippedPreset> shipped_; ///< read when the dialog opens
   FileList files_;
+  std::string parent_; ///< that a saved preset may keep; empty: none
+  bool keep_parent_ = true;
+  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

@@ -128,7 +128,8 @@ Layout starting_layout(const std::string& name, const std::string& engine, float
       at_right{.tabs = {}, .front = std::string(front.name)};
   // Beside what an engine's own panel shows the fields are under the picture, so that both are in sight together.
   const bool fields_below = !front.engine.empty();
-  for (const PanelEntry& tab : tabs()) (fields_below && tab.name == "parameters" ? fields : at_right).tabs.emplace_back(tab.name);
+  const auto is_below = [&](const PanelEntry& tab) { return fields_below && (tab.name == "parameters" || tab.name == "presets"); };
+  for (const PanelEntry& tab : tabs()) (is_below(tab) ? fields : at_right).tabs.emplace_back(tab.name);
   Dock left = picture;
   if (fields_below) left = {.split = Dock::Split::rows, .first_part = 0.58, .parts = {picture, fields}};
   // The tabs are as wide as a plot with its legend needs; the picture has the rest.

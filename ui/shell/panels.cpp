@@ -9,6 +9,7 @@
 #include "ui/inspector/panel.h"
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
+#include "ui/presets/panel.h"
 #include "ui/spectra/panel.h"
 #include "ui/view/panel.h"
 #include "ui/view/picking.h"
@@ -40,6 +41,7 @@ const PanelEntry table[] = {
     {"inspector", InspectorPanel::title, "", make<InspectorPanel>},
     {"plan", PlanPanel::title, "", make<PlanPanel>},
     {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
+    {"presets", PresetsPanel::title, "", make<PresetsPanel>},
 };
 
 } // namespace

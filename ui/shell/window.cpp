@@ -47,6 +47,8 @@ void open_first(Workbench& workbench, const Options& options)
   for (const std::string& file : options.files)
     if (opened || is_history(file))
       workbench.apply({command::PinFile{file}});
+    else if (is_scene_file(file))
+      workbench.apply({command::Open{file}});
     else
       opened = workbench.open(file, options.overrides);
 }
@@ -263,6 +265,8 @@ int open_window(const Options& options)
   DeviceRuns runs(device, look_around);
   Workbench workbench(runs);
   if (!cache_note.empty()) workbench.add_note(cache_note);
+  if (const std::filesystem::path folder = state_folder(); keeps_sessions(options) && !folder.empty())
+    workbench.remember({folder / "recent.json", cache_folder("thumbnails")});
   const std::unique_ptr<SessionKeeper> keeper = make_keeper(options, workbench);
   keeper->load_settings(workbench);
   open_first(workbench, options);

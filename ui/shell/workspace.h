@@ -26,6 +26,7 @@ public:
   Commands draw(Workbench& workbench);
   /// One more panel; those of the table are there from the start. entry: its make is not called.
   void add(const PanelEntry& entry, std::unique_ptr<Panel> panel) { panels_.push_back({entry, std::move(panel)}); }
+  const Dialogs& dialogs() const { return dialogs_; }
   /// The panel of a class. Throws std::bad_cast where there is none.
   template <class P>
   const P& panel() const

@@ -4,6 +4,7 @@
 #pragma once
 #include "measure/difference.h"
 #include "preset/preset.h"
+#include "ui/state/new_scenes.h"
 #include "ui/state/selection.h"
 #include "ui/state/settings.h"
 
@@ -65,6 +66,11 @@ namespace command {
 /// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does.
 struct Open {
   std::string name;
+  bool sure = false;
+};
+/// A scene to begin with, in no file; asks first as Open does.
+struct New {
+  NewScene kind = NewScene::spectral;
   bool sure = false;
 };
 /// The preset as it shall be. Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still lasts,
@@ -168,6 +174,7 @@ struct Ask {
 };
 struct SavePreset {
   std::filesystem::path file;
+  bool keep_parent = true; ///< where the preset has one (parent_to_keep): only what differs from it is written
 };
 /// .png: as shown; .exr: linear, with layers.
 struct SavePicture {
@@ -217,14 +224,14 @@ struct Quit {
 } // namespace command
 
 using Command =
-    std::variant<command::Open, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel,
-                 command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference, command::ShowLayer,
-                 command::InspectPixel, command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin, command::Unpin,
-                 command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles,
-                 command::Nudged, command::AddBookmark, command::GoToBookmark, command::RenameBookmark, command::DeleteBookmark,
-                 command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss, command::ReopenSession,
-                 command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout, command::ShowPanel,
-                 command::SetAppearance, command::Report, command::Quit>;
+    std::variant<command::Open, command::New, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart,
+                 command::Cancel, command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference,
+                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin,
+                 command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion, command::Select,
+                 command::SetHandles, command::Nudged, command::AddBookmark, command::GoToBookmark, command::RenameBookmark,
+                 command::DeleteBookmark, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss,
+                 command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout,
+                 command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

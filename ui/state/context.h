@@ -5,6 +5,7 @@
 #include "ui/state/bookmarks.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
+#include "ui/state/recent_files.h"
 #include "ui/state/run_in_hand.h"
 #include "ui/state/settings.h"
 #include "ui/state/undo.h"
@@ -39,6 +40,7 @@ struct Context {
   const Settings& settings;
   bool has_earlier_session; ///< that could be reopened
   Commands& commands;
+  const RecentFiles& recent;
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }

@@ -5,7 +5,10 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/image.h"
+#include "preset/differences.h"
+#include "run/import/import.h"
 #include "run/picture.h"
+#include "ui/state/recent_files.h"
 #include "ui/state/tone.h"
 
 #include <fmt/format.h>
@@ -29,7 +32,8 @@ struct Kind {
 constexpr std::array kinds{
     Kind{".yml .yaml ", "is dispersion data",
          "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion {}`"},
-    Kind{".obj .ply .stl .gltf .glb .3ds ", "is a mesh",
+    Kind{".gltf .glb ", "is a scene", "drop it on the window, which makes a preset of it, or run `nephroid import {} -o PRESET.json`"},
+    Kind{".obj .ply .stl .3ds ", "is a mesh",
          "drop it on the window once a preset with a scene is open, or name it in one as an object's \"mesh\""},
     Kind{".exr .hdr ", "is a picture",
          "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
@@ -114,6 +118,12 @@ bool is_map_file(const std::filesystem::path& file)
   return ending == ".hdr" || ending == ".exr";
 }
 
+bool is_scene_file(const std::filesystem::path& file)
+{
+  const std::string ending = lower_ending(file);
+  return ending == ".gltf" || ending == ".glb";
+}
+
 std::filesystem::path save_target(const preset::Preset* preset)
 {
   if (!preset || preset->source.empty()) return {};
@@ -121,6 +131,12 @@ std::filesystem::path save_target(const preset::Preset* preset)
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(source, ignored) || is_shipped(source)) return {};
   return source;
+}
+
+std::string parent_to_keep(const preset::Preset& preset)
+{
+  const std::string own = preset::own_parent(preset.source);
+  return own.empty() ? preset::shipped_name(preset.source) : own;
 }
 
 std::string proposed_name(const preset::Preset* preset, const std::string& ending)
@@ -143,6 +159,18 @@ void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<c
   }));
 }
 
+void FileWork::save_thumbnail(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops)
+{
+  background_.push_back(std::async(std::launch::async, [=] {
+    try {
+      write_thumbnail(file, *picture, exposure_stops);
+    } catch (const Error& error) { // the preset itself is saved
+      return Done{"the preset is saved without its small picture: " + error.line()};
+    }
+    return Done{};
+  }));
+}
+
 void FileWork::save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open)
 {
   background_.push_back(std::async(std::launch::async, [=] {
@@ -151,6 +179,19 @@ void FileWork::save_files(const std::filesystem::path& folder, std::shared_ptr<c
     if (error) throw failed(folder.string(), "cannot be made: " + error.message());
     for (const job::ExtraFile& file : of->files) write_file_whole(folder / file.name, file.write);
     return Done{fmt::format("saved {} in {}", counted(of->files.size(), "file"), folder.string()), {}, folder / open};
+  }));
+}
+
+void FileWork::import_scene(const std::filesystem::path& file)
+{
+  background_.push_back(std::async(std::launch::async, [file] {
+    // A folder that is there may hold what somebody has edited since.
+    std::filesystem::path folder = std::filesystem::path(file).replace_extension();
+    const std::string stem = folder.filename().string();
+    for (int n = 1; n == 1 || is_there(folder); ++n)
+      folder.replace_filename(n == 1 ? stem + "-scene" : fmt::format("{}-scene-{}", stem, n));
+    const run::Imported made = run::import_gltf(file, folder / (stem + ".json"));
+    return Done{made.summary(), {}, made.preset};
   }));
 }
 

@@ -26,8 +26,14 @@ bool is_dispersion_file(const std::filesystem::path& file);
 /// Whether it ends as pictures of surroundings do, which have a range that no screen has.
 bool is_map_file(const std::filesystem::path& file);
 
+/// Whether it ends as glTF does: a whole scene, which becomes a preset.
+bool is_scene_file(const std::filesystem::path& file);
+
 /// Where "save" writes without asking: the file that was opened, unless it is one of the shipped presets. Empty: ask. preset may be null.
 std::filesystem::path save_target(const preset::Preset* preset);
+/// What a saved preset may be written over, as preset::file_text takes it: the parent that its file names, or the shipped preset that it
+/// is. Empty: it has none.
+std::string parent_to_keep(const preset::Preset& preset);
 /// A proposal for a file's name in the current folder: the preset's own with another ending.
 std::string proposed_name(const preset::Preset* preset, const std::string& ending);
 
@@ -45,8 +51,12 @@ class FileWork {
 public:
   /// By the extension of file: .png as shown, .exr the run's picture, linear with every layer.
   void save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown);
+  /// write_thumbnail(), of which nothing is said unless it fails.
+  void save_thumbnail(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops);
   /// The files of a run, into a folder that is made where it is not there. open: the one to be opened then.
   void save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open);
+  /// Makes a preset of a glTF file, in a folder of its own beside it, and then opens that.
+  void import_scene(const std::filesystem::path& file);
   /// read_pin() of a path; as `like` in name, colour and whether it is shown, where that is given.
   void pin(const std::filesystem::path& path, const std::optional<PinnedRun>& like = {});
   bool busy() const { return !background_.empty(); }

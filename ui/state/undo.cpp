@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/undo.h"
 
+#include "preset/differences.h"
+
 #include <utility>
 
 namespace nephroid::ui {
@@ -53,8 +55,7 @@ bool UndoStack::redo()
 void UndoStack::mark_saved(const std::string& source)
 {
   for (Entry& entry : state_.entries) {
-    preset::Preset saved = *entry.preset;
-    saved.source = source;
+    preset::Preset saved = preset::moved_to_file(*entry.preset, source);
     saved.provenance = {}; // the file holds every value now
     entry.preset = std::make_shared<const preset::Preset>(std::move(saved));
   }

@@ -46,7 +46,7 @@ public:
   {
     return state_.index + 1 < state_.entries.size() ? state_.entries[state_.index + 1].label : std::string();
   }
-  /// The current state has been saved as `source`.
+  /// The current state has been saved as `source`. All states belong to that file now: what they name is named as from its folder.
   void mark_saved(const std::string& source);
   bool modified() const { return state_.saved != state_.index; }
   const State& state() const { return state_; }

@@ -2,11 +2,13 @@
 #include "ui/state/workbench.h"
 
 #include "base/files.h"
+#include "preset/differences.h"
 #include "preset/settings_type.h"
 #include "ui/state/dielectrics.h"
 #include "ui/state/tone.h"
 
 #include <algorithm>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 
@@ -45,13 +47,23 @@ void Workbench::apply(const Commands& commands)
 
 bool Workbench::open(const std::string& name, const preset::Overrides& overrides)
 {
+  std::optional<preset::Preset> read;
   try {
     refuse_other_kinds(name);
-    edits_.emplace(preset::read_preset(name, overrides));
+    read = preset::read_preset(name, overrides);
   } catch (const std::exception& error) {
     messages_.error(error);
     return false;
   }
+  begin(*std::move(read));
+  recent_.add(edits_->current().source, std::time(nullptr));
+  return true;
+}
+
+/// In place of what is open, which is not asked about.
+void Workbench::begin(preset::Preset preset)
+{
+  edits_.emplace(std::move(preset));
   messages_.dismiss_errors_until(last_before_commands_);
   comparing_.forget();
   run_.forget();
@@ -63,8 +75,9 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
   question_ = Question::none;
   waiting_.reset();
   run_.start(*edits_);
-  return true;
 }
+
+void Workbench::remember(RecentFiles recent) { recent_ = std::move(recent); }
 
 void Workbench::restore(Session session, const std::filesystem::path& folder)
 {
@@ -102,6 +115,7 @@ void Workbench::carry_out(const command::Open& c)
     carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
     return messages_.note(name + " is the environment");
   }
+  if (is_scene_file(c.name)) return files_.import_scene(c.name);
   if (edits_ && is_mesh_file(c.name) && has_scene(edits_->current())) return meshes_.read(c.name);
   if (c.sure || !edits_ || !edits_->modified()) {
     open(c.name);
@@ -110,6 +124,14 @@ void Workbench::carry_out(const command::Open& c)
   refuse_other_kinds(c.name);
   preset::read_preset(c.name); // what cannot be opened is said at once, and nothing is asked
   ask_first(command::Open{c.name, true});
+}
+
+void Workbench::carry_out(const command::New& c)
+{
+  if (c.sure || !edits_ || !edits_->modified())
+    begin(new_scene(c.kind));
+  else
+    ask_first(command::New{c.kind, true});
 }
 
 void Workbench::carry_out(const command::Edit& c)
@@ -184,10 +206,17 @@ void Workbench::carry_out(const command::Ask& c)
 void Workbench::carry_out(const command::SavePreset& c)
 {
   if (!edits_) return;
-  write_file_whole(c.file, preset::to_json(edits_->current()));
+  const std::string parent = c.keep_parent ? parent_to_keep(edits_->current()) : std::string();
+  const preset::FileText text = preset::file_text(edits_->current(), parent, c.file);
+  write_file_whole(c.file, text.json);
   edits_->mark_saved(c.file.string());
   question_ = Question::none;
   messages_.note("saved " + c.file.string());
+  if (!text.note.empty()) messages_.note(text.note);
+  recent_.add(c.file, std::time(nullptr));
+  const std::filesystem::path thumbnail = thumbnail_of(c.file, recent_.thumbnails());
+  if (run_.snapshot() && !thumbnail.empty() && preset::shipped_name(c.file).empty()) // those of shipped presets are shipped
+    files_.save_thumbnail(thumbnail, run_.snapshot()->picture, chosen_.look.exposure_stops);
   if (const auto command = std::exchange(waiting_, std::nullopt)) std::visit([this](const auto& next) { carry_out(next); }, *command);
 }
 
@@ -309,6 +338,8 @@ void Workbench::update(Clock::time_point now)
     messages_.error(error);
   }
   run_.update(edits());
+  recent_.update();
+  if (std::string note = recent_.take_note(); !note.empty()) messages_.note(std::move(note));
   files_.collect(
       messages_, [this](PinnedRun run) { comparing_.pin(std::move(run)); },
       [this](const std::filesystem::path& file) { carry_out(command::Open{file.string()}); });

@@ -28,6 +28,8 @@ public:
   void apply(const Commands& commands);
   /// Opens a preset with overrides (--set). False, with a message, where it cannot be read.
   bool open(const std::string& name, const preset::Overrides& overrides = {});
+  /// From now on presets that are opened or saved are remembered there.
+  void remember(RecentFiles recent);
   /// As a session was; `folder` holds its pinned runs, which are read in the background. The run starts.
   void restore(Session session, const std::filesystem::path& folder);
   /// True once after ReopenSession.
@@ -40,20 +42,24 @@ public:
   void update(Clock::time_point now = Clock::now());
 
   /// For one frame; what is asked for goes to `commands`.
-  Context context(Commands& commands) const { return {edits(), run_, comparing_, chosen_, settings_, has_earlier_session_, commands}; }
+  Context context(Commands& commands) const
+  {
+    return {edits(), run_, comparing_, chosen_, settings_, has_earlier_session_, commands, recent_};
+  }
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }
   const RunInHand& run() const { return run_; }
   const Comparing& comparing() const { return comparing_; }
   const Chosen& chosen() const { return chosen_; }
+  const RecentFiles& recent() const { return recent_; }
   const std::vector<Message>& messages() const { return messages_.all(); }
   /// Whether a file is being read or written in the background: its pin or its message is to come.
   bool works_on_files() const { return files_.busy() || meshes_.busy(); }
   /// What is worth knowing and needs no answer: the program's notes, then those of the newest plan.
   std::vector<std::string> notes() const;
   Question question() const { return question_; }
-  /// With Question::unsaved: what waits for the answer, an Open or a Quit that asks no more. Else null.
+  /// With Question::unsaved: what waits for the answer, an Open, a New or a Quit that asks no more. Else null.
   const Command* waiting() const { return waiting_ ? &*waiting_ : nullptr; }
   bool help_shown() const { return help_shown_; }
   bool quitting() const { return quitting_; }
@@ -67,6 +73,7 @@ public:
 
 private:
   void carry_out(const command::Open& c);
+  void carry_out(const command::New& c);
   void carry_out(const command::Edit& c);
   void carry_out(const command::EndGesture&) { run_.end_gesture(); }
   void carry_out(const command::Undo&);
@@ -118,6 +125,7 @@ private:
   /// What the View shows now.
   PictureToSave shown_picture() const;
   void add_object(const DroppedMesh& mesh);
+  void begin(preset::Preset preset);
   EngineLayout& engine_layout();
 
   std::optional<UndoStack> edits_;
@@ -130,6 +138,7 @@ private:
   FileWatch watch_;
   std::shared_ptr<const preset::Preset> watched_; ///< whose files are watched
   DroppedMeshes meshes_;
+  RecentFiles recent_;
   std::vector<std::string> program_notes_;
   Settings settings_;
   std::string panel_to_front_;

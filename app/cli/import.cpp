@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid import`: a glTF scene as a preset.
+#include "run/import/import.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/verbs.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace nephroid::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct ImportOptions {
+  fs::path file, output;
+  bool replace = false;
+};
+
+void import_scene(const ImportOptions& options)
+{
+  const fs::path preset = options.output.empty() ? fs::path(options.file.filename()).replace_extension(".json") : options.output;
+  if (!options.replace && is_there(preset))
+    throw bad_input(preset.string(), "is there already", {}, "choose another file with -o, or --replace it");
+  const run::Imported made = run::import_gltf(options.file, preset);
+  for (const std::string& note : made.notes) fmt::print(stderr, "note: {}\n", note);
+  fmt::print("{}\n", made.preset.string());
+}
+
+} // namespace
+
+void add_import(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<ImportOptions>();
+  CLI::App* verb = program.add_subcommand("import", "A preset from a glTF scene: meshes, camera, lights, materials");
+  verb->footer("Takes .gltf and .glb. Meshes become PLY files in a folder beside the preset. What has no counterpart is left out and said\n"
+               "on standard error. Standard output has the preset's file: nephroid run takes it.");
+  verb->add_option("FILE", options->file, "The scene")->required();
+  verb->add_option("-o,--output", options->output, "The preset; without it FILE's name with .json, in the current folder")
+      ->type_name("PRESET");
+  verb->add_flag("--replace", options->replace, "Write over a preset that is there");
+  verb->callback([options] { import_scene(*options); });
+}
+
+} // namespace nephroid::cli

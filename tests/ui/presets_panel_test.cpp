@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Presets" under an injected mouse and keys: search, filters, what a click says, opening by double click and by Enter; the list
+// of recent files, also when its file is damaged; small pictures, also broken ones.
+#include "base/files.h"
+#include "image/image.h"
+#include "ui/presets/panel.h"
+#include "ui/shell/workspace.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+class PresetsPanelTest : public test::WindowFixture {
+protected:
+  PresetsPanelTest() : WindowFixture("presets")
+  {
+    ImGui::GetIO().DisplaySize = {1300, 950};
+    runs.steps = 1000000;
+    workbench.remember({list_file, folder.path() / "thumbnails"});
+  }
+  const PresetsPanel& panel() const { return workspace.panel<PresetsPanel>(); }
+  /// Until everything is read.
+  void rest()
+  {
+    ASSERT_TRUE(test::eventually(
+        [&] { frame(); },
+        [&] { return panel().catalogue().readings() > 0 && !panel().catalogue().busy() && !panel().thumbnails().busy(); }));
+    frames(2);
+  }
+  using WindowFixture::click;
+  void click(const std::string& widget)
+  {
+    const auto place = panel().place_of(widget);
+    ASSERT_TRUE(place) << widget << " is not drawn";
+    click(*place);
+    frame();
+  }
+  void type(const std::string& typed)
+  {
+    ImGui::GetIO().AddInputCharactersUTF8(typed.c_str());
+    frames(2);
+  }
+  const CatalogueEntry& entry(const std::string& name) const
+  {
+    for (const CatalogueEntry& e : panel().catalogue().entries())
+      if (e.name == name) return e;
+    throw std::runtime_error("no entry " + name);
+  }
+
+  const fs::path list_file = folder.path() / "state" / "recent.json";
+};
+
+TEST_F(PresetsPanelTest, ListsEveryShippedPresetByName)
+{
+  rest();
+  std::vector<std::string> names;
+  for (const preset::ShippedPreset& shipped : preset::shipped_presets()) names.push_back(shipped.name);
+  EXPECT_EQ(panel().listed(), names);
+  for (const CatalogueEntry& e : panel().catalogue().entries()) {
+    EXPECT_TRUE(e.problem.empty()) << e.problem;
+    EXPECT_FALSE(e.description.empty()) << e.name;
+    EXPECT_FALSE(e.engine.empty()) << e.name;
+  }
+  EXPECT_THAT(entry("first-light").resolution, ElementsAre(512, 512));
+  EXPECT_EQ(entry("first-light").stop, "28 passes");
+  std::vector<std::string> needs;
+  for (const Need& need : entry("first-light").needs) needs.push_back(need.name);
+  EXPECT_THAT(needs, testing::UnorderedElementsAre("materials/N-SF66.yml", "bunny.obj"));
+}
+
+TEST_F(PresetsPanelTest, WordsAndTheEngineNarrowTheList)
+{
+  rest();
+  click("search");
+  type("BUNNY glass");
+  ASSERT_FALSE(panel().listed().empty());
+  EXPECT_THAT(panel().listed(), Contains("first-light"));
+  EXPECT_THAT(panel().listed(), Not(Contains("environment/ball")));
+  type(" nothingcalledso");
+  EXPECT_TRUE(panel().listed().empty());
+  press(ImGuiKey_Escape);
+  EXPECT_GT(panel().listed().size(), 20u);
+  click("engine");
+  click("engine:inverse");
+  rest();
+  EXPECT_THAT(panel().listed(), Contains("inverse/shapes"));
+  for (const std::string& name : panel().listed()) EXPECT_EQ(entry(name).engine, "inverse");
+}
+
+TEST_F(PresetsPanelTest, AClickTellsAndADoubleClickOpens)
+{
+  rest();
+  click("environment/ball");
+  EXPECT_EQ(panel().chosen(), entry("environment/ball").file);
+  EXPECT_EQ(workbench.preset(), nullptr) << "one click looks only";
+  click("environment/ball");
+  const auto* opened = imgui.pushed<command::Open>();
+  EXPECT_TRUE(opened || workbench.preset()) << "the second click within the time of a double click";
+  frames(2);
+  ASSERT_TRUE(workbench.preset());
+  EXPECT_EQ(workbench.preset()->name, "ball");
+  click("environment/beam");
+  click("open");
+  frames(2);
+  EXPECT_EQ(workbench.preset()->name, "beam");
+}
+
+TEST_F(PresetsPanelTest, TheKeyboardAloneFindsAndOpens)
+{
+  open();
+  rest();
+  press(ImGuiKey_P, ImGuiMod_Ctrl);
+  frames(3);
+  type("inverse/s");
+  const std::vector<std::string> listed = panel().listed();
+  ASSERT_GE(listed.size(), 2u);
+  press(ImGuiKey_DownArrow);
+  press(ImGuiKey_DownArrow);
+  EXPECT_EQ(panel().chosen(), entry(listed[1]).file);
+  press(ImGuiKey_UpArrow);
+  EXPECT_EQ(panel().chosen(), entry(listed[0]).file);
+  press(ImGuiKey_Enter);
+  frames(2);
+  EXPECT_EQ(workbench.preset()->source, entry(listed[0]).file);
+}
+
+TEST_F(PresetsPanelTest, UnsavedChangesAreAskedAbout)
+{
+  open();
+  rest();
+  workbench.apply({command::Edit{"white", [&] {
+                                   preset::Preset p = *workbench.preset();
+                                   p.white = 3;
+                                   return p;
+                                 }()}});
+  click("environment/ball");
+  click("open");
+  EXPECT_EQ(workbench.question(), Question::unsaved);
+  EXPECT_EQ(workbench.preset()->name, "Test");
+}
+
+TEST_F(PresetsPanelTest, WhatWasOpenedIsListedInTheNextSessionTheNewestFirst)
+{
+  open();
+  workbench.open(folder.write("other.json", test::preset_text));
+  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return fs::exists(list_file); }));
+  rest();
+  EXPECT_THAT(panel().listed(), Contains("other.json"));
+  click("newest");
+  EXPECT_THAT(panel().listed().at(0), testing::AnyOf("other.json", "test.json"));
+  workbench.remember({}); // waits until the list is written
+  const RecentFiles next(list_file, {});
+  ASSERT_THAT(next.all(), SizeIs(2));
+  EXPECT_EQ(next.all()[0].file, folder.path() / "other.json");
+  EXPECT_EQ(next.all()[1].file, folder.path() / "test.json");
+}
+
+TEST_F(PresetsPanelTest, AFileThatIsGoneOrBrokenIsListedAsSuch)
+{
+  open();
+  folder.write("broken.json", "{");
+  folder.write("recent.json", R"({"recent":[{"file":")" + (folder.path() / "gone.json").string() + R"(","opened":5},{"file":")" +
+                                  (folder.path() / "broken.json").string() + R"("}]})");
+  workbench.remember({folder.path() / "recent.json", {}});
+  frames(2);
+  rest();
+  EXPECT_THAT(entry("gone.json").problem, HasSubstr("gone.json"));
+  EXPECT_FALSE(entry("broken.json").problem.empty());
+  EXPECT_THAT(panel().listed(), Contains("first-light"));
+}
+
+TEST_F(PresetsPanelTest, ASavedPresetGetsASmallPicture)
+{
+  open();
+  const fs::path file = folder.path() / "saved.json";
+  workbench.apply({command::SavePreset{file}});
+  const fs::path picture = thumbnail_of(file, folder.path() / "thumbnails");
+  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return fs::exists(picture) && !workbench.works_on_files(); }));
+  const image::Image small = image::read_image(picture);
+  EXPECT_EQ(small.width, 64); // the run's own size, which is smaller than a thumbnail may be
+  EXPECT_EQ(small.height, 48);
+  EXPECT_TRUE(fs::exists(file));
+}
+
+TEST(RecentFilesTest, ADamagedListIsEmptyWithOneNote)
+{
+  const test::TemporaryFolder folder;
+  for (const char* text : {"", "{", "[]", "{\"recent\":5}", "\xff\xfe", "{\"recent\":[{\"file\":"}) {
+    RecentFiles files(folder.write("recent.json", text), {});
+    EXPECT_TRUE(files.all().empty()) << text;
+    EXPECT_THAT(files.take_note(), HasSubstr("begins anew")) << text;
+    EXPECT_EQ(files.take_note(), "");
+  }
+  EXPECT_EQ(RecentFiles(folder.path() / "missing.json", {}).take_note(), "");
+  const RecentFiles odd(
+      folder.write("recent.json",
+                   R"({"recent":[5,{"file":7},{"file":"relative.json"},{"file":"/a\nb"},{"file":"/a.json"},{"file":"/a.json"},
+    {"file":"/b.json","opened":"late"},{"file":"/c.json","opened":-3}]})"),
+      {});
+  EXPECT_THAT(odd.all(), ElementsAre(RecentFile{"/a.json", 0}, RecentFile{"/b.json", 0}, RecentFile{"/c.json", 0}));
+  write_file_whole(folder.path() / "recent.json", std::string(2 << 20, ' '));
+  EXPECT_THAT(RecentFiles(folder.path() / "recent.json", {}).take_note(), HasSubstr("bytes long"));
+}
+
+TEST(RecentFilesTest, KeepsThirtyTheNewestFirstAndEachOnce)
+{
+  const test::TemporaryFolder folder;
+  const fs::path list = folder.path() / "deep" / "recent.json";
+  {
+    RecentFiles files(list, {});
+    for (int i = 0; i < 40; ++i) files.add("/presets/" + std::to_string(i % 35) + ".json", i);
+    EXPECT_THAT(files.all(), SizeIs(30));
+    EXPECT_EQ(files.all()[0], (RecentFile{"/presets/4.json", 39}));
+  }
+  const RecentFiles again(list, {});
+  ASSERT_THAT(again.all(), SizeIs(30));
+  EXPECT_EQ(again.all()[0], (RecentFile{"/presets/4.json", 39}));
+  RecentFiles nowhere("/proc/nephroid/recent.json", {});
+  nowhere.add("/a.json", 1);
+  std::string note;
+  ASSERT_TRUE(test::eventually([&] { nowhere.update(); }, [&] { return !(note = nowhere.take_note()).empty(); }));
+  EXPECT_THAT(note, HasSubstr("recent files are not remembered"));
+}
+
+TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
+{
+  const test::TemporaryFolder folder;
+  test::Headless imgui;
+  job::Picture picture;
+  picture.width = 400;
+  picture.height = 200;
+  picture.rgb.assign(3 * 400 * 200, 1.0f);
+  for (std::size_t i = 0; i < 3 * 400 * 100; ++i) picture.rgb[i] = 0; // the upper half is black
+  write_thumbnail(folder.path() / "new" / "good.png", picture, 0);
+  folder.write("broken.png", "\x89PNG\r\n\x1a\nnot");
+  write_file_whole(folder.path() / "large.png", std::string(2 << 20, 'x'));
+  Thumbnails thumbnails;
+  const auto look = [&] {
+    thumbnails.update();
+    for (const char* name : {"broken.png", "large.png", "missing.png"}) EXPECT_EQ(thumbnails.of(folder.path() / name), nullptr) << name;
+    return thumbnails.of(folder.path() / "new" / "good.png");
+  };
+  EXPECT_EQ(look(), nullptr) << "it is read away from here";
+  ASSERT_TRUE(test::eventually([&] { look(); }, [&] { return !thumbnails.busy(); }));
+  const PictureTexture* good = look();
+  ASSERT_TRUE(good);
+  EXPECT_EQ(good->pixels().size(), 4u * 128 * 64);
+  EXPECT_EQ(good->pixels()[4 * (128 * 10 + 5)], 0);
+  EXPECT_EQ(good->pixels()[4 * (128 * 50 + 5)], 255);
+}
+
+} // namespace
+} // namespace nephroid::ui

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+// Importing glTF: small files written here, and what becomes of them against values worked out in comments; and files that are cut, missing
+// their data, or lie about it.
+#include "base/error.h"
+#include "base/files.h"
+#include "optics/dispersion.h"
+#include "optics/spectrum.h"
+#include "preset/read.h"
+#include "run/import/gltf_lights.h"
+#include "run/import/gltf_materials.h"
+#include "run/import/gltf_nodes.h"
+#include "run/import/import.h"
+#include "scene/mesh.h"
+#include "scene/rotation.h"
+#include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace nephroid;
+using preset::Light;
+using preset::Material;
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+std::string base64(const std::string& bytes)
+{
+  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+/// A triangle with corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and three indices.
+std::string triangle_bytes()
+{
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::uint16_t indices[] = {0, 1, 2};
+  std::string bytes(sizeof positions + sizeof indices, '\0');
+  std::memcpy(bytes.data(), positions, sizeof positions);
+  std::memcpy(bytes.data() + sizeof positions, indices, sizeof indices);
+  return bytes;
+}
+
+Json triangle()
+{
+  return Json::parse(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"tri"}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
+    "materials":[{"name":"wall","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],"metallicFactor":0}}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+                 {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
+    "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+    "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,)" +
+                     base64(triangle_bytes()) + R"("}]})");
+}
+
+std::string word(std::uint32_t value) { return {reinterpret_cast<const char*>(&value), sizeof value}; }
+
+/// With its buffer in the binary chunk.
+std::string glb(Json json)
+{
+  json["buffers"][0].erase("uri");
+  std::string text = json.dump(), bin = triangle_bytes();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  bin.resize((bin.size() + 3) / 4 * 4, '\0');
+  const auto size = static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + bin.size());
+  return "glTF" + word(2) + word(size) + word(static_cast<std::uint32_t>(text.size())) + "JSON" + text +
+         word(static_cast<std::uint32_t>(bin.size())) + std::string("BIN\0", 4) + bin;
+}
+
+class GltfImport : public testing::Test {
+protected:
+  run::Imported import(const std::string& bytes, const std::string& name = "in.gltf")
+  {
+    return run::import_gltf(folder.write(name, bytes), folder.path() / "out.json");
+  }
+  preset::Preset imported(const Json& json)
+  {
+    made = import(json.dump());
+    return preset::read_preset(made.preset.string());
+  }
+  /// What the import says; it has to leave nothing behind.
+  std::string refusal(const Json& json)
+  {
+    const std::string line = test::refusal_of([&] { import(json.dump()); });
+    EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
+    return line.starts_with((folder.path() / "in.gltf").string()) ? line.substr((folder.path() / "in.gltf").string().size()) : line;
+  }
+
+  test::TemporaryFolder folder;
+  run::Imported made;
+};
+
+TEST_F(GltfImport, ATriangleBecomesAnObjectWithAMeshOfItsOwn)
+{
+  const preset::Preset p = imported(triangle());
+  ASSERT_EQ(p.scene.objects.size(), 1u);
+  const preset::Object& object = p.scene.objects[0];
+  EXPECT_EQ(object.name, "tri");
+  EXPECT_EQ(object.material, "wall");
+  EXPECT_EQ(*object.mesh, "out-meshes/tri.ply");
+  EXPECT_EQ(p.scene.materials.at("wall").reflectance.value, 0.5);
+  EXPECT_EQ(p.unit, preset::Preset::Unit::m);
+  const scene::Mesh mesh = scene::load_mesh(folder.path() / *object.mesh);
+  EXPECT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_THAT(mesh.positions, testing::UnorderedElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
+  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("no camera"), HasSubstr("no lights")));
+  EXPECT_THAT(made.summary(), HasSubstr("1 object, 1 mesh, 1 light; the file has no camera"));
+}
+
+TEST_F(GltfImport, BinaryFilesAndBuffersBesideTheFileAreRead)
+{
+  import(glb(triangle()), "in.glb");
+  EXPECT_EQ(scene::load_mesh(folder.path() / "out-meshes/tri.ply").triangles.size(), 1u);
+  fs::remove_all(folder.path() / "out-meshes");
+  Json json = triangle();
+  json["buffers"][0]["uri"] = "my%20data.bin";
+  folder.write("my data.bin", triangle_bytes());
+  imported(json);
+  EXPECT_EQ(scene::load_mesh(folder.path() / "out-meshes/tri.ply").triangles.size(), 1u);
+}
+
+TEST_F(GltfImport, NodesPlaceTheirMeshesWhichAreWrittenOnce)
+{
+  Json json = triangle();
+  // The outer node turns by 90 degrees about z and is at (5, 0, 0); the inner one is at (1, 2, 3) in it and twice as large: the inner
+  // origin (1, 2, 3) turns to (-2, 1, 3) and moves to (3, 1, 3).
+  json["nodes"] = Json::parse(R"([{"translation":[5,0,0],"rotation":[0,0,0.7071067811865476,0.7071067811865476],"children":[1,2]},
+    {"mesh":0,"name":"a","translation":[1,2,3],"scale":[2,2,2]},{"mesh":0,"name":"a"}])");
+  const preset::Preset p = imported(json);
+  ASSERT_EQ(p.scene.objects.size(), 2u);
+  EXPECT_EQ(made.meshes, 1u);
+  EXPECT_EQ(p.scene.objects[0].mesh, p.scene.objects[1].mesh);
+  EXPECT_EQ(p.scene.objects[1].name, "a 2");
+  const preset::Transform& t = p.scene.objects[0].transform;
+  EXPECT_THAT(t.translate, ElementsAre(DoubleNear(3, 1e-12), DoubleNear(1, 1e-12), DoubleNear(3, 1e-12)));
+  EXPECT_THAT(t.rotate_deg, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(0, 1e-9), DoubleNear(90, 1e-9)));
+  EXPECT_THAT(t.scale, ElementsAre(DoubleNear(2, 1e-12), DoubleNear(2, 1e-12), DoubleNear(2, 1e-12)));
+}
+
+TEST_F(GltfImport, EveryTurnIsSaidByThreeAngles)
+{
+  for (const double x : {-170.0, -90.0, 0.0, 33.0, 90.0})
+    for (const double y : {-90.0, -45.0, 0.0, 60.0, 90.0})
+      for (const double z : {-120.0, 0.0, 77.0})
+        for (const double mirror : {1.0, -1.0}) {
+          const glm::dmat3 turn = scene::rotation({x, y, z});
+          const glm::dmat4 matrix{
+              glm::dvec4(turn[0] * mirror * 3.0, 0), glm::dvec4(turn[1] * 2.0, 0), glm::dvec4(turn[2], 0), {1, 2, 3, 1}};
+          const auto t = run::transform_of(matrix);
+          ASSERT_TRUE(t);
+          const glm::dmat3 again = scene::rotation(t->rotate_deg);
+          for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+              EXPECT_NEAR(again[column][row] * t->scale[static_cast<std::size_t>(column)], matrix[column][row], 1e-9)
+                  << x << " " << y << " " << z;
+        }
+  EXPECT_FALSE(run::transform_of(glm::dmat4{{1, 0, 0, 0}, {0.5, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "a shear";
+  EXPECT_FALSE(run::transform_of(glm::dmat4{{1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "flat";
+}
+
+TEST_F(GltfImport, AShearedMeshIsWrittenAsItStands)
+{
+  Json json = triangle();
+  json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 7, 1}; // (x, y, z) -> (x + y / 2, y, z + 7)
+  const preset::Preset p = imported(json);
+  EXPECT_EQ(p.scene.objects[0].transform, preset::Transform());
+  EXPECT_THAT(scene::load_mesh(folder.path() / *p.scene.objects[0].mesh).positions,
+              testing::UnorderedElementsAre(glm::vec3(0, 0, 7), glm::vec3(1, 0, 7), glm::vec3(0.5f, 1, 7)));
+}
+
+TEST_F(GltfImport, TheCameraLooksAlongMinusZ)
+{
+  Json json = triangle();
+  json["cameras"] = Json::parse(R"([{"type":"perspective","perspective":{"yfov":0.5,"aspectRatio":1.5,"znear":0.1}}])");
+  json["nodes"].push_back({{"camera", 0}, {"translation", {0, 1, 5}}});
+  json["scenes"][0]["nodes"] = {0, 1};
+  const preset::Camera camera = imported(json).scene.camera;
+  EXPECT_NEAR(camera.fov_deg, 28.6478897565412, 1e-9); // half a radian
+  EXPECT_THAT(camera.resolution, ElementsAre(768, 512));
+  EXPECT_THAT(camera.position, ElementsAre(0, 1, 5));
+  EXPECT_THAT(camera.target, ElementsAre(0, 1, DoubleNear(0, 1e-6))); // as far as the triangle, at z = 0
+  EXPECT_THAT(camera.up, ElementsAre(0, 1, 0));
+}
+
+TEST_F(GltfImport, CandelaAndLuxBecomeWatts)
+{
+  // The sum of the CIE 1931 ybar over 380..780 nm in steps of 1 nm is 106.86, so equal power has 683 * 106.86 / 401 = 182.0 lm/W. A
+  // line at 555 nm has 683.
+  optics::Spectrum equal{}, line{};
+  equal.fill(1);
+  line[555 - 380] = 2;
+  EXPECT_NEAR(run::lumens_per_watt(equal), 182.0, 0.1);
+  EXPECT_NEAR(run::lumens_per_watt(line), 683, 0.1);
+  const double k = run::lumens_per_watt(optics::illuminant("D65"));
+  EXPECT_NEAR(k, 200, 10); // daylight within 380..780 nm
+
+  Json json = triangle();
+  json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type":"point","intensity":100},
+    {"type":"spot","intensity":100,"spot":{"innerConeAngle":0.5235987755982988,"outerConeAngle":0.5235987755982988}},
+    {"type":"directional","intensity":1000,"color":[1,0.1,0.1]}])");
+  for (const int light : {0, 1, 2}) {
+    json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}, {"translation", {0, 4, 0}}});
+    json["scenes"][0]["nodes"].push_back(1 + light);
+  }
+  json["nodes"][2]["rotation"] = {-0.7071067811865476, 0, 0, 0.7071067811865476}; // -z turns to -y
+  const std::vector<Light> lights = imported(json).scene.lights;
+  ASSERT_EQ(lights.size(), 3u);
+  EXPECT_EQ(lights[0].type, Light::Type::point);
+  EXPECT_NEAR(lights[0].power_w, 4 * std::numbers::pi * 100 / k, 1e-9);
+  EXPECT_THAT(lights[0].position, ElementsAre(0, 4, 0));
+  EXPECT_EQ(lights[0].spectrum.illuminant, "D65");
+  EXPECT_EQ(lights[1].type, Light::Type::spot);
+  EXPECT_NEAR(lights[1].half_angle_deg, 30, 1e-9);
+  EXPECT_NEAR(lights[1].power_w, 84.1787214 / k, 1e-6); // 2 pi (1 - cos 30 degrees) 100 lm
+  EXPECT_THAT(lights[1].direction, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(-1, 1e-9), DoubleNear(0, 1e-9)));
+  EXPECT_EQ(lights[2].type, Light::Type::directional);
+  EXPECT_EQ(lights[2].spectrum.type, preset::LightSpectrum::Type::table);
+  EXPECT_THAT(lights[2].direction, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(0, 1e-9), DoubleNear(-1, 1e-9)));
+  // Its luminance is 0.2126 + 0.7152 * 0.1 + 0.0722 * 0.1 = 0.29134 of white's, whatever its spectrum.
+  EXPECT_NEAR(683 * run::luminous_irradiance(lights[2], {}), 291.34, 0.5);
+  EXPECT_NEAR(683 * run::luminous_irradiance(lights[0], {0, 2, 0}), 25, 1e-6); // 100 cd at 2 m
+}
+
+TEST_F(GltfImport, GlassBendsAsItsAbbeNumberSays)
+{
+  // N-BK7: n_d = 1.5168, V_d = 64.17, so n_F - n_C = 0.5168 / 64.17 = 0.0080536.
+  const preset::Dispersion d = run::dispersion_of(1.5168, 20 / 64.17);
+  ASSERT_EQ(d.type, preset::Dispersion::Type::cauchy);
+  const auto n = [&](double um) { return d.coefficients[0] + d.coefficients[1] / (um * um); };
+  EXPECT_NEAR(n(0.5875618), 1.5168, 1e-12);
+  EXPECT_NEAR(n(0.4861327) - n(0.6562725), 0.0080536, 1e-7);
+  EXPECT_EQ(run::dispersion_of(1.7, 0).n, 1.7);
+
+  Json json = triangle();
+  json["materials"][0]["extensions"] =
+      Json::parse(R"({"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_ior":{"ior":1.7},
+    "KHR_materials_dispersion":{"dispersion":0.3},"KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2}})");
+  const Material glass = imported(json).scene.materials.at("wall");
+  EXPECT_EQ(glass.type, Material::Type::dielectric);
+  EXPECT_EQ(glass.dispersion.type, preset::Dispersion::Type::cauchy);
+  EXPECT_THAT(made.notes, testing::Contains(HasSubstr("attenuation is left out")));
+  EXPECT_THAT(made.notes, testing::Not(testing::Contains(HasSubstr("thin film"))));
+}
+
+TEST_F(GltfImport, MetalIsAMirrorAndColoursAreReflectances)
+{
+  Json json = triangle();
+  json["materials"][0]["pbrMetallicRoughness"] = {{"metallicFactor", 1}, {"roughnessFactor", 0}, {"baseColorFactor", {1, 0, 0, 1}}};
+  const Material mirror = imported(json).scene.materials.at("wall");
+  EXPECT_EQ(mirror.type, Material::Type::mirror);
+  ASSERT_EQ(mirror.reflectance.type, preset::Reflectance::Type::table);
+  EXPECT_LT(mirror.reflectance.table.at(7)[1], 0.1) << "red glass keeps blue: 450 nm";
+  EXPECT_GT(mirror.reflectance.table.at(26)[1], 0.9) << "640 nm";
+  json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 1;
+  EXPECT_EQ(imported(json).scene.materials.at("wall").type, Material::Type::diffuse);
+  EXPECT_THAT(made.notes, testing::Contains(HasSubstr("rough metal")));
+  json["meshes"][0]["primitives"][0].erase("material");
+  EXPECT_TRUE(imported(json).scene.materials.contains("plain"));
+}
+
+TEST_F(GltfImport, WhatIsWrongIsSaidAtItsPlace)
+{
+  const auto with = [&](const char* pointer, const Json& value) {
+    Json json = triangle();
+    json[Json::json_pointer(pointer)] = value;
+    return refusal(json);
+  };
+  EXPECT_THAT(with("/nodes/0/children", Json{0}), HasSubstr("#/nodes/0: the node has two parents, or nodes go round in a circle"));
+  EXPECT_THAT(with("/nodes/0/mesh", 7), HasSubstr("#/nodes/0/mesh: is 7, and there are 1 meshes"));
+  EXPECT_THAT(with("/nodes/0/mesh", -1), HasSubstr("#/nodes/0/mesh: is of a wrong kind"));
+  EXPECT_THAT(with("/nodes/0/translation", "up"), HasSubstr("#/nodes/0/translation"));
+  EXPECT_THAT(with("/accessors/0/count", 1000000000),
+              HasSubstr("#/accessors/0: its 1000000000 items end at byte 12000000000 of a buffer view of 36"));
+  EXPECT_THAT(with("/accessors/0/count", 1e18), HasSubstr("#/accessors/0/count: is of a wrong kind"));
+  EXPECT_THAT(with("/bufferViews/0/byteLength", 4000000000u), HasSubstr("#/bufferViews/0: ends at byte 4000000000 of a buffer of 42"));
+  EXPECT_THAT(with("/buffers/0/uri", "gone.bin"), HasSubstr("#/buffers/0/uri: there is no file"));
+  EXPECT_THAT(with("/buffers/0/uri", "in.gltf"), HasSubstr("the mesh cannot be read")) << "the file itself is no buffer of triangles";
+  EXPECT_THAT(with("/asset/version", "1.0"), HasSubstr("#/asset/version: is \"1.0\""));
+  EXPECT_THAT(with("/extensionsRequired", Json{"KHR_draco_mesh_compression"}), HasSubstr("requires KHR_draco_mesh_compression"));
+  EXPECT_THAT(with("/meshes/0/primitives/0/mode", 0), HasSubstr("has no triangles in its scene"));
+  EXPECT_THAT(with("/scenes", Json::array()), HasSubstr("has no scene"));
+  EXPECT_THAT(with("/scene", 3), HasSubstr("#/scene: is 3, and there are 1 scenes"));
+  Json json = triangle();
+  json["buffers"][0].erase("uri");
+  EXPECT_THAT(refusal(json), HasSubstr("#/buffers/0: has no \"uri\""));
+  folder.write("short.bin", "abc");
+  EXPECT_THAT(with("/buffers/0/uri", "short.bin"), HasSubstr("#/buffers/0/byteLength: is 42, and there are 3 bytes"));
+}
+
+TEST_F(GltfImport, ACutFileIsOneError)
+{
+  const std::string text = triangle().dump(), binary = glb(triangle());
+  for (std::size_t length = 0; length < text.size(); length += 29) {
+    const Error error = test::error_of([&] { import(text.substr(0, length)); });
+    EXPECT_EQ(error.kind(), ErrorKind::bad_input) << length;
+  }
+  for (std::size_t length = 0; length < binary.size(); length += 29) {
+    const Error error = test::error_of([&] { import(binary.substr(0, length), "in.glb"); });
+    EXPECT_EQ(error.kind(), ErrorKind::bad_input) << length;
+  }
+  EXPECT_THAT(test::error_of([&] { import(std::string(100000, '[')); }).line(), HasSubstr("is nested deeper than 64 levels"));
+  EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
+}
+
+} // namespace

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/presets/catalogue.h"
+
+#include "base/counted.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "preset/differences.h"
+#include "preset/outline.h"
+#include "preset/read.h"
+#include "preset/settings_type.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <sys/stat.h>
+#include <utility>
+
+namespace nephroid::ui {
+namespace fs = std::filesystem;
+namespace {
+
+using preset::Json;
+using preset::Outline;
+
+/// Seconds since 1970; 0 where nobody can tell.
+std::int64_t time_of(const fs::path& file)
+{
+  struct stat status {};
+  return ::stat(file.c_str(), &status) == 0 ? status.st_mtime : 0;
+}
+
+/// The names of files in a value of a preset.
+void add_files(const std::vector<Outline>& fields, const Json& object, std::vector<std::string>& names)
+{
+  for (const Outline& o : fields) {
+    if (!object.is_object() || !object.contains(o.field.name)) continue;
+    const Json& value = object[o.field.name];
+    if (value.is_null()) continue;
+    if (o.kind == Outline::Kind::text && o.field.text == preset::Text::file) {
+      const std::string name = value.get<std::string>();
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    } else if (o.kind == Outline::Kind::object)
+      add_files(o.fields(value), value, names);
+    else if (o.kind == Outline::Kind::list || o.kind == Outline::Kind::map)
+      for (const Json& item : value) add_files(o.fields(item), item, names);
+  }
+}
+
+std::vector<Need> needs_of(const preset::Preset& preset)
+{
+  const Json json = Json::parse(preset::to_json(preset));
+  std::vector<std::string> names;
+  add_files(preset::outline(json), json, names);
+  const FileFinder finder(fs::path(preset.source).parent_path());
+  std::vector<Need> needs;
+  for (std::string& name : names) {
+    bool there = true;
+    try {
+      finder.find(name, preset.source);
+    } catch (const Error&) {
+      there = false;
+    }
+    needs.push_back({std::move(name), there});
+  }
+  return needs;
+}
+
+std::string stop_of(const preset::Preset& preset)
+{
+  const preset::Stop& stop = preset.stop;
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : " or ") + part; };
+  if (stop.passes) add(counted(static_cast<std::size_t>(*stop.passes), "pass", "passes"));
+  if (stop.seconds) add(fmt::format("{} s", *stop.seconds));
+  if (stop.error) add(fmt::format("{} of {}", preset::word(stop.metric), *stop.error));
+  return text.empty() ? fmt::format("{} passes", preset::default_passes) : text;
+}
+
+CatalogueEntry entry_of(const fs::path& file, std::string name, bool shipped, const fs::path& thumbnails)
+{
+  CatalogueEntry entry{file, std::move(name), shipped, time_of(file), thumbnail_of(file, thumbnails), {}, {}, {}, {}, {0, 0}, {}, 1, 1, {}};
+  try {
+    const std::vector<preset::Preset> presets = preset::read_presets(file.string());
+    const preset::Preset& first = presets.front();
+    entry.title = first.name;
+    entry.description = first.description;
+    entry.engine = first.settings.type().name;
+    entry.resolution = first.scene.camera.resolution;
+    entry.stop = stop_of(first);
+    entry.runs = presets.size();
+    if (first.animation) entry.frames = static_cast<std::size_t>(first.animation->frames);
+    entry.needs = needs_of(first);
+  } catch (const std::exception& error) {
+    entry.problem = error.what();
+  }
+  return entry;
+}
+
+/// thumbnails: their folder.
+std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs::path& thumbnails)
+{
+  std::vector<CatalogueEntry> entries;
+  try {
+    for (const preset::ShippedPreset& shipped : preset::shipped_presets())
+      entries.push_back(entry_of(shipped.file, shipped.name, true, thumbnails));
+  } catch (const Error&) {
+    // No presets are shipped with this program: recent files are all there is.
+  }
+  for (const RecentFile& file : opened) {
+    const std::string shipped = preset::shipped_name(file.file);
+    const auto same = std::find_if(entries.begin(), entries.end(), [&](const CatalogueEntry& e) { return e.shipped && e.name == shipped; });
+    CatalogueEntry& entry = !shipped.empty() && same != entries.end()
+                                ? *same
+                                : entries.emplace_back(entry_of(file.file, fs::path(file.file).filename().string(), false, thumbnails));
+    entry.time = std::max(entry.time, file.opened);
+  }
+  return entries;
+}
+
+std::string lower(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool holds_words(const CatalogueEntry& entry, const std::string& words)
+{
+  const std::string text = lower(fmt::format("{}\n{}\n{}\n{}", entry.name, entry.title, entry.description, entry.engine)),
+                    wanted = lower(words);
+  for (std::size_t from = 0; from < wanted.size();) {
+    const std::size_t end = std::min(wanted.find(' ', from), wanted.size());
+    if (text.find(wanted.substr(from, end - from)) == std::string::npos) return false;
+    from = end + 1;
+  }
+  return true;
+}
+
+} // namespace
+
+std::vector<std::size_t> found(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter)
+{
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    if ((filter.engine.empty() || entries[i].engine == filter.engine) && holds_words(entries[i], filter.words)) indices.push_back(i);
+  std::stable_sort(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
+    if (filter.newest_first && entries[a].time != entries[b].time) return entries[a].time > entries[b].time;
+    return entries[a].name < entries[b].name;
+  });
+  return indices;
+}
+
+void Catalogue::follow(const RecentFiles& recent)
+{
+  if (reading_.valid()) {
+    if (reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    entries_ = reading_.get();
+    ++readings_;
+  }
+  if (!stale_ && recent.all() == recent_) return;
+  stale_ = false;
+  recent_ = recent.all();
+  reading_ = std::async(std::launch::async, [opened = recent_, thumbnails = recent.thumbnails()] { return read(opened, thumbnails); });
+}
+
+} // namespace nephroid::ui

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the panel "Presets" lists: every shipped preset and the files that were opened lately, read away from the window's thread; which of
+// them a search finds, and in which order. No Dear ImGui.
+#pragma once
+#include "ui/state/recent_files.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <future>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+/// A file that a preset names.
+struct Need {
+  std::string name;
+  bool there = true;
+};
+
+struct CatalogueEntry {
+  std::filesystem::path file;
+  std::string name; ///< a shipped preset's, else the file's
+  bool shipped = true;
+  std::int64_t time = 0;           ///< when it was opened last, else when the file was written; seconds since 1970
+  std::filesystem::path thumbnail; ///< need not be there
+  std::string problem;             ///< why it cannot be read; then there is nothing of what follows
+  std::string title, description, engine;
+  std::array<int, 2> resolution{0, 0};
+  std::string stop; ///< "64 passes"
+  std::size_t runs = 1, frames = 1;
+  std::vector<Need> needs;
+};
+
+struct CatalogueFilter {
+  std::string words;  ///< each has to be in name, title, description or engine, in whatever case
+  std::string engine; ///< empty: all
+  bool newest_first = false;
+};
+
+/// Indices of the entries that pass, in their order.
+std::vector<std::size_t> found(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter);
+
+class Catalogue {
+public:
+  /// Once a frame, returns at once. Reads again where other files were opened lately.
+  void follow(const RecentFiles& recent);
+  /// Reads again with the next follow(): files may have changed.
+  void read_again() { stale_ = true; }
+  /// What was read last.
+  const std::vector<CatalogueEntry>& entries() const { return entries_; }
+  /// Rises with every reading.
+  std::size_t readings() const { return readings_; }
+  bool busy() const { return reading_.valid(); }
+
+private:
+  bool stale_ = true;
+  std::vector<RecentFile> recent_; ///< of the reading that is there or on its way
+  std::vector<CatalogueEntry> entries_;
+  std::size_t readings_ = 0;
+  std::future<std::vector<CatalogueEntry>> reading_;
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/recent_files.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "base/json_output.h"
+#include "image/image.h"
+#include "preset/differences.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <system_error>
+#include <utility>
+
+namespace nephroid::ui {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t max_list_bytes = 1 << 20;
+
+/// Of an entry that makes sense; else nothing.
+std::optional<RecentFile> entry_of(const Json& json)
+{
+  if (!json.is_object() || !json.contains("file") || !json["file"].is_string()) return std::nullopt;
+  RecentFile entry{json["file"].get<std::string>(), 0};
+  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (entry.file.size() > 4096 || !fs::path(entry.file).is_absolute() || std::any_of(entry.file.begin(), entry.file.end(), control))
+    return std::nullopt;
+  const auto opened = json.find("opened");
+  if (opened != json.end() && opened->is_number_integer()) entry.opened = std::max<std::int64_t>(0, opened->get<std::int64_t>());
+  return entry;
+}
+
+/// Throws Error where the list is none.
+std::vector<RecentFile> read_list(const fs::path& file)
+{
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  if (const auto size = fs::file_size(file, ignored); !ignored && size > max_list_bytes)
+    throw bad_input(file.string(), fmt::format("is {} bytes long", size));
+  const Json json = Json::parse(read_file(file), nullptr, false);
+  if (!json.is_object() || !json.contains("recent") || !json["recent"].is_array())
+    throw bad_input(file.string(), "is no list of recent files");
+  std::vector<RecentFile> files;
+  for (const Json& item : json["recent"]) {
+    if (files.size() == RecentFiles::limit) break;
+    const auto same = [&](const RecentFile& other) { return item.is_object() && item.value("file", Json()) == Json(other.file); };
+    if (std::any_of(files.begin(), files.end(), same)) continue;
+    if (auto entry = entry_of(item)) files.push_back(*std::move(entry));
+  }
+  return files;
+}
+
+void write_list(const fs::path& file, const std::vector<RecentFile>& files)
+{
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  Json list = Json::array();
+  for (const RecentFile& entry : files) list.push_back({{"file", entry.file}, {"opened", entry.opened}});
+  write_file_whole(file, json_text(Json{{"recent", list}}) + "\n");
+}
+
+} // namespace
+
+RecentFiles::RecentFiles(fs::path list, fs::path thumbnails) : list_(std::move(list)), thumbnails_(std::move(thumbnails))
+{
+  if (list_.empty()) return;
+  try {
+    files_ = read_list(list_);
+  } catch (const Error& error) {
+    note_ = error.line() + "; the list of recent files begins anew";
+  }
+}
+
+RecentFiles::~RecentFiles() { finish(); }
+
+RecentFiles& RecentFiles::operator=(RecentFiles&& other) noexcept
+{
+  if (this == &other) return *this;
+  finish();
+  list_ = std::move(other.list_);
+  thumbnails_ = std::move(other.thumbnails_);
+  files_ = std::move(other.files_);
+  note_ = std::move(other.note_);
+  unwritten_ = std::exchange(other.unwritten_, std::nullopt);
+  writing_ = std::move(other.writing_);
+  return *this;
+}
+
+/// Waits until everything is written.
+void RecentFiles::finish()
+{
+  if (writing_.valid()) writing_.wait();
+  if (unwritten_) write();
+  if (writing_.valid()) writing_.wait();
+}
+
+void RecentFiles::add(const fs::path& file, std::int64_t now)
+{
+  std::error_code error;
+  const fs::path absolute = fs::absolute(file, error).lexically_normal();
+  if (error) return;
+  std::erase_if(files_, [&](const RecentFile& entry) { return entry.file == absolute.string(); });
+  files_.insert(files_.begin(), {absolute.string(), now});
+  if (files_.size() > limit) files_.resize(limit);
+  unwritten_ = files_;
+  update();
+}
+
+void RecentFiles::update()
+{
+  if (writing_.valid()) {
+    if (writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    if (std::string wrong = writing_.get(); !wrong.empty()) note_ = wrong + "; recent files are not remembered";
+  }
+  if (unwritten_) write();
+}
+
+void RecentFiles::write()
+{
+  const auto files = std::exchange(unwritten_, std::nullopt);
+  if (list_.empty()) return;
+  writing_ = std::async(std::launch::async, [list = list_, files = *files] {
+    try {
+      write_list(list, files);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  });
+}
+
+fs::path thumbnail_of(const fs::path& preset, const fs::path& thumbnails)
+{
+  if (const std::string name = preset::shipped_name(preset); !name.empty()) return presets_folder() / "thumbnails" / (name + ".jpg");
+  if (thumbnails.empty()) return {};
+  std::error_code error;
+  const fs::path absolute = fs::absolute(preset, error).lexically_normal();
+  return thumbnails / fmt::format("{:016x}.png", hash_of(absolute.string()));
+}
+
+void write_thumbnail(const fs::path& file, const job::Picture& picture, double exposure_stops)
+{
+  const double shrink = std::min({1.0, double(thumbnail_width) / picture.width, double(thumbnail_height) / picture.height});
+  const int width = std::max(1, static_cast<int>(std::lround(picture.width * shrink)));
+  const int height = std::max(1, static_cast<int>(std::lround(picture.height * shrink)));
+  // Each pixel is the mean of those that it covers.
+  std::vector<float> rgb(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const auto first = [](int i, int small, int large) { return static_cast<int>(std::int64_t{i} * large / small); };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int x0 = first(x, width, picture.width), x1 = std::max(x0 + 1, first(x + 1, width, picture.width));
+      const int y0 = first(y, height, picture.height), y1 = std::max(y0 + 1, first(y + 1, height, picture.height));
+      for (int c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (int v = y0; v < y1; ++v)
+          for (int u = x0; u < x1; ++u)
+            sum += double(
+                picture.rgb[3 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(u)) +
+                            static_cast<std::size_t>(c)]);
+        rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) +
+            static_cast<std::size_t>(c)] = static_cast<float>(sum / ((x1 - x0) * (y1 - y0)));
+      }
+    }
+  std::error_code ignored;
+  fs::create_directories(file.parent_path(), ignored);
+  image::write_png(file, width, height, rgb, exposure_stops);
+}
+
+} // namespace nephroid::ui
