@@ -68,9 +68,12 @@ Commands Workspace::draw(Workbench& workbench)
     const float height = messages_height(workbench.messages(), ImGui::GetMainViewport()->Size.x);
     if (height > 0) strip("messages", height, [&] { draw_messages(workbench.messages(), context); });
   });
-  guarded("layout", commands, [&] { draw_dock_space(workbench, context); });
+  if (context.preset())
+    guarded("layout", commands, [&] { draw_dock_space(workbench, context); });
+  else
+    guarded("start page", commands, [&] { draw_start_page(context); });
   for (const Open& open : panels_)
-    if (serves(open.entry, context.preset()) && is_open(open.entry, context))
+    if (context.preset() && serves(open.entry, context.preset()) && is_open(open.entry, context))
       guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
   if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
@@ -92,6 +95,12 @@ void Workspace::draw_panel(const Open& open, const Context& context)
   if (ImGui::Begin(open.entry.title, can_close(open.entry) ? &stays : nullptr, flags)) open.panel->draw(context);
   ImGui::End();
   if (!stays) context.push(command::ShowPanel{std::string(open.entry.name), false});
+}
+
+void Workspace::draw_start_page(const Context& context)
+{
+  for (const Open& open : panels_)
+    if (open.entry.name == "presets") start_page_.draw(context, *open.panel);
 }
 
 void Workspace::draw_dock_space(Workbench& workbench, const Context& context)

@@ -5,6 +5,7 @@
 #include "ui/shell/layout.h"
 #include "ui/shell/palette.h"
 #include "ui/shell/panels.h"
+#include "ui/shell/start_page.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/plots.h"
 
@@ -43,6 +44,7 @@ private:
     PanelEntry entry;
     std::unique_ptr<Panel> panel;
   };
+  void draw_start_page(const Context& context);
   void draw_dock_space(Workbench& workbench, const Context& context);
   void draw_panel(const Open& open, const Context& context);
 
@@ -58,6 +60,7 @@ private:
   std::vector<Open> panels_;
   Dialogs dialogs_;
   Palette palette_;
+  StartPage start_page_;
 };
 
 } // namespace nephroid::ui

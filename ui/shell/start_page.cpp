@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/shell/start_page.h"
+
+#include "base/counted.h"
+#include "base/files.h"
+#include "ui/state/recent_files.h"
+#include "ui/widgets/action.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <chrono>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+struct Card {
+  const char* title;
+  const char* preset; ///< shipped; its picture is the card's
+  const char* what;
+};
+
+constexpr Card cards[] = {
+    {"Spectral caustics", "first-light",
+     "Glass parts light into its colours. All 401 wavelengths are rendered; those that refract alike share their paths."},
+    {"Caustics under a sky", "environment/bunny",
+     "An object of glass is baked once. Then its caustics follow while the sky, the camera and the floor are turned and moved."},
+    {"Designed glass", "inverse/shapes",
+     "Say which pictures a piece of glass shall cast, and how far away. It is found, judged by rays, and written as a closed mesh."},
+};
+
+constexpr float picture_aspect = static_cast<float>(thumbnail_height) / static_cast<float>(thumbnail_width);
+
+void draw_card(const Card& card, const PictureTexture* picture, float width, const Context& context)
+{
+  const float em = ImGui::GetFontSize(), high = 7 * em;
+  ImGui::PushID(card.preset);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  if (ImGui::BeginChild("card", {width, high + 2 * ImGui::GetStyle().WindowPadding.y}, ImGuiChildFlags_Borders)) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos(), size{high / picture_aspect, high};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
+    if (picture) list.AddImage(picture->ref(), corner, {corner.x + size.x, corner.y + size.y});
+    ImGui::SetCursorScreenPos({corner.x + size.x + em, corner.y});
+    ImGui::BeginGroup();
+    ImGui::TextUnformatted(card.title);
+    draw_wrapped(colour::quiet_text, card.what);
+    if (ImGui::Button("Open an example")) context.push(command::Open{(presets_folder() / (std::string(card.preset) + ".json")).string()});
+    ImGui::SetItemTooltip("%s", card.preset);
+    ImGui::EndGroup();
+  }
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+  ImGui::PopID();
+}
+
+} // namespace
+
+void StartPage::draw(const Context& context, Panel& presets)
+{
+  const ImGuiViewport& viewport = *ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport.WorkPos);
+  ImGui::SetNextWindowSize(viewport.WorkSize);
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoDocking |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  if (ImGui::Begin("Start", nullptr, flags)) {
+    draw_engines(context);
+    draw_devices();
+    ImGui::Spacing();
+    for (const char* name : {"New scene", "Open...", "Reopen the last session", "Commands..."}) {
+      action_button(name, context);
+      ImGui::SameLine();
+    }
+    ImGui::TextDisabled("or drop a preset, a mesh or a run's folder here");
+    if (ImGui::BeginChild("presets")) presets.draw(context);
+    ImGui::EndChild();
+  }
+  ImGui::End();
+}
+
+void StartPage::draw_engines(const Context& context)
+{
+  thumbnails_.update();
+  const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+  for (const Card& card : cards) {
+    if (&card != cards) ImGui::SameLine();
+    draw_card(card, thumbnails_.of(thumbnail_of(presets_folder() / (std::string(card.preset) + ".json"), {})), width, context);
+  }
+}
+
+void StartPage::draw_devices()
+{
+  if (!std::exchange(asked_, true))
+    asking_ = std::async(std::launch::async, [] {
+      Devices devices{compute::list_devices(), {}};
+      if (devices.found.empty()) devices.none = compute::no_device_error().line();
+      return devices;
+    });
+  if (asking_.valid() && asking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) devices_ = asking_.get();
+  if (!devices_.none.empty()) return draw_wrapped(colour::error, devices_.none);
+  std::string line = asking_.valid() ? "Looking for devices" : "";
+  for (const compute::DeviceInfo& device : devices_.found)
+    line += fmt::format("{}{}: {} ({}, {}, {:.1f} GB)", line.empty() ? "Devices   " : "   ", device.index, device.name, device.type,
+                        counted(device.compute_units, "compute unit"), static_cast<double>(device.memory_bytes) * 1e-9);
+  draw_wrapped(colour::quiet_text, line);
+}
+
+} // namespace nephroid::ui

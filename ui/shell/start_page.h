@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window shows while no preset is open: what the three engines do, the presets, the devices, and what to do where there is none.
+#pragma once
+#include "compute/compute.h"
+#include "ui/presets/thumbnails.h"
+#include "ui/state/context.h"
+#include "ui/widgets/panel.h"
+
+#include <future>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+class StartPage {
+public:
+  /// In the window's area between the menu bar and the status line. presets: the panel of that name, which is a part of the page.
+  void draw(const Context& context, Panel& presets);
+
+private:
+  struct Devices {
+    std::vector<compute::DeviceInfo> found;
+    std::string none; ///< where none was found: why, and what to do
+  };
+  void draw_engines(const Context& context);
+  void draw_devices();
+
+  Thumbnails thumbnails_;
+  bool asked_ = false;
+  std::future<Devices> asking_; ///< drivers may take seconds to answer
+  Devices devices_;
+};
+
+} // namespace nephroid::ui
