@@ -176,7 +176,7 @@ TEST(PresetDifferences, WhatNoCommandLineCanSayIsRefusedWithTheWayOn)
   p.settings = preset::read_preset("inverse/shapes").settings;
   EXPECT_THAT(refusal(p), HasSubstr("what was changed cannot be said by --set"));
   p = preset::read_preset((folder.path() / "a.json").string());
-  for (int i = 0; i < 30; ++i) p.scene.lights.emplace_back();
+  for (int i = 0; i < 60; ++i) p.scene.lights.emplace_back();
   EXPECT_THAT(refusal(p), HasSubstr("expected at most 4000; save the preset first"));
   fs::remove(folder.path() / "a.json");
   EXPECT_THAT(refusal(p), HasSubstr("the preset is in no file"));
