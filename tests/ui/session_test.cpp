@@ -131,7 +131,7 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
     for (int i = 0; i < 20; ++i) window.workbench.apply({command::Undo{}});
     Look look;
     look.exposure_stops = 1.5;
-    window.workbench.apply({command::SetLook{look}, command::ChooseMetric{"mse"}});
+    window.workbench.apply({command::SetLook{look}, command::ChooseMetric{"mse"}, command::AddBookmark{}});
     window.settle();
   } // not closed
   Window window(state());
@@ -142,6 +142,8 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
   EXPECT_TRUE(window.workbench.edits()->modified());
   EXPECT_EQ(window.workbench.chosen().look.exposure_stops, 1.5);
   EXPECT_EQ(window.workbench.chosen().error_metric, "mse");
+  ASSERT_EQ(window.workbench.chosen().bookmarks.size(), 1u);
+  EXPECT_EQ(window.workbench.chosen().bookmarks[0].camera, window.workbench.preset()->scene.camera);
   EXPECT_EQ(window.workbench.preset()->source, (folder.path() / "test.json").string());
   for (int i = 0; i < 20; ++i) window.workbench.apply({command::Redo{}});
   for (std::size_t i = states.size(); i-- > 0;) {

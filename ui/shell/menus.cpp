@@ -59,6 +59,20 @@ void draw_menus(const Context& context)
   if (open) ImGui::EndMenu();
 }
 
+void draw_toolbar(const Context& context)
+{
+  constexpr const char* names[] = {"Undo", "Redo", "Start again", "Pin this run", "Commands..."};
+  const ImGuiStyle& style = ImGui::GetStyle();
+  float width = style.WindowPadding.x;
+  for (const char* name : names) width += ImGui::CalcTextSize(name).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+  const float left = ImGui::GetWindowWidth() - width;
+  if (left < ImGui::GetCursorPosX()) return; // a narrow window has its menus
+  ImGui::SetCursorPosX(left);
+  ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32_BLACK_TRANS);
+  for (const char* name : names) action_button(name, context);
+  ImGui::PopStyleColor();
+}
+
 void run_shortcuts(const Context& context, bool dialog)
 {
   const ImGuiIO& io = ImGui::GetIO();
@@ -70,6 +84,8 @@ void run_shortcuts(const Context& context, bool dialog)
     if (action.let_go && (ImGui::IsKeyReleased(key_of(action.shortcut)) || io.AppFocusLost)) action.let_go(context);
     // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would be lost.
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
+    // Where somebody goes from widget to widget by the keyboard, Space is for the widget that is marked.
+    if (io.NavVisible && action.shortcut == ImGuiKey_Space) continue;
     if (elsewhere || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
     if (action.enabled(context)) {
       action.run(context);

@@ -57,6 +57,7 @@ Commands Workspace::draw(Workbench& workbench)
   guarded("menu", commands, [&] {
     if (ImGui::BeginMainMenuBar()) {
       draw_menus(context);
+      draw_toolbar(context);
       ImGui::EndMainMenuBar();
     }
     run_shortcuts(context, workbench.question() != Question::none);

@@ -38,7 +38,8 @@ constexpr std::array kinds{
     Kind{".exr .hdr ", "is a picture",
          "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
     Kind{".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
-         "a run's pictures lie beside its preset.json: open that; an environment is named in a preset as scene.environment"},
+         "drop it on the window once a preset of the engine inverse is open, whose object then casts it; a run's pictures lie beside its "
+         "preset.json: open that; an environment is a .hdr or .exr"},
     Kind{".cl ", "is a kernel source", "start with --kernels and its folder"},
 };
 
@@ -110,6 +111,12 @@ bool is_dispersion_file(const std::filesystem::path& file)
 {
   const std::string ending = lower_ending(file);
   return ending == ".yml" || ending == ".yaml";
+}
+
+bool is_picture_file(const std::filesystem::path& file)
+{
+  const std::string ending = lower_ending(file);
+  return ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".tif" || ending == ".tiff";
 }
 
 bool is_map_file(const std::filesystem::path& file)

@@ -23,6 +23,8 @@ namespace nephroid::ui {
 void refuse_other_kinds(const std::string& name);
 /// Whether a file's name ends as dispersion data does.
 bool is_dispersion_file(const std::filesystem::path& file);
+/// Whether it ends as pictures of screens do.
+bool is_picture_file(const std::filesystem::path& file);
 /// Whether it ends as pictures of surroundings do, which have a range that no screen has.
 bool is_map_file(const std::filesystem::path& file);
 

@@ -23,6 +23,13 @@ constexpr int version = 1;
 
 constexpr std::array tone_names{"standard", "filmic", "false_colour"}; ///< in the order of ToneCurve
 
+Json bookmark_json(const Bookmark& bookmark)
+{
+  const preset::Camera& camera = bookmark.camera;
+  return {{"name", bookmark.name}, {"position", camera.position}, {"target", camera.target},
+          {"up", camera.up},       {"fov_deg", camera.fov_deg},   {"resolution", camera.resolution}};
+}
+
 Json look_json(const Look& look)
 {
   Json json{{"exposure_stops", look.exposure_stops},
@@ -55,6 +62,23 @@ Look read_look(const Json& value)
   look.zoom = finite(value.at("zoom"), 1.0 / 1024, 1024);
   for (std::size_t i = 0; i < 2; ++i) look.centre[i] = finite(value.at("centre").at(i), -far, far);
   return look;
+}
+
+Bookmark read_bookmark(const Json& value)
+{
+  constexpr double far = 1e12;
+  const auto vector = [&](const char* key) {
+    preset::Vec3 read{};
+    for (std::size_t i = 0; i < 3; ++i) read[i] = finite(value.at(key).at(i), -far, far);
+    return read;
+  };
+  Bookmark bookmark{value.at("name").get<std::string>(), {}};
+  bookmark.camera.position = vector("position");
+  bookmark.camera.target = vector("target");
+  bookmark.camera.up = vector("up");
+  bookmark.camera.fov_deg = finite(value.at("fov_deg"), 0, 180);
+  for (std::size_t i = 0; i < 2; ++i) bookmark.camera.resolution[i] = static_cast<int>(finite(value.at("resolution").at(i), 1, 1 << 20));
+  return bookmark;
 }
 
 /// The entries about the current one.
@@ -132,6 +156,8 @@ std::string SessionText::of(const Session& session)
   text["pins"] = Json::array();
   for (const Session::Pin& pin : session.pins)
     text["pins"].push_back({{"folder", pin.folder}, {"name", pin.name}, {"colour", pin.colour}, {"shown", pin.shown}});
+  text["bookmarks"] = Json::array();
+  for (const Bookmark& bookmark : session.chosen.bookmarks) text["bookmarks"].push_back(bookmark_json(bookmark));
   if (session.edits) {
     const UndoStack::State state = trimmed(*session.edits);
     Json& edits = text["edits"];
@@ -164,6 +190,7 @@ Session parse_session(const std::string& text, const std::string& source)
     for (const Json& pin : value.at("pins"))
       session.pins.push_back({pin.at("folder").get<std::string>(), pin.at("name").get<std::string>(), pin.at("colour").get<std::uint32_t>(),
                               pin.at("shown").get<bool>()});
+    for (const Json& bookmark : value.at("bookmarks")) session.chosen.bookmarks.push_back(read_bookmark(bookmark));
     if (value.contains("edits")) session.edits = read_edits(value.at("edits"));
     return session;
   } catch (const std::exception& error) { // of the JSON library, or of the checks above

@@ -115,6 +115,7 @@ void Workbench::carry_out(const command::Open& c)
     carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
     return messages_.note(name + " is the environment");
   }
+  if (is_picture_file(c.name) && cast_picture(c.name)) return;
   if (is_scene_file(c.name)) return files_.import_scene(c.name);
   if (edits_ && is_mesh_file(c.name) && has_scene(edits_->current())) return meshes_.read(c.name);
   if (c.sure || !edits_ || !edits_->modified()) {

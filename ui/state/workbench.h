@@ -125,6 +125,9 @@ private:
   /// What the View shows now.
   PictureToSave shown_picture() const;
   void add_object(const DroppedMesh& mesh);
+  /// With the engine inverse: its object shall cast a picture that was dropped, in place of the first drawing, else of the first picture.
+  /// False for another engine.
+  bool cast_picture(const std::string& file);
   void begin(preset::Preset preset);
   EngineLayout& engine_layout();
 

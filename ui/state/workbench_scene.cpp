@@ -2,7 +2,38 @@
 // What the workbench does about things of the scene: what is selected, bookmarks of cameras, meshes that become objects.
 #include "ui/state/workbench.h"
 
+#include "base/error.h"
+#include "base/files.h"
+#include "inverse/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace nephroid::ui {
+
+bool Workbench::cast_picture(const std::string& file)
+{
+  if (!edits_) return false;
+  preset::Preset edited = edits_->current();
+  auto* settings = std::any_cast<inverse::Settings>(&edited.settings.value());
+  if (!settings) return false;
+  if (!is_there(file)) throw bad_input(file, "there is no such picture");
+  preset::Preset edited = edits_->current();
+  if (settings->receivers.empty()) throw bad_input(file, "the preset has no receiver to cast it on", "", "add one in Parameters");
+  auto receiver = std::find_if(settings->receivers.begin(), settings->receivers.end(),
+                               [](const inverse::Receiver& one) { return one.picture.type != inverse::Picture::Type::file; });
+  if (receiver == settings->receivers.end()) receiver = settings->receivers.begin();
+  receiver->picture = {};
+  receiver->picture.type = inverse::Picture::Type::file;
+  std::error_code ignored;
+  receiver->picture.file = std::filesystem::absolute(file, ignored).string();
+  const std::string name = std::filesystem::path(file).filename().string();
+  const double distance_mm = receiver->distance_mm;
+  carry_out(command::Edit{"cast " + name, std::move(edited)});
+  messages_.note(fmt::format("{} is the picture at {:g} mm; Parameters has the others", name, distance_mm));
+  return true;
+}
 
 void Workbench::carry_out(const command::Select& c)
 {
