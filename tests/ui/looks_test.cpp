@@ -39,7 +39,7 @@ protected:
   const Look& look() { return workbench.chosen().look; }
   void click_on(const std::string& widget)
   {
-    const auto place = view().places().of(widget);
+    const auto place = view().place_of(widget);
     ASSERT_TRUE(place) << widget;
     click(*place);
     frames(2);

@@ -21,7 +21,7 @@ using ::testing::SizeIs;
 
 class PresetsPanelTest : public test::WindowFixture {
 protected:
-  PresetsPanelTest() : WindowFixture("presets")
+  PresetsPanelTest() : test::WindowFixture("presets")
   {
     ImGui::GetIO().DisplaySize = {1300, 950};
     runs.steps = 1000000;
@@ -36,7 +36,7 @@ protected:
         [&] { return panel().catalogue().readings() > 0 && !panel().catalogue().busy() && !panel().thumbnails().busy(); }));
     frames(2);
   }
-  using WindowFixture::click;
+  using test::WindowFixture::click;
   void click(const std::string& widget)
   {
     const auto place = panel().place_of(widget);

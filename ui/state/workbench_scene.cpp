@@ -19,7 +19,6 @@ bool Workbench::cast_picture(const std::string& file)
   auto* settings = std::any_cast<inverse::Settings>(&edited.settings.value());
   if (!settings) return false;
   if (!is_there(file)) throw bad_input(file, "there is no such picture");
-  preset::Preset edited = edits_->current();
   if (settings->receivers.empty()) throw bad_input(file, "the preset has no receiver to cast it on", "", "add one in Parameters");
   auto receiver = std::find_if(settings->receivers.begin(), settings->receivers.end(),
                                [](const inverse::Receiver& one) { return one.picture.type != inverse::Picture::Type::file; });
