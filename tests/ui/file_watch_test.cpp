@@ -68,6 +68,18 @@ TEST_F(FileWatchTest, WhatTheWindowSavesItselfIsNoChange)
   EXPECT_LE(runs.made, made + 1) << "the run of the edit";
 }
 
+TEST_F(FileWatchTest, WhatIsOpenedAfterAChangeIsNotSaidToBeChanged)
+{
+  runs.steps = 100000;
+  open();
+  write_file_whole(file, with_seed(77));
+  ASSERT_TRUE(workbench.open(file));
+  edit([](preset::Preset& preset) { preset.seed = 5; });
+  rest();
+  EXPECT_TRUE(workbench.messages().empty());
+  EXPECT_EQ(workbench.preset()->seed, 5u);
+}
+
 TEST_F(FileWatchTest, ABrokenPresetIsSaidAndNothingIsLost)
 {
   runs.steps = 100000;

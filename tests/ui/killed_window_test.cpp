@@ -47,12 +47,12 @@ public:
   std::optional<ui::Session> newest() const
   {
     std::optional<ui::Session> session;
-    fs::file_time_type time{};
+    std::optional<fs::file_time_type> time;
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(state_ / "nephroid/sessions", ignored)) {
       const fs::path file = entry.path() / "session.json";
       const auto written = fs::last_write_time(file, ignored);
-      if (ignored || written < time) continue;
+      if (ignored || (time && written < *time)) continue;
       time = written;
       session = ui::parse_session(read_file(file), file.string());
     }

@@ -11,6 +11,7 @@ namespace {
 
 class LayoutTest : public test::WindowFixture {
 protected:
+  using test::WindowFixture::WindowFixtureOf;
   ImGuiID dock_space() const
   {
     ImGuiID root = 0;
@@ -86,6 +87,40 @@ TEST_F(LayoutTest, WhatTheMouseMakesOfItIsKeptForThatEngine)
   frames(5);
   EXPECT_NEAR(ImGui::FindWindowByName(ViewPanel::title)->Size.x, before, 2);
   EXPECT_EQ(workbench.settings().engines.at("spectral"), EngineLayout{});
+}
+
+TEST_F(LayoutTest, EachEngineHasItsOwn)
+{
+  open();
+  frames(5);
+  EXPECT_TRUE(seen(ErrorPanel::title));
+  const std::string inverse = folder.write("inverse.json", R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {
+    "facets": [8, 8], "receivers": [{"distance_mm": 100, "picture": {"type": "ring"}}]}})");
+  ASSERT_TRUE(workbench.open(inverse));
+  frames(6);
+  EXPECT_TRUE(seen("Annealing"));
+  EXPECT_TRUE(seen(ParametersPanel::title)) << "below the picture";
+  EXPECT_FALSE(seen(DispersionPanel::title));
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  frames(6);
+  EXPECT_TRUE(seen(ErrorPanel::title));
+  EXPECT_FALSE(seen(ParametersPanel::title)) << "a tab behind the others";
+}
+
+class ParametersInFront : public LayoutTest {
+protected:
+  ParametersInFront() : LayoutTest("parameters") {}
+};
+
+TEST_F(ParametersInFront, StaysInFrontForAnotherEngine)
+{
+  open();
+  frames(5);
+  EXPECT_TRUE(seen(ParametersPanel::title));
+  ASSERT_TRUE(workbench.open("inverse/shapes"));
+  frames(6);
+  EXPECT_TRUE(seen(ParametersPanel::title));
+  EXPECT_FALSE(seen("Annealing"));
 }
 
 TEST_F(LayoutTest, NamesThatAreNoPanelsAndPanelsTwiceDoNoHarm)

@@ -149,6 +149,16 @@ void apply_layout(const Layout& layout, unsigned dock_space, float width, float 
   ImGui::DockBuilderFinish(dock_space);
 }
 
+void bring_to_front(const Dock& dock)
+{
+  for (const Dock& part : dock.parts) bring_to_front(part);
+  const PanelEntry* front = find_panel(dock.front);
+  const ImGuiWindow* window = front ? ImGui::FindWindowByName(front->title) : nullptr;
+  if (!window || !window->DockNode) return;
+  window->DockNode->SelectedTabId = window->TabId;
+  if (window->DockNode->TabBar) window->DockNode->TabBar->NextSelectedTabId = window->TabId;
+}
+
 void place_next(const Floating& floating)
 {
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();

@@ -16,6 +16,8 @@ Layout starting_layout(const std::string& name, const std::string& engine, float
 /// Docks every panel that does not float into the dock space of this id (an ImGuiID); those that the layout does not have, as new ones,
 /// become tabs beside the first that it has. Inside of a frame.
 void apply_layout(const Layout& layout, unsigned dock_space, float width, float height);
+/// Has the layout's tabs in front. In the frames after apply_layout: tabs that come up may go before them.
+void bring_to_front(const Dock& dock);
 /// Where a floating panel's window is that begins next.
 void place_next(const Floating& floating);
 /// What is docked into the dock space now, and what floats.

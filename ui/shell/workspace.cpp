@@ -117,13 +117,19 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
     const Layout layout = has_own ? kept->second.layout : starting_layout(name_, engine, size[0]);
     apply_layout(layout, id, size[0], size[1]);
     to_place_ = layout.floating;
+    wanted_ = layout.docks;
     laid_out_for_ = engine;
     frames_since_ = 0;
+    frames_laid_out_ = 0;
   } else if (laid_out_size_ != size)
     frames_since_ = 0;
   laid_out_size_ = size;
   // A few frames later docks have their sizes. From then on another layout is what the mouse made of it.
   constexpr int settled = 3;
+  if (++frames_laid_out_ <= settled) {
+    bring_to_front(wanted_);
+    ImGui::SetWindowFocus(panel_table().front().title); // whatever had the keyboard: its tab would come to the front
+  }
   if (frames_since_ < settled) {
     if (++frames_since_ == settled) before_ = layout_now(id);
   } else if (ImGui::IsMouseReleased(ImGuiMouseButton_Left))

@@ -52,7 +52,9 @@ private:
   std::optional<std::string> laid_out_for_;  ///< this engine
   std::array<float, 2> laid_out_size_{0, 0}; ///< in a window of this size,
   int frames_since_ = 0;                     ///< so many frames ago;
+  int frames_laid_out_ = 0;                  ///< since the layout was applied
   Layout before_;                            ///< what it was before a person touched it
+  Dock wanted_;                              ///< the docks of the layout that was applied last
   std::vector<Floating> to_place_;           ///< floating panels that were not drawn yet since
   std::string to_front_;                     ///< the panel that comes to the front in this frame
   PlotContext plots_;                        ///< before the panels, which plot with it

@@ -16,11 +16,14 @@ FileWatch::FileWatch() : thread_([this](const std::stop_token& stop) { look(stop
 
 FileWatch::~FileWatch() = default;
 
-void FileWatch::watch(std::shared_ptr<const preset::Preset> preset)
+void FileWatch::watch(std::shared_ptr<const preset::Preset> preset, bool just_read)
 {
   const std::lock_guard lock(mutex_);
   preset_ = std::move(preset);
   is_new_ = true;
+  if (!just_read) return;
+  just_read_ = true;
+  found_.clear();
 }
 
 std::vector<std::filesystem::path> FileWatch::take_changed()
@@ -46,6 +49,7 @@ void FileWatch::look(const std::stop_token& stop)
   while (!stop.stop_requested()) {
     const auto preset = preset_;
     const bool is_new = std::exchange(is_new_, false);
+    if (std::exchange(just_read_, false)) seen.clear();
     lock.unlock();
     if (is_new) {
       std::map<std::filesystem::path, Seen> now;

@@ -20,8 +20,8 @@ class FileWatch {
 public:
   FileWatch();
   ~FileWatch();
-  /// The files of this preset from now on; null: none.
-  void watch(std::shared_ptr<const preset::Preset> preset);
+  /// The files of this preset from now on; null: none. just_read: what was written until now is known, as they were all read.
+  void watch(std::shared_ptr<const preset::Preset> preset, bool just_read);
   /// Those that were changed since the last call, and are not being written any more. A file that is gone is none, until it is back.
   std::vector<std::filesystem::path> take_changed();
 
@@ -38,7 +38,7 @@ private:
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::shared_ptr<const preset::Preset> preset_; ///< the newest that was asked for,
-  bool is_new_ = false;                          ///< and whether the thread has not taken it yet
+  bool is_new_ = false, just_read_ = false;      ///< and whether the thread has not taken it yet, and was told that it was just read
   std::vector<std::filesystem::path> found_;
   std::jthread thread_; ///< last: it uses the others
 };

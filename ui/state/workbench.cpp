@@ -312,7 +312,8 @@ void Workbench::look_at_files()
 {
   if (const auto& now = edits_ ? edits_->state().entries[edits_->state().index].preset : nullptr; now != watched_) {
     watched_ = now;
-    watch_.watch(now);
+    const auto opened = edits_ ? edits_->state().opened : nullptr;
+    watch_.watch(now, std::exchange(watched_from_, opened) != opened);
   }
   const std::vector<std::filesystem::path> changed = watch_.take_changed();
   if (changed.empty() || !edits_) return;

@@ -139,7 +139,7 @@ private:
   Chosen chosen_;
   FileWork files_;
   FileWatch watch_;
-  std::shared_ptr<const preset::Preset> watched_; ///< whose files are watched
+  std::shared_ptr<const preset::Preset> watched_, watched_from_; ///< whose files are watched, and as it was opened
   DroppedMeshes meshes_;
   RecentFiles recent_;
   std::vector<std::string> program_notes_;

@@ -74,7 +74,6 @@ void draw_bookmarks(const Context& context, WidgetPlaces& places)
 
 void draw_selection_bar(const Context& context, WidgetPlaces& places)
 {
-  places.clear();
   if (!context.preset() || !has_scene(*context.preset())) return;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Selected");
