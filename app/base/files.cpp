@@ -290,7 +290,8 @@ bool is_temporary_name(const fs::path& path)
 
 namespace {
 
-/// nephroid in the folder that a variable of the XDG base directory specification names, else in this one of the user's; empty without HOME.
+/// nephroid in the folder that a variable of the XDG base directory specification names, else in this one of the user's; empty without
+/// HOME.
 fs::path user_folder(const char* variable, const char* in_home)
 {
   const auto value = [](const char* key) {

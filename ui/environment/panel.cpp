@@ -241,7 +241,8 @@ void EnvironmentPanel::draw_map(const Context& context)
   const MapDrag drag = map_.draw(contents(), std::max(10 * em(), 0.42f * ImGui::GetWindowHeight()));
   if (!shown_.map && shown_.error.empty()) {
     const auto& [x, y, width, height] = map_.area();
-    draw_hint_on_dark({static_cast<float>(x), static_cast<float>(y)}, {static_cast<float>(width), static_cast<float>(height)}, "Reading the map");
+    draw_hint_on_dark({static_cast<float>(x), static_cast<float>(y)}, {static_cast<float>(width), static_cast<float>(height)},
+                      "Reading the map");
   }
   if (const auto region = map_.hovered(); region && *region < figures_.size())
     ImGui::SetTooltip("%s", text_of(figures_[*region], *region, by_flux_.size()).c_str());

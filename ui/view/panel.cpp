@@ -141,7 +141,8 @@ void ViewPanel::draw_pixel_value(const Context& context) const
   draw_overlay(vec({canvas_.corner[0] + pad, canvas_.corner[1] + canvas_.size[1] - ImGui::CalcTextSize(text.c_str()).y - 3 * pad}), text);
 }
 
-/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected or a thing is selected the arrow keys are theirs, not the keyboard's cursor's.
+/// Alt with the mouse on the picture opens no menu, and while a pixel is inspected or a thing is selected the arrow keys are theirs, not
+/// the keyboard's cursor's.
 void ViewPanel::own_keys(const Context& context)
 {
   ImGui::SetItemKeyOwner(ImGuiMod_Alt);

@@ -29,11 +29,33 @@ constexpr ImU32 grey_text(int value) { return IM_COL32(value, value, value, 255)
 const Shades& shades(Theme theme)
 {
   static const Shades dark{[](ImGuiStyle* style) { ImGui::StyleColorsDark(style); },
-                           0.13f, 0.14f, 0.28f, 0.17f, 0.22f, 0.25f, 0.31f, 0.36f, 0.30f,
-                           colour::on_dark, colour::quiet_on_dark, IM_COL32(240, 128, 112, 255), colour::note_on_dark};
+                           0.13f,
+                           0.14f,
+                           0.28f,
+                           0.17f,
+                           0.22f,
+                           0.25f,
+                           0.31f,
+                           0.36f,
+                           0.30f,
+                           colour::on_dark,
+                           colour::quiet_on_dark,
+                           IM_COL32(240, 128, 112, 255),
+                           colour::note_on_dark};
   static const Shades light{[](ImGuiStyle* style) { ImGui::StyleColorsLight(style); },
-                            0.80f, 0.96f, 0.80f, 0.90f, 0.92f, 0.98f, 0.85f, 0.78f, 0.70f,
-                            grey_text(24), grey_text(84), IM_COL32(176, 28, 16, 255), IM_COL32(122, 82, 0, 255)};
+                            0.80f,
+                            0.96f,
+                            0.80f,
+                            0.90f,
+                            0.92f,
+                            0.98f,
+                            0.85f,
+                            0.78f,
+                            0.70f,
+                            grey_text(24),
+                            grey_text(84),
+                            IM_COL32(176, 28, 16, 255),
+                            IM_COL32(122, 82, 0, 255)};
   return theme == Theme::light ? light : dark;
 }
 
@@ -100,7 +122,7 @@ void set_theme(float scale, Theme theme)
   style.WindowPadding = {9, 8};
   style.WindowMenuButtonPosition = ImGuiDir_None;
   style.TabCloseButtonMinWidthSelected = 0; // only under the mouse: the titles need the room
-  style.DockingNodeHasCloseButton = false; // a tab has one
+  style.DockingNodeHasCloseButton = false;  // a tab has one
   style.ScaleAllSizes(scale);
   style.FontSizeBase = font_size;
   style.FontScaleDpi = scale;

@@ -18,8 +18,8 @@ bool input_text(const char* label, const char* hint, std::string& text, int flag
 /// Text in a colour (IM_COL32); and wrapped at the window's edge.
 void draw_text(std::uint32_t colour, const std::string& text);
 void draw_wrapped(std::uint32_t colour, const std::string& text);
-/// A quiet sentence in the middle of an area of the window, wrapped at nine tenths of its width; on a panel, or on the dark ground of pictures
-/// and plots.
+/// A quiet sentence in the middle of an area of the window, wrapped at nine tenths of its width; on a panel, or on the dark ground of
+/// pictures and plots.
 void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint);
 void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::string& hint);
 
