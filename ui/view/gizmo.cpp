@@ -54,7 +54,8 @@ Matrix16 placed(const glm::dmat3& axes)
 {
   Matrix16 m{};
   for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) m[static_cast<std::size_t>(4 * column + row)] = static_cast<float>(axes[column][row]);
+    for (int row = 0; row < 3; ++row)
+      m[4 * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)] = static_cast<float>(axes[column][row]);
   m[15] = 1;
   return m;
 }
@@ -153,7 +154,7 @@ Matrix16 view_matrix(const GizmoFrame& frame)
   const std::array<glm::dvec3, 3> rows{frame.sight.right, frame.sight.up, -frame.sight.forward};
   Matrix16 m{};
   for (std::size_t row = 0; row < 3; ++row) {
-    for (int i = 0; i < 3; ++i) m[static_cast<std::size_t>(4 * i) + row] = static_cast<float>(rows[row][i]);
+    for (int i = 0; i < 3; ++i) m[4 * static_cast<std::size_t>(i) + row] = static_cast<float>(rows[row][i]);
     m[12 + row] = static_cast<float>(-glm::dot(rows[row], eye));
   }
   m[15] = 1;

@@ -31,7 +31,7 @@ glm::dmat4 local_matrix(const GltfValue& node)
     const auto m = node.numbers<16>("matrix", {});
     glm::dmat4 matrix(1);
     for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row) matrix[column][row] = m[static_cast<std::size_t>(4 * column + row)];
+      for (int row = 0; row < 4; ++row) matrix[column][row] = m[4 * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)];
     return matrix;
   }
   const auto t = node.numbers<3>("translation", {0, 0, 0}), s = node.numbers<3>("scale", {1, 1, 1});

@@ -84,7 +84,8 @@ public:
 
   bool add_spectrum(std::int64_t passes, bool done, job::PixelSpectrum& to) override
   {
-    std::vector<double>& radiance = to.layers.emplace_back("direct", std::vector<double>(optics::wavelength_count)).radiance;
+    std::vector<double>& radiance =
+        to.layers.emplace_back(job::PixelSpectrum::Layer{"direct", std::vector<double>(optics::wavelength_count)}).radiance;
     const auto [x, y] = to.pixel;
     const auto [a, b] = samples_of_row(static_cast<std::size_t>(y), passes, done);
     const double unit = a + b > 0 ? 1 / ((a + b) * world_.tables.direct_scale) : 0;

@@ -74,7 +74,8 @@ public:
 
   bool add_spectrum(std::int64_t, bool, job::PixelSpectrum& to) override
   {
-    std::vector<double>& radiance = to.layers.emplace_back("caustic", std::vector<double>(optics::wavelength_count)).radiance;
+    std::vector<double>& radiance =
+        to.layers.emplace_back(job::PixelSpectrum::Layer{"caustic", std::vector<double>(optics::wavelength_count)}).radiance;
     const std::vector<HalfCounts> counts = photons_of_layers();
     const auto [x, y] = to.pixel;
     const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(world_.tables.camera.width) + static_cast<std::size_t>(x);
