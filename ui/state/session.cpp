@@ -84,16 +84,14 @@ Bookmark read_bookmark(const Json& value)
 /// The entries about the current one.
 UndoStack::State trimmed(UndoStack::State state)
 {
-  auto& [opened, entries, index, saved] = state;
-  const auto drop_front = [&] {
-    entries.pop_front();
-    --index;
-    if (saved) saved = *saved > 0 ? std::optional(*saved - 1) : std::nullopt;
-  };
-  while (entries.size() > Session::most_entries && index > Session::most_entries / 2) drop_front();
-  while (entries.size() > Session::most_entries) {
-    entries.pop_back();
-    if (saved && *saved >= entries.size()) saved.reset();
+  while (state.entries.size() > Session::most_entries && state.index > Session::most_entries / 2) {
+    state.entries.pop_front();
+    --state.index;
+    if (state.saved) state.saved = *state.saved > 0 ? std::optional(*state.saved - 1) : std::nullopt;
+  }
+  while (state.entries.size() > Session::most_entries) {
+    state.entries.pop_back();
+    if (state.saved && *state.saved >= state.entries.size()) state.saved.reset();
   }
   return state;
 }
