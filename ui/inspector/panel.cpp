@@ -98,7 +98,7 @@ void InspectorPanel::draw_neighbours(const Context& context)
   Neighbours& n = neighbours_;
   constexpr int across = 2 * reach + 1;
   if (picture.owner && (n.owner != picture.owner || n.pixel != pixel || n.look != look || n.white != white)) {
-    n = {picture.owner, pixel, look, white, std::vector<unsigned char>(4 * across * across, 0)};
+    n = {picture.owner, pixel, look, white, std::vector<unsigned char>(std::size_t{4} * across * across, 0)};
     const Tone tone = tone_of(look, white, picture.pixels.rgb);
     for (int i = 0; i < across * across; ++i) {
       const int x = pixel[0] - reach + i % across, y = pixel[1] - reach + i / across;
@@ -114,7 +114,8 @@ void InspectorPanel::draw_neighbours(const Context& context)
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   for (int i = 0; i < across * across; ++i) {
     const unsigned char* c = &n.rgba[4 * static_cast<std::size_t>(i)];
-    const ImVec2 at{corner.x + static_cast<float>(i % across) * cell, corner.y + static_cast<float>(i / across) * cell};
+    const int column = i % across, row = i / across;
+    const ImVec2 at{corner.x + static_cast<float>(column) * cell, corner.y + static_cast<float>(row) * cell};
     draw_list->AddRectFilled(at, {at.x + cell, at.y + cell}, IM_COL32(c[0], c[1], c[2], c[3]));
   }
   const ImVec2 own{corner.x + reach * cell, corner.y + reach * cell};
@@ -158,12 +159,13 @@ void InspectorPanel::offer_spectra(const Context& context, const std::string& wh
       spectral::settings(*context.preset()).relight)
     return;
   auto [changed, reason] = keeping_spectra(*context.preset());
-  ImGui::BeginDisabled(!changed);
-  if (ImGui::Button("Keep spectra") && changed) context.push(command::Edit{"keep spectra", *std::move(changed)});
+  const bool can = changed.has_value();
+  ImGui::BeginDisabled(!can);
+  if (ImGui::Button("Keep spectra") && can) context.push(command::Edit{"keep spectra", *std::move(changed)});
   places_.note("keep spectra");
   ImGui::EndDisabled();
   ImGui::SetItemTooltip("Sets spectral.relight, which starts the run again; one edit to undo");
-  if (!changed) draw_wrapped(colour::note, reason);
+  if (!can) draw_wrapped(colour::note, reason);
 }
 
 void InspectorPanel::draw_region(const Context& context)

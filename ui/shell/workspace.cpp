@@ -128,7 +128,8 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
   constexpr int settled = 3;
   if (++frames_laid_out_ <= settled) {
     bring_to_front(wanted_);
-    ImGui::SetWindowFocus(panel_table().front().title); // whatever had the keyboard: its tab would come to the front
+    // Whatever had the keyboard: its tab would come to the front. A dialog keeps it.
+    if (workbench.question() == Question::none) ImGui::SetWindowFocus(panel_table().front().title);
   }
   if (frames_since_ < settled) {
     if (++frames_since_ == settled) before_ = layout_now(id);

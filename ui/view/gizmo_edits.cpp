@@ -103,7 +103,7 @@ glm::dmat3 sorted_axes(const glm::dmat3& axes, const glm::dmat3& directions)
   } while (std::ranges::next_permutation(order).found);
   glm::dmat3 sorted;
   for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 axis = axes[best[static_cast<std::size_t>(i)]];
+    const glm::dvec3& axis = axes[best[static_cast<std::size_t>(i)]];
     sorted[i] = glm::dot(axis, directions[i]) < 0 ? -axis : axis;
   }
   return sorted;
