@@ -21,10 +21,9 @@ struct Window {
   /// Until everything is in the files.
   void settle()
   {
-    const auto later = SessionKeeper::Clock::now() + std::chrono::seconds(5);
     ASSERT_TRUE(test::eventually([&] { workbench.update(); }, [&] { return !workbench.works_on_files(); }));
     for (int i = 0; i < 100; ++i) {
-      keeper.update(workbench, later);
+      keeper.update(workbench, later += std::chrono::seconds(20));
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
   }
@@ -38,6 +37,7 @@ struct Window {
   FakeRuns runs;
   Workbench workbench{runs};
   SessionKeeper keeper;
+  SessionKeeper::Clock::time_point later = SessionKeeper::Clock::now(); ///< of the keeper, which writes at most once a second
 };
 
 class SessionTest : public ::testing::Test {
@@ -204,6 +204,17 @@ TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn)
   Window second(state());
   EXPECT_TRUE(second.keeper.killed_session().empty());
   EXPECT_FALSE(second.keeper.has_earlier());
+}
+
+TEST_F(SessionTest, AWindowThatOpenedNothingLeavesNothing)
+{
+  {
+    Window window(state());
+    window.settle();
+  } // killed on its start page
+  Window window(state());
+  EXPECT_TRUE(window.keeper.killed_session().empty());
+  EXPECT_FALSE(window.keeper.has_earlier());
 }
 
 TEST_F(SessionTest, WhatIsCutIsRefusedInOneLine)

@@ -73,7 +73,7 @@ void begin_session(Workbench& workbench, SessionKeeper& keeper, const Options& o
   if (killed.empty()) return;
   if (options.files.empty()) {
     keeper.reopen(workbench);
-    workbench.apply({command::Report{"the last window was not closed: this is how it was at " + killed, false}});
+    if (workbench.preset()) workbench.apply({command::Report{"the last window was not closed: this is how it was at " + killed, false}});
   } else
     workbench.apply(
         {command::Report{"a window that was not closed left a session of " + killed + ": File, Reopen the last session", false}});

@@ -175,11 +175,33 @@ std::string SessionText::of(const Session& session)
   return json_text(text);
 }
 
-Session parse_session(const std::string& text, const std::string& source)
+namespace {
+
+/// Calls read(value) of the text as JSON. Whatever is wrong becomes one error.
+template <class Read>
+auto read_session(const std::string& text, const std::string& source, Read read)
 {
   try {
     const Json value = Json::parse(text);
     if (value.at("version").get<int>() != version) throw std::out_of_range("it is of another version of the program");
+    return read(value);
+  } catch (const std::exception& error) { // of the JSON library, or of the checks above
+    throw bad_input(source, fmt::format("the session cannot be read ({})", error.what()));
+  }
+}
+
+} // namespace
+
+SessionHeader parse_session_header(const std::string& text, const std::string& source)
+{
+  return read_session(text, source, [](const Json& value) {
+    return SessionHeader{value.at("closed").get<bool>(), value.contains("edits")};
+  });
+}
+
+Session parse_session(const std::string& text, const std::string& source)
+{
+  return read_session(text, source, [](const Json& value) {
     Session session;
     session.closed = value.at("closed").get<bool>();
     session.chosen.look = read_look(value.at("look"));
@@ -191,9 +213,7 @@ Session parse_session(const std::string& text, const std::string& source)
     for (const Json& bookmark : value.at("bookmarks")) session.chosen.bookmarks.push_back(read_bookmark(bookmark));
     if (value.contains("edits")) session.edits = read_edits(value.at("edits"));
     return session;
-  } catch (const std::exception& error) { // of the JSON library, or of the checks above
-    throw bad_input(source, fmt::format("the session cannot be read ({})", error.what()));
-  }
+  });
 }
 
 } // namespace nephroid::ui

@@ -41,6 +41,13 @@ private:
   std::vector<std::shared_ptr<const Known>> known_;
 };
 
+/// What a session's text says of itself, without its presets, which take longer to read.
+struct SessionHeader {
+  bool closed = false, has_preset = false;
+};
+/// Throws as parse_session.
+SessionHeader parse_session_header(const std::string& text, const std::string& source);
+
 /// Throws bad_input at source where the text is no session, is cut, or holds a preset that cannot be.
 Session parse_session(const std::string& text, const std::string& source);
 

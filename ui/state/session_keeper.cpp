@@ -45,13 +45,13 @@ std::string read_limited(const fs::path& file)
   return read_file(file);
 }
 
-/// Whether a window that was closed wrote it; a file that cannot be read is none.
-bool was_closed(const fs::path& file)
+/// What the file says of itself; one that cannot be read counts as a killed window's, whose rest is worth a message.
+SessionHeader header_of(const fs::path& file)
 {
   try {
-    return parse_session(read_limited(file), file.string()).closed;
+    return parse_session_header(read_limited(file), file.string());
   } catch (const std::exception&) {
-    return false;
+    return {.closed = false, .has_preset = true};
   }
 }
 
@@ -107,10 +107,12 @@ void SessionKeeper::find_earlier()
   for (const fs::path& folder : folders) {
     const int held = lock(folder / lock_name);
     if (held < 0) continue; // its window is open
-    if (const fs::file_time_type kept = fs::last_write_time(folder / session_name, error); !error)
-      earlier_.push_back({folder, was_closed(folder / session_name), kept});
+    const fs::file_time_type kept = fs::last_write_time(folder / session_name, error);
+    const SessionHeader header = error ? SessionHeader{} : header_of(folder / session_name);
+    if (header.has_preset)
+      earlier_.push_back({folder, header.closed, kept});
     else
-      fs::remove_all(folder, error); // nothing was ever kept
+      fs::remove_all(folder, error); // nothing was ever opened
     ::close(held);
   }
   std::sort(earlier_.begin(), earlier_.end(),
@@ -216,9 +218,9 @@ void SessionKeeper::update(Workbench& workbench, Clock::time_point now)
     collect(workbench);
   }
   if (now < next_) return;
+  next_ = now + period;
   Work work = work_of(workbench);
   if (is_kept(work)) return;
-  next_ = now + period;
   newest_ = std::move(work);
   writing_ = std::async(std::launch::async, [this] { write(*newest_); });
 }
