@@ -34,7 +34,7 @@ constexpr Card cards[] = {
 
 constexpr float picture_aspect = static_cast<float>(thumbnail_height) / static_cast<float>(thumbnail_width);
 
-void draw_card(const Card& card, const PictureTexture* picture, float width, const Context& context)
+void draw_card(const Card& card, const PictureTexture* picture, float width, const Context& context, WidgetPlaces& places)
 {
   const float em = ImGui::GetFontSize(), high = 7 * em;
   ImGui::PushID(card.preset);
@@ -49,6 +49,7 @@ void draw_card(const Card& card, const PictureTexture* picture, float width, con
     ImGui::TextUnformatted(card.title);
     draw_wrapped(colour::quiet_text, card.what);
     if (ImGui::Button("Open an example")) context.push(command::Open{(presets_folder() / (std::string(card.preset) + ".json")).string()});
+    places.note(card.preset);
     ImGui::SetItemTooltip("%s", card.preset);
     ImGui::EndGroup();
   }
@@ -72,6 +73,7 @@ void StartPage::draw(const Context& context, Panel& presets)
     ImGui::Spacing();
     for (const char* name : {"New scene", "Open...", "Reopen the last session", "Commands..."}) {
       action_button(name, context);
+      places_.note(name);
       ImGui::SameLine();
     }
     ImGui::TextDisabled("or drop a preset, a mesh or a run's folder here");
@@ -87,7 +89,7 @@ void StartPage::draw_engines(const Context& context)
   const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   for (const Card& card : cards) {
     if (&card != cards) ImGui::SameLine();
-    draw_card(card, thumbnails_.of(thumbnail_of(presets_folder() / (std::string(card.preset) + ".json"), {})), width, context);
+    draw_card(card, thumbnails_.of(thumbnail_of(presets_folder() / (std::string(card.preset) + ".json"), {})), width, context, places_);
   }
 }
 
