@@ -26,7 +26,7 @@ struct Card {
 constexpr Card cards[] = {
     {"Spectral caustics", "first-light",
      "Glass parts light into its colours. All 401 wavelengths are rendered; those that refract alike share their paths."},
-    {"Caustics under a sky", "environment/bunny",
+    {"Caustics under a sky", "environment/ball",
      "An object of glass is baked once. Then its caustics follow while the sky, the camera and the floor are turned and moved."},
     {"Designed glass", "inverse/shapes",
      "Say which pictures a piece of glass shall cast, and how far away. It is found, judged by rays, and written as a closed mesh."},
