@@ -43,7 +43,7 @@ TEST_F(InverseSession, FromTheStartPageToASavedMesh)
   session.click(panel.place_of("show as glass").value());
   session.until_there("inverse-object/view.json");
   session.window().until("the glass is shown", [&] { return session.window().title().find("view") != std::string::npos; });
-  session.until_passed(0.02);
+  session.until_passed(0.12);
   session.shot("Show as glass: the meshes are saved, and light falls through them");
   session.quit();
 
