@@ -73,7 +73,7 @@ std::string absorbing_glass_file(const GltfValue& material, const preset::Disper
   constexpr double least = 1e-4; // black glass has no k
   for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) {
     const double transmittance = kept.table.empty() ? kept.value : kept.table[static_cast<std::size_t>((nm - optics::first_nm) / 10)][1];
-    const double absorbed = -std::log(std::max(transmittance, least)) / distance; // in 1/m: the file's lengths are metres
+    const double absorbed = std::log(1 / std::max(transmittance, least)) / distance; // in 1/m: the file's lengths are metres
     text += fmt::format("        {:.2f} {:.6g}\n", nm * 1e-3, absorbed * nm * 1e-9 / (4 * std::numbers::pi));
   }
   return text;

@@ -88,7 +88,7 @@ public:
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
-    for (const auto& [name, text] : glasses_) write_file_whole(folder / name, text);
+    for (const auto& [name, glass] : glasses_) write_file_whole(folder / name, glass);
     for (const auto& [name, mesh] : files_) write_file_whole(folder / name, [&mesh = mesh](ByteSink& to) { write_mesh(mesh, to); });
     write_file_whole(preset_file_, text);
     return {preset_file_, made_.scene.objects.size(), files_.size(), made_.scene.lights.size(), notes_};
