@@ -134,8 +134,10 @@ def measure(program, engine, display):
         window.until("its run works", lambda f: is_working(f[-1]))
         first = len(window.frames())
         for i in range(EDITS):
+            edits = window.frames()[-1]["edits"]
             window.keys("ctrl+z" if i % 2 == 0 else "ctrl+shift+z")
             time.sleep(SECONDS / EDITS)
+            window.until("the edit's run works", lambda f: f[-1]["edits"] > edits and (is_working(f[-1]) or f[-1]["state"] == "finished"))
         frames = window.frames()[first:]
         window.close()
     return frames, cold_s, warm_s
