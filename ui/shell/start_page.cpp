@@ -41,7 +41,8 @@ void draw_card(const Card& card, const PictureTexture* picture, float width, con
   const float em = ImGui::GetFontSize(), high = 7 * em;
   ImGui::PushID(card.preset);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-  if (ImGui::BeginChild("card", {width, high + 2 * ImGui::GetStyle().WindowPadding.y}, ImGuiChildFlags_Borders | ImGuiChildFlags_NavFlattened)) {
+  if (ImGui::BeginChild("card", {width, high + 2 * ImGui::GetStyle().WindowPadding.y},
+                        ImGuiChildFlags_Borders | ImGuiChildFlags_NavFlattened)) {
     const ImVec2 corner = ImGui::GetCursorScreenPos(), size{high / picture_aspect, high};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
