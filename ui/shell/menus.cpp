@@ -76,7 +76,7 @@ void draw_toolbar(const Context& context)
 void run_shortcuts(const Context& context, bool dialog)
 {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool elsewhere = dialog || io.WantTextInput;
+  const bool elsewhere = dialog || io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); // an open list has the keyboard
   int taken = 0; // of actions with the same keys the first that is enabled has them
   for (const Action& action : actions()) {
     if (!action.shortcut) continue;

@@ -15,7 +15,8 @@ namespace nephroid::ui {
 class StartPage {
 public:
   /// In the window's area between the menu bar and the status line. presets: the panel of that name, which is a part of the page.
-  void draw(const Context& context, Panel& presets);
+  /// to_presets: the keyboard goes to it.
+  void draw(const Context& context, Panel& presets, bool to_presets);
 
 private:
   struct Devices {
@@ -26,6 +27,7 @@ private:
   void draw_devices();
 
   Thumbnails thumbnails_;
+  std::vector<std::filesystem::path> pictures_; ///< of the cards
   bool asked_ = false;
   std::future<Devices> asking_; ///< drivers may take seconds to answer
   Devices devices_;

@@ -72,9 +72,9 @@ Commands Workspace::draw(Workbench& workbench)
   if (context.preset())
     guarded("layout", commands, [&] { draw_dock_space(workbench, context); });
   else
-    guarded("start page", commands, [&] { draw_start_page(context); });
+    guarded("start page", commands, [&] { draw_start_page(workbench, context); });
   for (const Open& open : panels_)
-    if (context.preset() && serves(open.entry, context.preset()) && is_open(open.entry, context))
+    if (context.preset() && serves(open.entry, *context.preset()) && is_open(open.entry, context))
       guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
   if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
@@ -98,10 +98,11 @@ void Workspace::draw_panel(const Open& open, const Context& context)
   if (!stays) context.push(command::ShowPanel{std::string(open.entry.name), false});
 }
 
-void Workspace::draw_start_page(const Context& context)
+void Workspace::draw_start_page(Workbench& workbench, const Context& context)
 {
+  to_front_ = workbench.take_panel_to_front();
   for (const Open& open : panels_)
-    if (open.entry.name == "presets") start_page_.draw(context, *open.panel);
+    if (open.entry.name == "presets") start_page_.draw(context, *open.panel, open.entry.name == to_front_);
 }
 
 void Workspace::draw_dock_space(Workbench& workbench, const Context& context)

@@ -44,7 +44,7 @@ private:
     PanelEntry entry;
     std::unique_ptr<Panel> panel;
   };
-  void draw_start_page(const Context& context);
+  void draw_start_page(Workbench& workbench, const Context& context);
   void draw_dock_space(Workbench& workbench, const Context& context);
   void draw_panel(const Open& open, const Context& context);
 
