@@ -96,6 +96,7 @@ class Runner:
         self.help = {}
         self.verbs = re.findall(r"^  ([a-z]+) ", self.help_of("").split("Verbs:")[1], re.M)
         self.presets = set(re.findall(r"^(\S+)", self.text("presets"), re.M))
+        self.own = set()  # presets that the page gives
         self.counts, self.failures, self.notes = Counter(), [], []
         self.display = Display() if "--screenshot" in self.help_of("") and shutil.which("Xvfb") else None
 
@@ -183,8 +184,8 @@ class Runner:
             name = word.split("=")[0]
             if name.startswith("-") and name.strip("[]") not in known:
                 self.fail(command, f"'{name}' is no option of nephroid {verb}")
-        if not verb and words and re.fullmatch(r"[a-z]+", words[0]) and words[0] not in self.presets:
-            self.fail(command, f"'{words[0]}' is no verb and no shipped preset")
+        if not verb and words and re.fullmatch(r"[a-z]+", words[0]) and words[0] not in self.presets | self.own:
+            self.fail(command, f"'{words[0]}' is no verb, no shipped preset and none of this page")
         first = words[1] if verb in ("run", "plan", "importance") and len(words) > 1 else ""
         if re.fullmatch(r"[a-z]+/[a-z0-9/-]+", first) and first not in self.presets and not first.startswith("out/"):
             self.fail(command, f"'{first}' is no shipped preset")
@@ -217,6 +218,7 @@ class Runner:
                 (folder / name).symlink_to(ROOT / name)
             for place, line in page.outside:
                 self.failures.append(f"{place}: a command outside of a ```sh block is run by no test: {line}")
+            self.own = {name.removesuffix(".json") for name, _ in page.files}
             for name, content in page.files:
                 (folder / name).parent.mkdir(parents=True, exist_ok=True)
                 (folder / name).write_bytes(content)

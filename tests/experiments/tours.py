@@ -87,9 +87,8 @@ def hdri_glass(s):
     return [s.render("drink", "drink", size=(480, 360), seconds=30)], 1
 
 
-def hdri_turned(s):
-    return [s.render(f"sky-{turn}", "environment/glass", f"scene.environment.rotate_deg={turn}", size=(320, 320), passes=4)
-            for turn in (0, 90)], 2
+def hdri_window(s):
+    return [s.window("drink-window", "drink", "environment", "scene.camera.resolution=[256,192]", "stop.seconds=15")], 1
 
 
 def three_sheet(s):
@@ -135,7 +134,7 @@ def option_plan(s):
     return [s.window("plan", "first-light", "plan", "scene.camera.resolution=[256,256]", "stop.passes=8")], 1
 
 
-PICTURES = [dispersion_glasses, dispersion_window, dispersion_designed, hdri_lights, hdri_glass, hdri_turned, three_sheet, three_view, three_window,
+PICTURES = [dispersion_glasses, dispersion_window, dispersion_designed, hdri_lights, hdri_glass, hdri_window, three_sheet, three_view, three_window,
             batch_sweep, batch_frames, material_window, material_colour, option_stripes, option_plan]
 
 
