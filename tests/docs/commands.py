@@ -128,7 +128,7 @@ class Runner:
         target = subprocess.PIPE
         if ">" in words:
             at = words.index(">")
-            target, words = open(folder / words[at + 1], "w", encoding="utf-8"), words[:at]
+            target, words = open(folder / words[at + 1], "w", encoding="utf-8"), words[:at] + words[at + 2:]
         try:
             ended = subprocess.run([self.program, *words], cwd=folder, env=self.environment(folder), stdin=subprocess.DEVNULL,
                                    stdout=target, stderr=subprocess.PIPE, text=True, timeout=LONGEST)
