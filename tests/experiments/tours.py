@@ -20,6 +20,7 @@ TOURS = ROOT / "docs" / "tours"
 WIDEST = 640
 GLASS = "scene.materials.glass.dispersion"
 STRIPES = ["spectral.differentials=false", "spectral.threshold_deg=1"]
+FEW_PHOTONS = ["--set", "spectral.photons_per_pass=65536", "--passes", 4]  # small pictures of many runs
 NEWTON = ["scene.camera.target=[9.3,0,0]", "scene.camera.fov_deg=30"]
 
 
@@ -106,13 +107,13 @@ def three_window(s):
 def batch_sweep(s):
     folder = s.folder / "glasses"
     if not folder.exists():
-        s.call(s.program, "run", "glasses", "-o", "glasses")
+        s.call(s.program, "run", "glasses", "-o", "glasses", *FEW_PHOTONS)
     return [folder / f"00{number}" / "image.png" for number in (1, 3, 5, 2, 4, 6)], 3
 
 
 def batch_frames(s):
     if not (s.folder / "tilt").exists():
-        s.call(s.program, "run", "tilt", "-o", "tilt")
+        s.call(s.program, "run", "tilt", "-o", "tilt", *FEW_PHOTONS)
     return [s.folder / "tilt" / f"frame_{number:04}.png" for number in range(8)], 4
 
 
