@@ -66,7 +66,11 @@ class Window:
         sys.exit(f"it does not come to this: {what}")
 
     def keys(self, chord):
-        subprocess.run(["xdotool", "key", chord], env=self.environment, check=True)
+        """Each key for itself and for some frames: a window that draws seldom does not see one that goes up at once."""
+        keys = chord.split("+")
+        for event in [("keydown", key) for key in keys] + [("keyup", key) for key in reversed(keys)]:
+            subprocess.run(["xdotool", *event], env=self.environment, check=True)
+            time.sleep(0.05)
 
     def focus(self):
         found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "Nephroid"], env=self.environment, capture_output=True,
@@ -83,8 +87,9 @@ def percentile(values, part):
     return sorted(values)[min(len(values) - 1, int(part * len(values)))]
 
 
-def is_working(frame):
-    return frame["state"] == "running" and frame["fraction"] > 0
+def has_worked(frame):
+    """Whether some of the run is done."""
+    return frame["state"] == "finished" or (frame["state"] == "running" and frame["fraction"] > 0)
 
 
 def begins(before, frame):
@@ -105,15 +110,15 @@ def after_edits(frames):
             if start is None and begins(before, frames[j]):
                 start = j
                 begun.append(frames[j]["at"] - frames[i]["at"])
-            if start is not None and (is_working(frames[j]) or frames[j]["state"] == "finished"):
+            if start is not None and has_worked(frames[j]):
                 done.append(frames[j]["at"] - frames[i]["at"])
                 break
     return begun, done
 
 
 def first_image_s(window):
-    frames = window.until("a first image", lambda f: is_working(f[-1]) or f[-1]["state"] == "finished")
-    first = next(f for f in frames if is_working(f) or f["state"] == "finished")
+    frames = window.until("a first image", lambda f: has_worked(f[-1]))
+    first = next(f for f in frames if has_worked(f))
     return window.opened_s + first["at"]
 
 
@@ -128,16 +133,17 @@ def measure(program, engine, display):
         window = Window(program, preset, folder, display)
         warm_s = first_image_s(window)
         window.focus()
+        time.sleep(2)  # the window has looked at the file by then
         before = len(window.frames())
         preset.write_text(json.dumps(base | edit))
         window.until("the changed file is taken over", lambda f: any(begins(f[i - 1], f[i]) for i in range(before, len(f))))
-        window.until("its run works", lambda f: is_working(f[-1]))
+        window.until("its run works", lambda f: has_worked(f[-1]))
         first = len(window.frames())
         for i in range(EDITS):
             edits = window.frames()[-1]["edits"]
             window.keys("ctrl+z" if i % 2 == 0 else "ctrl+shift+z")
-            time.sleep(SECONDS / EDITS)
-            window.until("the edit's run works", lambda f: f[-1]["edits"] > edits and (is_working(f[-1]) or f[-1]["state"] == "finished"))
+            time.sleep(max(0, SECONDS / EDITS - 0.3))
+            window.until("the edit's run works", lambda f: f[-1]["edits"] > edits and has_worked(f[-1]))
         frames = window.frames()[first:]
         window.close()
     return frames, cold_s, warm_s
