@@ -64,9 +64,9 @@ protected:
   {
     int begun = 0;
     double before = 1;
-    for (const auto& [state, fraction] : window.states()) {
-      begun += fraction < before;
-      before = fraction;
+    for (const auto& state : window.states()) {
+      begun += state.fraction < before;
+      before = state.fraction;
     }
     return begun;
   }

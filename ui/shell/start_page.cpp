@@ -36,7 +36,7 @@ constexpr float picture_aspect = static_cast<float>(thumbnail_height) / static_c
 
 std::filesystem::path file_of(const Card& card) { return presets_folder() / (std::string(card.preset) + ".json"); }
 
-void draw_card(const Card& card, const PictureTexture* picture, float width, const Context& context)
+void draw_card(const Card& card, const PictureTexture* picture, float width, const Context& context, WidgetPlaces& places)
 {
   const float em = ImGui::GetFontSize(), high = 7 * em;
   ImGui::PushID(card.preset);
@@ -51,6 +51,7 @@ void draw_card(const Card& card, const PictureTexture* picture, float width, con
     ImGui::TextUnformatted(card.title);
     draw_wrapped(colour::quiet_text, card.what);
     if (ImGui::Button("Open an example")) context.push(command::Open{file_of(card).string()});
+    places.note(card.preset);
     ImGui::SetItemTooltip("%s", card.preset);
     ImGui::EndGroup();
   }
@@ -74,6 +75,7 @@ void StartPage::draw(const Context& context, Panel& presets, bool to_presets)
     ImGui::Spacing();
     for (const char* name : {"New scene", "Open...", "Reopen the last session", "Commands..."}) {
       action_button(name, context);
+      places_.note(name);
       ImGui::SameLine();
     }
     ImGui::TextDisabled("or drop a preset, a mesh or a run's folder here");
@@ -92,7 +94,7 @@ void StartPage::draw_engines(const Context& context)
   const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   for (std::size_t i = 0; i < std::size(cards); ++i) {
     if (i > 0) ImGui::SameLine();
-    draw_card(cards[i], thumbnails_.of(pictures_[i]), width, context);
+    draw_card(cards[i], thumbnails_.of(pictures_[i]), width, context, places_);
   }
 }
 

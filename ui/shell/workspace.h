@@ -8,6 +8,7 @@
 #include "ui/shell/start_page.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/plots.h"
+#include "ui/widgets/widgets.h"
 
 #include <array>
 #include <memory>
@@ -38,6 +39,9 @@ public:
   }
 
   const Palette& palette() const { return palette_; }
+  const StartPage& start_page() const { return start_page_; }
+  /// Of menus and toolbar, as menus.h names them; for tests.
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return menu_places_.of(widget); }
 
 private:
   struct Open {
@@ -63,6 +67,7 @@ private:
   Dialogs dialogs_;
   Palette palette_;
   StartPage start_page_;
+  WidgetPlaces menu_places_;
 };
 
 } // namespace nephroid::ui
