@@ -87,6 +87,11 @@ def is_working(frame):
     return frame["state"] == "running" and frame["fraction"] > 0
 
 
+def begins(before, frame):
+    """Whether a run was begun between two frames. A run that takes an edit on is the same run, and what is done of it begins anew."""
+    return frame["run"] > before["run"] or frame["fraction"] < before["fraction"]
+
+
 def after_edits(frames):
     """Seconds from each edit to the frame that shows its run begun, and to the one that shows some of it done."""
     begun, done = [], []
@@ -97,8 +102,7 @@ def after_edits(frames):
         for j in range(i, len(frames)):
             if j > i and frames[j]["edits"] != frames[i]["edits"]:
                 break
-            # A run that takes the edit on is the same run; what is done of it begins anew.
-            if start is None and (frames[j]["run"] > before["run"] or frames[j]["fraction"] < before["fraction"]):
+            if start is None and begins(before, frames[j]):
                 start = j
                 begun.append(frames[j]["at"] - frames[i]["at"])
             if start is not None and (is_working(frames[j]) or frames[j]["state"] == "finished"):
@@ -124,14 +128,16 @@ def measure(program, engine, display):
         window = Window(program, preset, folder, display)
         warm_s = first_image_s(window)
         window.focus()
-        run = window.frames()[-1]["run"]
+        before = len(window.frames())
         preset.write_text(json.dumps(base | edit))
-        window.until("the changed file is taken over", lambda f: f[-1]["run"] > run or f[-1]["fraction"] == 0)
+        window.until("the changed file is taken over", lambda f: any(begins(f[i - 1], f[i]) for i in range(before, len(f))))
         window.until("its run works", lambda f: is_working(f[-1]))
         first = len(window.frames())
         for i in range(EDITS):
+            edits = window.frames()[-1]["edits"]
             window.keys("ctrl+z" if i % 2 == 0 else "ctrl+shift+z")
             time.sleep(SECONDS / EDITS)
+            window.until("the edit's run works", lambda f: f[-1]["edits"] > edits and (is_working(f[-1]) or f[-1]["state"] == "finished"))
         frames = window.frames()[first:]
         window.close()
     return frames, cold_s, warm_s

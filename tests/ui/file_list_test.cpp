@@ -31,9 +31,8 @@ protected:
     open();
     workbench.apply({command::Ask{question}});
     frames(4);
-    read();
+    if (question != Question::open) read(); // else the files are behind a tab
   }
-  /// With "Open a preset" the files are behind a tab.
   void ask_for_history() { ask(Question::open_history); }
   const FileList& files() const { return workspace.dialogs().files(); }
   void read()

@@ -26,7 +26,7 @@ protected:
   {
     const auto place = workspace.start_page().place_of(widget);
     ASSERT_TRUE(place) << widget << " is not drawn";
-    WindowFixture::click(*place);
+    WindowFixtureOf::click(*place);
     frames(3);
   }
   std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.type().name) : ""; }
@@ -87,9 +87,9 @@ TEST_F(StartPageTest, TheListOpensWhatIsClickedTwice)
   listed();
   const auto place = presets().place_of("environment/ball");
   ASSERT_TRUE(place);
-  WindowFixture::click(*place);
+  WindowFixtureOf::click(*place);
   EXPECT_EQ(workbench.preset(), nullptr);
-  WindowFixture::click(*place);
+  WindowFixtureOf::click(*place);
   frames(3);
   ASSERT_TRUE(workbench.preset());
   EXPECT_EQ(workbench.preset()->name, "ball");

@@ -41,7 +41,8 @@ void draw_card(const Card& card, const PictureTexture* picture, float width, con
   const float em = ImGui::GetFontSize(), high = 7 * em;
   ImGui::PushID(card.preset);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
-  if (ImGui::BeginChild("card", {width, high + 2 * ImGui::GetStyle().WindowPadding.y}, ImGuiChildFlags_Borders)) {
+  if (ImGui::BeginChild("card", {width, high + 2 * ImGui::GetStyle().WindowPadding.y},
+                        ImGuiChildFlags_Borders | ImGuiChildFlags_NavFlattened)) {
     const ImVec2 corner = ImGui::GetCursorScreenPos(), size{high / picture_aspect, high};
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
@@ -80,7 +81,7 @@ void StartPage::draw(const Context& context, Panel& presets, bool to_presets)
     }
     ImGui::TextDisabled("or drop a preset, a mesh or a run's folder here");
     if (to_presets) ImGui::SetNextWindowFocus();
-    if (ImGui::BeginChild("presets")) presets.draw(context);
+    if (ImGui::BeginChild("presets", {}, ImGuiChildFlags_NavFlattened)) presets.draw(context);
     ImGui::EndChild();
   }
   ImGui::End();
