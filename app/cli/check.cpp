@@ -4,6 +4,7 @@
 #include "base/interrupts.h"
 #include "base/json_output.h"
 #include "cli/device_line.h"
+#include "cli/examples.h"
 #include "cli/numbers.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"
@@ -113,7 +114,9 @@ void add_check(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* verb = program.add_subcommand("check", "Numerical self-checks of a device: run it first on a new one");
-  verb->footer("Each check has a figure, how far it is from the truth, and a tolerance. Exit code 1 where one fails.");
+  verb->footer(examples({{"nephroid check --details", ""}}) +
+               "\n\n"
+               "Each check has a figure, how far it is from the truth, and a tolerance. Exit code 1 where one fails.");
   CLI::Option* device =
       verb->add_option("--device", options->device.selector, "An index or part of a name (see nephroid devices)")->type_name("SEL");
   verb->add_flag("--all", options->all, "Every device there is, one after the other")->excludes(device);

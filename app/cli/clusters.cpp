@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
+#include "cli/examples.h"
 #include "cli/verbs.h"
 #include "cli/wavelength_runs.h"
 #include "preset/choices.h"
@@ -137,6 +138,8 @@ void add_clusters(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<ClusterOptions>();
   CLI::App* verb = program.add_subcommand("clusters", "Which wavelengths share one path through a glass");
+  verb->footer(
+      examples({{"nephroid clusters first-light", ""}, {"nephroid clusters --ior N-SF66 --threshold 0.1", "of a glass, without a scene"}}));
   verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset");
   verb->add_option("--ior", options->ior, "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset")
       ->type_name("FILE");

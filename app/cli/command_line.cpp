@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"
+#include "cli/examples.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -18,11 +19,23 @@
 namespace nephroid::cli {
 namespace {
 
-constexpr const char* summary = "Nephroid, a caustics workbench: renders, explores and designs the light that glass and mirrors throw.";
-constexpr const char* closing = "Without a verb the window opens. `nephroid VERB --help` explains a verb; start with:\n"
-                                "  nephroid presets              what is shipped\n"
-                                "  nephroid run first-light      render one of them into out/first-light\n"
-                                "Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 3 no usable device, 130 interrupted.";
+constexpr const char* summary =
+    "Nephroid is a caustics workbench: it renders, explores and designs the light that glass, water and mirrors throw. All that a run\n"
+    "depends on is one JSON file, the preset. The window shows and edits it, `run` renders it.";
+constexpr const char* closing =
+    "Without a verb the window opens. `nephroid VERB --help` explains a verb and has examples.\n"
+    "Presets: `nephroid presets` lists those that come with the program, `nephroid schema` says what can be in one.\n"
+    "Docs: docs/README.md in the sources, share/doc/nephroid/README.md where it is installed. They begin with tours, a task each.\n"
+    "Exit codes: 0 done, 1 failed, 2 bad usage or bad input, 3 no usable device, 130 interrupted.";
+
+std::string description()
+{
+  return fmt::format("{}\n\n{}\n", summary,
+                     examples({{"nephroid first-light", "the window: a glass bunny and its caustic, to watch and to change"},
+                               {"nephroid run first-light", "the same as files, in out/first-light"},
+                               {"nephroid run environment/ball", "a glass ball under a picture of the sky"},
+                               {"nephroid run inverse/shapes", "design glass that casts a ring, a cross and a disc"}}));
+}
 
 std::vector<std::string> verb_names(const CLI::App& program)
 {
@@ -99,16 +112,18 @@ int parse_and_run(int argc, const char* const* argv, const Window& window)
 {
   Session session;
   std::vector<std::string> files;
-  CLI::App program(summary, "nephroid");
+  CLI::App program(description(), "nephroid");
   program.footer(closing);
   program.set_version_flag("--version", [] { return program_name(); });
   program.get_formatter()->column_width(34);
+  program.get_formatter()->label("SUBCOMMAND", "VERB");
   program.require_subcommand(0, 1);
   program.add_option("FILE", files, "Open in the window: presets by path or shipped name");
   if (window.add_options) window.add_options(program);
   for (const auto add : {add_run, add_plan, add_dispersion, add_clusters, add_importance, add_segment, add_compare, add_report, add_presets,
-                         add_import, add_devices, add_check, add_schema, add_version})
+                         add_import, add_devices, add_check, add_schema, add_manual, add_version})
     add(program, session);
+  for (CLI::App* verb : program.get_subcommands({})) verb->group("Verbs");
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& request) { // --help and --version

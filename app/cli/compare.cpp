@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
+#include "cli/examples.h"
 #include "cli/verbs.h"
 #include "image/image.h"
 #include "measure/difference.h"
@@ -134,6 +135,9 @@ void add_compare(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App* verb = program.add_subcommand("compare", "How far a picture is from a reference, by every metric");
+  verb->footer(examples({{"nephroid run first-light --seed 1 --passes 4 -o out/quick", ""},
+                         {"nephroid run first-light --seed 2 --passes 8 -o out/better", ""},
+                         {"nephroid compare out/quick/image.exr out/better/image.exr -o difference.png", ""}}));
   verb->add_option("IMAGE", options->image, "A picture: EXR, HDR, PFM (linear), PNG, JPEG, TIFF (sRGB-encoded)")->required();
   verb->add_option("REFERENCE", options->reference, "The picture that is right, of the same size")->required();
   verb->add_option("--mask", options->mask, "A picture of the same size: also compare where it is not black alone")->type_name("FILE");

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
+#include "cli/examples.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -108,6 +109,8 @@ void add_dispersion(CLI::App& program, Session& session)
 {
   const auto options = std::make_shared<DispersionOptions>();
   CLI::App* verb = program.add_subcommand("dispersion", "Index of refraction n and extinction coefficient k of dispersion files");
+  verb->footer(examples(
+      {{"nephroid dispersion N-BK7 N-SF66", "two glasses at the usual lines"}, {"nephroid dispersion N-SF66 --nm 486.13,656.27", ""}}));
   verb->add_option("FILE", options->files, "refractiveindex.info files, or shipped materials by name (N-BK7)")->required();
   verb->add_option("--nm", options->nm, "Wavelength in nm; may be repeated; default: lines F, e, d, C, and 380 and 780 nm")
       ->type_name("L")

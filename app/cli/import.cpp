@@ -3,6 +3,7 @@
 #include "run/import/import.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "cli/examples.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -35,7 +36,9 @@ void add_import(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<ImportOptions>();
   CLI::App* verb = program.add_subcommand("import", "A preset from a glTF scene: meshes, camera, lights, materials");
-  verb->footer("Takes .gltf and .glb. Meshes become PLY files in a folder beside the preset. What has no counterpart is left out and said\n"
+  verb->footer(examples({{"nephroid import scene.gltf", "writes scene.json"}, {"nephroid run scene.json --seconds 10", ""}}) +
+               "\n\n"
+               "Takes .gltf and .glb. Meshes become PLY files in a folder beside the preset. What has no counterpart is left out and said\n"
                "on standard error. Standard output has the preset's file: nephroid run takes it.");
   verb->add_option("FILE", options->file, "The scene")->required();
   verb->add_option("-o,--output", options->output, "The preset; without it FILE's name with .json, in the current folder")

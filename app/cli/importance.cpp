@@ -3,6 +3,7 @@
 #include "spectral/effort/importance.h"
 #include "base/counted.h"
 #include "base/json_output.h"
+#include "cli/examples.h"
 #include "cli/verbs.h"
 #include "cli/wavelength_runs.h"
 #include "preset/origins.h"
@@ -146,6 +147,7 @@ void add_importance(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<ImportanceOptions>();
   CLI::App* verb = program.add_subcommand("importance", "How much each wavelength matters, and the iterations its cluster gets");
+  verb->footer(examples({{"nephroid importance spectral/prism", ""}}));
   verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset")->required();
   verb->add_option("--set", options->overrides, "Change a setting: spectral.importance.geometry=false; may be repeated")
       ->type_name("KEY=VALUE")

@@ -2,6 +2,7 @@
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
 #include "run/run.h"
 #include "base/interrupts.h"
+#include "cli/examples.h"
 #include "cli/numbers.h"
 #include "cli/run_animation.h"
 #include "cli/run_target.h"
@@ -81,6 +82,10 @@ void add_run(CLI::App& program, Session&)
   const auto options = std::make_shared<RunOptions>();
   CLI::App* verb = program.add_subcommand("run", "Render a preset into a folder");
   verb->footer(
+      examples({{"nephroid run first-light --passes 8 -o out/quick", "a first look, in seconds"},
+                {"nephroid run first-light -o out/daylight --set scene.lights.0.spectrum=D65", "the same in daylight"},
+                {"nephroid run inverse/shapes", "an object that casts three pictures"}}) +
+      "\n\n"
       "Ctrl-C saves the image and a checkpoint; `--resume` goes on from there with the same result as an uninterrupted run.\n"
       "Files: image.exr (linear, with layers), image.png (as shown), preset.json (complete), plan.json, run.json, checkpoint.bin, and\n"
       "where the run measures its error history.csv and, once it is finished, report.html.\n"

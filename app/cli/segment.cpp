@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
+#include "cli/examples.h"
 #include "cli/numbers.h"
 #include "cli/verbs.h"
 #include "environment/segment/picture.h"
@@ -147,6 +148,7 @@ void add_segment(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<SegmentOptions>();
   CLI::App* verb = program.add_subcommand("segment", "The directional lights that an environment is cut into");
+  verb->footer(examples({{"nephroid segment spectral/three-lamps -q 24 -o lights.png", "24 lights, and where they are on the map"}}));
   verb->add_option("ENVIRONMENT", options->environment,
                    "A latitude-longitude picture (EXR, HDR, PNG, ...), or a preset with scene.environment")
       ->required();

@@ -23,6 +23,7 @@ void add_import(CLI::App& program, Session& session);
 void add_presets(CLI::App& program, Session& session);
 void add_devices(CLI::App& program, Session& session);
 void add_check(CLI::App& program, Session& session);
+void add_manual(CLI::App& program, Session& session);
 void add_schema(CLI::App& program, Session& session);
 void add_version(CLI::App& program, Session& session);
 

@@ -2,6 +2,7 @@
 // `nephroid version`: what was built, with what. Loads and initialises nothing.
 #include "base/build_info.h"
 #include "base/json_output.h"
+#include "cli/examples.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -41,6 +42,7 @@ void print_version(bool json)
 void add_version(CLI::App& program, Session&)
 {
   CLI::App* verb = program.add_subcommand("version", "The program's version, commit, compiler and libraries");
+  verb->footer(examples({{"nephroid version", ""}}));
   const auto json = std::make_shared<bool>(false);
   verb->add_flag("--json", *json, "One JSON object");
   verb->callback([json] { print_version(*json); });

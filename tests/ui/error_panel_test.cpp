@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Error against time": what it plots of any history, how its axes follow, how long a frame takes, what it copies.
+// The panel "Error": what it plots of any history, how its axes follow, how long a frame takes, what it copies.
 #include "measure/history_file.h"
 #include "ui/error/panel.h"
 #include "ui/widgets/action.h"

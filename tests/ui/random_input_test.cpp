@@ -22,9 +22,7 @@ protected:
   {
     const char* seconds = std::getenv("NEPHROID_RANDOM_SECONDS");
     seconds_ = seconds ? std::atof(seconds) : 4;
-    for (const char* name :
-         {"first-light", "environment/three-suns", "environment/ball", "inverse/shapes", "spectral/prism", "measuring/stop"})
-      copy_preset(name);
+    for (const char* name : {"first-light", "spectral/prism", "environment/ball", "inverse/shapes"}) copy_preset(name);
     files_.push_back(folder.write("cut.json", R"({"scene": {)"));
     files_.push_back(folder.write("nothing.exr", "v/1"));
     files_.push_back(folder.write("picture.png", "\x89PNG\r\n"));
@@ -37,11 +35,9 @@ protected:
   }
   ~RandomInput() override { fs::current_path("/"); }
 
-  /// Where a shipped preset is there: its file beside the materials that it names, to be saved over.
+  /// A shipped preset, beside the materials that it names, to be saved over.
   void copy_preset(const std::string& name)
   {
-    const fs::path file = presets_folder() / (name + ".json");
-    if (!fs::exists(file)) return;
     files_.push_back(folder.write(fs::path(name).filename().string() + ".json", preset::to_json(preset::read_preset(name), folder.path())));
   }
 

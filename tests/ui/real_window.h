@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -43,10 +44,16 @@ public:
       const std::vector<State> all = states();
       return !all.empty() && all.back().name != "no run" && all.back().name != "preparing";
     });
-    settle(5);
-    const std::string found = xdotool({"search", "--onlyvisible", "--name", "Nephroid"});
-    id_ = found.substr(0, found.find('\n'));
-    send({"windowfocus", "--sync", id_});
+    find();
+  }
+
+  /// The window as a person begins with it, on its start page, in a folder where he works. It keeps sessions in folder/state and caches in
+  /// folder/cache.
+  PlayedWindow(const std::array<int, 2>& size, const std::filesystem::path& folder, const std::filesystem::path& works_in)
+      : folder_(folder), program_({"--size", fmt::format("{}x{}", size[0], size[1]), "--frame-times", (folder / "frames.csv").string()},
+                                  works_in, folder, with_own_folders(display_.environment(), folder))
+  {
+    find();
   }
 
   void move(const Pixel& to) { send({"mousemove", "--window", id_, std::to_string(to[0]), std::to_string(to[1])}); }
@@ -76,13 +83,19 @@ public:
     send({"keydown", name});
     send({"keyup", name});
   }
+  /// A key while others are held.
+  void chord(const std::vector<std::string>& held, const std::string& name)
+  {
+    for (const std::string& modifier : held) send({"keydown", modifier});
+    key(name);
+    for (const std::string& modifier : held) send({"keyup", modifier});
+  }
+  void type(const std::string& text) { send({"type", "--delay", "40", text}); }
   void resize(const Pixel& size) { send({"windowsize", id_, std::to_string(size[0]), std::to_string(size[1])}); }
   /// Ctrl+S, until the title has no mark of a preset that is not saved.
   void save()
   {
-    send({"keydown", "ctrl"});
-    key("s");
-    send({"keyup", "ctrl"});
+    chord({"ctrl"}, "s");
     until("the preset is saved", [&] { return !title().starts_with("* "); });
   }
   /// Ctrl+Q; what became of the program. Its last frame is in screen.png.
@@ -99,14 +112,15 @@ public:
   struct State {
     std::string name;
     double fraction = 0; ///< done
+    int run = 0;         ///< how many were started
   };
   /// A frame each; at least one.
   std::vector<State> states() const
   {
     std::vector<State> all;
     for (const std::string& line : frames()) {
-      const std::size_t fraction = line.rfind(','), name = line.rfind(',', fraction - 1);
-      all.push_back({line.substr(name + 1, fraction - name - 1), std::stod(line.substr(fraction + 1))});
+      const std::size_t fraction = line.rfind(','), name = line.rfind(',', fraction - 1), run = line.rfind(',', name - 1);
+      all.push_back({line.substr(name + 1, fraction - name - 1), std::stod(line.substr(fraction + 1)), std::stoi(line.substr(run + 1))});
     }
     return all;
   }
@@ -122,7 +136,30 @@ public:
     if (!program_.until(condition)) throw std::runtime_error("the window does not come to this: " + what);
   }
 
+  /// Until so many frames more have been drawn: the one that was being drawn when xdotool ended, for then the X server has the event; the
+  /// next, which reads it; and one more, for Dear ImGui knows a frame late what lies under the mouse.
+  void settle(std::size_t more = 3) const
+  {
+    const std::size_t before = frames().size();
+    until("it draws", [&] { return frames().size() >= before + more; });
+  }
+
 private:
+  void find()
+  {
+    settle(5);
+    const std::string found = xdotool({"search", "--onlyvisible", "--name", "Nephroid"});
+    id_ = found.substr(0, found.find('\n'));
+    send({"windowfocus", "--sync", id_});
+  }
+  static Environment with_own_folders(Environment environment, const std::filesystem::path& folder)
+  {
+    environment["XDG_STATE_HOME"] = (folder / "state").string();
+    environment["XDG_CACHE_HOME"] = (folder / "cache").string();
+    const char* const home = std::getenv("HOME"); // compiled kernels stay where they are
+    if (!std::getenv("POCL_CACHE_DIR")) environment["POCL_CACHE_DIR"] = std::string(home ? home : "/tmp") + "/.cache/pocl/kcache";
+    return environment;
+  }
   std::vector<std::string> arguments(const std::string& preset, std::vector<std::string> options) const
   {
     options.insert(options.begin(), preset);
@@ -138,13 +175,6 @@ private:
     for (std::string line; std::getline(file, line) && !file.eof();) lines.push_back(line); // a line's end is written last
     if (!lines.empty()) lines.erase(lines.begin());                                         // the columns' names
     return lines;
-  }
-  /// Until so many frames more have been drawn: the one that was being drawn when xdotool ended, for then the X server has the event; the
-  /// next, which reads it; and one more, for Dear ImGui knows a frame late what lies under the mouse.
-  void settle(std::size_t more = 3) const
-  {
-    const std::size_t before = frames().size();
-    until("it draws", [&] { return frames().size() >= before + more; });
   }
   std::string run(const std::string& program, const std::vector<std::string>& arguments) const
   {

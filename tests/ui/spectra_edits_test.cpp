@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of a light's spectrum, and what the panel "Spectra and importance" makes of a preset: without a window.
+// Edits of a light's spectrum, and what the panel "Spectra" makes of a preset: without a window.
 #include "base/error.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"

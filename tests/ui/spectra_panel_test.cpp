@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Spectra and importance": the mouse edits a light's spectrum, one gesture one entry; its numbers are the engine's; what is
+// The panel "Spectra": the mouse edits a light's spectrum, one gesture one entry; its numbers are the engine's; what is
 // wrong is a sentence in it.
 #include "scene/materials.h"
 #include "spectra_scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glass ball in a room of two colours for tests of the panel "Spectra and importance", and runs that look at what it sees.
+// A glass ball in a room of two colours for tests of the panel "Spectra", and runs that look at what it sees.
 #pragma once
 #include "fake_job.h"
 #include "run/run.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Spectra and importance" in the real window: a row of a light's table is dragged by real X events, and the preset that is
+// The panel "Spectra" in the real window: a row of a light's table is dragged by real X events, and the preset that is
 // saved has moved it. Skipped where there is no Xvfb or no xdotool.
 #include "places.h"
 #include "preset/read.h"

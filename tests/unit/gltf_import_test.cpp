@@ -252,9 +252,36 @@ TEST_F(GltfImport, GlassBendsAsItsAbbeNumberSays)
     "KHR_materials_dispersion":{"dispersion":0.3},"KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2}})");
   const Material glass = imported(json).scene.materials.at("wall");
   EXPECT_EQ(glass.type, Material::Type::dielectric);
-  EXPECT_EQ(glass.dispersion.type, preset::Dispersion::Type::cauchy);
-  EXPECT_THAT(made.notes, testing::Contains(HasSubstr("attenuation is left out")));
+  EXPECT_EQ(glass.dispersion.type, preset::Dispersion::Type::cauchy) << "white attenuation absorbs nothing";
   EXPECT_THAT(made.notes, testing::Not(testing::Contains(HasSubstr("thin film"))));
+}
+
+TEST_F(GltfImport, GlassAbsorbsAsItsVolumeSays)
+{
+  Json json = triangle();
+  json["materials"][0]["extensions"] =
+      Json::parse(R"({"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_ior":{"ior":1.7},
+    "KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":2,"attenuationColor":[0.25,0.25,0.25]}})");
+  const preset::Preset read = imported(json);
+  const preset::Dispersion& named = read.scene.materials.at("wall").dispersion;
+  ASSERT_EQ(named.type, preset::Dispersion::Type::file);
+  const auto curve_of = [&] { return optics::load_dispersion(made.preset.parent_path() / named.file); };
+  const auto left = [](const optics::DispersionCurve& curve, double nm, double metres) {
+    return std::exp(-4 * std::numbers::pi * curve.sample(nm).k.value() / (nm * 1e-9) * metres);
+  };
+  for (const double nm : {380.0, 555.0, 780.0}) {
+    EXPECT_NEAR(left(curve_of(), nm, 2), 0.25, 1e-5) << nm;
+    EXPECT_NEAR(left(curve_of(), nm, 1), 0.5, 1e-5) << nm;
+    EXPECT_NEAR(curve_of().sample(nm).n.value(), 1.7, 1e-12) << nm;
+  }
+
+  json["materials"][0]["extensions"]["KHR_materials_volume"]["attenuationColor"] = {0.9, 0.1, 0};
+  json["materials"][0]["extensions"]["KHR_materials_dispersion"] = {{"dispersion", 0.3}};
+  imported(json);
+  EXPECT_GT(left(curve_of(), 640, 2), 0.7);
+  EXPECT_LT(left(curve_of(), 450, 2), 0.1);
+  const preset::Dispersion clear = run::dispersion_of(1.7, 0.3);
+  EXPECT_NEAR(curve_of().sample(500).n.value(), clear.coefficients[0] + clear.coefficients[1] / 0.25, 1e-12);
 }
 
 TEST_F(GltfImport, MetalIsAMirrorAndColoursAreReflectances)

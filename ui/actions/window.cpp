@@ -14,16 +14,17 @@ using C = const Context&;
 Action panel_action(const PanelEntry& entry)
 {
   const auto pressed = [entry](C c) { c.push(command::ShowPanel{std::string(entry.name), !can_close(entry) || !is_open(entry, c)}); };
+  const auto serves_it = [entry](C c) { return c.preset() && serves(entry, *c.preset()); };
   return {"Window",
           fmt::format("Panel: {}", entry.title),
           0,
           false,
           can_close(entry) ? "Open this panel, or close it" : "Bring the picture to the front",
-          [entry](C c) { return serves(entry, c.preset()); },
+          serves_it,
           pressed,
-          [](C) { return std::string("it has nothing to show of this preset"); },
+          [](C c) { return std::string(c.preset() ? "it has nothing to show of this preset" : "no preset is open"); },
           nullptr,
-          [entry](C c) { return serves(entry, c.preset()) && is_open(entry, c); }};
+          [serves_it, entry](C c) { return serves_it(c) && is_open(entry, c); }};
 }
 
 constexpr double text_step = 1.1;
@@ -39,7 +40,7 @@ std::vector<Action> window_actions()
   std::vector<Action> all;
   for (const PanelEntry& entry : panel_table()) all.push_back(panel_action(entry));
   all.insert(all.end(),
-             {{menu, "Reset layout", 0, false, "Every panel of this engine back to its place, all of them open", always,
+             {{menu, "Reset layout", 0, false, "Every panel of this engine back to its place, all of them open", has_preset,
                push<command::ResetLayout>},
               {menu, "Light theme", 0, false, "Dark words on light panels, or the other way round; pictures stay on a dark ground", always,
                [](C c) { look(c, is_light(c) ? Theme::dark : Theme::light, c.settings.text_size); }, nullptr, nullptr, is_light},

@@ -42,11 +42,6 @@ void AnnealingPanel::draw(const Context& context)
 {
   places_.clear();
   areas_.clear();
-  if (!context.preset()) {
-    draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
-              "Open a preset of the engine \"inverse\": how its facets are found");
-    return;
-  }
   follow(context);
   draw_toolbar(context);
   draw_histories();

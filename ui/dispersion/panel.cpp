@@ -63,7 +63,6 @@ void cell(const std::string& text)
 void DispersionPanel::draw(const Context& context)
 {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
-  if (!context.preset()) return draw_hint(corner, size, "Open a preset: the dispersion of its glass, and the wavelength clusters");
   const std::vector<std::string> names = dielectrics(*context.preset());
   if (names.empty()) return draw_hint(corner, size, "No material of this preset is a dielectric");
   follow(context);

@@ -56,12 +56,11 @@ bool EnvironmentPanel::serves(const preset::Preset& preset) { return preset.scen
 void EnvironmentPanel::draw(const Context& context)
 {
   places_.clear();
-  const preset::Preset* const preset = context.preset();
-  if (!preset || !preset->scene.environment) {
+  const preset::Preset& preset = *context.preset();
+  if (!preset.scene.environment) {
     draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
-              preset ? "The preset has no environment: drop a latitude-longitude picture (.hdr, .exr) on the window, or add "
-                       "scene.environment in Parameters"
-                     : "Open a preset that has an environment: its light, from every direction");
+              "The preset has no environment: drop a latitude-longitude picture (.hdr, .exr) on the window, or add "
+              "scene.environment in Parameters");
     return;
   }
   follow(context);
@@ -72,7 +71,7 @@ void EnvironmentPanel::draw(const Context& context)
     draw_wrapped(colour::quiet_text,
                  fmt::format("The engine \"{}\" takes the map as it is. How it is cut into lights is for presets of the "
                              "engine \"environment\".",
-                             preset->settings.type().name));
+                             preset.settings.type().name));
   draw_radiance_row(context);
   if (cuts_) draw_caustics_row(context);
   if (!shown_.error.empty()) draw_wrapped(colour::error, shown_.error);

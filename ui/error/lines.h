@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panel "Error against time" draws of a history: curves of one metric with their slopes. No Dear ImGui.
+// What the panel "Error" draws of a history: curves of one metric with their slopes. No Dear ImGui.
 #pragma once
 #include "job/history.h"
 #include "measure/error_curve.h"

@@ -32,7 +32,6 @@ std::vector<std::string> all_metrics(const Context& context)
 
 std::string empty_hint(const Context& context)
 {
-  if (!context.preset()) return "Open a preset: its error is measured while it runs. Or open the history of an earlier run.";
   if (!context.run.snapshot()) return "Nothing is measured yet";
   if (!context.run.error_history()) return "This run is not measured: the preset has no reference, and measure.estimate is false";
   return "The first measurement is to come";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Error against time": the history of the run in hand and of pinned runs, their slopes, and how much faster one is than
+// The panel "Error": the history of the run in hand and of pinned runs, their slopes, and how much faster one is than
 // another at equal error.
 #pragma once
 #include "ui/error/plot.h"
@@ -17,7 +17,7 @@ std::string plot_as_csv(const Context& context);
 
 class ErrorPanel : public Panel {
 public:
-  static constexpr const char* title = "Error against time";
+  static constexpr const char* title = "Error";
   void draw(const Context& context) override;
 
   /// For tests: what was drawn last.

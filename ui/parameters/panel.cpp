@@ -92,10 +92,6 @@ std::string help_of(const Outline& o, const std::string& pointer)
 
 void ParametersPanel::draw(const Context& context)
 {
-  if (!context.preset()) {
-    draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(), "Open a preset: every field of it can be edited here");
-    return;
-  }
   draft_.follow(*context.preset());
   places_.clear();
   if (const Selection selection = context.selection(); selection != revealed_) {

@@ -109,8 +109,7 @@ void PlanPanel::draw(const Context& context)
   const plan::Plan* plan = context.run.plan().get();
   if (!plan) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    draw_hint(corner, ImGui::GetContentRegionAvail(),
-              context.preset() ? "The plan is being made" : "Open a preset: what it runs, what is left out and why");
+    draw_hint(corner, ImGui::GetContentRegionAvail(), "The plan is being made");
     return;
   }
   read_fields(context);

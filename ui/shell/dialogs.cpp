@@ -25,17 +25,19 @@ constexpr const char* titles[] = {"",
 
 const char* title(Question question) { return titles[static_cast<std::size_t>(question)]; }
 
-/// A field for a file's name, and a button. True where the name is chosen by one of them.
-bool choose_name(const char* hint, float width, std::string& name, const char* button)
+/// A field for a file's name, and a button. True where the name is chosen by one of them. replaces: Enter in the field only goes to the
+/// button, so that a file takes two of them.
+bool choose_name(const char* hint, float width, std::string& name, const char* button, bool replaces = false)
 {
   ImGui::SetNextItemWidth(width);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered = input_text("##file", hint, name, ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::SameLine();
   ImGui::BeginDisabled(name.empty());
+  if (entered && replaces) ImGui::SetKeyboardFocusHere();
   const bool pressed = ImGui::Button(button);
   ImGui::EndDisabled();
-  return pressed || (entered && !name.empty());
+  return pressed || (entered && !name.empty() && !replaces);
 }
 
 } // namespace
@@ -141,7 +143,7 @@ void Dialogs::draw_save(Commands& commands)
   const bool picture = shown_ == Question::save_picture, report = shown_ == Question::save_report,
              there = !name_.empty() && is_there(name_);
   // A file of the list is only named by a click: replacing it takes the button.
-  const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save");
+  const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save", there);
   places_.note("save");
   if (chosen)
     commands.push_back(report    ? Command(command::WriteReport{name_})
@@ -159,7 +161,7 @@ void Dialogs::draw_save(Commands& commands)
   ImGui::SetItemTooltip("The name above, in the folder that is shown");
   if (picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
   if (report) ImGui::TextDisabled("One page that opens in a browser; runs that are in no folder are kept in one beside it");
-  if (there) ImGui::TextDisabled("This file is there already.");
+  if (there) ImGui::TextDisabled("This file is there already: Enter twice, or the button, replaces it.");
 }
 
 void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands)

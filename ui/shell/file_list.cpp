@@ -91,9 +91,12 @@ FileList::Picked FileList::draw(float width, float height)
   collect();
   Picked picked = Picked::nothing;
   fs::path into;
+  places_.clear();
   if (ImGui::Button("Up")) into = folder_.parent_path();
+  places_.note("up");
   ImGui::SameLine();
   if (const char* home = std::getenv("HOME"); home && ImGui::Button("Home")) into = home;
+  places_.note("home");
   ImGui::SameLine();
   ImGui::TextUnformatted(folder_.c_str());
   if (ImGui::BeginChild("files", {width, height}, ImGuiChildFlags_Borders)) {
@@ -107,6 +110,7 @@ FileList::Picked FileList::draw(float width, float height)
         ImGui::PushID(i);
         const bool chosen =
             ImGui::Selectable(name.c_str(), !entry.is_folder && entry.path == picked_, ImGuiSelectableFlags_AllowDoubleClick);
+        places_.note(entry.path.filename().string());
         if (!entry.is_folder) {
           ImGui::SameLine(width - 7 * ImGui::GetFontSize());
           ImGui::TextDisabled("%s", size_text(entry.bytes).c_str());

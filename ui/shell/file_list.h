@@ -2,8 +2,12 @@
 // The files of a folder to choose from, in a dialog: folders first, then those of the wanted kinds. A folder is read away from the window's
 // thread, because its disk may be slow or gone.
 #pragma once
+#include "ui/widgets/widgets.h"
+
+#include <array>
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +31,10 @@ public:
   const std::filesystem::path& folder() const { return folder_; }
   /// What was read; for tests.
   const std::vector<Entry>& entries() const { return entries_; }
+  /// Why there is nothing, or that there is more; empty: neither.
+  const std::string& note() const { return note_; }
+  /// For tests: the middle of a widget on the screen; of an entry by its name.
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   struct Read {
@@ -41,8 +49,9 @@ private:
   std::filesystem::path folder_, picked_;
   std::vector<std::string> endings_;
   std::vector<Entry> entries_;
-  std::string note_; ///< why there is nothing, or that there is more
+  std::string note_;
   std::future<Read> reading_;
+  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

@@ -100,9 +100,10 @@ void GlfwWindow::begin_frame()
   ImGui::NewFrame();
 }
 
+void GlfwWindow::end_frame() { ImGui::Render(); }
+
 void GlfwWindow::draw_frame()
 {
-  ImGui::Render();
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);
   glViewport(0, 0, width, height);

@@ -24,7 +24,9 @@ public:
   void set_appearance(Theme theme, double text_size) { wanted_ = {theme, static_cast<float>(text_size)}; }
   /// Takes the events that are there and begins a frame of Dear ImGui.
   void begin_frame();
-  /// Draws the frame into the back buffer; present() shows it.
+  /// Makes what is to be drawn of what Dear ImGui was told.
+  void end_frame();
+  /// Draws that into the back buffer; present() shows it.
   void draw_frame();
   void present();
   /// The back buffer after draw_frame(): 4 bytes a pixel, row 0 at the top.

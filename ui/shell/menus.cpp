@@ -44,7 +44,7 @@ ImGuiKey key_of(int shortcut) { return static_cast<ImGuiKey>(shortcut & ~ImGuiMo
 
 } // namespace
 
-void draw_menus(const Context& context)
+void draw_menus(const Context& context, WidgetPlaces& places)
 {
   std::string menu;
   bool open = false;
@@ -53,13 +53,16 @@ void draw_menus(const Context& context)
       if (open) ImGui::EndMenu();
       menu = action.menu;
       open = ImGui::BeginMenu(menu.c_str());
+      if (!open) places.note("menu:" + menu);
     }
-    if (open) action_item(action, context);
+    if (!open) continue;
+    action_item(action, context);
+    places.note("menu:" + menu + "/" + action.name);
   }
   if (open) ImGui::EndMenu();
 }
 
-void draw_toolbar(const Context& context)
+void draw_toolbar(const Context& context, WidgetPlaces& places)
 {
   constexpr const char* names[] = {"Undo", "Redo", "Start again", "Pin this run", "Commands..."};
   const ImGuiStyle& style = ImGui::GetStyle();
@@ -69,14 +72,17 @@ void draw_toolbar(const Context& context)
   if (left < ImGui::GetCursorPosX()) return; // a narrow window has its menus
   ImGui::SetCursorPosX(left);
   ImGui::PushStyleColor(ImGuiCol_Button, IM_COL32_BLACK_TRANS);
-  for (const char* name : names) action_button(name, context);
+  for (const char* name : names) {
+    action_button(name, context);
+    places.note("toolbar:" + std::string(name));
+  }
   ImGui::PopStyleColor();
 }
 
 void run_shortcuts(const Context& context, bool dialog)
 {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool elsewhere = dialog || io.WantTextInput;
+  const bool elsewhere = dialog || io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); // an open list has the keyboard
   int taken = 0; // of actions with the same keys the first that is enabled has them
   for (const Action& action : actions()) {
     if (!action.shortcut) continue;

@@ -2,13 +2,14 @@
 // What is made of the table of actions: menus, toolbar, shortcuts, and the overlay that says what the mouse and the keys do.
 #pragma once
 #include "ui/state/context.h"
+#include "ui/widgets/widgets.h"
 
 namespace nephroid::ui {
 
-/// The menus of the main menu bar, in the table's order.
-void draw_menus(const Context& context);
-/// At the right end of the menu bar: buttons of the actions that are used all day, as far as there is room.
-void draw_toolbar(const Context& context);
+/// The menus of the main menu bar, in the table's order. places, for tests: "menu:NAME", and of those that are open "menu:NAME/ACTION".
+void draw_menus(const Context& context, WidgetPlaces& places);
+/// At the right end of the menu bar: buttons of the actions that are used all day, as far as there is room. places: "toolbar:ACTION".
+void draw_toolbar(const Context& context, WidgetPlaces& places);
 /// Runs the actions whose keys were pressed; says why where one is not enabled and has a reason. Keys that a text field wants are left to
 /// it, and all of them where there is a dialog.
 void run_shortcuts(const Context& context, bool dialog);

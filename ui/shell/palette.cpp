@@ -11,11 +11,20 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cctype>
+#include <limits>
 
 namespace nephroid::ui {
 namespace {
 
 constexpr const char* title = "Commands";
+
+/// Whether the whole name is typed: then no other is meant, whatever its letters score.
+bool is_name(const std::string& typed, const Palette::Entry& entry)
+{
+  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+  return std::equal(typed.begin(), typed.end(), entry.name.begin(), entry.name.end(), same);
+}
 
 bool is_enabled(const Palette::Entry& entry, const Context& context) { return !entry.action || entry.action->enabled(context); }
 
@@ -39,7 +48,8 @@ void Palette::search()
   std::vector<std::pair<int, const Entry*>> scored;
   for (const Entry& entry : entries_) {
     int score = 0;
-    if (typed_.empty() || ImCmd::FuzzySearch(typed_.c_str(), entry.name.c_str(), score)) scored.emplace_back(score, &entry);
+    if (typed_.empty() || ImCmd::FuzzySearch(typed_.c_str(), entry.name.c_str(), score))
+      scored.emplace_back(is_name(typed_, entry) ? std::numeric_limits<int>::max() : score, &entry);
   }
   std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   found_.clear();

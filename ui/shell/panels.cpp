@@ -58,17 +58,17 @@ bool is_open(const PanelEntry& entry, const Context& context)
   return of_engine == context.settings.engines.end() || !of_engine->second.closed.contains(std::string(entry.name));
 }
 
-bool serves(const PanelEntry& entry, const preset::Preset* preset)
+bool serves(const PanelEntry& entry, const preset::Preset& preset)
 {
-  if (preset && entry.serves) return entry.serves(*preset);
-  return !preset || entry.engine.empty() || entry.engine == preset->settings.type().name;
+  if (entry.serves) return entry.serves(preset);
+  return entry.engine.empty() || entry.engine == preset.settings.type().name;
 }
 
 std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
 {
   std::vector<std::any> seen;
   for (const PanelEntry& entry : table)
-    if (entry.look_around && serves(entry, &preset)) seen.push_back(entry.look_around(preset, loaded));
+    if (entry.look_around && serves(entry, preset)) seen.push_back(entry.look_around(preset, loaded));
   return seen;
 }
 

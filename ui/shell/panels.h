@@ -35,8 +35,8 @@ std::span<const PanelEntry> panel_table();
 bool can_close(const PanelEntry& entry);
 /// Whether a person has not closed it for the engine in hand.
 bool is_open(const PanelEntry& entry, const Context& context);
-/// Whether the panel is for this preset; null: none is open, and every panel says what it is for.
-bool serves(const PanelEntry& entry, const preset::Preset* preset);
+/// Whether the panel is for this preset.
+bool serves(const PanelEntry& entry, const preset::Preset& preset);
 /// What the panels of the preset's engine look for in a scene (LookAround of state/device_runs.h).
 std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded);
 

@@ -26,7 +26,7 @@ struct Card {
 constexpr Card cards[] = {
     {"Spectral caustics", "first-light",
      "Glass parts light into its colours. All 401 wavelengths are rendered; those that refract alike share their paths."},
-    {"Caustics under a sky", "environment/bunny",
+    {"Caustics under a sky", "environment/ball",
      "An object of glass is baked once. Then its caustics follow while the sky, the camera and the floor are turned and moved."},
     {"Designed glass", "inverse/shapes",
      "Say which pictures a piece of glass shall cast, and how far away. It is found, judged by rays, and written as a closed mesh."},
@@ -34,7 +34,9 @@ constexpr Card cards[] = {
 
 constexpr float picture_aspect = static_cast<float>(thumbnail_height) / static_cast<float>(thumbnail_width);
 
-void draw_card(const Card& card, const PictureTexture* picture, float width, const Context& context)
+std::filesystem::path file_of(const Card& card) { return presets_folder() / (std::string(card.preset) + ".json"); }
+
+void draw_card(const Card& card, const PictureTexture* picture, float width, const Context& context, WidgetPlaces& places)
 {
   const float em = ImGui::GetFontSize(), high = 7 * em;
   ImGui::PushID(card.preset);
@@ -48,7 +50,8 @@ void draw_card(const Card& card, const PictureTexture* picture, float width, con
     ImGui::BeginGroup();
     ImGui::TextUnformatted(card.title);
     draw_wrapped(colour::quiet_text, card.what);
-    if (ImGui::Button("Open an example")) context.push(command::Open{(presets_folder() / (std::string(card.preset) + ".json")).string()});
+    if (ImGui::Button("Open an example")) context.push(command::Open{file_of(card).string()});
+    places.note(card.preset);
     ImGui::SetItemTooltip("%s", card.preset);
     ImGui::EndGroup();
   }
@@ -59,7 +62,7 @@ void draw_card(const Card& card, const PictureTexture* picture, float width, con
 
 } // namespace
 
-void StartPage::draw(const Context& context, Panel& presets)
+void StartPage::draw(const Context& context, Panel& presets, bool to_presets)
 {
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport.WorkPos);
@@ -72,9 +75,11 @@ void StartPage::draw(const Context& context, Panel& presets)
     ImGui::Spacing();
     for (const char* name : {"New scene", "Open...", "Reopen the last session", "Commands..."}) {
       action_button(name, context);
+      places_.note(name);
       ImGui::SameLine();
     }
     ImGui::TextDisabled("or drop a preset, a mesh or a run's folder here");
+    if (to_presets) ImGui::SetNextWindowFocus();
     if (ImGui::BeginChild("presets")) presets.draw(context);
     ImGui::EndChild();
   }
@@ -83,11 +88,13 @@ void StartPage::draw(const Context& context, Panel& presets)
 
 void StartPage::draw_engines(const Context& context)
 {
+  if (pictures_.empty())
+    for (const Card& card : cards) pictures_.push_back(thumbnail_of(file_of(card), {}));
   thumbnails_.update();
   const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
-  for (const Card& card : cards) {
-    if (&card != cards) ImGui::SameLine();
-    draw_card(card, thumbnails_.of(thumbnail_of(presets_folder() / (std::string(card.preset) + ".json"), {})), width, context);
+  for (std::size_t i = 0; i < std::size(cards); ++i) {
+    if (i > 0) ImGui::SameLine();
+    draw_card(cards[i], thumbnails_.of(pictures_[i]), width, context, places_);
   }
 }
 

@@ -5,8 +5,11 @@
 #include "ui/presets/thumbnails.h"
 #include "ui/state/context.h"
 #include "ui/widgets/panel.h"
+#include "ui/widgets/widgets.h"
 
+#include <array>
 #include <future>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +18,10 @@ namespace nephroid::ui {
 class StartPage {
 public:
   /// In the window's area between the menu bar and the status line. presets: the panel of that name, which is a part of the page.
-  void draw(const Context& context, Panel& presets);
+  /// to_presets: the keyboard goes to it.
+  void draw(const Context& context, Panel& presets, bool to_presets);
+  /// For tests: the middle of a button on the screen; of a card's by the name of its preset.
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   struct Devices {
@@ -26,9 +32,11 @@ private:
   void draw_devices();
 
   Thumbnails thumbnails_;
+  std::vector<std::filesystem::path> pictures_; ///< of the cards
   bool asked_ = false;
   std::future<Devices> asking_; ///< drivers may take seconds to answer
   Devices devices_;
+  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

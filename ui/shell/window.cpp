@@ -79,6 +79,12 @@ void begin_session(Workbench& workbench, SessionKeeper& keeper, const Options& o
         {command::Report{"a window that was not closed left a session of " + killed + ": File, Reopen the last session", false}});
 }
 
+bool changes_preset(const Command& command)
+{
+  return std::holds_alternative<command::Edit>(command) || std::holds_alternative<command::Undo>(command) ||
+         std::holds_alternative<command::Redo>(command);
+}
+
 double milliseconds(Clock::duration time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
 /// When the next frame is drawn, and how long frames took.
@@ -88,29 +94,34 @@ public:
   enum class Pace { hands_on, running, idle };
 
   /// keep: every frame's time, for summary(); else frames are only counted. file: CSV with the line
-  /// frame,draw_ms,period_ms,state,fraction of a frame as soon as it has been drawn, so that who reads along knows what the window is
-  /// at; empty: none. Throws failed where it cannot be written.
+  /// frame,draw_ms,own_ms,period_ms,edits,run,state,fraction of a frame as soon as it has been drawn, so that who reads along knows what
+  /// the window is at; empty: none. Throws failed where it cannot be written.
   FrameClock(bool keep, const std::filesystem::path& file) : keep_(keep), file_(file)
   {
     if (file.empty()) return;
     lines_.open(file, std::ios::binary);
-    write("frame,draw_ms,period_ms,state,fraction\n");
+    write("frame,draw_ms,own_ms,period_ms,edits,run,state,fraction\n");
   }
   bool keeps() const { return keep_; }
   std::size_t frames() const { return frames_; }
 
   void begin() { previous_ = std::exchange(began_, Clock::now()); }
 
-  /// Throws failed where the file cannot be written any more.
-  void end(const job::Status& run)
+  /// What follows, until own() again, is OpenGL's work and not ours.
+  void driver() { driver_began_ = Clock::now(); }
+  void own() { driver_ += Clock::now() - driver_began_; }
+  /// edits: how many there were. Throws failed where the file cannot be written any more.
+  void end(const job::Status& run, std::size_t edits)
   {
     const double draw_ms = milliseconds(Clock::now() - began_);
     last_draw_s_ = draw_ms / 1000;
     if (keep_) draw_ms_.push_back(draw_ms);
     if (!file_.empty()) {
       const double period_ms = frames_ == 0 ? 0 : milliseconds(began_ - previous_); // what a person sees
-      write(fmt::format("{},{:.3f},{:.3f},{},{:.4f}\n", frames_, draw_ms, period_ms, name_of(run.state), run.progress.fraction));
+      write(fmt::format("{},{:.3f},{:.3f},{:.3f},{},{},{},{:.4f}\n", frames_, draw_ms, draw_ms - milliseconds(driver_), period_ms, edits,
+                        run.generation, name_of(run.state), run.progress.fraction));
     }
+    driver_ = {};
     ++frames_;
   }
 
@@ -143,7 +154,8 @@ private:
   bool keep_ = false;
   std::size_t frames_ = 0;
   double last_draw_s_ = 0;
-  Clock::time_point began_{}, previous_{};
+  Clock::time_point began_{}, previous_{}, driver_began_{};
+  Clock::duration driver_{};    ///< of this frame
   std::vector<double> draw_ms_; ///< of each frame, from the first event taken to the buffers swapped: what the window itself costs
   std::filesystem::path file_;
   std::ofstream lines_;
@@ -179,18 +191,24 @@ private:
     Commands commands = workspace_.draw(workbench_);
     for (const std::string& file : window_.take_dropped()) commands.push_back(command::Open{file});
     if (window_.take_close_request()) commands.push_back(command::Quit{});
+    window_.end_frame();
+    clock_.driver();
     window_.draw_frame();
+    clock_.own();
     done_ = workbench_.quitting() || is_last_frame();
     int width = 0, height = 0;
     std::vector<unsigned char> screen;
     if (done_ && !options_.screenshot.empty()) screen = window_.read_back(width, height);
+    clock_.driver();
     window_.present();
+    clock_.own();
+    edits_ += static_cast<std::size_t>(std::count_if(commands.begin(), commands.end(), changes_preset));
     workbench_.apply(commands);
     if (workbench_.take_reopen()) keeper_.reopen(workbench_);
     workbench_.offer_earlier(keeper_.has_earlier());
     keeper_.update(workbench_);
     window_.set_title(title(workbench_));
-    clock_.end(workbench_.run().status());
+    clock_.end(workbench_.run().status(), edits_);
     if (!screen.empty()) image::write_png_bytes(options_.screenshot, width, height, screen);
   }
 
@@ -221,7 +239,8 @@ private:
   SessionKeeper& keeper_;
   FrameClock clock_;
   Clock::time_point last_touch_{};
-  int limit_ = 0; ///< frames to draw before closing, 0: until the person closes it
+  std::size_t edits_ = 0; ///< so far, undo and redo too
+  int limit_ = 0;         ///< frames to draw before closing, 0: until the person closes it
   bool done_ = false;
 };
 

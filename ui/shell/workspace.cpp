@@ -36,9 +36,20 @@ void guarded(const char* part, Commands& commands, Draw draw)
 template <class Draw>
 void strip(const char* name, float height, Draw draw)
 {
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoSavedSettings;
+  // A message that comes takes the keyboard from nobody.
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::BeginViewportSideBar(name, ImGui::GetMainViewport(), ImGuiDir_Down, height, flags)) draw();
   ImGui::End();
+}
+
+/// What menu bar and strips leave of the window is known in this frame, not only in the next: where a message went there would be a hole
+/// until then, and a window that nobody touches draws seldom.
+void take_over_strips()
+{
+  auto& viewport = static_cast<ImGuiViewportP&>(*ImGui::GetMainViewport());
+  viewport.WorkInsetMin = viewport.BuildWorkInsetMin;
+  viewport.WorkInsetMax = viewport.BuildWorkInsetMax;
+  viewport.UpdateWorkRect();
 }
 
 } // namespace
@@ -56,8 +67,9 @@ Commands Workspace::draw(Workbench& workbench)
   plots_.follow_scale();
   guarded("menu", commands, [&] {
     if (ImGui::BeginMainMenuBar()) {
-      draw_menus(context);
-      draw_toolbar(context);
+      menu_places_.clear();
+      draw_menus(context, menu_places_);
+      draw_toolbar(context, menu_places_);
       ImGui::EndMainMenuBar();
     }
     run_shortcuts(context, workbench.question() != Question::none);
@@ -69,12 +81,13 @@ Commands Workspace::draw(Workbench& workbench)
     const float height = messages_height(workbench.messages(), ImGui::GetMainViewport()->Size.x);
     if (height > 0) strip("messages", height, [&] { draw_messages(workbench.messages(), context); });
   });
+  take_over_strips();
   if (context.preset())
     guarded("layout", commands, [&] { draw_dock_space(workbench, context); });
   else
-    guarded("start page", commands, [&] { draw_start_page(context); });
+    guarded("start page", commands, [&] { draw_start_page(workbench, context); });
   for (const Open& open : panels_)
-    if (context.preset() && serves(open.entry, context.preset()) && is_open(open.entry, context))
+    if (context.preset() && serves(open.entry, *context.preset()) && is_open(open.entry, context))
       guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
   if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
@@ -98,10 +111,11 @@ void Workspace::draw_panel(const Open& open, const Context& context)
   if (!stays) context.push(command::ShowPanel{std::string(open.entry.name), false});
 }
 
-void Workspace::draw_start_page(const Context& context)
+void Workspace::draw_start_page(Workbench& workbench, const Context& context)
 {
+  to_front_ = workbench.take_panel_to_front();
   for (const Open& open : panels_)
-    if (open.entry.name == "presets") start_page_.draw(context, *open.panel);
+    if (open.entry.name == "presets") start_page_.draw(context, *open.panel, open.entry.name == to_front_);
 }
 
 void Workspace::draw_dock_space(Workbench& workbench, const Context& context)

@@ -8,6 +8,7 @@
 #include "ui/shell/start_page.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/plots.h"
+#include "ui/widgets/widgets.h"
 
 #include <array>
 #include <memory>
@@ -38,13 +39,16 @@ public:
   }
 
   const Palette& palette() const { return palette_; }
+  const StartPage& start_page() const { return start_page_; }
+  /// Of menus and toolbar, as menus.h names them; for tests.
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return menu_places_.of(widget); }
 
 private:
   struct Open {
     PanelEntry entry;
     std::unique_ptr<Panel> panel;
   };
-  void draw_start_page(const Context& context);
+  void draw_start_page(Workbench& workbench, const Context& context);
   void draw_dock_space(Workbench& workbench, const Context& context);
   void draw_panel(const Open& open, const Context& context);
 
@@ -63,6 +67,7 @@ private:
   Dialogs dialogs_;
   Palette palette_;
   StartPage start_page_;
+  WidgetPlaces menu_places_;
 };
 
 } // namespace nephroid::ui

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the panel "Spectra and importance" shows of a preset: curves on the 401 wavelengths, u(lambda) and iterations a cluster,
+// What the panel "Spectra" shows of a preset: curves on the 401 wavelengths, u(lambda) and iterations a cluster,
 // made anew where what they hang on changed. No Dear ImGui.
 #pragma once
 #include "optics/wavelength.h"

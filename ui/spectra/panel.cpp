@@ -51,11 +51,6 @@ std::string times(std::int64_t more, std::int64_t fewer)
 
 void SpectraPanel::draw(const Context& context)
 {
-  if (!context.preset()) {
-    draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
-              "Open a preset: its light, what reflects it and what the eye makes of it");
-    return;
-  }
   places_.clear();
   maker_.update(*context.preset(), context.run.seen<SeenByGlass>());
   choose_light(*context.preset());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Spectra and importance": the spectra of the lights, the eye's luminosity, reflectances, u(lambda) of (4.15) and the iterations
+// The panel "Spectra": the spectra of the lights, the eye's luminosity, reflectances, u(lambda) of (4.15) and the iterations
 // of each cluster, on the wavelength axis that the panel "Dispersion" has too. The rows of a light's spectrum
 // are edited here.
 #pragma once
@@ -16,7 +16,7 @@ namespace nephroid::ui {
 
 class SpectraPanel : public Panel {
 public:
-  static constexpr const char* title = "Spectra and importance";
+  static constexpr const char* title = "Spectra";
   /// axis outlives the panel.
   explicit SpectraPanel(WavelengthAxis& axis) : axis_(axis) {}
   void draw(const Context& context) override;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plots of the panel "Spectra and importance": curves between 0 and 1 and, below, the iterations of each cluster, over one wavelength
+// The plots of the panel "Spectra": curves between 0 and 1 and, below, the iterations of each cluster, over one wavelength
 // axis. The rows of the light that is edited are points that can be dragged.
 #pragma once
 #include "ui/spectra/curves.h"

@@ -48,8 +48,8 @@ struct Context {
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
   /// What is selected of it.
   Selection selection() const { return in_preset(chosen.selection, preset()); }
-  /// Its engine; empty before a preset is opened.
-  std::string engine() const { return edits ? std::string(edits->current().settings.type().name) : std::string(); }
+  /// Its engine. Where a preset is open.
+  std::string engine() const { return std::string(edits->current().settings.type().name); }
   void push(Command command) const { commands.push_back(std::move(command)); }
   /// The look as the commands of this frame leave it: two keys in one frame must not undo each other.
   Look look() const

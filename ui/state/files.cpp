@@ -72,17 +72,6 @@ std::string lower_ending(const std::filesystem::path& file)
   return ending;
 }
 
-bool is_shipped(const std::filesystem::path& file)
-{
-  std::error_code unknown;
-  try {
-    const std::filesystem::path inside = std::filesystem::relative(file, presets_folder(), unknown);
-    return !unknown && !inside.empty() && *inside.begin() != "..";
-  } catch (const Error&) {
-    return false; // there is no folder of shipped presets
-  }
-}
-
 /// Whether the first character that is no white space opens a JSON object. An empty file may become one: reading it says so.
 bool may_be_object(const std::filesystem::path& file)
 {
@@ -137,7 +126,7 @@ std::filesystem::path save_target(const preset::Preset* preset)
   if (!preset || preset->source.empty()) return {};
   const std::filesystem::path source = preset->source;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(source, ignored) || is_shipped(source)) return {};
+  if (!std::filesystem::is_regular_file(source, ignored) || !preset::shipped_name(source).empty()) return {};
   return source;
 }
 

@@ -68,6 +68,11 @@ const char* text_of(NewScene kind)
 
 } // namespace
 
-preset::Preset new_scene(NewScene kind) { return preset::parse_preset(text_of(kind), "untitled"); }
+preset::Preset new_scene(NewScene kind)
+{
+  preset::Preset made = preset::parse_preset(text_of(kind), "untitled");
+  made.source.clear(); // else a file that happens to have this name would be its own
+  return made;
+}
 
 } // namespace nephroid::ui

@@ -283,10 +283,7 @@ void Workbench::carry_out(const command::WriteReport& c)
 }
 
 /// What is kept for the presets of the engine in hand.
-EngineLayout& Workbench::engine_layout()
-{
-  return settings_.engines[edits_ ? std::string(edits_->current().settings.type().name) : std::string()];
-}
+EngineLayout& Workbench::engine_layout() { return settings_.engines[std::string(edits_->current().settings.type().name)]; }
 
 void Workbench::carry_out(const command::ResetLayout&)
 {
@@ -296,13 +293,12 @@ void Workbench::carry_out(const command::ResetLayout&)
 
 void Workbench::carry_out(const command::ShowPanel& c)
 {
-  std::set<std::string>& closed = engine_layout().closed;
-  if (!c.on) {
-    closed.insert(c.name);
-    return;
-  }
-  closed.erase(c.name);
-  panel_to_front_ = c.name;
+  if (c.on) panel_to_front_ = c.name;
+  if (!edits_) return; // the start page has no layout
+  if (c.on)
+    engine_layout().closed.erase(c.name);
+  else
+    engine_layout().closed.insert(c.name);
 }
 
 void Workbench::carry_out(const command::SetAppearance& c)

@@ -43,11 +43,12 @@ void draw_overlay(const ImVec2& at, const std::string& text)
 void ViewPanel::draw(const Context& context)
 {
   shown_ = shown_picture(context);
-  draw_toolbar(context);
   places_.clear();
-  draw_look_bar(context, tone_, places_);
-  draw_comparison_bar(context);
-  draw_selection_bar(context, places_);
+  bars_.begin();
+  bars_.bar([&] { draw_toolbar(context); });
+  bars_.bar([&] { draw_look_bar(context, tone_, places_); });
+  bars_.bar([&] { draw_comparison_bar(context); });
+  bars_.bar([&] { draw_selection_bar(context, places_); });
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   canvas_ = {{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
   ImGui::InvisibleButton("picture", vec(canvas_.size),

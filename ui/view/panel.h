@@ -56,6 +56,7 @@ private:
 
   SceneOverlay overlay_;
   WidgetPlaces places_;
+  BarRows bars_;
 
   Drag drag_ = Drag::none;
   bool pressed_ = false, held_ = false; ///< a button of the mouse, on the picture

@@ -24,9 +24,9 @@ std::string too_large_hint(const std::array<int, 2>& size)
 /// What to do or to wait for before the first picture.
 std::string waiting_hint(const Context& context)
 {
-  if (!context.preset()) return "Drop a preset here, or open one: Ctrl+O";
   if (context.run.status().state == job::State::failed) return "No picture: see the message below";
   if (context.run.status().state == job::State::cancelled) return "Cancelled before the first picture; start again: F5";
+  if (context.run.status().state == job::State::running) return "The first picture is being made";
   return "Preparing: reading the scene, building the kernels";
 }
 

@@ -63,6 +63,20 @@ bool delete_pressed()
          ImGui::IsKeyPressed(ImGuiKey_Delete, false);
 }
 
+void BarRows::bar(const std::function<void()>& draw)
+{
+  const std::size_t index = next_++;
+  if (index == widths_.size()) widths_.push_back(0);
+  const float gap = 2 * ImGui::GetFontSize();
+  const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x; // the cursor is at the left again after each bar
+  if (index > 0 && widths_[index] > 0 && right_ + gap + widths_[index] <= end) ImGui::SameLine(0, gap);
+  ImGui::BeginGroup();
+  draw();
+  ImGui::EndGroup();
+  right_ = ImGui::GetItemRectMax().x;
+  widths_[index] = ImGui::GetItemRectSize().x;
+}
+
 void WidgetPlaces::note(const std::string& widget)
 {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();

@@ -2,12 +2,14 @@
 // Small widgets that several panels and dialogs have.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 struct ImVec2;
 
@@ -25,6 +27,20 @@ void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::stri
 
 /// Whether Delete is pressed in the window in hand and not in a text field.
 bool delete_pressed();
+
+/// Bars of widgets, as many in a row as fit.
+class BarRows {
+public:
+  /// Before the first bar of a frame.
+  void begin() { next_ = 0; }
+  /// Draws a bar beside the one before, where it fits as wide as it was in the frame before, else below it.
+  void bar(const std::function<void()>& draw);
+
+private:
+  std::size_t next_ = 0;
+  float right_ = 0;           ///< edge of the bar before, on the screen
+  std::vector<float> widths_; ///< of the bars
+};
 
 /// Where widgets were drawn, for tests that click on them.
 class WidgetPlaces {

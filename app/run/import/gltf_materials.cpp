@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace nephroid::run {
 namespace {
@@ -36,7 +37,6 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
   const GltfValue volume = material.extension("KHR_materials_volume");
   if (volume.number("thicknessFactor", 0) == 0)
     notes.push_back(fmt::format("material '{}' is a thin film in the file and solid glass here", name));
-  if (volume.has("attenuationDistance")) notes.push_back(fmt::format("material '{}': attenuation is left out, the glass is clear", name));
   if (material.object("pbrMetallicRoughness").number("roughnessFactor", 1) > 0.1)
     notes.push_back(fmt::format("material '{}' is rough in the file and polished here", name));
   return made;
@@ -56,6 +56,27 @@ preset::Dispersion dispersion_of(double ior, double dispersion)
   made.type = preset::Dispersion::Type::cauchy;
   made.coefficients = {ior - b / (line_d * line_d), b};
   return made;
+}
+
+std::string absorbing_glass_file(const GltfValue& material, const preset::Dispersion& clear)
+{
+  const GltfValue volume = material.extension("KHR_materials_volume");
+  const double distance = volume.number("attenuationDistance", 0);
+  const auto colour = volume.numbers<3>("attenuationColor", {1, 1, 1});
+  if (!(distance > 0) || volume.number("thicknessFactor", 0) == 0 || colour == std::array<double, 3>{1, 1, 1}) return {};
+  const bool bends = clear.type == preset::Dispersion::Type::cauchy;
+  const std::string n = bends ? fmt::format("{} {} -2", clear.coefficients[0], clear.coefficients[1]) : fmt::format("{}", clear.n);
+  std::string text = "COMMENTS: |\n    n as KHR_materials_ior and KHR_materials_dispersion say it, k as KHR_materials_volume does\nDATA:\n";
+  text += fmt::format("  - type: formula 5\n    wavelength_range: 0.38 0.78\n    coefficients: {}\n", n);
+  text += "  - type: tabulated k\n    data: |\n";
+  const preset::Reflectance kept = reflectance_of(colour);
+  constexpr double least = 1e-4; // black glass has no k
+  for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) {
+    const double transmittance = kept.table.empty() ? kept.value : kept.table[static_cast<std::size_t>((nm - optics::first_nm) / 10)][1];
+    const double absorbed = std::log(1 / std::max(transmittance, least)) / distance; // in 1/m: the file's lengths are metres
+    text += fmt::format("        {:.2f} {:.6g}\n", nm * 1e-3, absorbed * nm * 1e-9 / (4 * std::numbers::pi));
+  }
+  return text;
 }
 
 preset::Reflectance reflectance_of(const std::array<double, 3>& rgb)

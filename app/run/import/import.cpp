@@ -88,6 +88,7 @@ public:
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
+    for (const auto& [name, glass] : glasses_) write_file_whole(folder / name, glass);
     for (const auto& [name, mesh] : files_) write_file_whole(folder / name, [&mesh = mesh](ByteSink& to) { write_mesh(mesh, to); });
     write_file_whole(preset_file_, text);
     return {preset_file_, made_.scene.objects.size(), files_.size(), made_.scene.lights.size(), notes_};
@@ -161,7 +162,16 @@ private:
     }
     const GltfValue value = root_.item("materials", index);
     found->second = unique(name_of(value.text("name"), fmt::format("material {}", index)), taken_materials_);
-    made_.scene.materials[found->second] = material_of(value, found->second, notes_);
+    preset::Material& made = made_.scene.materials[found->second] = material_of(value, found->second, notes_);
+    if (made.type != preset::Material::Type::dielectric) return found->second;
+    if (std::string glass = absorbing_glass_file(value, made.dispersion); !glass.empty()) {
+      std::string file = found->second + ".yml";
+      std::replace(file.begin(), file.end(), ' ', '-');
+      made.dispersion = {};
+      made.dispersion.type = preset::Dispersion::Type::file;
+      made.dispersion.file = preset_file_.stem().string() + "-meshes/" + file;
+      glasses_.emplace(std::move(file), std::move(glass));
+    }
     return found->second;
   }
 
@@ -231,8 +241,9 @@ private:
   fs::path preset_file_;
   preset::Preset made_;
   std::vector<std::string> notes_;
-  std::map<std::string, scene::Mesh> files_; ///< by their names
-  std::map<MeshKey, std::string> names_;     ///< of meshes that were read
+  std::map<std::string, scene::Mesh> files_;   ///< by their names
+  std::map<std::string, std::string> glasses_; ///< dispersion files by their names
+  std::map<MeshKey, std::string> names_;       ///< of meshes that were read
   std::map<std::size_t, std::string> material_names_;
   std::set<std::string> object_names_, taken_materials_;
   Bounds bounds_;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// A window in which every action can be possible, and three ways to press one: the command palette, its keys, its menu.
+#pragma once
+#include "seen_scene.h"
+#include "ui/widgets/action.h"
+#include "window_fixture.h"
+
+#include <functional>
+#include <string>
+
+namespace nephroid::test {
+
+class Desk : public WindowFixtureOf<SceneRuns> {
+public:
+  Desk()
+  {
+    ImGui::GetIO().DisplaySize = {1300, 900};
+    runs.steps = 1000000;
+    runs.step_ms = 1;
+    measured();
+    WindowFixtureOf::open(ball_text());
+    EXPECT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().seen<ui::SeenScene>() && workbench.run().error_history(); }));
+  }
+  void TestBody() override {}
+  using WindowFixtureOf::click;
+  using WindowFixtureOf::folder;
+  using WindowFixtureOf::frame;
+  using WindowFixtureOf::frames;
+  using WindowFixtureOf::runs;
+  using WindowFixtureOf::workbench;
+  using WindowFixtureOf::workspace;
+
+  const preset::Preset& preset() const { return *workbench.preset(); }
+  const preset::Scene& scene() const { return preset().scene; }
+  std::string file() const { return (folder.path() / "test.json").string(); }
+  void apply(ui::Command command)
+  {
+    workbench.apply({std::move(command)});
+    frames(4);
+  }
+  /// Another camera, as one edit.
+  void edit(double z = 3)
+  {
+    preset::Preset edited = preset();
+    edited.scene.camera.position = {0, 0, z};
+    apply(ui::command::Edit{"move the camera", edited});
+  }
+  void look(ui::Look look) { apply(ui::command::SetLook{look}); }
+  static std::string clipboard()
+  {
+    const char* text = ImGui::GetClipboardText();
+    return text ? text : "";
+  }
+
+  /// Remembers what there is, for what is looked at after a press.
+  void remember()
+  {
+    ImGui::SetClipboardText("nothing was copied");
+    before = {preset(), workbench.chosen(), workbench.settings(), workbench.run().status().generation};
+  }
+  struct Before {
+    preset::Preset preset;
+    ui::Chosen chosen;
+    ui::Settings settings;
+    std::uint64_t run = 0;
+  } before;
+
+  /// Draws frames until it holds. An action takes a frame, its run a few: what does not hold some seconds later is not to come.
+  bool comes_to(const std::function<bool(Desk&)>& condition)
+  {
+    bool holds = condition(*this); // asked no more once it holds: it may be so once only
+    for (int i = 0; i < 300 && !holds; ++i) {
+      frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      holds = condition(*this);
+    }
+    return holds;
+  }
+
+  /// Ctrl+Shift+P, its name, Enter. False, and nothing is done, where the palette has another action first.
+  bool by_palette(const ui::Action& action)
+  {
+    hold(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_P);
+    frame();
+    lift(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_P);
+    frames(2);
+    ImGui::GetIO().AddInputCharactersUTF8(action.name.c_str());
+    frames(2);
+    const auto& found = workspace.palette().found();
+    if (found.empty() || found.front()->action != &action) return false;
+    imgui.key(ImGuiKey_Enter, true);
+    frame();
+    imgui.key(ImGuiKey_Enter, false);
+    return true;
+  }
+  /// The keys stay down until lift().
+  void hold(int chord)
+  {
+    keys(chord, true);
+    frame();
+  }
+  void lift(int chord)
+  {
+    keys(chord, false);
+    frames(2);
+  }
+  /// The menu's title, then the entry. False where the menu has no such entry.
+  bool by_menu(const ui::Action& action)
+  {
+    click(workspace.place_of("menu:" + action.menu).value());
+    frames(2);
+    const auto entry = workspace.place_of("menu:" + action.menu + "/" + action.name);
+    if (entry) click(*entry);
+    return entry.has_value();
+  }
+
+private:
+  void keys(int chord, bool down)
+  {
+    for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift})
+      if (chord & modifier) imgui.key(modifier, down);
+    imgui.key(static_cast<ImGuiKey>(chord & ~ImGuiMod_Mask_), down);
+  }
+};
+
+} // namespace nephroid::test

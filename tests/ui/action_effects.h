@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each action of the table shall do, by its name: what has to be there before, and what is so afterwards and was not before.
+#pragma once
+#include "action_desk.h"
+#include "preset/read.h"
+#include "ui/shell/panels.h"
+
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace nephroid::test {
+
+struct Effect {
+  std::function<void(Desk&)> prepare; ///< null: nothing
+  std::function<bool(Desk&)> happened;
+};
+using Effects = std::map<std::string, Effect>;
+
+namespace effects {
+
+using namespace nephroid::ui;
+
+inline constexpr Selection lamp{Selection::Kind::light, 0};
+inline void select_lamp(Desk& d) { d.apply(command::Select{lamp}); }
+
+inline auto asks(Question question)
+{
+  return [question](Desk& d) { return d.workbench.question() == question; };
+}
+/// A new scene of an engine, in no file.
+inline auto begins(const char* engine)
+{
+  return [engine](Desk& d) { return d.preset().source.empty() && d.preset().settings.type().name == std::string_view(engine); };
+}
+inline auto copies(const char* text)
+{
+  return [text](Desk& d) { return d.clipboard().find(text) != std::string::npos; };
+}
+
+inline void add_file_and_edit(Effects& all)
+{
+  all["New scene"] = {{}, begins("spectral")};
+  all["New scene: environment"] = {{}, begins("environment")};
+  all["New scene: inverse"] = {{}, begins("inverse")};
+  all["Open..."] = {{}, asks(Question::open)};
+  all["Open history..."] = {{}, asks(Question::open_history)};
+  all["Reopen the last session"] = {[](Desk& d) { d.workbench.offer_earlier(true); }, [](Desk& d) { return d.workbench.take_reopen(); }};
+  all["Save preset"] = {
+      [](Desk& d) { d.edit(2.5); },
+      [](Desk& d) { return preset::read_preset(d.file()).scene.camera.position[2] == 2.5 && !d.workbench.edits()->modified(); }};
+  all["Take the preset from its file"] = {[](Desk& d) {
+                                            d.edit();
+                                            preset::Preset other = d.preset();
+                                            other.white = 7;
+                                            d.folder.write("test.json", preset::to_json(other));
+                                          },
+                                          [](Desk& d) { return d.preset().white == 7; }};
+  all["Save preset as..."] = {{}, asks(Question::save_preset)};
+  all["Save picture as..."] = {{}, asks(Question::save_picture)};
+  all["Quit"] = {{}, [](Desk& d) { return d.workbench.quitting(); }};
+
+  all["Undo"] = {[](Desk& d) { d.edit(); }, [](Desk& d) { return d.scene().camera.position[2] == 4; }};
+  all["Redo"] = {[](Desk& d) {
+                   d.edit();
+                   d.apply(command::Undo{});
+                 },
+                 [](Desk& d) { return d.scene().camera.position[2] == 3; }};
+  all["Reset camera"] = {
+      [](Desk& d) { d.edit(); },
+      [](Desk& d) { return d.scene().camera.position[2] == 4 && d.workbench.edits()->undo_label() == "reset the camera"; }};
+  all["Copy as command line"] = {[](Desk& d) { d.edit(); }, copies("nephroid run ")};
+  all["Copy history as CSV"] = {{}, copies("estimated_lab_mean")};
+  all["Copy plot as CSV"] = {{}, copies("run,line,seconds,error")};
+  all["Copy camera as JSON"] = {{}, copies("\"position\"")};
+  all["Copy camera as --set"] = {{}, copies("--set ")};
+  all["Copy plan as JSON"] = {{}, copies("n is extrapolated")};
+}
+
+/// Nudges the lamp: by how much along an axis, in sign.
+inline Effect nudges(std::size_t axis, int sign)
+{
+  return {select_lamp, [axis, sign](Desk& d) {
+            const double moved = d.scene().lights[0].position[axis] - d.before.preset.scene.lights[0].position[axis];
+            return sign * moved > 1e-6;
+          }};
+}
+inline Effect uses(Handles::Tool tool)
+{
+  return {[tool](Desk& d) {
+            Handles handles = d.workbench.chosen().handles;
+            handles.tool = tool == Handles::Tool::turn ? Handles::Tool::move : Handles::Tool::turn;
+            d.apply(command::SetHandles{handles});
+          },
+          [tool](Desk& d) { return d.workbench.chosen().handles.tool == tool; }};
+}
+inline Effect toggles(bool Handles::*member)
+{
+  return {{}, [member](Desk& d) { return d.workbench.chosen().handles.*member != d.before.chosen.handles.*member; }};
+}
+
+inline void add_select_and_camera(Effects& all)
+{
+  const auto selects_last = [](Desk& d) { return d.workbench.chosen().selection == selectable(d.preset()).back(); };
+  all["Select the next"] = {{}, [](Desk& d) { return d.workbench.chosen().selection == selectable(d.preset()).front(); }};
+  all["Select the one before"] = {{}, selects_last};
+  all["Deselect"] = {select_lamp, [](Desk& d) { return d.workbench.chosen().selection == Selection{}; }};
+  all["Look at the selected"] = {select_lamp, [](Desk& d) { return d.scene().camera.target == d.scene().lights[0].position; }};
+  all["Move"] = uses(Handles::Tool::move);
+  all["Turn"] = uses(Handles::Tool::turn);
+  all["Scale"] = uses(Handles::Tool::scale);
+  all["Own axes"] = toggles(&Handles::own_axes);
+  all["Snap"] = toggles(&Handles::snap);
+  all["Icons and handles"] = toggles(&Handles::shown);
+  // The camera looks along -z.
+  all["Nudge to the left"] = nudges(0, -1);
+  all["Nudge to the right"] = nudges(0, 1);
+  all["Nudge up"] = nudges(1, 1);
+  all["Nudge down"] = nudges(1, -1);
+  all["Nudge away"] = nudges(2, -1);
+  all["Nudge nearer"] = nudges(2, 1);
+
+  all["Bookmark this camera"] = {{}, [](Desk& d) { return d.workbench.chosen().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
+  for (int i = 1; i <= 9; ++i)
+    all[fmt::format("Go to camera {}", i)] = {[](Desk& d) {
+                                                for (int bookmark = 1; bookmark <= 9; ++bookmark) {
+                                                  d.edit(10 + bookmark);
+                                                  d.apply(command::AddBookmark{});
+                                                }
+                                                d.edit();
+                                              },
+                                              [i](Desk& d) { return d.scene().camera.position[2] == 10 + i; }};
+}
+
+inline void inspect_pixel(Desk& d) { d.apply(command::InspectPixel{std::array{20, 20}}); }
+inline Effect moves_pixel(int x, int y)
+{
+  return {inspect_pixel, [x, y](Desk& d) { return d.workbench.chosen().pixel == std::optional(std::array{20 + x, 20 + y}); }};
+}
+inline void pin(Desk& d) { d.apply(command::PinRun{}); }
+inline Effect sets_tone(ToneCurve tone)
+{
+  return {[tone](Desk& d) { d.look({.tone = tone == ToneCurve::filmic ? ToneCurve::standard : ToneCurve::filmic}); },
+          [tone](Desk& d) { return d.workbench.chosen().look.tone == tone; }};
+}
+/// Pinned, so that there is something to compare with.
+inline void compare_with_pin(Desk& d)
+{
+  pin(d);
+  d.apply(command::CompareWith{d.workbench.comparing().pinned().all().front().id});
+}
+
+inline void add_run_and_view(Effects& all)
+{
+  const auto is = [](job::State state) { return [state](Desk& d) { return d.workbench.run().status().state == state; }; };
+  all["Start again"] = {{}, [](Desk& d) { return d.workbench.run().status().generation > d.before.run; }};
+  all["Pause"] = {{}, is(job::State::paused)};
+  all["Cancel"] = {{}, is(job::State::cancelled)};
+  all["Pin this run"] = {{}, [](Desk& d) { return d.workbench.comparing().pinned().all().size() == 1; }};
+
+  all["Flip"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().flip; }};
+  all["Difference"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().difference; }};
+  all["Compare with the next"] = {pin, [](Desk& d) { return d.workbench.comparing().comparison().pin != 0; }};
+  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.workbench.chosen().look.fit; }};
+  all["Actual size"] = {{}, [](Desk& d) { return !d.workbench.chosen().look.fit && d.workbench.chosen().look.zoom == 1; }};
+  all["Brighter"] = {{}, [](Desk& d) { return d.workbench.chosen().look.exposure_stops == 0.5; }};
+  all["Darker"] = {{}, [](Desk& d) { return d.workbench.chosen().look.exposure_stops == -0.5; }};
+  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); },
+                       [](Desk& d) { return d.workbench.chosen().look.exposure_stops == 0; }};
+  const auto shows_direct = [](Desk& d) { return d.workbench.comparing().comparison().layer == "direct"; };
+  all["Next layer"] = {{}, shows_direct};
+  all["Previous layer"] = {{}, shows_direct}; // there is one, so that both ways lead to it
+  all["Next tone curve"] = {{}, [](Desk& d) { return d.workbench.chosen().look.tone == ToneCurve::filmic; }};
+  all["Tone as image.png"] = sets_tone(ToneCurve::standard);
+  all["Filmic tone"] = sets_tone(ToneCurve::filmic);
+  all["False colour"] = sets_tone(ToneCurve::false_colour);
+  all["Inspect pixel"] = {{}, [](Desk& d) { return d.workbench.chosen().pixel == std::optional(std::array{32, 24}); }};
+  all["Pixel to the left"] = moves_pixel(-1, 0);
+  all["Pixel to the right"] = moves_pixel(1, 0);
+  all["Pixel above"] = moves_pixel(0, -1);
+  all["Pixel below"] = moves_pixel(0, 1);
+  all["Copy pixel"] = {inspect_pixel, copies("20")};
+  all["Statistics of the picture"] = {{}, [](Desk& d) {
+                                        return d.workbench.chosen().region == std::optional(PixelRegion{{0, 0}, {64, 48}});
+                                      }};
+}
+
+/// Whether it is the panel that was brought to the front last.
+inline bool in_front(const char* title)
+{
+  const ImGuiWindow* window = ImGui::FindWindowByName(title);
+  return window && ImGui::GetCurrentContext()->NavWindow == window && (!window->DockNode || window->DockNode->VisibleWindow == window);
+}
+
+/// What can be closed is closed; the picture comes to the front.
+inline Effect of_panel(const PanelEntry& entry)
+{
+  const NewScene scene = entry.name == "environment" ? NewScene::environment : NewScene::inverse;
+  const auto prepare = [entry, scene](Desk& d) {
+    if (!serves(entry, d.preset())) d.apply(command::New{scene});
+    d.apply(command::ShowPanel{"plan", true});
+  };
+  if (!can_close(entry)) return {prepare, [entry](Desk&) { return in_front(entry.title); }};
+  return {prepare, [entry](Desk& d) {
+            const std::string engine(d.preset().settings.type().name);
+            const auto now = d.workbench.settings().engines.find(engine);
+            return now != d.workbench.settings().engines.end() && now->second.closed.contains(std::string(entry.name));
+          }};
+}
+
+inline void add_window_and_help(Effects& all)
+{
+  for (const PanelEntry& entry : panel_table()) all[fmt::format("Panel: {}", entry.title)] = of_panel(entry);
+  all["Find a preset"] = {[](Desk& d) { d.apply(command::ShowPanel{"plan", true}); }, [](Desk&) { return in_front("Presets"); }};
+  all["Reset layout"] = {[](Desk& d) {
+                           d.apply(command::ShowPanel{"plan", false});
+                         },
+                         [](Desk& d) { return d.workbench.settings().engines.at("spectral").closed.empty(); }};
+  all["Light theme"] = {{}, [](Desk& d) { return d.workbench.settings().theme == Theme::light; }};
+  all["Larger text"] = {{}, [](Desk& d) { return d.workbench.settings().text_size > 1.05; }};
+  all["Smaller text"] = {{}, [](Desk& d) { return d.workbench.settings().text_size < 0.95; }};
+  all["Text as the display has it"] = {[](Desk& d) {
+                                         d.apply(command::SetAppearance{Theme::dark, 1.3});
+                                       },
+                                       [](Desk& d) { return d.workbench.settings().text_size == 1; }};
+  all["Commands..."] = {{}, asks(Question::command)};
+  all["Mouse and keys"] = {{}, [](Desk& d) { return d.workbench.help_shown(); }};
+}
+
+} // namespace effects
+
+inline Effects action_effects()
+{
+  Effects all;
+  effects::add_file_and_edit(all);
+  effects::add_select_and_camera(all);
+  effects::add_run_and_view(all);
+  effects::add_window_and_help(all);
+  return all;
+}
+
+} // namespace nephroid::test

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of files in the dialogs, under an injected mouse and keys: folders and files are gone through, picked and opened; folders that
+// vanish, names of no file, files that are there already.
+#include "base/files.h"
+#include "preset/read.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+#include <imgui_internal.h>
+
+#include <filesystem>
+
+namespace nephroid::ui {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class FileListTest : public test::WindowFixture {
+protected:
+  FileListTest()
+  {
+    ImGui::GetIO().DisplaySize = {1300, 900};
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    runs.steps = 1000000;
+  }
+  /// The dialog, on the folder of the open preset.
+  void ask(Question question)
+  {
+    open();
+    workbench.apply({command::Ask{question}});
+    frames(4);
+    read();
+  }
+  /// With "Open a preset" the files are behind a tab.
+  void ask_for_history() { ask(Question::open_history); }
+  const FileList& files() const { return workspace.dialogs().files(); }
+  void read()
+  {
+    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return files().note() != "Reading the folder"; }));
+    frames(2);
+  }
+  std::vector<std::string> names() const
+  {
+    std::vector<std::string> all;
+    for (const FileList::Entry& entry : files().entries()) all.push_back(entry.path.filename().string());
+    return all;
+  }
+  void click_on(const std::string& widget)
+  {
+    const auto place = files().place_of(widget);
+    ASSERT_TRUE(place) << widget << " is not drawn";
+    click(*place);
+    frames(2);
+  }
+  void type(const std::string& text)
+  {
+    ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
+    frames(2);
+  }
+  void make_folders()
+  {
+    fs::create_directories(folder.path() / "runs" / "deep");
+    folder.write("runs/history.csv", "seconds\n");
+    folder.write("runs/notes.txt", "");
+    folder.write("runs/.hidden.csv", "");
+    folder.write("B.csv", "");
+    folder.write("a.CSV", "");
+  }
+};
+
+TEST_F(FileListTest, FoldersComeFirstAndOnlyWantedKindsAreThere)
+{
+  make_folders();
+  ask_for_history();
+  EXPECT_EQ(files().folder(), folder.path());
+  EXPECT_THAT(names(), ElementsAre("runs", "a.CSV", "B.csv"));
+}
+
+TEST_F(FileListTest, AClickGoesIntoAFolderAndUpComesBack)
+{
+  make_folders();
+  ask_for_history();
+  click_on("runs");
+  read();
+  EXPECT_EQ(files().folder(), folder.path() / "runs");
+  EXPECT_THAT(names(), ElementsAre("deep", "history.csv"));
+  click_on("deep");
+  read();
+  EXPECT_TRUE(names().empty());
+  EXPECT_THAT(files().note(), HasSubstr("Nothing of the kind"));
+  click_on("up");
+  read();
+  click_on("up");
+  read();
+  EXPECT_EQ(files().folder(), folder.path());
+}
+
+TEST_F(FileListTest, AClickPicksAndADoubleClickOpens)
+{
+  make_folders();
+  ask_for_history();
+  click_on("B.csv");
+  EXPECT_EQ(files().picked(), folder.path() / "B.csv");
+  EXPECT_EQ(workbench.question(), Question::open_history) << "one click only names it";
+  click_on("B.csv");
+  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return !workbench.messages().empty(); })) << "it is read, and is no history";
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("B.csv"));
+}
+
+TEST_F(FileListTest, TheKeyboardAloneGoesThroughTheList)
+{
+  make_folders();
+  ask_for_history();
+  // From the text field to the list; down to the last file.
+  for (int i = 0; i < 20 && files().picked().empty(); ++i) {
+    press(ImGuiKey_Tab);
+    const auto place = files().place_of("a.CSV");
+    const ImGuiWindow* window = ImGui::GetCurrentContext()->NavWindow;
+    if (!place || !window) continue;
+    const ImRect marked = ImGui::WindowRectRelToAbs(const_cast<ImGuiWindow*>(window), window->NavRectRel[ImGuiNavLayer_Main]);
+    if (marked.Contains(ImVec2(static_cast<float>((*place)[0]), static_cast<float>((*place)[1])))) press(ImGuiKey_Enter);
+    frames(2);
+  }
+  EXPECT_EQ(files().picked(), folder.path() / "a.CSV");
+  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return !workbench.messages().empty(); })) << "Enter opens it";
+}
+
+TEST_F(FileListTest, AFolderThatVanishesSaysSo)
+{
+  make_folders();
+  ask_for_history();
+  fs::remove_all(folder.path() / "runs");
+  click_on("runs");
+  read();
+  EXPECT_TRUE(names().empty());
+  EXPECT_THAT(files().note(), HasSubstr("cannot be read"));
+  click_on("up");
+  read();
+  EXPECT_THAT(names(), ElementsAre("a.CSV", "B.csv")) << "the way out of it";
+}
+
+TEST_F(FileListTest, AFileThatVanishesIsSaid)
+{
+  make_folders();
+  ask_for_history();
+  fs::remove(folder.path() / "B.csv");
+  click_on("B.csv");
+  click_on("B.csv");
+  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return !workbench.messages().empty(); }));
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("B.csv"));
+  EXPECT_EQ(workbench.preset()->name, "Test") << "nothing else changed";
+}
+
+TEST_F(FileListTest, ATypedNameOfNoFileIsSaidAndNothingIsLost)
+{
+  ask(Question::open);
+  type((folder.path() / "missing.json").string());
+  press(ImGuiKey_Enter);
+  frames(3);
+  ASSERT_FALSE(workbench.messages().empty());
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("missing.json"));
+  EXPECT_EQ(workbench.preset()->name, "Test");
+}
+
+TEST_F(FileListTest, ATypedNameIsOpened)
+{
+  folder.write("other.json", R"({"parent": "test.json", "name": "Other"})");
+  ask(Question::open);
+  type((folder.path() / "other.json").string());
+  press(ImGuiKey_Enter);
+  frames(3);
+  EXPECT_EQ(workbench.preset()->name, "Other");
+  EXPECT_EQ(workbench.question(), Question::none);
+}
+
+// A click on a file that is there only names it. The button then says "Replace", and the file is as it was until that is pressed.
+TEST_F(FileListTest, AFileIsReplacedByTheButtonOnly)
+{
+  folder.write("kept.json", R"({"name": "Kept"})");
+  ask(Question::save_preset);
+  click_on("kept.json");
+  EXPECT_EQ(files().picked(), folder.path() / "kept.json");
+  click_on("kept.json");
+  frames(3);
+  EXPECT_EQ(workbench.question(), Question::save_preset) << "nor does a double click replace it";
+  EXPECT_EQ(read_file(folder.path() / "kept.json"), R"({"name": "Kept"})");
+  click(workspace.dialogs().place_of("save").value());
+  frames(3);
+  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(preset::read_preset((folder.path() / "kept.json").string()).name, "Test");
+}
+
+TEST_F(FileListTest, EnterReplacesAFileTheSecondTimeOnly)
+{
+  const fs::path kept = folder.write("kept.json", R"({"name": "Kept"})");
+  ask(Question::save_preset);
+  type(kept.string());
+  press(ImGuiKey_Enter);
+  frames(3);
+  EXPECT_EQ(workbench.question(), Question::save_preset) << "it asks once more";
+  EXPECT_EQ(read_file(kept), R"({"name": "Kept"})");
+  press(ImGuiKey_Enter);
+  frames(3);
+  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(preset::read_preset(kept.string()).name, "Test");
+}
+
+} // namespace
+} // namespace nephroid::ui
