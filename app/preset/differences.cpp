@@ -106,7 +106,7 @@ private:
 /// A preset and the document that it was read from.
 struct Read {
   Document document;
-  bool sweeps = false; ///< the document has a sweep, which is left out
+  Json sweep = {}; ///< that the document has and the preset has not; null: none
   Preset preset = {};
 };
 
@@ -114,8 +114,8 @@ struct Read {
 Read read_without_sweep(const std::string& text, const fs::path& file)
 {
   Read read{parse_document(text, file.string())};
-  read.sweeps = !read.document.take("sweep").is_null();
-  read.preset = parse_preset(text, file.string(), read.sweeps ? Overrides{"sweep=null"} : Overrides{});
+  read.sweep = read.document.take("sweep");
+  read.preset = parse_preset(text, file.string(), !read.sweep.is_null() ? Overrides{"sweep=null"} : Overrides{});
   return read;
 }
 
@@ -180,7 +180,7 @@ Recipe recipe_of(const Preset& preset)
   const std::string shipped = shipped_name(preset.source);
   Recipe recipe{shipped.empty() ? absolute_path(preset.source).string() : shipped, {}};
   const Read on_disk = read_without_sweep(read_file(preset.source), preset.source);
-  if (on_disk.sweeps) recipe.overrides.emplace_back("sweep=null");
+  if (!on_disk.sweep.is_null()) recipe.overrides.emplace_back("sweep=null");
   for (const Edit& edit : Comparison(true).edits(Writer::json(on_disk.preset), Writer::json(preset), on_disk.document.value()))
     recipe.overrides.push_back(override_of(edit));
   std::string why;
@@ -242,14 +242,14 @@ std::string parent_from(const std::string& parent, const fs::path& from, const f
 }
 
 /// What a child file of this parent has to say.
-Json child_of(const Preset& preset, const std::string& parent, const fs::path& file)
+Json child_of(const Preset& preset, const std::string& parent, const fs::path& file, const Json& sweep)
 {
   const Read base = read_without_sweep(Json{{"parent", parent}}.dump(), file);
   Json child{{"parent", parent}};
   // The parent's own name and description are not inherited; without a name it is the file's.
   if (preset.name != file.stem().string()) child["name"] = preset.name;
   if (!preset.description.empty()) child["description"] = preset.description;
-  if (base.sweeps) child["sweep"] = nullptr;
+  if (base.sweep != sweep) child["sweep"] = sweep;
   Json before = Writer::json(base.preset), after = Writer::json(preset);
   for (Json* json : {&before, &after})
     for (const char* own : {"name", "description"}) json->erase(own);
@@ -263,16 +263,41 @@ Json child_of(const Preset& preset, const std::string& parent, const fs::path& f
 
 } // namespace
 
-FileText file_text(const Preset& preset, const std::string& parent, const fs::path& file)
+std::vector<Difference> differences(const Preset& before, const Preset& after)
+{
+  Json a = Writer::json(before), b = Writer::json(moved_to_file(after, before.source));
+  for (Json* json : {&a, &b})
+    for (const char* own : {"name", "description"}) json->erase(own);
+  std::vector<Difference> all;
+  for (const Edit& edit : Comparison(true).edits(a, b, a)) {
+    std::string path;
+    Json::json_pointer at;
+    for (const std::string& key : edit.path) {
+      path += (path.empty() ? "" : ".") + key;
+      at /= key;
+    }
+    const auto text = [&](const Json& json) { return json.contains(at) ? json[at].dump() : std::string("none"); };
+    all.push_back({path, text(a), text(b)});
+  }
+  return all;
+}
+
+FileText file_text(const Preset& preset, const std::string& parent, const fs::path& file, const Sweep& sweep)
 {
   const Preset moved = moved_to_file(preset, file);
-  FileText whole{pretty(Writer::json(moved))};
+  const Json sweep_json = to_json(sweep);
+  Json all = Writer::json(moved);
+  if (!sweep.empty()) all["sweep"] = sweep_json;
+  FileText whole{pretty(all)};
   if (parent.empty()) return whole;
   std::string why;
   try {
     const std::string name = parent_from(parent, fs::path(preset.source).parent_path(), file.parent_path());
-    FileText child{pretty(child_of(moved, name, file)), true};
-    if (is_same(parse_preset(child.json, file.string()), moved)) return child;
+    FileText child{pretty(child_of(moved, name, file, sweep_json)), true};
+    if (const WithSweep read = parse_with_sweep(child.json, file.string());
+        is_same(read.preset, moved) && read.sweep == sweep &&
+        is_same(parse_first_run(child.json, file.string()), parse_first_run(whole.json, file.string())))
+      return child;
     why = "what was changed cannot be said over it";
   } catch (const Error& error) {
     why = error.line();

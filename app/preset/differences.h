@@ -3,9 +3,11 @@
 // handed out, so that what they say is the preset.
 #pragma once
 #include "preset/read.h"
+#include "preset/sweep.h"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace nephroid::preset {
 
@@ -40,7 +42,20 @@ struct FileText {
 
 /// For `file`, which need not be there: what differs from the parent, or everything where that cannot be said as a file with this parent.
 /// parent: as it stands in preset.source, or a shipped name; empty: everything. File names are those that mean the same from file's folder.
-FileText file_text(const Preset& preset, const std::string& parent, const std::filesystem::path& file);
+/// Values of a swept field are written as they are.
+FileText file_text(const Preset& preset, const std::string& parent, const std::filesystem::path& file, const Sweep& sweep = {});
+
+/// A field that two presets have differently: its way as --set takes it, and both values as JSON; "none" where one preset has no such
+/// field.
+struct Difference {
+  std::string path; ///< "scene.lights.0.power_w"
+  std::string before, after;
+  bool operator==(const Difference&) const = default;
+};
+
+/// In the order of the file, without what presets are called and where they lie. Names of files mean what they mean to `before`. Objects of
+/// different types, and lists of different lengths, are one difference.
+std::vector<Difference> differences(const Preset& before, const Preset& after);
 
 /// The preset as it reads from another file: names of files mean from there what they meant before.
 Preset moved_to_file(Preset preset, const std::filesystem::path& file);

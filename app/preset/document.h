@@ -4,6 +4,7 @@
 #pragma once
 #include "preset/json_text.h"
 #include "preset/origins.h"
+#include "preset/sweep.h"
 
 #include <filesystem>
 #include <string>
@@ -65,5 +66,12 @@ struct SweptDocument {
 /// Takes "sweep" out of the document. Runs come in the order of nested loops, the first key outermost. A key that an override
 /// sets is not swept. Throws bad_input where it is no object of non-empty lists, has over max_runs runs, or one key holds another.
 std::vector<SweptDocument> expand_sweep(Document document, const std::vector<std::string>& overrides);
+
+/// The same as data: takes "sweep" out of the document and says which keys are swept.
+Sweep take_sweep(Document& document, const std::vector<std::string>& overrides);
+/// The same with the first value of each swept key in its place.
+Document first_run(Document document, const std::vector<std::string>& overrides);
+/// As a preset's "sweep"; null without one.
+Json to_json(const Sweep& sweep);
 
 } // namespace nephroid::preset

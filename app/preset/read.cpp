@@ -6,8 +6,11 @@
 #include "preset/document.h"
 #include "preset/origins.h"
 #include "preset/reader_visitor.h"
+#include "preset/sweep.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace nephroid::preset {
 namespace {
@@ -62,6 +65,19 @@ const SweptDocument& only(const std::vector<SweptDocument>& runs)
 
 Document load(const std::string& name) { return load_document(find_preset(name, {}, "preset")); }
 
+WithSweep with_sweep(Document document, const Overrides& overrides)
+{
+  for (const std::string& text : overrides) apply_override(document, text);
+  const Document whole = document;
+  Sweep sweep = take_sweep(document, overrides);
+  try {
+    return {finish({std::move(document), ""}), sweep};
+  } catch (const Error&) {
+    if (sweep.empty()) throw;
+  }
+  return {finish({first_run(whole, overrides), ""}), std::move(sweep)};
+}
+
 } // namespace
 
 std::vector<Preset> read_presets(const std::string& name, const Overrides& overrides)
@@ -76,6 +92,35 @@ Preset read_preset(const std::string& name, const Overrides& overrides) { return
 Preset parse_preset(const std::string& json, const std::string& source, const Overrides& overrides)
 {
   return finish(only(runs_of(parse_document(json, source), overrides)));
+}
+
+WithSweep read_with_sweep(const std::string& name, const Overrides& overrides) { return with_sweep(load(name), overrides); }
+
+WithSweep parse_with_sweep(const std::string& json, const std::string& source) { return with_sweep(parse_document(json, source), {}); }
+
+Preset parse_first_run(const std::string& json, const std::string& source)
+{
+  return finish({first_run(parse_document(json, source), {}), ""});
+}
+
+std::vector<SweptRun> swept_runs(const Preset& preset, const Sweep& sweep)
+{
+  Document document = parse_document(to_json(preset), preset.source);
+  const Origin origin{Place(preset.source), true, std::filesystem::path(preset.source).parent_path()};
+  for (const SweptField& field : sweep)
+    if (std::ranges::count(sweep, field.key, &SweptField::key) > 1)
+      throw bad_input(Place(preset.source) / "sweep", in_quotes(field.key) + " is swept twice");
+  document.set({"sweep"}, to_json(sweep), origin);
+  std::vector<SweptRun> runs;
+  for (const SweptDocument& run : expand_sweep(std::move(document), {})) {
+    SweptRun& made = runs.emplace_back(SweptRun{base_name(run.document) + run.suffix, std::nullopt, {}});
+    try {
+      made.preset = finish(run);
+    } catch (const Error& error) {
+      made.why_not = error.line();
+    }
+  }
+  return runs;
 }
 
 } // namespace nephroid::preset

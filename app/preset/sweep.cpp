@@ -117,6 +117,39 @@ Origin origin_of_value(const Axis& axis, std::size_t index)
 
 } // namespace
 
+Sweep take_sweep(Document& document, const std::vector<std::string>& overrides)
+{
+  Sweep sweep;
+  for (const Axis& axis : read_axes(document, overrides)) {
+    SweptField& field = sweep.emplace_back(SweptField{axis.key, {}});
+    for (const Json& value : axis.values) field.values.push_back(value.dump());
+  }
+  return sweep;
+}
+
+Document first_run(Document document, const std::vector<std::string>& overrides)
+{
+  for (const Axis& axis : read_axes(document, overrides)) document.set(axis.path, axis.values[0], origin_of_value(axis, 0));
+  return document;
+}
+
+Json to_json(const Sweep& sweep)
+{
+  Json json;
+  for (const SweptField& field : sweep) {
+    Json& values = json[field.key] = Json::array();
+    for (const std::string& value : field.values) values.push_back(Json::parse(value));
+  }
+  return json;
+}
+
+double count_runs(const Sweep& sweep)
+{
+  double runs = 1;
+  for (const SweptField& field : sweep) runs *= static_cast<double>(field.values.size());
+  return runs;
+}
+
 std::vector<SweptDocument> expand_sweep(Document document, const std::vector<std::string>& overrides)
 {
   const std::vector<Axis> axes = read_axes(document, overrides);

@@ -282,4 +282,33 @@ TEST(PresetDifferences, NamesAndParentsOfFilesAreRead)
   EXPECT_EQ(preset::shell_word(""), "''");
 }
 
+TEST(PresetDifferences, AreListedByFieldWithBothValues)
+{
+  const std::string text = R"({"engine": "spectral", "stop": {"passes": 5}, "scene": {
+    "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}},
+    "lights": [{"type": "point", "power_w": 1}, {"type": "point", "power_w": 2}]}})";
+  const Preset before = preset::parse_preset(text, "before.json");
+  Preset after = before;
+  after.name = "another";
+  after.source = "after.json";
+  EXPECT_THAT(preset::differences(before, after), testing::IsEmpty()) << "what it is called is no difference";
+  after.scene.lights[1].power_w = 3;
+  after.stop.passes.reset();
+  after.stop.seconds = 10;
+  EXPECT_THAT(preset::differences(before, after),
+              testing::ElementsAre(preset::Difference{"scene.lights.1.power_w", "2.0", "3.0"},
+                                   preset::Difference{"stop.seconds", "null", "10.0"}, preset::Difference{"stop.passes", "5", "null"}));
+  // Another type, and another number of items, are one difference each.
+  after = before;
+  after.scene.lights.pop_back();
+  after.scene.materials["glass"].type = preset::Material::Type::mirror;
+  const auto whole = preset::differences(before, after);
+  ASSERT_EQ(whole.size(), 2u);
+  EXPECT_EQ(whole[0].path, "scene.materials.glass");
+  EXPECT_EQ(whole[1].path, "scene.lights");
+  after = before;
+  after.scene.materials["wall"] = {};
+  EXPECT_EQ(preset::differences(before, after).at(0).before, "none");
+}
+
 } // namespace

@@ -11,6 +11,15 @@ bool works(const Context& c)
   return state == job::State::preparing || state == job::State::running || state == job::State::paused;
 }
 
+bool sweeps(const Context& c) { return c.sweep.active(); }
+bool can_sweep(const Context& c) { return c.edits && !c.edits->sweep().empty() && !sweeps(c); }
+std::string why_no_sweep(const Context& c)
+{
+  return sweeps(c) ? "the sweep is running" : "the preset has no sweep; the panel Runs gives it one";
+}
+
+bool has_runs(const Context& c) { return has_picture(c) || !c.comparing.pinned().all().empty(); }
+
 void pause(const Context& c) { c.push(command::Pause{c.run.status().state != job::State::paused}); }
 
 } // namespace
@@ -24,6 +33,12 @@ std::vector<Action> run_actions()
       {menu, "Cancel", ImGuiKey_Escape, false, "End the run; its picture stays", works, push<command::Cancel>},
       {menu, "Pin this run", ImGuiKey_P, false, "Keep its history and its picture to hold later runs against", has_picture,
        push<command::PinRun>},
+      {menu, "Start the sweep", 0, false, "Run the preset with each combination of the values that are swept; each result is pinned",
+       can_sweep, push<command::StartSweep>, why_no_sweep},
+      {menu, "Stop the sweep", 0, false, "What is done stays pinned; the run of the preset starts again", sweeps, push<command::StopSweep>,
+       [](const Context&) { return std::string("no sweep is running"); }},
+      {menu, "Write a report...", 0, false, "One page over the pinned runs and this one, as nephroid report makes it", has_runs,
+       ask<Question::save_report>, [](const Context&) { return std::string("there is no run yet"); }},
   };
 }
 

@@ -14,8 +14,14 @@ namespace nephroid::ui {
 namespace {
 
 /// In the order of Question.
-constexpr const char* titles[] = {
-    "", "Open a preset", "Open the history of a run", "Save the preset as", "Save the picture as", "Unsaved changes", ""};
+constexpr const char* titles[] = {"",
+                                  "Open a preset",
+                                  "Open the history of a run",
+                                  "Save the preset as",
+                                  "Save the picture as",
+                                  "Unsaved changes",
+                                  "",
+                                  "Write a report over the runs"};
 
 const char* title(Question question) { return titles[static_cast<std::size_t>(question)]; }
 
@@ -42,6 +48,7 @@ void Dialogs::begin(const Workbench& workbench)
   name_.clear();
   const bool picture = shown_ == Question::save_picture;
   if (picture || shown_ == Question::save_preset) name_ = proposed_name(workbench.preset(), picture ? ".png" : "-edited.json");
+  if (shown_ == Question::save_report) name_ = proposed_name(workbench.preset(), "-report.html");
   parent_.clear();
   if (shown_ == Question::save_preset && workbench.preset()) {
     parent_ = parent_to_keep(*workbench.preset());
@@ -59,6 +66,7 @@ void Dialogs::begin_files(const Workbench& workbench)
   std::vector<std::string> endings{".json"};
   if (shown_ == Question::open_history) endings = {".csv"};
   if (shown_ == Question::save_picture) endings = {".png", ".exr"};
+  if (shown_ == Question::save_report) endings = {".html"};
   const std::filesystem::path source = save_target(workbench.preset());
   files_.begin(source.empty() ? std::filesystem::path(".") : source.parent_path(), endings);
 }
@@ -132,13 +140,15 @@ void Dialogs::draw_open_history(Commands& commands)
 
 void Dialogs::draw_save(Commands& commands)
 {
-  const bool picture = shown_ == Question::save_picture, there = !name_.empty() && is_there(name_);
+  const bool picture = shown_ == Question::save_picture, report = shown_ == Question::save_report,
+             there = !name_.empty() && is_there(name_);
   // A file of the list is only named by a click: replacing it takes the button.
   const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save", there);
   places_.note("save");
   if (chosen)
-    commands.push_back(picture ? Command(command::SavePicture{name_})
-                               : Command(command::SavePreset{name_, keep_parent_ && !parent_.empty()}));
+    commands.push_back(report    ? Command(command::WriteReport{name_})
+                       : picture ? Command(command::SavePicture{name_})
+                                 : Command(command::SavePreset{name_, keep_parent_ && !parent_.empty()}));
   if (!parent_.empty()) {
     ImGui::Checkbox("Keep the parent", &keep_parent_);
     places_.note("keep the parent");
@@ -150,6 +160,7 @@ void Dialogs::draw_save(Commands& commands)
   if (ImGui::Button("Save into this folder")) name_ = (files_.folder() / std::filesystem::path(name_).filename()).string();
   ImGui::SetItemTooltip("The name above, in the folder that is shown");
   if (picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
+  if (report) ImGui::TextDisabled("One page that opens in a browser; runs that are in no folder are kept in one beside it");
   if (there) ImGui::TextDisabled("This file is there already: Enter twice, or the button, replaces it.");
 }
 

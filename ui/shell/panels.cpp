@@ -10,6 +10,7 @@
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
 #include "ui/presets/panel.h"
+#include "ui/runs/panel.h"
 #include "ui/spectra/panel.h"
 #include "ui/view/panel.h"
 #include "ui/view/picking.h"
@@ -31,6 +32,7 @@ std::unique_ptr<Panel> make([[maybe_unused]] WavelengthAxis& wavelengths)
 const PanelEntry table[] = {
     {"view", ViewPanel::title, "", make<ViewPanel>, SeenScene::look},
     {"error", ErrorPanel::title, "", make<ErrorPanel>},
+    {"runs", RunsPanel::title, "", make<RunsPanel>},
     {"dispersion", DispersionPanel::title, "spectral", make<DispersionPanel>},
     {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>,
      [](const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded) {

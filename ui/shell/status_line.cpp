@@ -82,7 +82,8 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   ImGui::SameLine();
   action_button("Start again", context);
   const job::Pace pace = job::pace_between({}, progress);
-  std::string text = pace.work_per_second > 0 ? job::rate_text(pace, progress.units) : "";
+  std::string text = context.sweep.active() ? "sweep: " + context.sweep.summary() + "    " : "";
+  if (pace.work_per_second > 0) text += job::rate_text(pace, progress.units);
   const double left = pace.seconds_left;
   if (left > 0 && (status.state == job::State::running || paused)) text += "    " + duration_text(left) + " left";
   if (progress.work_seconds > 0) text += fmt::format("    {} of work", duration_text(progress.work_seconds));

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/image.h"
-#include "preset/read.h"
+#include "preset/sweep.h"
 #include "ui/shell/glfw_window.h"
 #include "ui/shell/status_line.h"
 #include "ui/shell/workspace.h"
@@ -264,7 +264,7 @@ std::unique_ptr<GlfwWindow> open_display(const Options& options)
   } catch (const Error&) {
     if (!options.files.empty() && !is_history(options.files.front())) {
       refuse_other_kinds(options.files.front());
-      preset::read_preset(options.files.front(), options.overrides);
+      preset::read_with_sweep(options.files.front(), options.overrides);
     }
     throw;
   }

@@ -4,6 +4,7 @@
 #pragma once
 #include "measure/difference.h"
 #include "preset/preset.h"
+#include "preset/sweep.h"
 #include "ui/state/new_scenes.h"
 #include "ui/state/selection.h"
 #include "ui/state/settings.h"
@@ -58,7 +59,7 @@ struct PixelRegion {
 };
 
 /// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
-enum class Question { none, open, open_history, save_preset, save_picture, unsaved, command };
+enum class Question { none, open, open_history, save_preset, save_picture, unsaved, command, save_report };
 
 namespace command {
 
@@ -81,6 +82,14 @@ struct Edit {
   std::uint64_t gesture = 0;
   bool live = false;
 };
+/// The sweep as it shall be: which fields take which values. An edit to undo; the run goes on, as its preset is the same.
+struct SetSweep {
+  std::string label;
+  preset::Sweep sweep;
+};
+/// The sweep's runs one after the other in place of the run in hand (sweep_queue.h), and an end of that.
+struct StartSweep {};
+struct StopSweep {};
 /// The mouse was let go: nothing holds the newest edit's run back any more.
 struct EndGesture {};
 struct Undo {};
@@ -185,6 +194,10 @@ struct SaveFiles {
   std::filesystem::path folder;
   std::string open; ///< a preset's name among them
 };
+/// The report over the pinned runs and the present one (run_report.h), in the background.
+struct WriteReport {
+  std::filesystem::path file;
+};
 struct Dismiss {
   std::uint64_t message = 0;
 };
@@ -224,12 +237,13 @@ struct Quit {
 } // namespace command
 
 using Command =
-    std::variant<command::Open, command::New, command::Edit, command::EndGesture, command::Undo, command::Redo, command::Restart,
-                 command::Cancel, command::Pause, command::SetLook, command::Flip, command::CompareWith, command::ShowDifference,
-                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin,
-                 command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion, command::Select,
-                 command::SetHandles, command::Nudged, command::AddBookmark, command::GoToBookmark, command::RenameBookmark,
-                 command::DeleteBookmark, command::Ask, command::SavePreset, command::SavePicture, command::SaveFiles, command::Dismiss,
+    std::variant<command::Open, command::New, command::Edit, command::SetSweep, command::StartSweep, command::StopSweep,
+                 command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause, command::SetLook,
+                 command::Flip, command::CompareWith, command::ShowDifference, command::ShowLayer, command::InspectPixel,
+                 command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric,
+                 command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles, command::Nudged,
+                 command::AddBookmark, command::GoToBookmark, command::RenameBookmark, command::DeleteBookmark, command::Ask,
+                 command::SavePreset, command::SavePicture, command::SaveFiles, command::WriteReport, command::Dismiss,
                  command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout,
                  command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;

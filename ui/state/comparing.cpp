@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/comparing.h"
 
+#include "ui/state/run_record.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -51,11 +53,7 @@ void Comparing::carry_out(const command::ShowDifference& c)
 void Comparing::carry_out(const command::PinRun&)
 {
   if (!run_.snapshot()) return;
-  PinnedRun run;
-  run.name = run_.snapshot_name();
-  run.history = run_.error_history() ? run_.error_history() : std::make_shared<job::History>();
-  run.picture = run_.snapshot()->picture;
-  pin(std::move(run));
+  pin(run_now(run_));
 }
 
 void Comparing::carry_out(const command::Unpin& c)

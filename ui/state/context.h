@@ -8,6 +8,7 @@
 #include "ui/state/recent_files.h"
 #include "ui/state/run_in_hand.h"
 #include "ui/state/settings.h"
+#include "ui/state/sweep_queue.h"
 #include "ui/state/undo.h"
 
 #include <array>
@@ -41,6 +42,7 @@ struct Context {
   bool has_earlier_session; ///< that could be reopened
   Commands& commands;
   const RecentFiles& recent;
+  const SweepQueue& sweep;
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }

@@ -67,7 +67,7 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
   compute::tell_of_compiling(*context_, [] {}); // what a job builds later is short
   std::vector<std::any> seen;
   if (look_around_) seen = look_around_(preset, previous_->loaded);
-  return {std::move(job), std::move(plan), std::move(reference), std::move(seen)};
+  return {std::move(job), std::move(plan), std::move(reference), std::move(seen), context_->device()};
 }
 
 void DeviceRuns::watch(const std::stop_token& stop)

@@ -9,6 +9,7 @@
 #include "run/import/import.h"
 #include "run/picture.h"
 #include "ui/state/recent_files.h"
+#include "ui/state/run_report.h"
 #include "ui/state/tone.h"
 
 #include <fmt/format.h>
@@ -176,6 +177,11 @@ void FileWork::save_files(const std::filesystem::path& folder, std::shared_ptr<c
     for (const job::ExtraFile& file : of->files) write_file_whole(folder / file.name, file.write);
     return Done{fmt::format("saved {} in {}", counted(of->files.size(), "file"), folder.string()), {}, folder / open};
   }));
+}
+
+void FileWork::save_report(const std::filesystem::path& file, std::vector<PinnedRun> runs)
+{
+  background_.push_back(std::async(std::launch::async, [file, runs = std::move(runs)] { return Done{write_report(file, runs)}; }));
 }
 
 void FileWork::import_scene(const std::filesystem::path& file)

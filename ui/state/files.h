@@ -57,6 +57,8 @@ public:
   void save_thumbnail(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops);
   /// The files of a run, into a folder that is made where it is not there. open: the one to be opened then.
   void save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open);
+  /// write_report() of run_report.h.
+  void save_report(const std::filesystem::path& file, std::vector<PinnedRun> runs);
   /// Makes a preset of a glTF file, in a folder of its own beside it, and then opens that.
   void import_scene(const std::filesystem::path& file);
   /// read_pin() of a path; as `like` in name, colour and whether it is shown, where that is given.

@@ -5,6 +5,7 @@
 #include "measure/history_file.h"
 #include "measure/read_picture.h"
 #include "measure/run_files.h"
+#include "ui/state/run_record.h"
 
 #include <fmt/format.h>
 
@@ -106,6 +107,7 @@ PinnedRun read_pin(const std::filesystem::path& path)
     picture->rgb = std::move(read.rgb);
     run.picture = std::move(picture);
   }
+  if (is_of_folder) run.record = read_record(folder);
   return run;
 }
 

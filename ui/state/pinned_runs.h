@@ -12,13 +12,16 @@
 
 namespace nephroid::ui {
 
+struct RunRecord;
+
 struct PinnedRun {
   std::uint64_t id = 0; ///< from 1
   std::string name;
-  std::uint32_t colour = 0;                    ///< IM_COL32
-  bool shown = true;                           ///< in the plot
-  std::shared_ptr<const job::History> history; ///< never null
-  std::shared_ptr<const job::Picture> picture; ///< null where only a table was read
+  std::uint32_t colour = 0;                     ///< IM_COL32
+  bool shown = true;                            ///< in the plot
+  std::shared_ptr<const job::History> history;  ///< never null
+  std::shared_ptr<const job::Picture> picture;  ///< null where only a table was read
+  std::shared_ptr<const RunRecord> record = {}; ///< what else is known of it (run_record.h); null where only a table was read
 };
 
 class PinnedRuns {

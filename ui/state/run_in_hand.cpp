@@ -15,6 +15,7 @@ struct RunInHand::Arrival {
   std::shared_ptr<const plan::Plan> plan; ///< null: not yet
   std::shared_ptr<const measure::Reference> reference;
   std::vector<std::any> seen;
+  compute::DeviceInfo device;
   std::shared_ptr<const preset::Preset> preset; ///< that it was made of
 };
 
@@ -24,6 +25,7 @@ void RunInHand::forget()
   reference_.reset();
   seen_.clear();
   snapshot_.reset();
+  snapshot_origin_ = {};
 }
 
 std::function<std::unique_ptr<job::Job>()> RunInHand::maker() const
@@ -34,6 +36,7 @@ std::function<std::unique_ptr<job::Job>()> RunInHand::maker() const
     arrival->plan = std::move(run.plan);
     arrival->reference = std::move(run.reference);
     arrival->seen = std::move(run.seen);
+    arrival->device = std::move(run.device);
     arrival->preset = preset;
     return std::move(run.job);
   };
@@ -52,7 +55,30 @@ void RunInHand::take_over(const UndoStack& edits)
 
 void RunInHand::start(const UndoStack& edits)
 {
+  if (lent_) return; // take_back() starts it
   take_over(edits);
+  begin();
+}
+
+void RunInHand::lend(std::shared_ptr<const preset::Preset> preset, std::string name)
+{
+  lent_ = true;
+  restart_wanted_ = snapshot_is_current_ = false;
+  messages_.dismiss(failure_message_);
+  preset_ = std::move(preset);
+  name_ = std::move(name);
+  begin();
+}
+
+void RunInHand::take_back(const UndoStack* edits)
+{
+  lent_ = false;
+  if (edits) start(*edits);
+}
+
+/// The run of preset_.
+void RunInHand::begin()
+{
   gesture_lasts_ = kernels_changed_ = shown_since_start_ = false;
   before_start_ = worker_.snapshot();
   arrival_ = std::make_shared<Arrival>();
@@ -61,6 +87,7 @@ void RunInHand::start(const UndoStack& edits)
 
 void RunInHand::adopt_or_start(const UndoStack& edits)
 {
+  if (lent_) return;
   const auto adoptable = preset_ ? engine::engine_of(*preset_).adoptable : nullptr;
   if (kernels_changed_ || !adoptable || !adoptable(*preset_, edits.current())) return start(edits);
   take_over(edits);
@@ -89,17 +116,20 @@ void RunInHand::take_arrival()
   plan_ = std::exchange(arrival_->plan, nullptr);
   reference_ = std::exchange(arrival_->reference, nullptr);
   seen_ = std::exchange(arrival_->seen, {});
+  device_ = std::exchange(arrival_->device, {});
   if (arrival_->preset != preset_) reference_.reset(); // it is of another light
 }
 
-void RunInHand::take_snapshot()
+/// True where there is a new one.
+bool RunInHand::take_snapshot()
 {
   std::shared_ptr<const job::Snapshot> newest = worker_.snapshot();
-  if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_) return;
+  if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_) return false;
   snapshot_ = std::move(newest);
   snapshot_name_ = name_;
   shown_since_start_ = true;
-  snapshot_is_current_ = !restart_wanted_ && snapshot_->adoption >= adoption_;
+  snapshot_is_current_ = !lent_ && !restart_wanted_ && snapshot_->adoption >= adoption_;
+  return true;
 }
 
 void RunInHand::report_failure()
@@ -116,8 +146,9 @@ void RunInHand::update(const UndoStack* edits)
   // In this order: the worker makes a run's last snapshot before it says that the run is over.
   status_ = worker_.status();
   spectrum_ = worker_.spectrum();
-  take_snapshot();
-  take_arrival();
+  const bool is_new = take_snapshot();
+  take_arrival(); // it was left there before the run's first snapshot
+  if (is_new && snapshot_->adoption >= adoption_) snapshot_origin_ = {preset_, plan_, reference_, device_};
   report_failure();
   if (!edits) return;
   if (source_.take_changed()) {
@@ -127,7 +158,7 @@ void RunInHand::update(const UndoStack* edits)
   // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device every move of
   // the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen until the mouse rests.
   const bool working = status_.state == job::State::preparing || status_.state == job::State::running;
-  if (restart_wanted_ && (!gesture_lasts_ || !working || shown_since_start_)) adopt_or_start(*edits);
+  if (restart_wanted_ && !lent_ && (!gesture_lasts_ || !working || shown_since_start_)) adopt_or_start(*edits);
 }
 
 } // namespace nephroid::ui

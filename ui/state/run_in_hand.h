@@ -18,6 +18,14 @@
 
 namespace nephroid::ui {
 
+/// What a run is made of, and on what.
+struct RunOrigin {
+  std::shared_ptr<const preset::Preset> preset;
+  std::shared_ptr<const plan::Plan> plan;
+  std::shared_ptr<const measure::Reference> reference; ///< null where it is measured against none
+  compute::DeviceInfo device;
+};
+
 class RunInHand {
 public:
   /// Both outlive it. messages: where a failure is said, and taken back with the next start.
@@ -38,6 +46,10 @@ public:
   void follow_edit(bool live);
   void end_gesture() { gesture_lasts_ = false; }
   void cancel();
+  /// A run of another preset, called `name`, in place of the present one's: whatever edits and files ask for waits until take_back().
+  void lend(std::shared_ptr<const preset::Preset> preset, std::string name);
+  /// The run of the present preset starts again. edits: null where none is open.
+  void take_back(const UndoStack* edits);
   void pause(bool on) { worker_.pause(on); }
   /// As job::Worker's.
   void watch_spectrum(std::optional<std::array<int, 2>> pixel) { worker_.watch_spectrum(pixel); }
@@ -55,6 +67,8 @@ public:
   const std::shared_ptr<const job::PixelSpectrum>& spectrum() const { return spectrum_; }
   /// Of the run that snapshot() is of: "Ball lens: distance of the camera", the preset and the newest edit.
   const std::string& snapshot_name() const { return snapshot_name_; }
+  /// What snapshot() was made of; nothing where that is null.
+  const RunOrigin& snapshot_origin() const { return snapshot_origin_; }
   /// What the run's error was so far, of snapshot(); null where nothing is measured.
   std::shared_ptr<const job::History> error_history() const { return snapshot_ ? snapshot_->history : nullptr; }
   /// Of the newest run that was made ready; null before the first of a preset. Another plan is another object.
@@ -77,12 +91,14 @@ private:
   /// Makes a run of the preset as it is now, on the worker's thread.
   std::function<std::unique_ptr<job::Job>()> maker() const;
   void take_over(const UndoStack& edits);
-  void take_snapshot();
+  void begin();
+  bool take_snapshot();
   void take_arrival();
   void report_failure();
 
   RunSource& source_;
   Messages& messages_;
+  bool lent_ = false;              ///< to a preset that is not the present one
   bool restart_wanted_ = false;    ///< the preset changed since the last start
   bool kernels_changed_ = false;   ///< ... or the kernels
   bool gesture_lasts_ = false;     ///< ... by a gesture that goes on
@@ -99,6 +115,8 @@ private:
   std::shared_ptr<const plan::Plan> plan_;
   std::shared_ptr<const measure::Reference> reference_;
   std::vector<std::any> seen_;
+  compute::DeviceInfo device_; ///< of the newest run that was made ready
+  RunOrigin snapshot_origin_;
   std::string name_, snapshot_name_;
   job::Worker worker_; ///< last: its thread uses the source
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the workbench gets its runs from: the program gives ui/state/device_runs.h with a device, tests give jobs of their own.
 #pragma once
+#include "compute/compute.h"
 #include "job/job.h"
 #include "measure/reference.h"
 #include "plan/plan.h"
@@ -17,6 +18,7 @@ struct NewRun {
   std::shared_ptr<const plan::Plan> plan;
   std::shared_ptr<const measure::Reference> reference; ///< what it is measured against; null where there is none
   std::vector<std::any> seen = {};                     ///< what panels looked for in the loaded scene: RunInHand::seen
+  compute::DeviceInfo device = {};                     ///< that it works on
 };
 
 class RunSource {

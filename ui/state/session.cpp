@@ -105,6 +105,17 @@ PresetPtr read_state(const Json& json, const std::string& source, const std::str
   }
 }
 
+preset::Sweep read_sweep(const Json& value)
+{
+  preset::Sweep sweep;
+  for (const Json& field : value) {
+    sweep.push_back({field.at(0).get<std::string>(), field.at(1).get<std::vector<std::string>>()});
+    for (const std::string& one : sweep.back().values)
+      if (!Json::accept(one)) throw std::out_of_range("a swept value is no JSON");
+  }
+  return sweep;
+}
+
 UndoStack::State read_edits(const Json& value)
 {
   UndoStack::State state;
@@ -114,8 +125,8 @@ UndoStack::State read_edits(const Json& value)
   for (const Json& entry : value.at("entries")) {
     if (state.entries.size() >= Session::most_entries) throw std::out_of_range("there are too many entries");
     now = state.entries.empty() ? entry.at("preset") : now.patch(entry.at("patch"));
-    state.entries.push_back(
-        {entry.at("label").get<std::string>(), read_state(now, source, fmt::format("entry {}", state.entries.size())), 0});
+    state.entries.push_back({entry.at("label").get<std::string>(), read_state(now, source, fmt::format("entry {}", state.entries.size())),
+                             0, read_sweep(entry.value("sweep", Json::array()))});
   }
   const auto index_of = [&](const Json& json) {
     const auto index = json.get<std::size_t>();
@@ -168,6 +179,7 @@ std::string SessionText::of(const Session& session)
     for (const UndoStack::Entry& entry : state.entries) {
       const auto now = known(entry.preset, before);
       edits["entries"].push_back({{"label", entry.label}, {before ? "patch" : "preset", before ? now->patch : now->json}});
+      for (const preset::SweptField& field : entry.sweep) edits["entries"].back()["sweep"].push_back({field.key, field.values});
       before = now;
     }
   }

@@ -2,9 +2,8 @@
 #include "ui/state/session_keeper.h"
 
 #include "base/files.h"
-#include "image/image.h"
 #include "measure/history_file.h"
-#include "run/picture.h"
+#include "ui/state/run_record.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -62,11 +61,8 @@ bool same_state(const Session& a, const Session& b)
 
 void write_pin(const fs::path& folder, const PinnedRun& run)
 {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw failed(folder.string(), "cannot be made: " + error.message());
-  write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
-  if (run.picture) image::write_exr(folder / "image.exr", run::with_layers(*run.picture));
+  write_run_folder(folder, run, {}, false);
+  if (!is_there(folder / "history.csv")) write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
 }
 
 } // namespace

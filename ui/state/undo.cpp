@@ -7,11 +7,20 @@
 
 namespace nephroid::ui {
 
-UndoStack::UndoStack(preset::Preset opened)
+UndoStack::UndoStack(preset::Preset opened, preset::Sweep sweep)
 {
   state_.opened = std::make_shared<const preset::Preset>(std::move(opened));
-  state_.entries = {{"", state_.opened, 0}};
+  state_.entries = {{"", state_.opened, 0, std::move(sweep)}};
   state_.saved = 0;
+}
+
+void UndoStack::push(std::string label, preset::Preset preset, preset::Sweep sweep)
+{
+  const std::shared_ptr<const preset::Preset> before = state_.entries[state_.index].preset;
+  push(std::move(label), std::move(preset));
+  Entry& entry = state_.entries[state_.index];
+  entry.sweep = std::move(sweep);
+  if (*entry.preset == *before) entry.preset = before; // the same preset is the same object
 }
 
 void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t gesture)
@@ -25,7 +34,7 @@ void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t ges
     if (saved == index) saved.reset();
     return;
   }
-  entries.push_back({std::move(label), std::move(pushed), gesture});
+  entries.push_back({std::move(label), std::move(pushed), gesture, entries.back().sweep});
   ++index;
   if (entries.size() <= limit) return;
   entries.pop_front();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Undo and redo: a stack of presets, because the preset is the whole state. One entry a gesture.
+// Undo and redo: a stack of presets with their sweeps, because these are the whole state. One entry a gesture.
 #pragma once
 #include "preset/preset.h"
+#include "preset/sweep.h"
 
 #include <cstdint>
 #include <deque>
@@ -17,6 +18,7 @@ public:
     std::string label;
     std::shared_ptr<const preset::Preset> preset; ///< another preset is another object
     std::uint64_t gesture = 0;
+    preset::Sweep sweep = {};
     bool operator==(const Entry&) const = default;
   };
   /// All there is to know of it, to be kept.
@@ -29,15 +31,19 @@ public:
   };
 
   /// Starts over with one preset that counts as saved.
-  explicit UndoStack(preset::Preset opened);
+  explicit UndoStack(preset::Preset opened, preset::Sweep sweep = {});
   /// As state() was.
   explicit UndoStack(State state) : state_(std::move(state)) {}
   /// A new state after the current one; what could be redone is dropped. The same gesture (not 0) as the current entry's replaces it.
+  /// The sweep stays as it is.
   void push(std::string label, preset::Preset preset, std::uint64_t gesture = 0);
+  /// The same with another sweep.
+  void push(std::string label, preset::Preset preset, preset::Sweep sweep);
   /// One entry back or forth; false where there is none.
   bool undo();
   bool redo();
   const preset::Preset& current() const { return *state_.entries[state_.index].preset; }
+  const preset::Sweep& sweep() const { return state_.entries[state_.index].sweep; }
   /// As it was read.
   const preset::Preset& opened() const { return *state_.opened; }
   /// What undo() would undo and redo() redo; empty where there is nothing.

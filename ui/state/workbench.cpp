@@ -5,6 +5,7 @@
 #include "preset/differences.h"
 #include "preset/settings_type.h"
 #include "ui/state/dielectrics.h"
+#include "ui/state/run_record.h"
 #include "ui/state/tone.h"
 
 #include <algorithm>
@@ -47,23 +48,24 @@ void Workbench::apply(const Commands& commands)
 
 bool Workbench::open(const std::string& name, const preset::Overrides& overrides)
 {
-  std::optional<preset::Preset> read;
+  std::optional<preset::WithSweep> read;
   try {
     refuse_other_kinds(name);
-    read = preset::read_preset(name, overrides);
+    read = preset::read_with_sweep(name, overrides);
   } catch (const std::exception& error) {
     messages_.error(error);
     return false;
   }
-  begin(*std::move(read));
+  begin(std::move(read->preset), std::move(read->sweep));
   recent_.add(edits_->current().source, std::time(nullptr));
   return true;
 }
 
 /// In place of what is open, which is not asked about.
-void Workbench::begin(preset::Preset preset)
+void Workbench::begin(preset::Preset preset, preset::Sweep sweep)
 {
-  edits_.emplace(std::move(preset));
+  sweep_.stop(run_, nullptr);
+  edits_.emplace(std::move(preset), std::move(sweep));
   messages_.dismiss_errors_until(last_before_commands_);
   comparing_.forget();
   run_.forget();
@@ -81,6 +83,7 @@ void Workbench::remember(RecentFiles recent) { recent_ = std::move(recent); }
 
 void Workbench::restore(Session session, const std::filesystem::path& folder)
 {
+  sweep_.stop(run_, nullptr);
   comparing_.forget();
   run_.forget();
   question_ = Question::none;
@@ -123,7 +126,7 @@ void Workbench::carry_out(const command::Open& c)
     return;
   }
   refuse_other_kinds(c.name);
-  preset::read_preset(c.name); // what cannot be opened is said at once, and nothing is asked
+  preset::read_with_sweep(c.name); // what cannot be opened is said at once, and nothing is asked
   ask_first(command::Open{c.name, true});
 }
 
@@ -144,14 +147,43 @@ void Workbench::carry_out(const command::Edit& c)
   run_.follow_edit(c.live);
 }
 
+void Workbench::carry_out(const command::SetSweep& c)
+{
+  if (!edits_ || c.sweep == edits_->sweep()) return;
+  edits_->push(c.label, edits_->current(), c.sweep);
+}
+
+void Workbench::carry_out(const command::StartSweep&)
+{
+  if (edits_ && !sweep_.active()) sweep_.start(edits_->current(), edits_->sweep());
+}
+
+/// The run follows a step of undo or redo, but where that was about the sweep alone.
+void Workbench::moved_in_edits(const preset::Preset& before)
+{
+  if (before != edits_->current()) run_.adopt_or_start(*edits_);
+}
+
 void Workbench::carry_out(const command::Undo&)
 {
-  if (edits_ && edits_->undo()) run_.adopt_or_start(*edits_);
+  if (!edits_) return;
+  const preset::Preset before = edits_->current();
+  if (edits_->undo()) moved_in_edits(before);
 }
 
 void Workbench::carry_out(const command::Redo&)
 {
-  if (edits_ && edits_->redo()) run_.adopt_or_start(*edits_);
+  if (!edits_) return;
+  const preset::Preset before = edits_->current();
+  if (edits_->redo()) moved_in_edits(before);
+}
+
+void Workbench::carry_out(const command::Cancel&)
+{
+  if (sweep_.active())
+    sweep_.stop(run_, edits());
+  else
+    run_.cancel();
 }
 
 void Workbench::carry_out(const command::Restart&)
@@ -208,7 +240,7 @@ void Workbench::carry_out(const command::SavePreset& c)
 {
   if (!edits_) return;
   const std::string parent = c.keep_parent ? parent_to_keep(edits_->current()) : std::string();
-  const preset::FileText text = preset::file_text(edits_->current(), parent, c.file);
+  const preset::FileText text = preset::file_text(edits_->current(), parent, c.file, edits_->sweep());
   write_file_whole(c.file, text.json);
   edits_->mark_saved(c.file.string());
   question_ = Question::none;
@@ -242,6 +274,12 @@ PictureToSave Workbench::shown_picture() const
 void Workbench::carry_out(const command::SaveFiles& c)
 {
   if (run_.snapshot()) files_.save_files(c.folder, run_.snapshot(), c.open);
+}
+
+void Workbench::carry_out(const command::WriteReport& c)
+{
+  question_ = Question::none;
+  files_.save_report(c.file, runs_of_table(comparing_, run_));
 }
 
 /// What is kept for the presets of the engine in hand.
@@ -296,11 +334,12 @@ bool Workbench::take_over_file()
 {
   if (!edits_) return false;
   const std::string source = edits_->current().source;
-  preset::Preset read = preset::read_preset(source);
-  if (read == edits_->current()) return false; // as where this window wrote it
-  edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read));
+  preset::WithSweep read = preset::read_with_sweep(source);
+  const bool is_other_run = read.preset != edits_->current();
+  if (!is_other_run && read.sweep == edits_->sweep()) return false; // as where this window wrote it
+  edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset), std::move(read.sweep));
   edits_->mark_saved(source);
-  run_.follow_edit(false);
+  if (is_other_run) run_.follow_edit(false);
   return true;
 }
 
@@ -321,7 +360,7 @@ void Workbench::look_at_files()
       messages_.note(name + " was changed on disk: the run begins again");
     } else if (!edits_->modified()) {
       if (take_over_file()) messages_.note(name + " was changed on disk and is taken over");
-    } else if (preset::read_preset(file.string()) != edits_->current())
+    } else if (const auto read = preset::read_with_sweep(file.string()); read.preset != edits_->current() || read.sweep != edits_->sweep())
       messages_.error(file.string() + ": another program changed this file, and the preset has edits that are not saved; save them under "
                                       "another name, or take the preset from its file (File)");
   }
@@ -336,6 +375,7 @@ void Workbench::update(Clock::time_point now)
     messages_.error(error);
   }
   run_.update(edits());
+  sweep_.update(run_, comparing_, edits());
   recent_.update();
   if (std::string note = recent_.take_note(); !note.empty()) messages_.note(std::move(note));
   files_.collect(

@@ -44,13 +44,14 @@ public:
   /// For one frame; what is asked for goes to `commands`.
   Context context(Commands& commands) const
   {
-    return {edits(), run_, comparing_, chosen_, settings_, has_earlier_session_, commands, recent_};
+    return {edits(), run_, comparing_, chosen_, settings_, has_earlier_session_, commands, recent_, sweep_};
   }
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }
   const RunInHand& run() const { return run_; }
   const Comparing& comparing() const { return comparing_; }
+  const SweepQueue& sweep() const { return sweep_; }
   const Chosen& chosen() const { return chosen_; }
   const RecentFiles& recent() const { return recent_; }
   const std::vector<Message>& messages() const { return messages_.all(); }
@@ -75,11 +76,14 @@ private:
   void carry_out(const command::Open& c);
   void carry_out(const command::New& c);
   void carry_out(const command::Edit& c);
+  void carry_out(const command::SetSweep& c);
+  void carry_out(const command::StartSweep&);
+  void carry_out(const command::StopSweep&) { sweep_.stop(run_, edits()); }
   void carry_out(const command::EndGesture&) { run_.end_gesture(); }
   void carry_out(const command::Undo&);
   void carry_out(const command::Redo&);
   void carry_out(const command::Restart&);
-  void carry_out(const command::Cancel&) { run_.cancel(); }
+  void carry_out(const command::Cancel&);
   void carry_out(const command::Pause& c) { run_.pause(c.on); }
   void carry_out(const command::SetLook& c);
   void carry_out(const command::InspectPixel& c);
@@ -99,6 +103,7 @@ private:
   void carry_out(const command::SavePreset& c);
   void carry_out(const command::SavePicture& c);
   void carry_out(const command::SaveFiles& c);
+  void carry_out(const command::WriteReport& c);
   void carry_out(const command::Dismiss& c) { messages_.dismiss(c.message); }
   void carry_out(const command::ToggleHelp&) { help_shown_ = !help_shown_; }
   void carry_out(const command::ReopenSession& c);
@@ -128,7 +133,8 @@ private:
   /// With the engine inverse: its object shall cast a picture that was dropped, in place of the first drawing, else of the first picture.
   /// False for another engine.
   bool cast_picture(const std::string& file);
-  void begin(preset::Preset preset);
+  void begin(preset::Preset preset, preset::Sweep sweep = {});
+  void moved_in_edits(const preset::Preset& before);
   EngineLayout& engine_layout();
 
   std::optional<UndoStack> edits_;
@@ -136,6 +142,7 @@ private:
   std::uint64_t last_before_commands_ = 0; ///< newer messages are about the commands that are being carried out
   RunInHand run_;
   Comparing comparing_{run_};
+  SweepQueue sweep_;
   Chosen chosen_;
   FileWork files_;
   FileWatch watch_;

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Runs": the table of the run in hand and of pinned runs, its buttons, and the report over them.
+#include "base/files.h"
+#include "measure/history_file.h"
+#include "preset/read.h"
+#include "ui/runs/panel.h"
+#include "ui/state/run_record.h"
+#include "ui/state/run_report.h"
+#include "ui/state/session_keeper.h"
+#include "ui/widgets/action.h"
+#include "window_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace nephroid::ui {
+namespace {
+
+using test::eventually;
+using test::falling_history;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+class RunsPanelTest : public test::WindowFixtureOf<test::FakeRuns> {
+protected:
+  RunsPanelTest() : WindowFixtureOf("runs") { runs.plan.engine = "spectral"; }
+
+  const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
+  void click_on(const std::string& widget)
+  {
+    const auto place = panel().place_of(widget);
+    ASSERT_TRUE(place) << widget;
+    click(*place);
+    frame();
+  }
+  void edit(const std::function<void(preset::Preset&)>& change)
+  {
+    preset::Preset edited = *workbench.preset();
+    change(edited);
+    workbench.apply({command::Edit{"edit", edited}});
+    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
+    finish();
+  }
+  std::string difference(const RunRow& row) { return PresetDifferences().in_short(row, context()); }
+  std::vector<PinnedRun> pins() const { return workbench.comparing().pinned().all(); }
+  /// Until the report is written or refused: the newest message.
+  std::string report(const std::string& file)
+  {
+    workbench.apply({command::WriteReport{file}});
+    EXPECT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
+    return workbench.messages().empty() ? "" : workbench.messages().back().line;
+  }
+};
+
+TEST_F(RunsPanelTest, ListsTheRunInHandAndThePinnedOnes)
+{
+  measured();
+  open();
+  finish();
+  press(ImGuiKey_P);
+  edit([](preset::Preset& p) {
+    p.scene.lights[0].power_w = 20;
+    p.scene.camera.fov_deg = 30;
+  });
+  frame();
+  ASSERT_THAT(panel().rows(), SizeIs(2));
+  const RunRow &now = panel().rows()[0], &pin = panel().rows()[1];
+  EXPECT_EQ(now.name, "this run");
+  EXPECT_EQ(pin.name, "Test");
+  for (const RunRow& row : panel().rows()) {
+    EXPECT_EQ(row.engine, "spectral");
+    EXPECT_EQ(row.steps, "20 passes");
+    EXPECT_EQ(row.seconds, "0.04 s");
+    EXPECT_EQ(row.error, "0.0224 lab_mean") << "0.01 / sqrt(0.2): the last of 20 rows, one each 10 ms";
+    EXPECT_EQ(row.error_kind, "to its reference");
+  }
+  EXPECT_EQ(difference(now), "as the present preset");
+  EXPECT_EQ(difference(pin), "scene.camera.fov_deg: 30.0 -> 40.0, 1 more");
+}
+
+TEST_F(RunsPanelTest, WhatARunDoesNotKnowIsADash)
+{
+  open();
+  finish();
+  frame();
+  ASSERT_THAT(panel().rows(), SizeIs(1));
+  EXPECT_EQ(panel().rows()[0].error, "-") << "nothing is measured";
+  EXPECT_EQ(panel().rows()[0].error_kind, "-");
+  folder.write("old.csv", measure::to_csv(*falling_history(3)));
+  workbench.apply({command::PinFile{folder.path() / "old.csv"}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return panel().rows().size() == 2; }));
+  const RunRow& table = panel().rows()[1];
+  EXPECT_EQ(table.engine, "-");
+  EXPECT_EQ(table.steps, "-");
+  EXPECT_EQ(table.seconds, "0.03 s") << "of its last row";
+  EXPECT_EQ(table.error, "0.0577 lab_mean");
+  EXPECT_EQ(difference(table), "its preset is not known");
+  EXPECT_FALSE(table.has_picture);
+  click_on(fmt::format("take {}", table.pin));
+  EXPECT_FALSE(workbench.edits()->modified()) << "the button is grey";
+}
+
+TEST_F(RunsPanelTest, AnEstimateIsCalledOne)
+{
+  runs.history = [](int steps) {
+    auto history = falling_history(steps);
+    history->error_column = "estimated_lab_mean";
+    return history;
+  };
+  open();
+  finish();
+  frame();
+  EXPECT_EQ(panel().rows()[0].error, "0.0246 lab_mean");
+  EXPECT_EQ(panel().rows()[0].error_kind, "estimate");
+}
+
+TEST_F(RunsPanelTest, ShowsARunInTheView)
+{
+  open();
+  finish();
+  press(ImGuiKey_P);
+  edit([](preset::Preset& p) { p.scene.camera.position[2] = 0; });
+  const std::string show = fmt::format("show {}", pins()[0].id);
+  click_on(show);
+  EXPECT_TRUE(workbench.comparing().comparison().flip);
+  EXPECT_EQ(workbench.comparing().comparison().pin, pins()[0].id);
+  frames(2);
+  EXPECT_EQ(workspace.panel<ViewPanel>().shown().label, "\"Test\"");
+  click_on("show 0");
+  EXPECT_FALSE(workbench.comparing().comparison().flip);
+  click_on(show);
+  click_on(show);
+  EXPECT_FALSE(workbench.comparing().comparison().flip) << "pressed again, back";
+}
+
+TEST_F(RunsPanelTest, TakesTheTakenPresetAsOneEdit)
+{
+  open();
+  finish();
+  press(ImGuiKey_P);
+  edit([](preset::Preset& p) {
+    p.name = "Other";
+    p.scene.lights[0].power_w = 20;
+  });
+  click_on(fmt::format("take {}", pins()[0].id));
+  EXPECT_EQ(workbench.preset()->scene.lights[0].power_w, 10);
+  EXPECT_EQ(workbench.preset()->name, "Other") << "it is of the same file";
+  EXPECT_EQ(workbench.edits()->undo_label(), "take the preset of Test");
+  workbench.apply({command::Undo{}});
+  EXPECT_EQ(workbench.preset()->scene.lights[0].power_w, 20);
+}
+
+TEST_F(RunsPanelTest, PinsAndUnpins)
+{
+  open();
+  finish();
+  click_on("pin");
+  ASSERT_THAT(pins(), SizeIs(1));
+  click_on(fmt::format("unpin {}", pins()[0].id));
+  EXPECT_THAT(pins(), SizeIs(0));
+  frame();
+  EXPECT_THAT(panel().rows(), SizeIs(1));
+}
+
+TEST_F(RunsPanelTest, TheReportIsOverAllFinishedRuns)
+{
+  measured();
+  open();
+  finish();
+  press(ImGuiKey_P);
+  edit([](preset::Preset& p) { p.scene.lights[0].power_w = 20; });
+  EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("a report over 2 runs"));
+  const std::string page = read_file(folder.path() / "page.html");
+  EXPECT_THAT(page, HasSubstr("lab_mean"));
+  EXPECT_THAT(page, HasSubstr("Test: edit"));
+  const auto first = folder.path() / "page-runs" / "01-Test";
+  EXPECT_TRUE(is_there(first / "image.png"));
+  EXPECT_EQ(preset::read_preset((first / "preset.json").string()).scene.lights[0].power_w, 10);
+  EXPECT_EQ(preset::read_preset((folder.path() / "page-runs" / "02-Test--edit" / "preset.json").string()).scene.lights[0].power_w, 20);
+  // Once more: nothing is written over, and a run that is pinned as it stands is in the page once.
+  press(ImGuiKey_P);
+  EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("a report over 2 runs"));
+  EXPECT_TRUE(is_there(folder.path() / "page-runs-2" / "02-Test--edit" / "run.json"));
+}
+
+TEST_F(RunsPanelTest, ADialogAsksForTheReportsName)
+{
+  measured();
+  open();
+  finish();
+  click_on("report");
+  ASSERT_EQ(workbench.question(), Question::save_report);
+  frames(3);
+  press(ImGuiKey_A, ImGuiMod_Ctrl);
+  ImGui::GetIO().AddInputCharactersUTF8((folder.path() / "asked.html").c_str());
+  frames(2);
+  press(ImGuiKey_Enter);
+  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_TRUE(eventually([&] { frame(); }, [&] { return is_there(folder.path() / "asked.html"); }));
+}
+
+TEST_F(RunsPanelTest, AReportSaysWhatItLeavesOutAndWhy)
+{
+  measured();
+  open();
+  finish();
+  press(ImGuiKey_P);
+  folder.write("old.csv", measure::to_csv(*falling_history(3)));
+  workbench.apply({command::PinFile{folder.path() / "old.csv"}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return pins().size() == 2; }));
+  const std::string note = report((folder.path() / "page.html").string());
+  EXPECT_THAT(note, HasSubstr("over 1 run;"));
+  EXPECT_THAT(note, HasSubstr("left out: \"old\": only its history was read"));
+}
+
+TEST_F(RunsPanelTest, WithoutAFinishedRunThereIsNoReport)
+{
+  runs.steps = 1000000;
+  open();
+  const std::string line = report((folder.path() / "page.html").string());
+  EXPECT_THAT(line, HasSubstr("page.html: there is no run for a report (\"Test\": it is not finished)"));
+  EXPECT_TRUE(workbench.messages().back().error);
+  EXPECT_FALSE(is_there(folder.path() / "page.html"));
+  EXPECT_FALSE(is_there(folder.path() / "page-runs"));
+}
+
+TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing)
+{
+  measured();
+  open();
+  finish();
+  EXPECT_THAT(report((folder.path() / "page.txt").string()), HasSubstr("expected a name that ends in .html"));
+  folder.write("file", "no folder");
+  EXPECT_THAT(report((folder.path() / "file" / "page.html").string()), HasSubstr("file/page"));
+  EXPECT_TRUE(workbench.messages().back().error);
+  EXPECT_FALSE(is_there(folder.path() / "page-runs"));
+  // A page that cannot be written where a folder is takes what was written beside it along.
+  std::filesystem::create_directories(folder.path() / "page.html");
+  EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("page.html"));
+  EXPECT_TRUE(workbench.messages().back().error);
+  EXPECT_FALSE(is_there(folder.path() / "page-runs"));
+}
+
+TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs)
+{
+  measured();
+  open();
+  finish();
+  write_run_folder(folder.path() / "before", run_now(workbench.run()), "before", true);
+  workbench.apply({command::PinFile{folder.path() / "before"}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return pins().size() == 1; }));
+  frame();
+  const RunRow row = panel().rows()[1];
+  EXPECT_EQ(row.engine, "spectral");
+  EXPECT_EQ(row.steps, "20 passes");
+  EXPECT_EQ(difference(row), "as the present preset") << "the name is none";
+  edit([](preset::Preset& p) { p.scene.lights[0].power_w = 20; });
+  EXPECT_EQ(difference(row), "scene.lights.0.power_w: 20.0 -> 10.0");
+  EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("over 2 runs"));
+  EXPECT_FALSE(is_there(folder.path() / "page-runs" / "01-before"));
+  EXPECT_TRUE(is_there(folder.path() / "page-runs" / "02-Test--edit"));
+  // The folder is gone: what was read of it is written.
+  std::filesystem::remove_all(folder.path() / "before");
+  EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("over 2 runs"));
+  EXPECT_TRUE(is_there(folder.path() / "page-runs-2" / "01-before" / "image.exr"));
+}
+
+TEST_F(RunsPanelTest, ASessionKeepsWhatIsKnownOfAPin)
+{
+  measured();
+  open();
+  finish();
+  press(ImGuiKey_P);
+  const auto state = folder.path() / "state";
+  {
+    SessionKeeper keeper(state);
+    keeper.close(workbench);
+  }
+  test::FakeRuns other_runs;
+  Workbench other(other_runs);
+  SessionKeeper keeper(state);
+  keeper.reopen(other);
+  ASSERT_TRUE(eventually([&] { other.update(); }, [&] { return other.comparing().pinned().all().size() == 1; }));
+  const PinnedRun pin = other.comparing().pinned().all()[0];
+  EXPECT_EQ(pin.name, "Test");
+  ASSERT_TRUE(pin.record && pin.record->preset);
+  EXPECT_EQ(pin.record->engine, "spectral");
+  EXPECT_EQ(pin.record->steps, 20);
+  EXPECT_TRUE(pin.record->finished);
+  EXPECT_EQ(pin.record->preset->scene.lights[0].power_w, 10);
+  EXPECT_EQ(why_no_folder(pin), "");
+  EXPECT_THAT(write_report(folder.path() / "later.html", std::span(&pin, 1)), HasSubstr("over 1 run"));
+}
+
+TEST_F(RunsPanelTest, ADamagedFolderIsSaidOnce)
+{
+  open();
+  const auto bad = folder.path() / "bad";
+  std::filesystem::create_directories(bad);
+  write_file_whole(bad / "history.csv", measure::to_csv(*falling_history(3)));
+  write_file_whole(bad / "run.json", "{\"engine\": 7, \"units\": [], \"work_seconds\": \"long\", \"finished\": 1}");
+  write_file_whole(bad / "preset.json", "{\"engine\": \"none of ours\"}");
+  workbench.apply({command::PinFile{bad}});
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return panel().rows().size() == 2; }));
+  EXPECT_EQ(panel().rows()[1].engine, "-");
+  EXPECT_EQ(panel().rows()[1].seconds, "-");
+  EXPECT_EQ(difference(panel().rows()[1]), "its preset is not known");
+  EXPECT_THAT(workbench.messages(), SizeIs(0));
+}
+
+} // namespace
+} // namespace nephroid::ui

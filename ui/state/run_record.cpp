@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/run_record.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json_output.h"
+#include "image/image.h"
+#include "measure/history_file.h"
+#include "measure/run_curves.h"
+#include "preset/read.h"
+#include "preset/settings_type.h"
+#include "run/picture.h"
+#include "run/run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::array text_files{"run.json", "plan.json", "preset.json"};
+
+/// The names of run.json's members are the engine's. Whatever is of another type is not known.
+void read_figures(const std::string& text, RunRecord& record)
+{
+  const Json run = Json::parse(text, nullptr, false);
+  if (!run.is_object()) return;
+  const auto member = [&](const Json& of, const std::string& key) { return of.is_object() && of.contains(key) ? of[key] : Json(); };
+  if (const Json engine = member(run, "engine"); engine.is_string()) record.engine = engine;
+  if (const Json finished = member(run, "finished"); finished.is_boolean()) record.finished = finished;
+  if (const Json seconds = member(run, "work_seconds"); seconds.is_number()) record.work_seconds = seconds.get<double>();
+  if (const Json steps = member(member(run, "units"), "steps"); steps.is_string()) record.steps_name = steps;
+  if (const Json steps = member(run, record.steps_name); steps.is_number_integer()) record.steps = steps.get<std::int64_t>();
+}
+
+std::string renamed(const std::string& text, const std::string& name)
+{
+  Json json = Json::parse(text, nullptr, false);
+  if (name.empty() || !json.is_object()) return text;
+  json["name"] = name;
+  return json_text(json, 2) + "\n";
+}
+
+void write_made(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further)
+{
+  const RunOrigin& origin = *run.record->origin;
+  run::Prepared prepared{*origin.preset, nullptr, origin.plan};
+  if (!name.empty()) prepared.preset.name = name;
+  job::Snapshot snapshot = *run.record->snapshot;
+  snapshot.picture = run.picture;
+  if (!further) snapshot.pictures.clear();
+  run::write_run(folder, prepared, origin.device, snapshot, origin.reference.get(), run.record->finished);
+}
+
+/// What was read, without what the folder had beside it.
+void write_read(const fs::path& folder, const PinnedRun& run, const std::string& name)
+{
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw failed(folder.string(), "cannot be made: " + error.message());
+  write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
+  if (run.picture) image::write_exr(folder / "image.exr", run::with_layers(*run.picture));
+  if (!run.record) return;
+  for (const auto& [file, text] : run.record->texts) {
+    const bool moved = file == std::string("preset.json") && run.record->preset;
+    write_file_whole(folder / file, renamed(moved ? preset::to_json(*run.record->preset, folder) + "\n" : text, name));
+  }
+}
+
+} // namespace
+
+namespace {
+
+/// Everything but what the run's folder is written from.
+RunRecord figures_now(const RunInHand& run)
+{
+  const job::Progress& progress = run.snapshot()->progress;
+  RunRecord record;
+  record.steps_name = progress.units.steps;
+  record.steps = progress.step;
+  record.work_seconds = progress.work_seconds;
+  record.finished = progress.fraction >= 1;
+  record.preset = run.snapshot_origin().preset;
+  if (record.preset) record.engine = record.preset->settings.type().name;
+  return record;
+}
+
+PinnedRun with_record(const RunInHand& run, RunRecord record)
+{
+  PinnedRun now;
+  now.name = run.snapshot_name();
+  now.history = run.error_history() ? run.error_history() : std::make_shared<job::History>();
+  now.picture = run.snapshot()->picture;
+  now.record = std::make_shared<const RunRecord>(std::move(record));
+  return now;
+}
+
+} // namespace
+
+PinnedRun look_at_run(const RunInHand& run) { return with_record(run, figures_now(run)); }
+
+PinnedRun run_now(const RunInHand& run)
+{
+  RunRecord record = figures_now(run);
+  if (const RunOrigin& origin = run.snapshot_origin(); origin.preset && origin.plan) {
+    record.origin = origin;
+    auto kept = std::make_shared<job::Snapshot>(*run.snapshot());
+    kept->picture.reset();
+    kept->files.clear(); // a mesh can be as large as the memory
+    record.snapshot = std::move(kept);
+  }
+  return with_record(run, std::move(record));
+}
+
+std::vector<PinnedRun> runs_of_table(const Comparing& comparing, const RunInHand& run)
+{
+  std::vector<PinnedRun> runs = comparing.pinned().all();
+  const auto& now = run.snapshot();
+  if (now && std::ranges::find(runs, now->picture, &PinnedRun::picture) == runs.end()) runs.push_back(run_now(run));
+  return runs;
+}
+
+std::shared_ptr<const RunRecord> read_record(const fs::path& folder)
+{
+  if (!is_there(folder / "run.json")) return nullptr;
+  auto record = std::make_shared<RunRecord>();
+  record->folder = folder;
+  for (const char* name : text_files)
+    if (is_there(folder / name)) record->texts[name] = read_file(folder / name);
+  read_figures(record->texts["run.json"], *record);
+  if (!record->texts.contains("preset.json")) return record;
+  try {
+    record->preset =
+        std::make_shared<const preset::Preset>(preset::parse_preset(record->texts["preset.json"], (folder / "preset.json").string()));
+  } catch (const Error&) {
+    // of another version of the program, say: the run is shown without it
+  }
+  return record;
+}
+
+std::optional<KnownError> known_error(const job::History& history)
+{
+  if (history.rows.empty()) return std::nullopt;
+  for (const std::string& column : {history.error_column, std::string("lab_mean"), std::string("estimated_lab_mean")}) {
+    const double value = job::error_in(history, history.rows.back(), column);
+    if (!std::isfinite(value)) continue;
+    const measure::ErrorColumn parts = measure::error_column_of(column);
+    return KnownError{value, parts.metric, parts.is_estimate};
+  }
+  return std::nullopt;
+}
+
+std::string why_no_folder(const PinnedRun& run)
+{
+  if (!run.record) return "only its history was read, not the folder of a run";
+  if (!run.record->finished) return "it is not finished";
+  if (!run.picture) return "it has no picture";
+  if (!run.record->origin) {
+    for (const char* name : text_files)
+      if (!run.record->texts.contains(name)) return std::string("its folder had no ") + name;
+  }
+  return {};
+}
+
+void write_run_folder(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further)
+{
+  if (run.record && run.record->origin)
+    write_made(folder, run, name, further);
+  else
+    write_read(folder, run, name);
+}
+
+} // namespace nephroid::ui

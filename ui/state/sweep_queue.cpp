@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/sweep_queue.h"
+
+#include "base/error.h"
+#include "ui/state/run_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace nephroid::ui {
+
+void SweepQueue::start(const preset::Preset& preset, const preset::Sweep& sweep)
+{
+  const std::string place = preset.source + "#/sweep";
+  if (sweep.empty()) throw bad_input(place, "no field is swept", "expected one with its values", "add one in the panel Runs");
+  if (const double count = preset::count_runs(sweep); count > static_cast<double>(most_runs))
+    throw bad_input(place, fmt::format("gives {:.0f} runs, whose pictures the window would keep", count),
+                    fmt::format("expected at most {}", most_runs), "save the preset and use `nephroid run`");
+  std::vector<Run> runs;
+  for (preset::SweptRun& made : preset::swept_runs(preset, sweep)) {
+    Run& run = runs.emplace_back();
+    run.name = std::move(made.name);
+    if (made.preset)
+      run.preset = std::make_shared<const preset::Preset>(*std::move(made.preset));
+    else {
+      run.state = State::failed;
+      run.why = std::move(made.why_not);
+    }
+  }
+  runs_ = std::move(runs);
+  active_ = true;
+}
+
+void SweepQueue::begin_next(RunInHand& run, const UndoStack* edits)
+{
+  const auto next = std::ranges::find(runs_, State::waiting, &Run::state);
+  if (next == runs_.end()) {
+    active_ = false;
+    if (std::exchange(lent_, false)) run.take_back(edits);
+    return;
+  }
+  next->state = State::running;
+  at_ = static_cast<std::size_t>(next - runs_.begin());
+  lent_ = true;
+  run.lend(next->preset, next->name);
+}
+
+void SweepQueue::stop(RunInHand& run, const UndoStack* edits)
+{
+  if (!std::exchange(active_, false)) return;
+  for (Run& one : runs_)
+    if (one.state == State::running || one.state == State::waiting) one.state = State::stopped;
+  if (std::exchange(lent_, false)) run.take_back(edits);
+}
+
+void SweepQueue::update(RunInHand& run, Comparing& comparing, const UndoStack* edits)
+{
+  if (!active_) return;
+  if (!lent_) return begin_next(run, edits);
+  Run& now = runs_[at_];
+  const job::Status& status = run.status();
+  switch (status.state) {
+  case job::State::finished:
+    now.state = State::done;
+    now.part = 1;
+    if (run.snapshot()) comparing.pin(run_now(run));
+    return begin_next(run, edits);
+  case job::State::failed:
+    now.state = State::failed;
+    now.why = status.error ? status.error->line() : "the run failed";
+    return begin_next(run, edits);
+  case job::State::cancelled:
+    return stop(run, edits);
+  default:
+    now.part = status.progress.fraction;
+  }
+}
+
+std::string SweepQueue::summary() const
+{
+  const auto count = [&](State state) { return std::ranges::count(runs_, state, &Run::state); };
+  std::string text = fmt::format("{} of {} done", count(State::done), runs_.size());
+  if (count(State::failed) > 0) text += fmt::format(", {} failed", count(State::failed));
+  if (count(State::stopped) > 0) text += fmt::format(", {} stopped", count(State::stopped));
+  return text;
+}
+
+} // namespace nephroid::ui

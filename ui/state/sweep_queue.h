@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The runs of a sweep, one after the other in place of the run in hand, because a device works on one run at a time. Each is pinned when
+// it is done.
+#pragma once
+#include "preset/sweep.h"
+#include "ui/state/comparing.h"
+#include "ui/state/run_in_hand.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::ui {
+
+class SweepQueue {
+public:
+  /// A pinned run keeps its picture: more runs than these are for `nephroid run`.
+  static constexpr std::size_t most_runs = 64;
+
+  enum class State { waiting, running, done, failed, stopped };
+  struct Run {
+    std::string name;
+    std::shared_ptr<const preset::Preset> preset; ///< null where it was refused
+    State state = State::waiting;
+    std::string why; ///< it failed: one line
+    double part = 0; ///< 0..1 of a run that is running or was stopped
+  };
+
+  /// Throws bad_input as preset::swept_runs, for no sweep and for more than most_runs; what is refused alone is a failed run. Nothing
+  /// changes then.
+  void start(const preset::Preset& preset, const preset::Sweep& sweep);
+  /// The run in hand is of the present preset again; what is done stays pinned. edits: null where no preset is open.
+  void stop(RunInHand& run, const UndoStack* edits);
+  /// Once a frame, after RunInHand::update.
+  void update(RunInHand& run, Comparing& comparing, const UndoStack* edits);
+
+  /// Whether runs are to come or one is running.
+  bool active() const { return active_; }
+  /// Of the newest sweep that was started, in their order.
+  const std::vector<Run>& runs() const { return runs_; }
+  /// "3 of 10 done, 1 failed".
+  std::string summary() const;
+
+private:
+  void begin_next(RunInHand& run, const UndoStack* edits);
+
+  std::vector<Run> runs_;
+  std::size_t at_ = 0; ///< which is running
+  bool active_ = false, lent_ = false;
+};
+
+} // namespace nephroid::ui
