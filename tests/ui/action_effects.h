@@ -153,6 +153,8 @@ inline void compare_with_pin(Desk& d)
   d.apply(command::CompareWith{d.workbench.comparing().pinned().all().front().id});
 }
 
+inline void give_sweep(Desk& d) { d.apply(command::SetSweep{"sweep", {{"seed", {"1", "2"}}}}); }
+
 inline void add_run_and_view(Effects& all)
 {
   const auto is = [](job::State state) { return [state](Desk& d) { return d.workbench.run().status().state == state; }; };
@@ -160,6 +162,14 @@ inline void add_run_and_view(Effects& all)
   all["Pause"] = {{}, is(job::State::paused)};
   all["Cancel"] = {{}, is(job::State::cancelled)};
   all["Pin this run"] = {{}, [](Desk& d) { return d.workbench.comparing().pinned().all().size() == 1; }};
+  all["Start the sweep"] = {give_sweep, [](Desk& d) { return d.workbench.sweep().active(); }};
+  all["Stop the sweep"] = {[](Desk& d) {
+                             give_sweep(d);
+                             d.apply(command::StartSweep{});
+                             EXPECT_TRUE(d.workbench.sweep().active());
+                           },
+                           [](Desk& d) { return !d.workbench.sweep().active(); }};
+  all["Write a report..."] = {{}, asks(Question::save_report)};
 
   all["Flip"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().flip; }};
   all["Difference"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().difference; }};

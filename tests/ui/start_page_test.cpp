@@ -51,7 +51,7 @@ TEST_P(StartPageCard, OpensItsExample)
 
 INSTANTIATE_TEST_SUITE_P(All, StartPageCard,
                          ::testing::Values(std::array{"first-light", "first-light", "spectral"},
-                                           std::array{"environment/bunny", "bunny", "environment"},
+                                           std::array{"environment/ball", "ball", "environment"},
                                            std::array{"inverse/shapes", "shapes", "inverse"}));
 
 TEST_F(StartPageTest, EachButtonDoesWhatItSays)
