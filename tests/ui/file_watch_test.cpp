@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that other programs change while the window is open: the preset's own, and those that it names. Where a device was lost, it is
 // opened again.
+#include "preset/read.h"
 #include "ui/state/file_watch.h"
 #include "workbench_fixture.h"
 
@@ -39,6 +40,18 @@ TEST_F(FileWatchTest, AChangedPresetIsTakenOverAndCanBeUndone)
   workbench.apply({command::Undo{}});
   EXPECT_EQ(workbench.preset()->seed, 1u);
   EXPECT_TRUE(workbench.edits()->modified());
+}
+
+// However late the watch looks for the first time: here it is written ten seconds after it was read, and before that look.
+TEST_F(FileWatchTest, WhatIsWrittenBetweenReadingAndTheFirstLookIsSeen)
+{
+  const auto preset = std::make_shared<const preset::Preset>(preset::read_preset(file));
+  std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(10));
+  FileWatch watch;
+  watch.watch(preset, true);
+  std::vector<std::filesystem::path> changed;
+  ASSERT_TRUE(test::eventually([&] { changed = watch.take_changed(); }, [&] { return !changed.empty(); }));
+  EXPECT_EQ(changed, std::vector<std::filesystem::path>{file});
 }
 
 TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept)

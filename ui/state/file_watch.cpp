@@ -22,7 +22,7 @@ void FileWatch::watch(std::shared_ptr<const preset::Preset> preset, bool just_re
   preset_ = std::move(preset);
   is_new_ = true;
   if (!just_read) return;
-  just_read_ = true;
+  read_at_ = std::filesystem::file_time_type::clock::now();
   found_.clear();
 }
 
@@ -49,7 +49,8 @@ void FileWatch::look(const std::stop_token& stop)
   while (!stop.stop_requested()) {
     const auto preset = preset_;
     const bool is_new = std::exchange(is_new_, false);
-    if (std::exchange(just_read_, false)) seen.clear();
+    const auto read_at = std::exchange(read_at_, std::nullopt);
+    if (read_at) seen.clear();
     lock.unlock();
     if (is_new) {
       std::map<std::filesystem::path, Seen> now;
@@ -57,7 +58,8 @@ void FileWatch::look(const std::stop_token& stop)
         for (const auto& file : preset::files_of(*preset)) {
           const auto before = seen.find(file);
           const Stamp stamp = stamp_of(file);
-          now[file] = before == seen.end() ? Seen{stamp, stamp} : before->second;
+          const bool is_newer = read_at && stamp && stamp->first > *read_at;
+          now[file] = before == seen.end() ? Seen{is_newer ? Stamp{} : stamp, stamp} : before->second;
         }
       seen = std::move(now);
     }

@@ -20,7 +20,8 @@ class FileWatch {
 public:
   FileWatch();
   ~FileWatch();
-  /// The files of this preset from now on; null: none. just_read: what was written until now is known, as they were all read.
+  /// The files of this preset from now on; null: none. just_read: what was written until now is known, as they were all
+  /// read; what is written from now on is not, however late the thread looks.
   void watch(std::shared_ptr<const preset::Preset> preset, bool just_read);
   /// Those that were changed since the last call, and are not being written any more. A file that is gone is none, until it is back.
   std::vector<std::filesystem::path> take_changed();
@@ -37,8 +38,9 @@ private:
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::shared_ptr<const preset::Preset> preset_; ///< the newest that was asked for,
-  bool is_new_ = false, just_read_ = false;      ///< and whether the thread has not taken it yet, and was told that it was just read
+  std::shared_ptr<const preset::Preset> preset_;           ///< the newest that was asked for,
+  bool is_new_ = false;                                    ///< which the thread has not taken yet,
+  std::optional<std::filesystem::file_time_type> read_at_; ///< and when its files were read, where they were
   std::vector<std::filesystem::path> found_;
   std::jthread thread_; ///< last: it uses the others
 };
