@@ -141,7 +141,7 @@ TEST_F(LayoutTest, EveryPanelIsClosedAndShownByItsAction)
   for (const PanelEntry& entry : panel_table()) {
     const Action& toggle = action(fmt::format("Panel: {}", entry.title).c_str());
     if (!toggle.enabled(context())) {
-      EXPECT_FALSE(serves(entry, workbench.preset()));
+      EXPECT_FALSE(serves(entry, *workbench.preset()));
       EXPECT_FALSE(toggle.why_not(context()).empty());
       continue;
     }
