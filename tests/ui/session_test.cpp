@@ -295,6 +295,7 @@ TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow)
 {
   {
     Window window(state());
+    ASSERT_TRUE(window.workbench.open(preset_file()));
     window.workbench.apply(
         {command::SetAppearance{Theme::light, 1.21}, command::ShowPanel{"plan", false},
          command::KeepLayout{"inverse", {{.tabs = {"view", "plan"}, .front = "plan"}, {{"error", {0.1, 0.2, 0.3, 0.4}}}}}});
@@ -304,7 +305,7 @@ TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow)
   window.keeper.load_settings(window.workbench);
   EXPECT_EQ(window.workbench.settings().theme, Theme::light);
   EXPECT_EQ(window.workbench.settings().text_size, 1.21);
-  EXPECT_EQ(window.workbench.settings().engines.at("").closed, std::set<std::string>{"plan"});
+  EXPECT_EQ(window.workbench.settings().engines.at("spectral").closed, std::set<std::string>{"plan"});
   EXPECT_EQ(window.workbench.settings().engines.at("inverse").layout.docks.front, "plan");
   EXPECT_EQ(window.workbench.settings().engines.at("inverse").layout.floating.at(0).place[3], 0.4);
 }
