@@ -98,7 +98,7 @@ void RunsPanel::draw_row(const Context& context, const RunRow& row)
   ImGui::TableNextColumn();
   draw_buttons(context, row);
   const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-  draw_difference(context, row, corner.x + inset, end - corner.x - inset);
+  draw_difference(context, row, {corner.x + inset, corner.y + 2 * ImGui::GetTextLineHeightWithSpacing()}, end - corner.x - inset);
 }
 
 void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
@@ -134,12 +134,11 @@ void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
     context.push(taken(row, *context.preset()));
 }
 
-/// The third line of the row, across all columns. Under the mouse: all of it.
-void RunsPanel::draw_difference(const Context& context, const RunRow& row, float left, float width)
+/// The third line of the row, across all columns, from its upper left corner on. Under the mouse: all of it.
+void RunsPanel::draw_difference(const Context& context, const RunRow& row, const ImVec2& corner, float width)
 {
   const std::string& text = differences_.in_short(row, context);
-  ImGui::TableSetColumnIndex(name_column);
-  const ImVec2 low{left, ImGui::GetCursorScreenPos().y}, high{left + width, low.y + ImGui::GetTextLineHeight()};
+  const ImVec2 low = corner, high{low.x + width, low.y + ImGui::GetTextLineHeight()};
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 seen_low = ImGui::GetWindowPos(), seen = ImGui::GetWindowSize();
   list->PushClipRect({std::max(low.x, seen_low.x), std::max(low.y, seen_low.y + ImGui::GetFrameHeight())},

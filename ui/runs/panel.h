@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+struct ImVec2;
+
 namespace nephroid::ui {
 
 class RunsPanel : public Panel {
@@ -30,7 +32,7 @@ private:
   void draw_table(const Context& context);
   void draw_row(const Context& context, const RunRow& row);
   void draw_buttons(const Context& context, const RunRow& row);
-  void draw_difference(const Context& context, const RunRow& row, float left, float width);
+  void draw_difference(const Context& context, const RunRow& row, const ImVec2& corner, float width);
 
   std::vector<RunRow> rows_;
   PresetDifferences differences_;
