@@ -95,10 +95,10 @@ public:
   {
     const Bake& bake = bake_ ? *bake_ : baker_->bake();
     job::Snapshot made;
-    draw_spheres(bake);
+    if (!renderer_ || passes() > 0) draw_spheres(bake); // not before the first picture, which it would hold up
     made.picture = renderer_ ? renderer_->picture() : sheet_;
     made.pictures = spheres_;
-    if (renderer_) made.pictures.insert(made.pictures.begin(), {"spheres", sheet_});
+    if (renderer_ && sheet_) made.pictures.insert(made.pictures.begin(), {"spheres", sheet_});
     made.progress = progress();
     made.warnings = warnings_;
     made.phases = {{"bake", bake_seconds_}};

@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-constexpr double step_seconds = 0.05;
+constexpr double step_seconds = 0.025;
 /// Of a run's work that the judge is, for its progress only.
 constexpr double judge_part = 0.1;
 

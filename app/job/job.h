@@ -74,6 +74,7 @@ struct ExtraFile {
 
 struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
+  bool whole = true;                      ///< false: parts of the picture are black since nothing was computed for them yet
   std::vector<NamedPicture> pictures;     ///< the others
   Progress progress;
   std::vector<Scalar> scalars;

@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -62,12 +63,18 @@ public:
                {}},
         estimates_error_(plan.estimates_error), stop_seconds_(preset.stop.seconds)
   {
+    if (plan_smooths_ = plan.smoothing; plan_smooths_) {
+      scene::Scene seen = scene;
+      seen.environment.reset(); // the largest part of a scene, and no look needs it
+      make_smoothing_ = [seen, bvh, everywhere = spectral::settings(preset).smoothing == Settings::Smoothing::on] {
+        return std::make_unique<const Smoothing>(seen, bvh, everywhere);
+      };
+    }
     shares_work_ =
         spectral::settings(preset).effort == Settings::Effort::automatic && !spectral::settings(preset).relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
     world_.emitters = tracing::upload_vector(context, "emitters", plan.tables.emitters);
-    if (plan.smoothing) smoothing_.emplace(scene, bvh, spectral::settings(preset).smoothing == Settings::Smoothing::on);
     if (spectral::settings(preset).relight && (plan.direct || plan.photons)) {
       preset_ = preset;
       relighting_ = make_relighting(world_, layer_light(scene, preset.white));
@@ -104,6 +111,7 @@ public:
 
   void step() override
   {
+    if (smooths()) smoothing();
     const auto begin = Clock::now();
     if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
@@ -139,19 +147,19 @@ public:
   {
     auto picture = std::make_shared<job::Picture>(black());
     job::Snapshot snapshot;
-    const bool smooths = smoothing_ && at_.pass >= 2; // with both halves whole: what a few photons of one tell of the noise makes blotches
     for (std::size_t s = 0; s < stages_.size(); ++s) {
-      if (smooths && stages_[s].caustics)
+      if (smooths() && stages_[s].caustics)
         tracing::layer_of(*picture, "caustic"); // its place among the layers
       else
         stages_[s].stage->develop(at_.pass, s < at_.stage, *picture);
       snapshot.phases.emplace_back(stages_[s].stage->name(), stages_[s].seconds);
     }
-    if (smooths) add_smooth_caustics(*picture);
-    if (smoothing_) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
+    if (smooths()) add_smooth_caustics(*picture);
+    if (plan_smooths_) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
     for (const job::Layer& layer : picture->layers)
       for (std::size_t i = 0; i < layer.rgb.size(); ++i) picture->rgb[i] += layer.rgb[i];
     snapshot.picture = std::move(picture);
+    snapshot.whole = at_.pass > 0;
     snapshot.progress = progress();
     Energy energy{energy_balance(), {}};
     for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
@@ -172,7 +180,7 @@ public:
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (!stages_[s].stage->add_spectrum(at_.pass, s < at_.stage, *made))
         made->notes.push_back(fmt::format("Without the layer \"{}\", of which no spectrum is kept.", stages_[s].stage->name()));
-    if (smoothing_) made->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
+    if (plan_smooths_) made->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
     return made;
   }
 
@@ -269,6 +277,16 @@ private:
     return picture;
   }
 
+  /// With both halves whole: what a few photons of one tell of the noise makes blotches.
+  bool smooths() const { return plan_smooths_ && at_.pass >= 2; }
+
+  /// Made with the third pass: a look through every pixel would hold up the first picture.
+  const Smoothing& smoothing()
+  {
+    if (make_smoothing_) smoothing_ = std::exchange(make_smoothing_, nullptr)();
+    return *smoothing_;
+  }
+
   /// Adds the layer "caustic", spread, and its error.
   void add_smooth_caustics(job::Picture& picture)
   {
@@ -276,8 +294,9 @@ private:
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (stages_[s].caustics) stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
     std::vector<float>& rgb = tracing::layer_of(caustics, "caustic").rgb;
+    const Smoothing& smoothing = this->smoothing();
     const auto begin = Clock::now();
-    smoothing_->spread(rgb, caustics.error_draw);
+    smoothing.spread(rgb, caustics.error_draw);
     smoothing_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
     tracing::layer_of(picture, "caustic").rgb = std::move(rgb);
     if (caustics.error_draw.empty()) picture.error_draw.clear();
@@ -327,7 +346,9 @@ private:
   std::unique_ptr<Relighting> relighting_;
   std::unique_ptr<PhotonMap> map_;
   bool shares_work_ = false; ///< whether time is dealt out by what it gains
-  std::optional<Smoothing> smoothing_;
+  bool plan_smooths_ = false;
+  std::function<std::unique_ptr<const Smoothing>()> make_smoothing_; ///< until it was called
+  std::unique_ptr<const Smoothing> smoothing_;
   double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
   bool estimates_error_;
   std::optional<double> stop_seconds_;

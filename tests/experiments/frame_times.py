@@ -98,7 +98,8 @@ def begins(before, frame):
 
 
 def after_edits(frames):
-    """Seconds from each edit to the frame that shows its run begun, and to the one that shows some of it done."""
+    """Seconds from the start of the frame that sees an edit until its run is begun, and until some of it is done. An edit is carried out
+    before the frame is drawn, so what is told of that frame's own share is the most that it can have taken."""
     begun, done = [], []
     for i in range(1, len(frames)):
         if frames[i]["edits"] == frames[i - 1]["edits"]:
@@ -109,7 +110,7 @@ def after_edits(frames):
                 break
             if start is None and begins(before, frames[j]):
                 start = j
-                begun.append(frames[j]["at"] - frames[i]["at"])
+                begun.append(frames[j]["at"] - frames[i]["at"] + frames[j]["own_ms"] / 1000)
             if start is not None and has_worked(frames[j]):
                 done.append(frames[j]["at"] - frames[i]["at"])
                 break
@@ -154,15 +155,15 @@ def main(program, engines):
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     display = ":" + server.stdout.readline().strip()
     try:
-        print("            our own share of a frame, ms         | from an edit to its run, ms: begun, some done | seconds to the first image")
-        print("engine      frames  median    95 %    99 %     max |   edits  median     max  median     max       |    cold    warm")
+        print("            our own share of a frame, ms         | what it computes   | from an edit to its run, ms: begun, some done | seconds to the first image")
+        print("engine      frames  median    95 %    99 %     max |  median    99 %    |   edits  median     max  median     max       |    cold    warm")
         for engine in engines:
             frames, cold_s, warm_s = measure(program, engine, display)
-            own = [f["own_ms"] for f in frames]
+            own, computed = ([f[name] for f in frames] for name in ("own_ms", "own_cpu_ms"))
             begun, done = ([1000 * s for s in times] for times in after_edits(frames))
             figures = [percentile(t, part) if t else float("nan") for t in (begun, done) for part in (0.5, 1)]
             print(f"{engine:11} {len(own):6} " + " ".join(f"{percentile(own, part):7.2f}" for part in (0.5, 0.95, 0.99, 1))
-                  + f" | {len(begun):3}/{len(done):3} " + " ".join(f"{value:7.0f}" for value in figures)
+                  + f" | {percentile(computed, 0.5):7.2f} {percentile(computed, 0.99):7.2f}    | {len(begun):3}/{len(done):3} " + " ".join(f"{value:7.0f}" for value in figures)
                   + f"       | {cold_s:7.2f} {warm_s:7.2f}", flush=True)
     finally:
         server.terminate()

@@ -211,7 +211,7 @@ inline Effect of_panel(const PanelEntry& entry)
   const NewScene scene = entry.name == "environment" ? NewScene::environment : NewScene::inverse;
   const auto prepare = [entry, scene](Desk& d) {
     if (!serves(entry, d.preset())) d.apply(command::New{scene});
-    d.apply(command::ShowPanel{"plan", true});
+    d.apply(command::ShowPanel{can_close(entry) ? std::string(entry.name) : "plan", true});
   };
   if (!can_close(entry)) return {prepare, [entry](Desk&) { return in_front(entry.title); }};
   return {prepare, [entry](Desk& d) {

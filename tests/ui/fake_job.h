@@ -42,6 +42,7 @@ inline constexpr const char* preset_text = R"({
 struct FakeSettings {
   std::atomic<int> steps{20};
   std::atomic<int> step_ms{2}, make_ms{0};
+  std::atomic<int> whole_from{0}; ///< pictures after so many steps are whole
   std::atomic<bool> fails{false};
   std::atomic<bool> adopts{true}; ///< another light, where the preset keeps layers
   std::atomic<int> adopted{0};
@@ -92,6 +93,7 @@ public:
     picture->layers = {{"direct", picture->rgb}};
     job::Snapshot made;
     made.picture = picture;
+    made.whole = done_ >= runs_.whole_from;
     made.progress = progress();
     made.phases = {{"photons", 0.002 * done_}};
     if (!preset_.scene.lights.empty())

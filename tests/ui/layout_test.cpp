@@ -151,6 +151,8 @@ TEST_F(LayoutTest, EveryPanelIsClosedAndShownByItsAction)
       workbench.apply(commands);
       frames(4);
     };
+    if (!seen(entry.title)) press_it();
+    EXPECT_TRUE(seen(entry.title)) << entry.title << ", a tab behind others, comes to the front";
     press_it();
     if (can_close(entry)) {
       EXPECT_FALSE(seen(entry.title)) << entry.title;

@@ -111,7 +111,7 @@ TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
     }
   EXPECT_GT(brightest, 50) << "the picture is not black";
   EXPECT_EQ(different, 0);
-  EXPECT_THAT(read_file(folder.path() / "times.csv"), StartsWith("frame,draw_ms,own_ms,period_ms,edits,run,state,fraction\n0,"));
+  EXPECT_THAT(read_file(folder.path() / "times.csv"), StartsWith("frame,draw_ms,own_ms,own_cpu_ms,period_ms,edits,run,state,fraction\n0,"));
 }
 
 TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)

@@ -59,6 +59,23 @@ TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
   EXPECT_EQ(runs.made, 2);
 }
 
+TEST_F(WorkbenchTest, PartsOfAPictureHideAWholeOneOnlyWhereTheRunIsSlow)
+{
+  runs.whole_from = 4;
+  runs.step_ms = 20; // a snapshot after the first step, and then each 100 ms
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  ASSERT_TRUE(until([&] { return picture_z() == 4; }));
+  EXPECT_FALSE(workbench.run().snapshot()->whole) << "parts are better than nothing";
+  ASSERT_TRUE(until(job::State::finished));
+  edit_z(2);
+  ASSERT_TRUE(until([&] { return picture_z() == 2; }));
+  EXPECT_TRUE(workbench.run().snapshot()->whole);
+  runs.whole_from = runs.steps = 100000;
+  edit_z(3);
+  ASSERT_TRUE(until([&] { return picture_z() == 3; }));
+  EXPECT_FALSE(workbench.run().snapshot()->whole) << "what there is of it after a second";
+}
+
 TEST_F(WorkbenchTest, AnEditReplacesARunningJob)
 {
   runs.steps = 100000;

@@ -10,16 +10,18 @@ namespace {
 
 using C = const Context&;
 
-/// Opens the panel and brings it to the front; closes it where it is open.
+/// Opens the panel or brings it to the front; closes it where it is seen.
 Action panel_action(const PanelEntry& entry)
 {
-  const auto pressed = [entry](C c) { c.push(command::ShowPanel{std::string(entry.name), !can_close(entry) || !is_open(entry, c)}); };
+  const auto pressed = [entry](C c) {
+    c.push(command::ShowPanel{std::string(entry.name), !can_close(entry) || !is_open(entry, c) || !is_seen(entry)});
+  };
   const auto serves_it = [entry](C c) { return c.preset() && serves(entry, *c.preset()); };
   return {"Window",
           fmt::format("Panel: {}", entry.title),
           0,
           false,
-          can_close(entry) ? "Open this panel, or close it" : "Bring the picture to the front",
+          can_close(entry) ? "Open this panel or bring it to the front; close it where it is seen" : "Bring the picture to the front",
           serves_it,
           pressed,
           [](C c) { return std::string(c.preset() ? "it has nothing to show of this preset" : "no preset is open"); },

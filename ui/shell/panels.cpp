@@ -15,6 +15,9 @@
 #include "ui/view/panel.h"
 #include "ui/view/picking.h"
 
+#include <imgui.h>
+#include <imgui_internal.h>
+
 #include <type_traits>
 
 namespace nephroid::ui {
@@ -56,6 +59,12 @@ bool is_open(const PanelEntry& entry, const Context& context)
 {
   const auto of_engine = context.settings.engines.find(context.engine());
   return of_engine == context.settings.engines.end() || !of_engine->second.closed.contains(std::string(entry.name));
+}
+
+bool is_seen(const PanelEntry& entry)
+{
+  const ImGuiWindow* window = ImGui::FindWindowByName(entry.title);
+  return window && window->WasActive && !window->Hidden && (!window->DockNode || window->DockNode->VisibleWindow == window);
 }
 
 bool serves(const PanelEntry& entry, const preset::Preset& preset)

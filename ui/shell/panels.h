@@ -35,6 +35,8 @@ std::span<const PanelEntry> panel_table();
 bool can_close(const PanelEntry& entry);
 /// Whether a person has not closed it for the engine in hand.
 bool is_open(const PanelEntry& entry, const Context& context);
+/// Whether it was drawn in the last frame: a tab behind another is open and not seen.
+bool is_seen(const PanelEntry& entry);
 /// Whether the panel is for this preset.
 bool serves(const PanelEntry& entry, const preset::Preset& preset);
 /// What the panels of the preset's engine look for in a scene (LookAround of state/device_runs.h).

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <memory>
 #include <utility>
@@ -85,6 +86,14 @@ bool changes_preset(const Command& command)
          std::holds_alternative<command::Redo>(command);
 }
 
+/// What this thread has computed so far: time in which another had its core does not count.
+Clock::duration computed()
+{
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
 double milliseconds(Clock::duration time) { return std::chrono::duration<double, std::milli>(time).count(); }
 
 /// When the next frame is drawn, and how long frames took.
@@ -94,22 +103,34 @@ public:
   enum class Pace { hands_on, running, idle };
 
   /// keep: every frame's time, for summary(); else frames are only counted. file: CSV with the line
-  /// frame,draw_ms,own_ms,period_ms,edits,run,state,fraction of a frame as soon as it has been drawn, so that who reads along knows what
-  /// the window is at; empty: none. Throws failed where it cannot be written.
+  /// frame,draw_ms,own_ms,own_cpu_ms,period_ms,edits,run,state,fraction of a frame as soon as it has been drawn, so that who reads along
+  /// knows what the window is at; empty: none. Throws failed where it cannot be written.
   FrameClock(bool keep, const std::filesystem::path& file) : keep_(keep), file_(file)
   {
     if (file.empty()) return;
     lines_.open(file, std::ios::binary);
-    write("frame,draw_ms,own_ms,period_ms,edits,run,state,fraction\n");
+    write("frame,draw_ms,own_ms,own_cpu_ms,period_ms,edits,run,state,fraction\n");
   }
   bool keeps() const { return keep_; }
   std::size_t frames() const { return frames_; }
 
-  void begin() { previous_ = std::exchange(began_, Clock::now()); }
+  void begin()
+  {
+    previous_ = std::exchange(began_, Clock::now());
+    computed_before_ = computed();
+  }
 
   /// What follows, until own() again, is OpenGL's work and not ours.
-  void driver() { driver_began_ = Clock::now(); }
-  void own() { driver_ += Clock::now() - driver_began_; }
+  void driver()
+  {
+    driver_began_ = Clock::now();
+    driver_computed_before_ = computed();
+  }
+  void own()
+  {
+    driver_ += Clock::now() - driver_began_;
+    driver_computed_ += computed() - driver_computed_before_;
+  }
   /// edits: how many there were. Throws failed where the file cannot be written any more.
   void end(const job::Status& run, std::size_t edits)
   {
@@ -118,10 +139,11 @@ public:
     if (keep_) draw_ms_.push_back(draw_ms);
     if (!file_.empty()) {
       const double period_ms = frames_ == 0 ? 0 : milliseconds(began_ - previous_); // what a person sees
-      write(fmt::format("{},{:.3f},{:.3f},{:.3f},{},{},{},{:.4f}\n", frames_, draw_ms, draw_ms - milliseconds(driver_), period_ms, edits,
-                        run.generation, name_of(run.state), run.progress.fraction));
+      write(fmt::format("{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{:.4f}\n", frames_, draw_ms, draw_ms - milliseconds(driver_),
+                        milliseconds(computed() - computed_before_ - driver_computed_), period_ms, edits, run.generation,
+                        name_of(run.state), run.progress.fraction));
     }
-    driver_ = {};
+    driver_ = driver_computed_ = {};
     ++frames_;
   }
 
@@ -155,7 +177,7 @@ private:
   std::size_t frames_ = 0;
   double last_draw_s_ = 0;
   Clock::time_point began_{}, previous_{}, driver_began_{};
-  Clock::duration driver_{};    ///< of this frame
+  Clock::duration driver_{}, driver_computed_{}, computed_before_{}, driver_computed_before_{}; ///< of this frame
   std::vector<double> draw_ms_; ///< of each frame, from the first event taken to the buffers swapped: what the window itself costs
   std::filesystem::path file_;
   std::ofstream lines_;
@@ -192,10 +214,11 @@ private:
     for (const std::string& file : window_.take_dropped()) commands.push_back(command::Open{file});
     if (window_.take_close_request()) commands.push_back(command::Quit{});
     window_.end_frame();
+    workbench_.apply(commands); // before OpenGL draws, which may take longer than all else: an edit's run begins now
+    done_ = workbench_.quitting() || is_last_frame();
     clock_.driver();
     window_.draw_frame();
     clock_.own();
-    done_ = workbench_.quitting() || is_last_frame();
     int width = 0, height = 0;
     std::vector<unsigned char> screen;
     if (done_ && !options_.screenshot.empty()) screen = window_.read_back(width, height);
@@ -203,7 +226,6 @@ private:
     window_.present();
     clock_.own();
     edits_ += static_cast<std::size_t>(std::count_if(commands.begin(), commands.end(), changes_preset));
-    workbench_.apply(commands);
     if (workbench_.take_reopen()) keeper_.reopen(workbench_);
     workbench_.offer_earlier(keeper_.has_earlier());
     keeper_.update(workbench_);

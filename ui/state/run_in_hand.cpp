@@ -8,6 +8,11 @@
 #include <utility>
 
 namespace nephroid::ui {
+namespace {
+
+constexpr std::chrono::seconds patience_with_parts{1};
+
+} // namespace
 
 /// Filled on the worker's thread when a run was made ready.
 struct RunInHand::Arrival {
@@ -81,8 +86,10 @@ void RunInHand::begin()
 {
   gesture_lasts_ = kernels_changed_ = shown_since_start_ = false;
   before_start_ = worker_.snapshot();
+  parts_since_.reset();
   arrival_ = std::make_shared<Arrival>();
   worker_.start(maker());
+  status_ = worker_.status();
 }
 
 void RunInHand::adopt_or_start(const UndoStack& edits)
@@ -120,11 +127,20 @@ void RunInHand::take_arrival()
   if (arrival_->preset != preset_) reference_.reset(); // it is of another light
 }
 
+/// Parts of a picture on black would hide a whole one of the run before: those are shown only where there is none, or the run is slow.
+bool RunInHand::is_worth_showing(const job::Snapshot& newest)
+{
+  if (newest.whole || !snapshot_ || status_.state != job::State::running) return true;
+  const auto now = std::chrono::steady_clock::now();
+  if (!parts_since_) parts_since_ = now;
+  return now - *parts_since_ > patience_with_parts;
+}
+
 /// True where there is a new one.
 bool RunInHand::take_snapshot()
 {
   std::shared_ptr<const job::Snapshot> newest = worker_.snapshot();
-  if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_) return false;
+  if (!newest || !newest->picture || newest == before_start_ || newest == snapshot_ || !is_worth_showing(*newest)) return false;
   snapshot_ = std::move(newest);
   snapshot_name_ = name_;
   shown_since_start_ = true;
@@ -155,10 +171,15 @@ void RunInHand::update(const UndoStack* edits)
     restart_wanted_ = kernels_changed_ = true;
     snapshot_is_current_ = false;
   }
+  start_if_wanted(*edits);
+}
+
+void RunInHand::start_if_wanted(const UndoStack& edits)
+{
   // An edit replaces the run at once. While a gesture lasts, the run in hand may first show a picture: on a slow device every move of
   // the mouse would otherwise throw away a run that has not shown anything yet, and nothing would be seen until the mouse rests.
   const bool working = status_.state == job::State::preparing || status_.state == job::State::running;
-  if (restart_wanted_ && !lent_ && (!gesture_lasts_ || !working || shown_since_start_)) adopt_or_start(*edits);
+  if (restart_wanted_ && !lent_ && (!gesture_lasts_ || !working || shown_since_start_)) adopt_or_start(edits);
 }
 
 } // namespace nephroid::ui

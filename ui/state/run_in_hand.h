@@ -10,6 +10,7 @@
 
 #include <any>
 #include <array>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -42,7 +43,7 @@ public:
     source_.reread_files();
     start(edits);
   }
-  /// The preset was edited: the run follows with the next update(). live: the gesture still lasts.
+  /// The preset was edited: the run follows with the next start_if_wanted(). live: the gesture still lasts.
   void follow_edit(bool live);
   void end_gesture() { gesture_lasts_ = false; }
   void cancel();
@@ -55,6 +56,8 @@ public:
   void watch_spectrum(std::optional<std::array<int, 2>> pixel) { worker_.watch_spectrum(pixel); }
   /// Once a frame: takes the newest snapshot, and starts the run that edits ask for. edits: null before a preset is opened.
   void update(const UndoStack* edits);
+  /// After edits: starts the run that they ask for, where it has not to wait for a picture of the one in hand.
+  void start_if_wanted(const UndoStack& edits);
 
   const job::Status& status() const { return status_; }
   /// Whether kernels are being compiled for it.
@@ -93,6 +96,7 @@ private:
   void take_over(const UndoStack& edits);
   void begin();
   bool take_snapshot();
+  bool is_worth_showing(const job::Snapshot& newest);
   void take_arrival();
   void report_failure();
 
@@ -104,6 +108,7 @@ private:
   bool gesture_lasts_ = false;     ///< ... by a gesture that goes on
   bool shown_since_start_ = false; ///< a snapshot of the run in hand has come
   bool snapshot_is_current_ = false;
+  std::optional<std::chrono::steady_clock::time_point> parts_since_; ///< the run in hand has had a picture, but not a whole one
   std::uint64_t reported_failure_ = 0;           ///< Status::failures when the newest one became a message
   std::uint64_t failure_message_ = 0;            ///< its message's id
   std::shared_ptr<const preset::Preset> preset_; ///< of the run in hand

@@ -44,6 +44,7 @@ void Workbench::apply(const Commands& commands)
       messages_.error(error);
     }
   }
+  if (edits_) run_.start_if_wanted(*edits_);
 }
 
 bool Workbench::open(const std::string& name, const preset::Overrides& overrides)
