@@ -66,11 +66,7 @@ class Window:
         sys.exit(f"it does not come to this: {what}")
 
     def keys(self, chord):
-        """Each key for itself and for some frames: a window that draws seldom does not see one that goes up at once."""
-        keys = chord.split("+")
-        for event in [("keydown", key) for key in keys] + [("keyup", key) for key in reversed(keys)]:
-            subprocess.run(["xdotool", *event], env=self.environment, check=True)
-            time.sleep(0.05)
+        subprocess.run(["xdotool", "key", chord], env=self.environment, check=True)
 
     def focus(self):
         found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "Nephroid"], env=self.environment, capture_output=True,
@@ -143,7 +139,7 @@ def measure(program, engine, display):
         for i in range(EDITS):
             edits = window.frames()[-1]["edits"]
             window.keys("ctrl+z" if i % 2 == 0 else "ctrl+shift+z")
-            time.sleep(max(0, SECONDS / EDITS - 0.3))
+            time.sleep(SECONDS / EDITS)
             window.until("the edit's run works", lambda f: f[-1]["edits"] > edits and has_worked(f[-1]))
         frames = window.frames()[first:]
         window.close()

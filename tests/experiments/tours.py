@@ -48,10 +48,10 @@ class Studio:
     def render(self, *arguments, **more):
         return self.run(*arguments, **more) / "image.png"
 
-    def window(self, name, preset, layout, *sets, until=1):
+    def window(self, name, preset, layout, *sets, until=1, pinned=()):
         target = self.folder / f"{name}.png"
         options = [word for value in sets for word in ("--set", value)]
-        self.call("xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", self.program, preset, *options, "--layout", layout, "--size", "1120x700",
+        self.call("xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", self.program, preset, *pinned, *options, "--layout", layout, "--size", "1120x700",
                   "--frames", 60, "--until", until, "--screenshot", target)
         return target
 
@@ -104,11 +104,20 @@ def three_window(s):
     return [s.window("mine-window", "mine", "annealing")], 1
 
 
-def batch_sweep(s):
+def runs_of_sweep(s):
     folder = s.folder / "glasses"
     if not folder.exists():
         s.call(s.program, "run", "glasses", "-o", "glasses", *FEW_PHOTONS)
-    return [folder / f"00{number}" / "image.png" for number in (1, 3, 5, 2, 4, 6)], 3
+    return [folder / f"00{number}" for number in (1, 3, 5, 2, 4, 6)]
+
+
+def batch_sweep(s):
+    return [run / "image.png" for run in runs_of_sweep(s)], 3
+
+
+def batch_window(s):
+    return [s.window("glasses-window", "glasses", "runs", "scene.camera.resolution=[256,256]", "spectral.photons_per_pass=65536", "stop.passes=4",
+                     pinned=sorted(runs_of_sweep(s)))], 1
 
 
 def batch_frames(s):
@@ -136,7 +145,7 @@ def option_plan(s):
 
 
 PICTURES = [dispersion_glasses, dispersion_window, dispersion_designed, hdri_lights, hdri_glass, hdri_window, three_sheet, three_view, three_window,
-            batch_sweep, batch_frames, material_window, material_colour, option_stripes, option_plan]
+            batch_sweep, batch_window, batch_frames, material_window, material_colour, option_stripes, option_plan]
 
 
 def main(program, wanted):

@@ -2,6 +2,7 @@
 #include "ui/shell/glfw_window.h"
 
 #include "base/error.h"
+#include "ui/shell/input_events.h"
 #include "ui/widgets/theme.h"
 
 #include <GLFW/glfw3.h>
@@ -97,7 +98,7 @@ void GlfwWindow::begin_frame()
   if (ImGui::GetCurrentContext()->InputEventsQueue.Size > 0) activity_ = true;
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  ImGui::NewFrame();
+  new_frame();
 }
 
 void GlfwWindow::end_frame() { ImGui::Render(); }
