@@ -95,7 +95,7 @@ public:
   {
     const Bake& bake = bake_ ? *bake_ : baker_->bake();
     job::Snapshot made;
-    if (!renderer_ || passes() > 0) draw_spheres(bake); // not before the first picture, which it would hold up
+    if (!renderer_ || passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
     made.picture = renderer_ ? renderer_->picture() : sheet_;
     made.pictures = spheres_;
     if (renderer_ && sheet_) made.pictures.insert(made.pictures.begin(), {"spheres", sheet_});

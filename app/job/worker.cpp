@@ -299,10 +299,11 @@ Worker::~Worker()
   impl_->thread.join();
 }
 
-void Worker::start(std::function<std::unique_ptr<Job>()> make)
+std::shared_ptr<const Snapshot> Worker::start(std::function<std::unique_ptr<Job>()> make)
 {
   const std::lock_guard lock(impl_->mutex);
   impl_->begin(std::move(make));
+  return impl_->snapshot;
 }
 
 std::uint64_t Worker::adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise)

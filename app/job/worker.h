@@ -30,8 +30,9 @@ public:
   Worker();
   ~Worker(); ///< cancels and joins
   /// Cancels what runs and starts over: make() runs on the worker thread (loading, kernels) and gives the job. Returns at once.
-  /// An exception from make() or from a step becomes State::failed with its line. A pause ends.
-  void start(std::function<std::unique_ptr<Job>()> make);
+  /// An exception from make() or from a step becomes State::failed with its line. A pause ends. Returns the newest snapshot of the jobs
+  /// before; null: none.
+  std::shared_ptr<const Snapshot> start(std::function<std::unique_ptr<Job>()> make);
   /// Lets the job in hand take on a preset (Job::adopt) and shows its picture at once. A paused or finished job does so too: a
   /// finished job stays until the next start() or cancel(). A job that is being made does so when it is ready. Where there is no job, or it
   /// cannot, this is start(otherwise). What Job::adopt throws becomes State::failed, but the job stays for the next adopt().

@@ -66,7 +66,7 @@ public:
     if (plan_smooths_ = plan.smoothing; plan_smooths_) {
       scene::Scene seen = scene;
       seen.environment.reset(); // the largest part of a scene, and no look needs it
-      make_smoothing_ = [seen, bvh, everywhere = spectral::settings(preset).smoothing == Settings::Smoothing::on] {
+      make_smoothing_ = [seen = std::move(seen), bvh, everywhere = spectral::settings(preset).smoothing == Settings::Smoothing::on] {
         return std::make_unique<const Smoothing>(seen, bvh, everywhere);
       };
     }

@@ -62,6 +62,15 @@ TEST_F(InputEventsTest, AModifierThatIsPressedAgainAtOnceStaysPressed)
   EXPECT_EQ(ImGui::GetIO().KeyMods, ImGuiMod_Ctrl);
 }
 
+TEST_F(InputEventsTest, ATurnOfTheWheelHasTheModifierThatWasHeld)
+{
+  ctrl(true);
+  frames_with([] { return false; });
+  imgui_.wheel(1);
+  ctrl(false);
+  EXPECT_EQ(frames_with([] { return ImGui::GetIO().MouseWheel != 0 && ImGui::GetIO().KeyCtrl; }), 1);
+}
+
 TEST_F(InputEventsTest, AClickHasTheModifierThatWasHeld)
 {
   ctrl(true);

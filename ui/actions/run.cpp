@@ -12,6 +12,8 @@ bool works(const Context& c)
 }
 
 bool sweeps(const Context& c) { return c.sweep.active(); }
+bool can_restart(const Context& c) { return has_preset(c) && !sweeps(c); }
+std::string why_no_restart(const Context& c) { return sweeps(c) ? "the sweep is running" : "no preset is open"; }
 bool can_sweep(const Context& c) { return c.edits && !c.edits->sweep().empty() && !sweeps(c); }
 std::string why_no_sweep(const Context& c)
 {
@@ -28,7 +30,7 @@ std::vector<Action> run_actions()
 {
   const char* menu = "Run";
   return {
-      {menu, "Start again", ImGuiKey_F5, false, "Start the run from its beginning", has_preset, push<command::Restart>},
+      {menu, "Start again", ImGuiKey_F5, false, "Start the run from its beginning", can_restart, push<command::Restart>, why_no_restart},
       {menu, "Pause", ImGuiKey_Space, false, "Hold the run, or let it go on", works, pause},
       {menu, "Cancel", ImGuiKey_Escape, false, "End the run; its picture stays", works, push<command::Cancel>},
       {menu, "Pin this run", ImGuiKey_P, false, "Keep its history and its picture to hold later runs against", has_picture,

@@ -91,6 +91,8 @@ void PresetDifferences::begin_frame()
 
 const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const Context& context)
 {
+  static const Known none, unknown{nullptr, nullptr, "its preset is not known", {}};
+  if (!row.preset) return row.pin == 0 ? none : unknown;
   const auto present = present_of(context);
   for (const auto& one : known_)
     if (one->of == row.preset && one->present == present) {
@@ -98,10 +100,7 @@ const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const C
       return *one;
     }
   Known made{row.preset, present, {}, {}};
-  if (!row.preset)
-    made.in_short = row.pin == 0 ? "" : "its preset is not known";
-  else if (present)
-    try {
+  if (present) try {
       const std::vector<preset::Difference> all = preset::differences(*present, *row.preset);
       made.in_short = all.empty() ? "as the present preset" : line_of(all.front());
       if (all.size() > 1) made.in_short += fmt::format(", {} more", all.size() - 1);

@@ -230,8 +230,8 @@ void SweepSection::set(const Context& context)
   }
 }
 
-/// The runs with their states; the one that is running in sight.
-void SweepSection::draw_queue(const Context& context) const
+/// The runs with their states; the one that begins comes into sight.
+void SweepSection::draw_queue(const Context& context)
 {
   const std::vector<SweepQueue::Run>& runs = context.sweep.runs();
   const float line = ImGui::GetTextLineHeightWithSpacing(), em = ImGui::GetFontSize();
@@ -239,7 +239,7 @@ void SweepSection::draw_queue(const Context& context) const
   if (ImGui::BeginChild("queue", {0, line * (static_cast<float>(std::min(most_lines, runs.size())) + 0.5f)}, ImGuiChildFlags_Borders)) {
     for (const SweepQueue::Run& run : runs) {
       ImGui::TextUnformatted(state_text(run).c_str());
-      if (run.state == State::running) ImGui::SetScrollHereY();
+      if (run.state == State::running && std::exchange(in_sight_, run.name) != run.name) ImGui::SetScrollHereY();
       ImGui::SameLine(4 * em);
       draw_text(run.state == State::failed ? colour::error : colour::text, run.why.empty() ? run.name : run.name + ": " + run.why);
       if (!run.why.empty()) ImGui::SetItemTooltip("%s", run.why.c_str());

@@ -14,7 +14,7 @@ namespace nephroid::ui {
 class SweepSection {
 public:
   /// Notes widgets as "sweep field", "field KEY" of the open list, "sweep from", "sweep to", "sweep count", "sweep log", "sweep range",
-  /// "sweep list" (the choice), "sweep values" (the text), "sweep set", "edit KEY", "remove KEY", "sweep start", "sweep stop".
+  /// "sweep list" (the choice), "sweep values" (the text), "sweep set", "edit KEY", "remove KEY", "sweep run".
   void draw(const Context& context, WidgetPlaces& places);
   /// For tests: why what was typed cannot be swept.
   const std::string& problem() const { return problem_; }
@@ -24,7 +24,7 @@ private:
   void draw_fields(const Context& context, WidgetPlaces& places);
   void draw_choice(WidgetPlaces& places);
   void draw_values(const Context& context, WidgetPlaces& places);
-  void draw_queue(const Context& context) const;
+  void draw_queue(const Context& context);
   void choose(const NumberField& field);
   void set(const Context& context);
   const NumberField* chosen() const;
@@ -36,6 +36,7 @@ private:
   bool typed_ = false; ///< values are a list that is typed, else a range
   std::string text_;   ///< that list
   std::string problem_;
+  std::string in_sight_;  ///< the run of the queue that was scrolled to
   bool was_empty_ = true; ///< in the last frame there was nothing to show
 };
 

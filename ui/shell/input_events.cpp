@@ -14,14 +14,8 @@ bool is_modifier(ImGuiKey key) { return (key & ImGuiMod_Mask_) != 0 || ImGui::Is
 
 bool is_press(const ImGuiInputEvent& event)
 {
-  switch (event.Type) {
-  case ImGuiInputEventType_Key:
-    return event.Key.Down && !is_modifier(event.Key.Key);
-  case ImGuiInputEventType_MouseButton:
-    return event.MouseButton.Down;
-  default:
-    return event.Type == ImGuiInputEventType_MouseWheel;
-  }
+  if (event.Type == ImGuiInputEventType_Key) return event.Key.Down && !is_modifier(event.Key.Key);
+  return event.Type == ImGuiInputEventType_MouseWheel; // a click's modifier Dear ImGui itself keeps
 }
 
 bool lets_modifier_go(const ImGuiInputEvent& event)

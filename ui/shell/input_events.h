@@ -4,8 +4,8 @@
 
 namespace nephroid::ui {
 
-/// ImGui::NewFrame(), but a modifier that is let go after something was pressed is let go in the next frame. Of Ctrl, Z and both let go
-/// within a slow frame Dear ImGui would else see a Z alone: what was let go counts at once.
+/// ImGui::NewFrame(), but a modifier that is let go after something was pressed is let go in the next frame. Where Ctrl was held before,
+/// and Z is pressed and Ctrl let go within one frame, Dear ImGui sees Z alone.
 void new_frame();
 
 } // namespace nephroid::ui

@@ -25,7 +25,7 @@ const PanelEntry* find_panel(const std::string& name)
 /// The tab in front; null where there is no such layout.
 const PanelEntry* front_tab(const std::string& name, const std::string& engine)
 {
-  if (!name.empty() && name != "default") return name == panel_table().front().name ? nullptr : find_panel(name);
+  if (!name.empty()) return name == panel_table().front().name ? nullptr : find_panel(name);
   const auto own =
       std::find_if(tabs().begin(), tabs().end(), [&](const PanelEntry& tab) { return !engine.empty() && tab.front_for == engine; });
   return own == tabs().end() ? &tabs().front() : &*own;
@@ -115,8 +115,8 @@ Dock read_node(const ImGuiDockNode& node)
 void check_layout(const std::string& name)
 {
   if (front_tab(name, "")) return;
-  std::string names = "default";
-  for (const PanelEntry& tab : tabs()) names += ", " + std::string(tab.name);
+  std::string names;
+  for (const PanelEntry& tab : tabs()) names += (names.empty() ? "" : ", ") + std::string(tab.name);
   throw bad_input("--layout", "there is no layout \"" + name + "\"", "expected one of: " + names);
 }
 

@@ -8,8 +8,7 @@
 
 namespace nephroid::ui {
 
-/// Throws bad_input naming the layouts there are: each is named after the panel that is in front of the tabs. Empty and "default" are the
-/// engine's own.
+/// Throws bad_input naming the layouts there are: each is named after the panel that is in front of the tabs. Empty is the engine's own.
 void check_layout(const std::string& name);
 /// The picture at the left, the other panels as tabs at the right of a window of this width. engine: of the preset; empty: none is open.
 Layout starting_layout(const std::string& name, const std::string& engine, float width);

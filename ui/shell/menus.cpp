@@ -18,7 +18,7 @@ struct MouseHabit {
 
 const MouseHabit mouse_habits[] = {
     {"Click", "Select the object or light that is there, or nothing"},
-    {"Left drag on a handle", "Move, turn or scale what is selected; Ctrl: in steps"},
+    {"Left drag on a handle", "Move, turn or scale what is selected; Ctrl: in steps, or freely with Snap"},
     {"Left drag", "Orbit: the scene turns with the mouse"},
     {"Middle or Shift+left drag", "Pan: move the camera sideways and up"},
     {"Wheel, or right drag", "Distance of the camera"},

@@ -80,7 +80,7 @@ void StartPage::draw(const Context& context, Panel& presets, bool to_presets)
       places_.note(name);
       ImGui::SameLine();
     }
-    ImGui::TextDisabled("or drop a preset, a mesh or a run's folder here");
+    ImGui::TextDisabled("or drop a preset, a glTF scene or a run's folder here");
     if (to_presets) ImGui::SetNextWindowFocus();
     if (ImGui::BeginChild("presets", {}, ImGuiChildFlags_NavFlattened)) presets.draw(context);
     ImGui::EndChild();

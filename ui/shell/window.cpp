@@ -41,6 +41,14 @@ bool is_over(job::State state)
   return state == job::State::finished || state == job::State::cancelled || state == job::State::failed || state == job::State::idle;
 }
 
+/// A scene becomes a preset in the background; overrides cannot wait for it.
+Command open_scene(const std::string& file, const Options& options)
+{
+  if (options.overrides.empty()) return command::Open{file};
+  const std::string error = bad_input(file, "--set cannot change a scene", "a preset", "import it first: nephroid import").line();
+  return command::Report{error};
+}
+
 /// Pins the histories and opens the first preset that can be opened. Behind it only runs are expected: what is none leaves its message.
 void open_first(Workbench& workbench, const Options& options)
 {
@@ -48,8 +56,8 @@ void open_first(Workbench& workbench, const Options& options)
   for (const std::string& file : options.files)
     if (opened || is_history(file))
       workbench.apply({command::PinFile{file}});
-    else if (is_scene_file(file))
-      workbench.apply({command::Open{file}});
+    else if (kind_of(file) == FileKind::scene)
+      workbench.apply({open_scene(file, options)});
     else
       opened = workbench.open(file, options.overrides);
 }
@@ -178,7 +186,7 @@ private:
   double last_draw_s_ = 0;
   Clock::time_point began_{}, previous_{}, driver_began_{};
   Clock::duration driver_{}, driver_computed_{}, computed_before_{}, driver_computed_before_{}; ///< of this frame
-  std::vector<double> draw_ms_; ///< of each frame, from the first event taken to the buffers swapped: what the window itself costs
+  std::vector<double> draw_ms_; ///< of each frame, from the first event taken to the end: what the window itself costs
   std::filesystem::path file_;
   std::ofstream lines_;
 };
@@ -284,7 +292,7 @@ std::unique_ptr<GlfwWindow> open_display(const Options& options)
   try {
     return std::make_unique<GlfwWindow>("Nephroid", options.size);
   } catch (const Error&) {
-    if (!options.files.empty() && !is_history(options.files.front())) {
+    if (!options.files.empty() && !is_history(options.files.front()) && kind_of(options.files.front()) != FileKind::scene) {
       refuse_other_kinds(options.files.front());
       preset::read_with_sweep(options.files.front(), options.overrides);
     }
@@ -316,6 +324,7 @@ int open_window(const Options& options)
     Workspace workspace(options.layout);
     Loop(options, *window, workbench, workspace, *keeper).run();
     keeper->close(workbench);
+    workbench.finish_files();
     window->shut_down_back_ends(); // before the panels: their textures belong to the renderer
   }
   return report_errors(workbench, !options.screenshot.empty());

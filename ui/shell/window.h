@@ -18,7 +18,7 @@ struct Options {
   int frames = 0;                     ///< --frames N: close after N frames; 0: 60 with a screenshot, else never
   double until = 0; ///< --until F: before closing by `frames` also wait for this fraction 0..1 of the run; 1: until it is over
   std::filesystem::path frame_times;  ///< --frame-times FILE: CSV of every frame as it is drawn
-  std::string layout;                 ///< --layout NAME: where the panels are; "" or "default"
+  std::string layout;                 ///< --layout NAME: the panel whose tab is in front; empty: the engine's
   std::array<int, 2> size{1280, 860}; ///< --size WxH: the window's content, in screen coordinates
 };
 

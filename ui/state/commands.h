@@ -64,7 +64,8 @@ enum class Question { none, open, open_history, save_preset, save_picture, unsav
 namespace command {
 
 /// A preset file, or the name of a shipped preset: asks first where there are unsaved changes, unless sure. A run's folder or a table
-/// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does.
+/// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does. A map (.exr, .hdr) becomes the environment, a
+/// picture what the engine inverse casts, a mesh an object, glTF a preset of its own.
 struct Open {
   std::string name;
   bool sure = false;

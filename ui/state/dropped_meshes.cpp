@@ -62,14 +62,6 @@ std::string material_for(preset::Scene& scene)
 
 } // namespace
 
-bool is_mesh_file(const std::filesystem::path& file)
-{
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<std::string_view, 6> endings{".obj", ".ply", ".stl", ".gltf", ".glb", ".3ds"};
-  return std::ranges::find(endings, ending) != endings.end();
-}
-
 DroppedMesh read_dropped_mesh(const std::filesystem::path& file)
 {
   std::error_code ignored;

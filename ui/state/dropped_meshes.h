@@ -14,9 +14,6 @@
 
 namespace nephroid::ui {
 
-/// Whether a file's name ends as meshes do that can be dropped.
-bool is_mesh_file(const std::filesystem::path& file);
-
 struct DroppedMesh {
   std::filesystem::path file; ///< absolute
   scene::Bounds box;          ///< in the file's coordinates

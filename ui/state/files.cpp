@@ -25,23 +25,25 @@ namespace nephroid::ui {
 namespace {
 
 struct Kind {
+  FileKind kind;
   std::string_view endings; ///< lower case, each followed by a space
   const char* what;
   const char* remedy; ///< {} stands for the file's name
 };
 
 constexpr std::array kinds{
-    Kind{".yml .yaml ", "is dispersion data",
+    Kind{FileKind::dispersion, ".yml .yaml ", "is dispersion data",
          "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion {}`"},
-    Kind{".gltf .glb ", "is a scene", "drop it on the window, which makes a preset of it, or run `nephroid import {} -o PRESET.json`"},
-    Kind{".obj .ply .stl .3ds ", "is a mesh",
+    Kind{FileKind::scene, ".gltf .glb ", "is a scene",
+         "drop it on the window, which makes a preset of it, or run `nephroid import {} -o PRESET.json`"},
+    Kind{FileKind::mesh, ".obj .ply .stl .3ds ", "is a mesh",
          "drop it on the window once a preset with a scene is open, or name it in one as an object's \"mesh\""},
-    Kind{".exr .hdr ", "is a picture",
+    Kind{FileKind::map, ".exr .hdr ", "is a picture",
          "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
-    Kind{".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
+    Kind{FileKind::picture, ".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
          "drop it on the window once a preset of the engine inverse is open, whose object then casts it; a run's pictures lie beside its "
          "preset.json: open that; an environment is a .hdr or .exr"},
-    Kind{".cl ", "is a kernel source", "start with --kernels and its folder"},
+    Kind{FileKind::kernel, ".cl ", "is a kernel source", "start with --kernels and its folder"},
 };
 
 /// Writes the PNG; returns what else is worth saying of it.
@@ -72,6 +74,15 @@ std::string lower_ending(const std::filesystem::path& file)
   return ending;
 }
 
+/// Null: of no kind but a preset's.
+const Kind* known_kind(const std::string& ending)
+{
+  if (ending.empty()) return nullptr;
+  const auto found =
+      std::ranges::find_if(kinds, [&](const Kind& kind) { return kind.endings.find(ending + ' ') != std::string_view::npos; });
+  return found == kinds.end() ? nullptr : &*found;
+}
+
 /// Whether the first character that is no white space opens a JSON object. An empty file may become one: reading it says so.
 bool may_be_object(const std::filesystem::path& file)
 {
@@ -83,42 +94,22 @@ bool may_be_object(const std::filesystem::path& file)
 
 } // namespace
 
+FileKind kind_of(const std::filesystem::path& file)
+{
+  const Kind* kind = known_kind(lower_ending(file));
+  return kind ? kind->kind : FileKind::other;
+}
+
 void refuse_other_kinds(const std::string& name)
 {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(name, ignored)) return;
   constexpr const char* expected = "the window opens presets";
   const std::string ending = lower_ending(name);
-  for (const Kind& kind : kinds)
-    if (!ending.empty() && kind.endings.find(ending + ' ') != std::string_view::npos)
-      throw bad_input(name, kind.what, expected, fmt::format(fmt::runtime(kind.remedy), name));
+  if (const Kind* kind = known_kind(ending)) throw bad_input(name, kind->what, expected, fmt::format(fmt::runtime(kind->remedy), name));
   if (ending != ".json" && !may_be_object(name))
     throw bad_input(name, "is no preset and of no kind that Nephroid knows", std::string(expected) + ", JSON files",
                     "see `nephroid presets` for those that are shipped");
-}
-
-bool is_dispersion_file(const std::filesystem::path& file)
-{
-  const std::string ending = lower_ending(file);
-  return ending == ".yml" || ending == ".yaml";
-}
-
-bool is_picture_file(const std::filesystem::path& file)
-{
-  const std::string ending = lower_ending(file);
-  return ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".tif" || ending == ".tiff";
-}
-
-bool is_map_file(const std::filesystem::path& file)
-{
-  const std::string ending = lower_ending(file);
-  return ending == ".hdr" || ending == ".exr";
-}
-
-bool is_scene_file(const std::filesystem::path& file)
-{
-  const std::string ending = lower_ending(file);
-  return ending == ".gltf" || ending == ".glb";
 }
 
 std::filesystem::path save_target(const preset::Preset* preset)
@@ -144,7 +135,7 @@ std::string proposed_name(const preset::Preset* preset, const std::string& endin
 void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown)
 {
   background_.push_back(std::async(std::launch::async, [=] {
-    const std::string extension = file.extension().string();
+    const std::string extension = lower_ending(file);
     if (extension == ".exr")
       image::write_exr(file, run::with_layers(*picture));
     else if (extension != ".png")
@@ -208,6 +199,11 @@ void FileWork::pin(const std::filesystem::path& path, const std::optional<Pinned
     }
     return Done{{}, std::move(run)};
   }));
+}
+
+void FileWork::wait() const
+{
+  for (const std::future<Done>& future : background_) future.wait();
 }
 
 void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,

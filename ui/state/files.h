@@ -18,19 +18,21 @@
 
 namespace nephroid::ui {
 
+/// What a file is by the ending of its name.
+enum class FileKind {
+  other,      ///< a preset, perhaps
+  dispersion, ///< YAML of refractiveindex.info
+  scene,      ///< glTF: a whole scene, which becomes a preset
+  mesh,
+  map,     ///< a picture of surroundings, which has a range that no screen has
+  picture, ///< as screens show it
+  kernel
+};
+FileKind kind_of(const std::filesystem::path& file);
+
 /// Throws bad_input in one line where `name` is a file of a kind that is no preset: a mesh, dispersion data, a picture, a kernel,
 /// anything that does not begin as a JSON object. Presets, broken ones too, and names of no file pass: reading them says the rest.
 void refuse_other_kinds(const std::string& name);
-/// Whether a file's name ends as dispersion data does.
-bool is_dispersion_file(const std::filesystem::path& file);
-/// Whether it ends as pictures of screens do.
-bool is_picture_file(const std::filesystem::path& file);
-/// Whether it ends as pictures of surroundings do, which have a range that no screen has.
-bool is_map_file(const std::filesystem::path& file);
-
-/// Whether it ends as glTF does: a whole scene, which becomes a preset.
-bool is_scene_file(const std::filesystem::path& file);
-
 /// Where "save" writes without asking: the file that was opened, unless it is one of the shipped presets. Empty: ask. preset may be null.
 std::filesystem::path save_target(const preset::Preset* preset);
 /// What a saved preset may be written over, as preset::file_text takes it: the parent that its file names, or the shipped preset that it
@@ -64,6 +66,8 @@ public:
   /// read_pin() of a path; as `like` in name, colour and whether it is shown, where that is given.
   void pin(const std::filesystem::path& path, const std::optional<PinnedRun>& like = {});
   bool busy() const { return !background_.empty(); }
+  /// Until all of it is done.
+  void wait() const;
   /// Once a frame: says what is done, and hands over the runs that were read and the files to be opened.
   void collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,
                const std::function<void(const std::filesystem::path&)>& open);

@@ -85,10 +85,9 @@ void RunInHand::take_back(const UndoStack* edits)
 void RunInHand::begin()
 {
   gesture_lasts_ = kernels_changed_ = shown_since_start_ = false;
-  before_start_ = worker_.snapshot();
   parts_since_.reset();
   arrival_ = std::make_shared<Arrival>();
-  worker_.start(maker());
+  before_start_ = worker_.start(maker());
   status_ = worker_.status();
 }
 
@@ -127,10 +126,10 @@ void RunInHand::take_arrival()
   if (arrival_->preset != preset_) reference_.reset(); // it is of another light
 }
 
-/// Parts of a picture on black would hide a whole one of the run before: those are shown only where there is none, or the run is slow.
+/// Parts of a picture on black would hide a whole one of the run before: they are shown only where there is none, or the run is slow.
 bool RunInHand::is_worth_showing(const job::Snapshot& newest)
 {
-  if (newest.whole || !snapshot_ || status_.state != job::State::running) return true;
+  if (newest.whole || !snapshot_ || !snapshot_->whole || status_.state != job::State::running) return true;
   const auto now = std::chrono::steady_clock::now();
   if (!parts_since_) parts_since_ = now;
   return now - *parts_since_ > patience_with_parts;

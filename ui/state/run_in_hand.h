@@ -109,10 +109,10 @@ private:
   bool shown_since_start_ = false; ///< a snapshot of the run in hand has come
   bool snapshot_is_current_ = false;
   std::optional<std::chrono::steady_clock::time_point> parts_since_; ///< the run in hand has had a picture, but not a whole one
-  std::uint64_t reported_failure_ = 0;           ///< Status::failures when the newest one became a message
-  std::uint64_t failure_message_ = 0;            ///< its message's id
-  std::shared_ptr<const preset::Preset> preset_; ///< of the run in hand
-  std::uint64_t adoption_ = 0;                   ///< of it by the run in hand: Snapshot::adoption of a picture of it is not less
+  std::uint64_t reported_failure_ = 0;                               ///< Status::failures when the newest one became a message
+  std::uint64_t failure_message_ = 0;                                ///< its message's id
+  std::shared_ptr<const preset::Preset> preset_;                     ///< of the run in hand
+  std::uint64_t adoption_ = 0; ///< of it by the run in hand: Snapshot::adoption of a picture of it is not less
   job::Status status_;
   std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
   std::shared_ptr<const job::PixelSpectrum> spectrum_;

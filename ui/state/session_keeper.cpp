@@ -59,10 +59,17 @@ bool same_state(const Session& a, const Session& b)
   return a.closed == b.closed && a.edits == b.edits && a.chosen == b.chosen && a.pins == b.pins;
 }
 
+/// Whole, or nothing of it: a folder that is there counts as kept.
 void write_pin(const fs::path& folder, const PinnedRun& run)
 {
-  write_run_folder(folder, run, {}, false);
-  if (!is_there(folder / "history.csv")) write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
+  try {
+    write_run_folder(folder, run, {}, false);
+    if (!is_there(folder / "history.csv")) write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    throw;
+  }
 }
 
 } // namespace
@@ -166,12 +173,13 @@ SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
   work.pins = workbench.comparing().pinned().all();
   for (const PinnedRun& run : work.pins) work.session.pins.push_back({fmt::format("pin-{}", run.id), run.name, run.colour, run.shown});
   work.settings = workbench.settings();
+  if (!workbench.works_on_files()) work.replaces = taken_over_; // else its pins may still be being read
   return work;
 }
 
 bool SessionKeeper::is_kept(const Work& work) const
 {
-  return newest_ && same_state(newest_->session, work.session) && newest_->settings == work.settings;
+  return newest_ && newest_->replaces == work.replaces && same_state(newest_->session, work.session) && newest_->settings == work.settings;
 }
 
 void SessionKeeper::write(const Work& work)
@@ -182,6 +190,8 @@ void SessionKeeper::write(const Work& work)
   if (const std::string settings = to_json(work.settings);
       !is_there(folder_ / settings_name) || read_file(folder_ / settings_name) != settings)
     write_file_whole(folder_ / settings_name, settings);
+  std::error_code ignored;
+  if (!work.replaces.empty()) fs::remove_all(work.replaces, ignored);
 }
 
 void SessionKeeper::say_once(Workbench& workbench, const std::string& error)
@@ -195,10 +205,7 @@ void SessionKeeper::collect(Workbench& workbench)
   try {
     writing_.get();
     said_.clear();
-    if (taken_over_.empty() || !newest_->session.edits) return;
-    if (workbench.works_on_files()) return; // its pins are still being read
-    std::error_code ignored;
-    fs::remove_all(std::exchange(taken_over_, {}), ignored);
+    if (!newest_->replaces.empty()) taken_over_.clear();
   } catch (const std::exception& error) {
     newest_.reset();
     next_ = Clock::now() + after_failure;

@@ -49,6 +49,7 @@ private:
     Session session;
     std::vector<PinnedRun> pins; ///< of session.pins, in their order
     Settings settings;
+    std::filesystem::path replaces; ///< an earlier session that is removed when this one is kept; empty: none
   };
   void find_earlier();
   Work work_of(const Workbench& workbench) const;

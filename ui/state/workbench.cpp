@@ -65,8 +65,16 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
 /// In place of what is open, which is not asked about.
 void Workbench::begin(preset::Preset preset, preset::Sweep sweep)
 {
-  sweep_.stop(run_, nullptr);
+  let_go();
   edits_.emplace(std::move(preset), std::move(sweep));
+  run_.start(*edits_);
+}
+
+/// What is of the preset in hand, which another one replaces.
+void Workbench::let_go()
+{
+  sweep_.stop(run_, nullptr);
+  edits_.reset();
   messages_.dismiss_errors_until(last_before_commands_);
   comparing_.forget();
   run_.forget();
@@ -75,23 +83,24 @@ void Workbench::begin(preset::Preset preset, preset::Sweep sweep)
   carry_out(command::InspectPixel{});
   chosen_.selection = {};
   meshes_.forget();
+  close_question();
+}
+
+/// Without an answer: what waited for one does not come any more.
+void Workbench::close_question()
+{
   question_ = Question::none;
   waiting_.reset();
-  run_.start(*edits_);
 }
 
 void Workbench::remember(RecentFiles recent) { recent_ = std::move(recent); }
 
 void Workbench::restore(Session session, const std::filesystem::path& folder)
 {
-  sweep_.stop(run_, nullptr);
-  comparing_.forget();
-  run_.forget();
-  question_ = Question::none;
-  waiting_.reset();
-  edits_.reset();
+  let_go();
   if (session.edits) edits_.emplace(std::move(*session.edits));
   chosen_ = std::move(session.chosen);
+  run_.watch_spectrum(chosen_.pixel);
   for (const Session::Pin& pin : session.pins) files_.pin(folder / pin.folder, PinnedRun{0, pin.name, pin.colour, pin.shown, {}, {}});
   if (edits_) run_.start(*edits_);
 }
@@ -113,15 +122,16 @@ void Workbench::ask_first(Command command)
 void Workbench::carry_out(const command::Open& c)
 {
   if (is_history(c.name)) return carry_out(command::PinFile{c.name});
-  if (edits_ && is_dispersion_file(c.name)) return carry_out(command::LoadDispersion{c.name});
-  if (edits_ && is_map_file(c.name)) {
+  const FileKind kind = kind_of(c.name);
+  if (edits_ && kind == FileKind::dispersion) return carry_out(command::LoadDispersion{c.name});
+  if (edits_ && kind == FileKind::map) {
     const std::string name = std::filesystem::path(c.name).filename().string();
     carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
     return messages_.note(name + " is the environment");
   }
-  if (is_picture_file(c.name) && cast_picture(c.name)) return;
-  if (is_scene_file(c.name)) return files_.import_scene(c.name);
-  if (edits_ && is_mesh_file(c.name) && has_scene(edits_->current())) return meshes_.read(c.name);
+  if (kind == FileKind::picture && cast_picture(c.name)) return;
+  if (kind == FileKind::scene) return files_.import_scene(c.name);
+  if (edits_ && kind == FileKind::mesh && has_scene(edits_->current())) return meshes_.read(c.name);
   if (c.sure || !edits_ || !edits_->modified()) {
     open(c.name);
     return;
@@ -214,7 +224,7 @@ void Workbench::carry_out(const command::SelectRegion& c)
 
 void Workbench::carry_out(const command::PinFile& c)
 {
-  question_ = Question::none;
+  close_question();
   files_.pin(c.path);
 }
 
@@ -257,7 +267,7 @@ void Workbench::carry_out(const command::SavePreset& c)
 void Workbench::carry_out(const command::SavePicture& c)
 {
   if (!run_.snapshot()) return;
-  question_ = Question::none;
+  close_question();
   files_.save_picture(c.file, run_.snapshot()->picture, shown_picture());
 }
 
@@ -279,7 +289,7 @@ void Workbench::carry_out(const command::SaveFiles& c)
 
 void Workbench::carry_out(const command::WriteReport& c)
 {
-  question_ = Question::none;
+  close_question();
   files_.save_report(c.file, runs_of_table(comparing_, run_));
 }
 
@@ -331,50 +341,9 @@ std::vector<std::string> Workbench::notes() const
   return all;
 }
 
-bool Workbench::take_over_file()
-{
-  if (!edits_) return false;
-  const std::string source = edits_->current().source;
-  preset::WithSweep read = preset::read_with_sweep(source);
-  const bool is_other_run = read.preset != edits_->current();
-  if (!is_other_run && read.sweep == edits_->sweep()) return false; // as where this window wrote it
-  edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset), std::move(read.sweep));
-  edits_->mark_saved(source);
-  if (is_other_run) run_.follow_edit(false);
-  return true;
-}
-
-void Workbench::look_at_files()
-{
-  if (const auto& now = edits_ ? edits_->state().entries[edits_->state().index].preset : nullptr; now != watched_) {
-    watched_ = now;
-    const auto opened = edits_ ? edits_->state().opened : nullptr;
-    watch_.watch(now, std::exchange(watched_from_, opened) != opened);
-  }
-  const std::vector<std::filesystem::path> changed = watch_.take_changed();
-  if (changed.empty() || !edits_) return;
-  bool scene_changed = false;
-  for (const std::filesystem::path& file : changed) {
-    const std::string name = file.filename().string();
-    if (file != std::filesystem::path(edits_->current().source)) {
-      scene_changed = true;
-      messages_.note(name + " was changed on disk: the run begins again");
-    } else if (!edits_->modified()) {
-      if (take_over_file()) messages_.note(name + " was changed on disk and is taken over");
-    } else if (const auto read = preset::read_with_sweep(file.string()); read.preset != edits_->current() || read.sweep != edits_->sweep())
-      messages_.error(file.string() + ": another program changed this file, and the preset has edits that are not saved; save them under "
-                                      "another name, or take the preset from its file (File)");
-  }
-  if (scene_changed) run_.start_with_new_files(*edits_);
-}
-
 void Workbench::update(Clock::time_point now)
 {
-  try {
-    look_at_files();
-  } catch (const std::exception& error) {
-    messages_.error(error);
-  }
+  look_at_files();
   run_.update(edits());
   sweep_.update(run_, comparing_, edits());
   recent_.update();

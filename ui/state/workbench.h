@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state behind the window, put together: the preset with its history, the run in hand, what it is compared with, files, messages. Knows
-// nothing of Dear ImGui. Panels read a Context of it; commands change it; update() runs once a frame and never waits for a device or a
-// disk.
+// nothing of Dear ImGui. Panels read a Context of it; commands change it; update() runs once a frame and never waits for a device; of files
+// it reads the preset alone, when that was changed.
 #pragma once
 #include "preset/read.h"
 #include "ui/state/context.h"
@@ -57,10 +57,12 @@ public:
   const std::vector<Message>& messages() const { return messages_.all(); }
   /// Whether a file is being read or written in the background: its pin or its message is to come.
   bool works_on_files() const { return files_.busy() || meshes_.busy(); }
+  /// Before the end: waits until what is being written is, and has a message of what could not be.
+  void finish_files();
   /// What is worth knowing and needs no answer: the program's notes, then those of the newest plan.
   std::vector<std::string> notes() const;
   Question question() const { return question_; }
-  /// With Question::unsaved: what waits for the answer, an Open, a New or a Quit that asks no more. Else null.
+  /// With Question::unsaved: what waits for the answer, an Open, a New, a ReopenSession or a Quit that asks no more. Else null.
   const Command* waiting() const { return waiting_ ? &*waiting_ : nullptr; }
   bool help_shown() const { return help_shown_; }
   bool quitting() const { return quitting_; }
@@ -125,6 +127,7 @@ private:
   }
   void ask_first(Command command);
   void look_at_files();
+  void look_at_own_file();
   /// What the preset's file has now becomes an edit that counts as saved. False where it is what is there already.
   bool take_over_file();
   /// What the View shows now.
@@ -134,6 +137,8 @@ private:
   /// False for another engine.
   bool cast_picture(const std::string& file);
   void begin(preset::Preset preset, preset::Sweep sweep = {});
+  void let_go();
+  void close_question();
   void moved_in_edits(const preset::Preset& before);
   EngineLayout& engine_layout();
 

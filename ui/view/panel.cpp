@@ -177,7 +177,7 @@ void ViewPanel::start_drag(const Context& context)
   moved_ = false;
   camera_at_start_ = context.preset()->scene.camera;
   look_at_start_ = context.chosen.look;
-  ++gesture_;
+  gestures_.begin();
 }
 
 void ViewPanel::continue_drag(const Context& context)
@@ -209,7 +209,7 @@ void ViewPanel::move_camera(const Context& context, const Point& delta) const
   const double across = delta[0] / height, down = delta[1] / height;
   const auto edit = [&](const char* label, const preset::Camera& camera) {
     context.edit(
-        label, [&](preset::Preset& p) { p.scene.camera = camera; }, gesture_, true);
+        label, [&](preset::Preset& p) { p.scene.camera = camera; }, gestures_.number(), true);
   };
   if (drag_ == Drag::orbit) // the scene follows the mouse: to the right means that the camera goes to the left
     edit("orbit", orbit(camera_at_start_, -orbit_deg_per_height * across, orbit_deg_per_height * down));
@@ -239,11 +239,11 @@ void ViewPanel::use_wheel(const Context& context)
     return;
   }
   const double now = ImGui::GetTime();
-  if (last_wheel_s_ < 0 || now - last_wheel_s_ > wheel_gesture_s) ++gesture_;
+  if (last_wheel_s_ < 0 || now - last_wheel_s_ > wheel_gesture_s) gestures_.begin();
   last_wheel_s_ = now;
   const double factor = std::pow(notch, -io.MouseWheel);
   context.edit(
-      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(p.scene.camera, factor); }, gesture_);
+      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(p.scene.camera, factor); }, gestures_.number());
 }
 
 } // namespace nephroid::ui

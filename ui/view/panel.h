@@ -65,8 +65,8 @@ private:
   bool marks_region_ = false;      ///< the mouse went too far for a click
   preset::Camera camera_at_start_; ///< a drag is measured from its start, so that rounding does not add up
   Look look_at_start_;
-  std::uint64_t gesture_ = 0; ///< number of the newest gesture
-  double last_wheel_s_ = -1;  ///< turns of the wheel in quick succession are one gesture
+  Gestures gestures_{title};
+  double last_wheel_s_ = -1; ///< turns of the wheel in quick succession are one gesture
   bool hovered_ = false;
 };
 
