@@ -212,6 +212,9 @@ inline Effect of_panel(const PanelEntry& entry)
   const auto prepare = [entry, scene](Desk& d) {
     if (!serves(entry, d.preset())) d.apply(command::New{scene});
     d.apply(command::ShowPanel{can_close(entry) ? std::string(entry.name) : "plan", true});
+    if (!ImGui::GetIO().WantTextInput) return; // the presets' search has the keyboard
+    d.hold(ImGuiKey_Escape);
+    d.lift(ImGuiKey_Escape);
   };
   if (!can_close(entry)) return {prepare, [entry](Desk&) { return in_front(entry.title); }};
   return {prepare, [entry](Desk& d) {
