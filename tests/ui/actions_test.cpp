@@ -60,9 +60,8 @@ TEST(Actions, NamesAndEffectsAreOneToOne)
 
 TEST(Actions, EachIsPressedInThePalette)
 {
-  const int pressed = press_each(any, [](Desk& desk, const Action& action) {
-    EXPECT_TRUE(desk.by_palette(action)) << "its whole name does not find it first";
-  });
+  const int pressed = press_each(
+      any, [](Desk& desk, const Action& action) { EXPECT_TRUE(desk.by_palette(action)) << "its whole name does not find it first"; });
   EXPECT_EQ(pressed, count(any));
   say("pressed in the palette", pressed);
 }

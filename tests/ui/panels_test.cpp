@@ -213,8 +213,7 @@ TEST_F(PanelsTest, APanelIsThereForThePresetsOfItsEngineOnly)
 
 TEST(Layouts, AreNamedAfterThePanelInFront)
 {
-  for (const char* name : {"", "error", "dispersion", "spectra", "plan", "parameters"})
-    EXPECT_NO_THROW(check_layout(name)) << name;
+  for (const char* name : {"", "error", "dispersion", "spectra", "plan", "parameters"}) EXPECT_NO_THROW(check_layout(name)) << name;
   EXPECT_THROW(check_layout("view"), Error) << "it has a side of its own";
   for (const PanelEntry& entry : panel_table().subspan(1)) EXPECT_NO_THROW(check_layout(std::string(entry.name)));
 }
