@@ -196,6 +196,24 @@ TEST_F(SessionTest, AClosedWindowIsOfferedButNotOpened)
   EXPECT_FALSE(window.keeper.has_earlier());
 }
 
+TEST_F(SessionTest, AReopenedSessionIsGoneWhenTheNextIsKept)
+{
+  {
+    Window killed(state());
+    ASSERT_TRUE(killed.workbench.open(preset_file()));
+    killed.settle();
+  }
+  {
+    Window closed(state());
+    closed.keeper.reopen(closed.workbench);
+    ASSERT_NE(closed.workbench.preset(), nullptr);
+    closed.keeper.close(closed.workbench); // at once, before anything was kept
+  }
+  Window window(state());
+  EXPECT_TRUE(window.keeper.killed_session().empty());
+  EXPECT_TRUE(window.keeper.has_earlier());
+}
+
 TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn)
 {
   Window first(state());

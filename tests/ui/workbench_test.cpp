@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace nephroid::ui {
 namespace {
 
@@ -234,6 +236,28 @@ TEST_F(WorkbenchTest, ThePictureIsWrittenInTheBackground)
   EXPECT_EQ(errors, 1);
   workbench.update(Workbench::Clock::now() + 1h);
   EXPECT_EQ(workbench.messages().size(), 1u) << "notes go by themselves, errors stay";
+}
+
+TEST_F(WorkbenchTest, WhatIsBeingWrittenAtTheEndIsWaitedFor)
+{
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  ASSERT_TRUE(until(job::State::finished));
+  workbench.apply({command::SavePicture{folder.path() / "a.PNG"}, command::SavePicture{folder.path() / "missing" / "b.png"}});
+  workbench.finish_files();
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "a.PNG"));
+  EXPECT_EQ(std::ranges::count_if(workbench.messages(), [](const Message& m) { return m.error; }), 1) << "the folder is missing";
+}
+
+TEST_F(WorkbenchTest, WhatWaitsForAnAnswerGoesWithItsQuestion)
+{
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  edit_z(2);
+  workbench.apply({command::Quit{}});
+  ASSERT_EQ(workbench.question(), Question::unsaved);
+  workbench.apply({command::PinFile{folder.path() / "dropped.csv"}});
+  EXPECT_EQ(workbench.question(), Question::none);
+  workbench.apply({command::SavePreset{folder.path() / "other.json"}});
+  EXPECT_FALSE(workbench.quitting()) << "nobody answered that the window may close";
 }
 
 } // namespace
