@@ -3,7 +3,6 @@
 
 #include "base/counted.h"
 #include "base/files.h"
-#include "ui/state/device_runs.h"
 #include "ui/state/recent_files.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
@@ -104,7 +103,6 @@ void StartPage::draw_devices()
 {
   if (!std::exchange(asked_, true))
     asking_ = std::async(std::launch::async, [] {
-      yield_to_display();
       Devices devices{compute::list_devices(), {}};
       if (devices.found.empty()) devices.none = compute::no_device_error().line();
       return devices;

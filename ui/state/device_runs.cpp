@@ -7,8 +7,6 @@
 #include "run/reference.h"
 #include "run/run.h"
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <string>
 #include <utility>
@@ -50,15 +48,8 @@ DeviceRuns::DeviceRuns(compute::DeviceOptions device, LookAround look_around) : 
 
 DeviceRuns::~DeviceRuns() = default;
 
-void yield_to_display()
-{
-  constexpr int niceness = 5;             // a third of the display's share of a core
-  setpriority(PRIO_PROCESS, 0, niceness); // of a thread, on Linux
-}
-
 NewRun DeviceRuns::make(const preset::Preset& preset)
 {
-  yield_to_display();
   if (reread_.exchange(false)) previous_.reset();
   auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get())); });
   const std::lock_guard lock(building_);

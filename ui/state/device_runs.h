@@ -21,10 +21,6 @@ namespace nephroid::ui {
 /// NewRun::seen of a loaded scene; on the worker's thread.
 using LookAround = std::vector<std::any> (*)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&);
 
-/// The calling thread, and those that it begins, give way to the display's where the device computes on the same cores. OpenCL's own
-/// threads are begun by the first that looks for a device.
-void yield_to_display();
-
 class DeviceRuns : public RunSource {
 public:
   /// look_around: null where nobody wants to know what is seen.
