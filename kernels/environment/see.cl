@@ -15,12 +15,13 @@ static inline DeviceEnd nowhere(void)
   return end;
 }
 
-// Where a path that has met `hit` ends. weight: linear sRGB.
-static inline DeviceEnd end_of(const World* world, Path path, Hit hit, const Band* band, float3 weight, uint2 seed, uint sample, uint pixel)
+// Where a path that has met `hit` ends. weight: linear sRGB. likelier: of reflection and refraction on its way.
+static inline DeviceEnd end_of(const World* world, Path path, Hit hit, const Band* band, float3 weight, uint2 seed, uint sample, uint pixel,
+                               bool likelier)
 {
   DeviceEnd end = nowhere();
   Surface surface;
-  const float scale = reach_end(world, &path, &hit, band, seed, sample, pixel, STREAM_SEE, &surface);
+  const float scale = reach_end(world, &path, &hit, band, seed, sample, pixel, STREAM_SEE, likelier, &surface);
   if (scale == 0.0f) return end;
   const float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
@@ -66,7 +67,8 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 }
 
 // Paths for each square of block x block pixels, first .. first + count - 1 counted row after row; ends: ENDS_OF_PIXEL for each. A pixel
-// that first sees glass follows both what it reflects and what it lets through; that in three colours where glass parts them.
+// that first sees glass follows both what it reflects and what it lets through; that in three colours where glass parts them. In
+// a coarse picture, of larger squares, paths take the likelier way at the surfaces after that: one that did not would stand out as a square.
 __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states, int size, float4 middle,
                   DeviceCamera camera, uint2 seed, uint pass, int block, uint first, uint count)
 {
@@ -76,7 +78,8 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   const uint item = first + index;
   const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block, row = (int)item / columns * block;
   const uint pixel = (uint)(row * camera.width + column);
-  const float2 jitter = block > 1 ? (float2)(0.5f * (float)block) : random4(seed, pass, pixel, 0u, STREAM_SEE).xy;
+  const bool coarse = block > 1;
+  const float2 jitter = coarse ? (float2)(0.5f * (float)block) : random4(seed, pass, pixel, 0u, STREAM_SEE).xy;
   const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
@@ -85,7 +88,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) own[i] = nowhere();
   if (!bent) {
     const Band all = whole_cluster(0);
-    own[0] = end_of(&world, path, hit, &all, (float3)(1.0f), seed, ENDS_OF_PIXEL * pass, pixel);
+    own[0] = end_of(&world, path, hit, &all, (float3)(1.0f), seed, ENDS_OF_PIXEL * pass, pixel, coarse);
   } else {
     const float u = golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
     const Surface surface = surface_at(&world.geometry, objects, hit);
@@ -104,11 +107,11 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
       const float share = two_ways ? reflected_share(path.direction, reflected.direction, n_through) : 0.0f;
       if (goes_on)
         own[c] = end_of(&world, through, next_hit(&world, &through), &band, (1.0f - share) * n_through * n_through * channel, seed,
-                        ENDS_OF_PIXEL * pass + (uint)c, pixel);
+                        ENDS_OF_PIXEL * pass + (uint)c, pixel, coarse);
       // All colours are reflected alike, nearly as much, so one of them is followed.
       if (two_ways && reflects && c == (ENDS_OF_PIXEL - 1) / 2)
         own[ENDS_OF_PIXEL - 1] = end_of(&world, reflected, next_hit(&world, &reflected), &band, share * (float3)(1.0f), seed,
-                                        ENDS_OF_PIXEL * pass + ENDS_OF_PIXEL - 1, pixel);
+                                        ENDS_OF_PIXEL * pass + ENDS_OF_PIXEL - 1, pixel, coarse);
     }
   }
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) {

@@ -100,8 +100,9 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
 // Takes a path that has met `hit` on through glass and mirrors in one band to a diffuse surface or out of the scene. `hit` and, of a diffuse
 // surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost: radiance
 // over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and refraction.
+// likelier: the path takes the likelier of the two everywhere, for a first picture without noise.
 static inline float reach_end(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel, uint stream,
-                              Surface* surface)
+                              bool likelier, Surface* surface)
 {
   float radiance_scale = 1.0f;
   float4 choices = (float4)(0.0f);
@@ -112,7 +113,8 @@ static inline float reach_end(const World* world, Path* path, Hit* hit, const Ba
     const DeviceMaterial material = material_of(world, surface->object);
     lose_in_medium(world, path, hit->t);
     if (material.type == MATERIAL_DIFFUSE) return radiance_scale;
-    if ((surface_number & 3) == 0) choices = random4(seed, sample, pixel, 1u + (uint)surface_number / 4u, stream);
+    if ((surface_number & 3) == 0)
+      choices = likelier ? (float4)(0.5f) : random4(seed, sample, pixel, 1u + (uint)surface_number / 4u, stream);
     float n_ratio;
     if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, &n_ratio)) return 0.0f;
     radiance_scale *= n_ratio * n_ratio;
@@ -125,7 +127,7 @@ static inline float reach_end(const World* world, Path* path, Hit* hit, const Ba
 static inline float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel,
                                   uint stream, Surface* surface)
 {
-  const float radiance_scale = reach_end(world, path, hit, band, seed, sample, pixel, stream, surface);
+  const float radiance_scale = reach_end(world, path, hit, band, seed, sample, pixel, stream, false, surface);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }
 

@@ -72,6 +72,24 @@ TEST_F(EnvironmentViewJob, ShowsItsLayers)
   EXPECT_EQ(found->rows.size(), 24u);
 }
 
+// What is seen through the ball, and in it, is drawn by no random number there: paths that took another way would be squares in the
+// picture.
+TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise)
+{
+  std::vector<float> first, last;
+  for (const std::uint64_t seed : {1, 2}) {
+    preset::Preset p = lit();
+    p.seed = seed;
+    const auto job = job_of(p);
+    while (job->progress().work == 0) job->step(); // the bake
+    const std::vector<float> before = std::exchange(first, layer(job->snapshot(), "background")),
+                             after = std::exchange(last, layer(run(*job), "background"));
+    if (seed == 1) continue;
+    EXPECT_EQ(first, before);
+    EXPECT_NE(last, after) << "paths do take different ways";
+  }
+}
+
 // Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded.
 TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits)
 {
