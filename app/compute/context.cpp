@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choosing a device and opening it with one queue.
+#include "base/lower_case.h"
 #include "compute/compute.h"
 #include "compute/state.h"
 
@@ -13,17 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool matches(const DeviceInfo& info, const std::string& selector)
 {
   const bool number = std::all_of(selector.begin(), selector.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   if (number) return std::to_string(info.index) == selector;
-  return lower(info.name).find(lower(selector)) != std::string::npos;
+  return lower_case(info.name).find(lower_case(selector)) != std::string::npos;
 }
 
 detail::Device choose(const std::vector<detail::Device>& devices, const std::string& selector)

@@ -100,6 +100,19 @@ TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
   EXPECT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
 }
 
+TEST_F(CompareTest, PinsStandInTheOrderInWhichTheyWereNamed)
+{
+  measured();
+  open();
+  const std::string longer = folder.write("longer.csv", measure::to_csv(*falling_history(20000))),
+                    shorter = folder.write("shorter.csv", measure::to_csv(*falling_history(2)));
+  workbench.apply({command::PinFile{longer}, command::PinFile{shorter}});
+  const auto& pins = workbench.comparing().pinned();
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return pins.all().size() == 2; }));
+  EXPECT_EQ(pins.all()[0].name, "longer");
+  EXPECT_EQ(pins.all()[1].name, "shorter");
+}
+
 TEST_F(CompareTest, ADialogOpensAHistory)
 {
   open();

@@ -123,6 +123,22 @@ TEST_F(FileWatchTest, AFileThatThePresetNamesStartsTheRunAgain)
   EXPECT_EQ(runs.made, before) << "a file that is gone may be on its way back";
 }
 
+TEST_F(FileWatchTest, ABrokenPresetHidesNoOtherFile)
+{
+  runs.steps = 100000;
+  const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  open();
+  edit([](preset::Preset& preset) {
+    preset.scene.objects[0].shape.reset();
+    preset.scene.objects[0].mesh = "a.obj";
+  });
+  rest();
+  const int reread = runs.reread;
+  write_file_whole(file, "{\"scene\": ");
+  write_file_whole(mesh, "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+  EXPECT_TRUE(until([&] { return !workbench.messages().empty() && runs.reread > reread; }));
+}
+
 TEST_F(FileWatchTest, ADeviceThatWasLostIsOpenedAgain)
 {
   runs.fails = true;

@@ -4,6 +4,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/lower_case.h"
 #include "preset/differences.h"
 #include "preset/outline.h"
 #include "preset/read.h"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <sys/stat.h>
 #include <utility>
@@ -119,16 +119,10 @@ std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs
   return entries;
 }
 
-std::string lower(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool holds_words(const CatalogueEntry& entry, const std::string& words)
 {
-  const std::string text = lower(fmt::format("{}\n{}\n{}\n{}", entry.name, entry.title, entry.description, entry.engine)),
-                    wanted = lower(words);
+  const std::string text = lower_case(fmt::format("{}\n{}\n{}\n{}", entry.name, entry.title, entry.description, entry.engine)),
+                    wanted = lower_case(words);
   for (std::size_t from = 0; from < wanted.size();) {
     const std::size_t end = std::min(wanted.find(' ', from), wanted.size());
     if (text.find(wanted.substr(from, end - from)) == std::string::npos) return false;

@@ -3,6 +3,7 @@
 
 #include "base/counted.h"
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 
@@ -11,7 +12,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
 #include <tuple>
 #include <utility>
 
@@ -53,10 +53,7 @@ std::string state_text(const SweepQueue::Run& run)
 
 bool has_letters(const std::string& key, const std::string& filter)
 {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  };
-  return std::search(key.begin(), key.end(), filter.begin(), filter.end(), same) != key.end();
+  return lower_case(key).find(lower_case(filter)) != std::string::npos;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "ui/shell/file_list.h"
 
 #include "base/files.h"
+#include "base/lower_case.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 
@@ -9,7 +10,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 
 namespace nephroid::ui {
@@ -18,12 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_entries = 5000;
-
-std::string lower(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::string size_text(std::uintmax_t bytes)
 {
@@ -43,7 +37,7 @@ FileList::Read FileList::read(const fs::path& folder, const std::vector<std::str
     const std::string name = entry->path().filename().string();
     if (name.starts_with('.')) continue;
     const bool is_folder = entry->is_directory(ignored);
-    const std::string ending = lower(entry->path().extension().string());
+    const std::string ending = lower_case(entry->path().extension().string());
     if (!is_folder && !endings.empty() && std::find(endings.begin(), endings.end(), ending) == endings.end()) continue;
     if ((result.cut = result.entries.size() == most_entries)) break;
     const std::uintmax_t bytes = is_folder ? 0 : entry->file_size(ignored);
@@ -51,7 +45,7 @@ FileList::Read FileList::read(const fs::path& folder, const std::vector<std::str
   }
   if (error) result.error = error.message();
   std::sort(result.entries.begin(), result.entries.end(), [](const Entry& a, const Entry& b) {
-    return a.is_folder != b.is_folder ? a.is_folder : lower(a.path.filename().string()) < lower(b.path.filename().string());
+    return a.is_folder != b.is_folder ? a.is_folder : lower_case(a.path.filename().string()) < lower_case(b.path.filename().string());
   });
   return result;
 }

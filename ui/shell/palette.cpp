@@ -2,6 +2,7 @@
 #include "ui/shell/palette.h"
 
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "preset/read.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
@@ -11,7 +12,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 
 namespace nephroid::ui {
@@ -20,11 +20,7 @@ namespace {
 constexpr const char* title = "Commands";
 
 /// Whether the whole name is typed: then no other is meant, whatever its letters score.
-bool is_name(const std::string& typed, const Palette::Entry& entry)
-{
-  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
-  return std::equal(typed.begin(), typed.end(), entry.name.begin(), entry.name.end(), same);
-}
+bool is_name(const std::string& typed, const Palette::Entry& entry) { return lower_case(typed) == lower_case(entry.name); }
 
 bool is_enabled(const Palette::Entry& entry, const Context& context) { return !entry.action || entry.action->enabled(context); }
 

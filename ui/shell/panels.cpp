@@ -35,6 +35,7 @@ std::unique_ptr<Panel> make([[maybe_unused]] WavelengthAxis& wavelengths)
 const PanelEntry table[] = {
     {"view", ViewPanel::title, "", make<ViewPanel>, SeenScene::look},
     {"error", ErrorPanel::title, "", make<ErrorPanel>},
+    {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
     {"runs", RunsPanel::title, "", make<RunsPanel>},
     {"dispersion", DispersionPanel::title, "spectral", make<DispersionPanel>},
     {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>,
@@ -45,7 +46,6 @@ const PanelEntry table[] = {
     {"environment", EnvironmentPanel::title, "", make<EnvironmentPanel>, nullptr, EnvironmentPanel::serves, "environment"},
     {"inspector", InspectorPanel::title, "", make<InspectorPanel>},
     {"plan", PlanPanel::title, "", make<PlanPanel>},
-    {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
     {"presets", PresetsPanel::title, "", make<PresetsPanel>},
 };
 

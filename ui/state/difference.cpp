@@ -10,14 +10,10 @@
 namespace nephroid::ui {
 namespace {
 
-using namespace std::chrono_literals;
-
 bool same_values(const DifferenceRequest& a, const DifferenceRequest& b)
 {
   return a.picture.owner == b.picture.owner && a.other.owner == b.other.owner && a.metric == b.metric;
 }
-
-bool same(const DifferenceRequest& a, const DifferenceRequest& b) { return same_values(a, b) && a.scale == b.scale; }
 
 /// The values in the map's colours, by a table: there are far more pixels than colours that a display tells apart.
 std::vector<unsigned char> coloured(const std::vector<float>& values, double scale, bool is_signed)
@@ -55,32 +51,14 @@ std::shared_ptr<const ShownDifference> make(const DifferenceRequest& request, st
 
 void DifferenceMaker::want(const DifferenceRequest& request, Clock::time_point now)
 {
-  collect(now);
-  if (made_.valid() || (newest_ && same(newest_->of, request))) return;
-  const bool only_picture_changed = newest_ && newest_->of.other.owner == request.other.owner && newest_->of.metric == request.metric &&
-                                    newest_->of.scale == request.scale;
-  if (only_picture_changed && now < rest_until_) return;
-  auto known = newest_ && same_values(newest_->of, request) ? newest_->values : nullptr;
-  made_ = std::async(std::launch::async, [request, known = std::move(known)] {
-    const Clock::time_point begin = Clock::now();
-    Made made{make(request, known)};
-    made.took = Clock::now() - begin;
-    return made;
-  });
-}
-
-void DifferenceMaker::collect(Clock::time_point now)
-{
-  if (!made_.valid() || made_.wait_for(0s) != std::future_status::ready) return;
-  Made made = made_.get();
-  rest_until_ = now + 2 * made.took;
-  if (!std::exchange(forgotten_, false)) newest_ = std::move(made.map);
-}
-
-void DifferenceMaker::forget()
-{
-  newest_.reset();
-  forgotten_ = made_.valid();
+  if (!maker_.idle(now)) return;
+  const auto& newest = maker_.newest();
+  const bool known = newest && same_values(newest->of, request);
+  if (known && newest->of.scale == request.scale) return;
+  const bool only_picture_changed = newest && newest->of.other.owner == request.other.owner && newest->of.metric == request.metric &&
+                                    newest->of.scale == request.scale;
+  if (only_picture_changed && maker_.rests(now)) return;
+  maker_.start([request, values = known ? newest->values : nullptr] { return make(request, values); });
 }
 
 } // namespace nephroid::ui

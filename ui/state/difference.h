@@ -2,9 +2,8 @@
 // False-colour differences of two pictures, made on a thread of their own: FLIP of a large picture takes seconds, a frame 16 ms.
 #pragma once
 #include "measure/difference.h"
+#include "ui/state/background_maker.h"
 
-#include <chrono>
-#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,25 +32,16 @@ struct ShownDifference {
 
 class DifferenceMaker {
 public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = BackgroundMaker<ShownDifference>::Clock;
   /// Once a frame, returns at once: starts what is wanted where it is not what newest() shows or is in the making. Where only the
-  /// run's picture changed it rests for twice the time that the last map took: the device may be the same processor.
+  /// run's picture changed it rests first.
   void want(const DifferenceRequest& request, Clock::time_point now);
-  /// The newest map; may be of an older request. Null before the first.
-  const std::shared_ptr<const ShownDifference>& newest() const { return newest_; }
-  void forget();
+  /// The newest map; may be of an older request. Null before the first and after forget().
+  const std::shared_ptr<const ShownDifference>& newest() const { return maker_.newest(); }
+  void forget() { maker_.forget(); }
 
 private:
-  struct Made {
-    std::shared_ptr<const ShownDifference> map;
-    Clock::duration took{};
-  };
-  void collect(Clock::time_point now);
-
-  std::shared_ptr<const ShownDifference> newest_;
-  Clock::time_point rest_until_{};
-  bool forgotten_ = false; ///< what is in the making is no longer wanted
-  std::future<Made> made_;
+  BackgroundMaker<ShownDifference> maker_;
 };
 
 } // namespace nephroid::ui

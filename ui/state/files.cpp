@@ -4,6 +4,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/lower_case.h"
 #include "image/image.h"
 #include "preset/differences.h"
 #include "run/import/import.h"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <exception>
 #include <fstream>
 #include <string_view>
@@ -67,13 +67,6 @@ std::string write_shown(const std::filesystem::path& file, const PictureToSave& 
   return fmt::format(", false colour of {:.3g} to {:.3g} W/m2/sr", tone.range.low, tone.range.high);
 }
 
-std::string lower_ending(const std::filesystem::path& file)
-{
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 /// Null: of no kind but a preset's.
 const Kind* known_kind(const std::string& ending)
 {
@@ -96,7 +89,7 @@ bool may_be_object(const std::filesystem::path& file)
 
 FileKind kind_of(const std::filesystem::path& file)
 {
-  const Kind* kind = known_kind(lower_ending(file));
+  const Kind* kind = known_kind(lower_case(file.extension().string()));
   return kind ? kind->kind : FileKind::other;
 }
 
@@ -105,7 +98,7 @@ void refuse_other_kinds(const std::string& name)
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(name, ignored)) return;
   constexpr const char* expected = "the window opens presets";
-  const std::string ending = lower_ending(name);
+  const std::string ending = lower_case(std::filesystem::path(name).extension().string());
   if (const Kind* kind = known_kind(ending)) throw bad_input(name, kind->what, expected, fmt::format(fmt::runtime(kind->remedy), name));
   if (ending != ".json" && !may_be_object(name))
     throw bad_input(name, "is no preset and of no kind that Nephroid knows", std::string(expected) + ", JSON files",
@@ -135,7 +128,7 @@ std::string proposed_name(const preset::Preset* preset, const std::string& endin
 void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown)
 {
   background_.push_back(std::async(std::launch::async, [=] {
-    const std::string extension = lower_ending(file);
+    const std::string extension = lower_case(file.extension().string());
     if (extension == ".exr")
       image::write_exr(file, run::with_layers(*picture));
     else if (extension != ".png")
@@ -190,7 +183,7 @@ void FileWork::import_scene(const std::filesystem::path& file)
 
 void FileWork::pin(const std::filesystem::path& path, const std::optional<PinnedRun>& like)
 {
-  background_.push_back(std::async(std::launch::async, [=] {
+  pins_.push_back(std::async(std::launch::async, [=] {
     PinnedRun run = read_pin(path);
     if (like) {
       run.name = like->name;
@@ -203,14 +196,15 @@ void FileWork::pin(const std::filesystem::path& path, const std::optional<Pinned
 
 void FileWork::wait() const
 {
-  for (const std::future<Done>& future : background_) future.wait();
+  for (const auto* work : {&background_, &pins_})
+    for (const std::future<Done>& future : *work) future.wait();
 }
 
 void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,
                        const std::function<void(const std::filesystem::path&)>& open)
 {
-  for (std::future<Done>& future : background_) {
-    if (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) continue;
+  const auto is_taken = [&](std::future<Done>& future) {
+    if (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
     try {
       Done done = future.get();
       if (!done.note.empty()) messages.note(done.note);
@@ -219,8 +213,12 @@ void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>&
     } catch (const std::exception& error) {
       messages.error(error);
     }
-  }
-  std::erase_if(background_, [](const std::future<Done>& f) { return !f.valid(); });
+    return true;
+  };
+  for (std::future<Done>& future : background_) is_taken(future);
+  for (std::future<Done>& future : pins_)
+    if (!is_taken(future)) break;
+  for (auto* work : {&background_, &pins_}) std::erase_if(*work, [](const std::future<Done>& f) { return !f.valid(); });
 }
 
 } // namespace nephroid::ui

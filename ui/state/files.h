@@ -65,10 +65,10 @@ public:
   void import_scene(const std::filesystem::path& file);
   /// read_pin() of a path; as `like` in name, colour and whether it is shown, where that is given.
   void pin(const std::filesystem::path& path, const std::optional<PinnedRun>& like = {});
-  bool busy() const { return !background_.empty(); }
+  bool busy() const { return !background_.empty() || !pins_.empty(); }
   /// Until all of it is done.
   void wait() const;
-  /// Once a frame: says what is done, and hands over the runs that were read and the files to be opened.
+  /// Once a frame: says what is done, and hands over the files to be opened and the runs that were read, in the order of pin().
   void collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,
                const std::function<void(const std::filesystem::path&)>& open);
 
@@ -78,7 +78,7 @@ private:
     std::optional<PinnedRun> pin = {};  ///< that was read
     std::filesystem::path to_open = {}; ///< empty: nothing
   };
-  std::vector<std::future<Done>> background_; ///< what is thrown there becomes a message
+  std::vector<std::future<Done>> background_, pins_; ///< what is thrown there becomes a message
 };
 
 } // namespace nephroid::ui
