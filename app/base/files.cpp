@@ -179,6 +179,20 @@ private:
   std::vector<std::byte> waiting_;
 };
 
+/// The regular file that path is or leads to, and its status; path itself where there is none.
+fs::path file_to_replace(const fs::path& path, struct stat& status)
+{
+  if (::stat(path.c_str(), &status) != 0) {
+    status.st_mode = 0;
+    return path;
+  }
+  if (S_ISDIR(status.st_mode)) give_up(path, EISDIR);
+  if (!S_ISREG(status.st_mode)) throw failed(path.string(), "cannot be written: it is not a regular file");
+  std::error_code ignored;
+  const fs::path there = fs::canonical(path, ignored);
+  return ignored ? path : there;
+}
+
 /// ".STEM.PROCESS-COUNT.tmp.EXTENSION" beside path: no other writer has it.
 fs::path temporary_name(const fs::path& path)
 {
@@ -270,12 +284,14 @@ void write_file_whole(const fs::path& path, std::string_view bytes)
 
 void write_file_whole(const fs::path& path, const std::function<void(ByteSink&)>& write)
 {
-  const fs::path temporary = temporary_name(path);
+  struct stat status {};
+  const fs::path target = file_to_replace(path, status), temporary = temporary_name(target);
   try {
     FileSink file(temporary, path);
     write(file);
     file.close();
-    commit_file(temporary, path);
+    if (status.st_mode != 0) ::chmod(temporary.c_str(), status.st_mode & 07777); // some file systems have no modes
+    commit_file(temporary, target);
   } catch (...) {
     ::unlink(temporary.c_str());
     throw;

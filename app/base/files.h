@@ -24,8 +24,8 @@ std::string read_file(const std::filesystem::path& path);
 /// The file's bytes one after the other. Throws as read_file, also where it ends while it is read.
 std::unique_ptr<ByteSource> open_file(const std::filesystem::path& path);
 
-/// Writes to a temporary name beside path, flushes to disk, then renames: the file is there whole or not at all.
-/// Throws failed with the system's reason (full disk, no permission); the temporary file is removed.
+/// Writes beside path, flushes to disk, renames: whole or not at all. A link leads on; what is replaced hands on its mode.
+/// Throws failed (full disk, no permission, not a regular file); the temporary file is removed.
 void write_file_whole(const std::filesystem::path& path, std::string_view bytes);
 /// The same of what `write` writes; what it throws goes on, and there is no file.
 void write_file_whole(const std::filesystem::path& path, const std::function<void(ByteSink&)>& write);

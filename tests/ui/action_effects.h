@@ -2,6 +2,7 @@
 // What each action of the table shall do, by its name: what has to be there before, and what is so afterwards and was not before.
 #pragma once
 #include "action_desk.h"
+#include "base/bytes.h"
 #include "preset/read.h"
 #include "ui/shell/panels.h"
 
@@ -170,6 +171,14 @@ inline void add_run_and_view(Effects& all)
                            },
                            [](Desk& d) { return !d.workbench.sweep().active(); }};
   all["Write a report..."] = {{}, asks(Question::save_report)};
+  all["Show as glass"] = {
+      [](Desk& d) {
+        d.apply(command::Cancel{});
+        d.runs.files = {{glass_view, [text = ball_text()](ByteSink& file) { file.write(std::as_bytes(std::span(text))); }}};
+        d.apply(command::Restart{});
+        EXPECT_TRUE(d.comes_to([](Desk& all) { return all.workbench.run().snapshot_is_current(); }));
+      },
+      [](Desk& d) { return is_there(d.folder.path() / "test-object" / glass_view); }};
 
   all["Flip"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().flip; }};
   all["Difference"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().difference; }};

@@ -17,17 +17,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
 
-/// The current folder, for a while.
-class Inside {
-public:
-  explicit Inside(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder); }
-  ~Inside() { std::filesystem::current_path(before_); }
-  Inside(const Inside&) = delete;
-
-private:
-  std::filesystem::path before_;
-};
-
 class AnnealingPanelTest : public test::WindowFixtureOf<test::InverseRuns> {
 protected:
   AnnealingPanelTest() : WindowFixtureOf("annealing") { ImGui::GetIO().DisplaySize = {1200, 1000}; }
@@ -206,7 +195,6 @@ TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
 // The preset of the finished object is of another engine: the View turns it, and this panel is gone.
 TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass)
 {
-  const Inside here(folder.path());
   open(test::inverse_text(1));
   finish();
   click_widget("show as glass");
@@ -215,6 +203,7 @@ TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass)
   EXPECT_EQ(std::filesystem::weakly_canonical(workbench.preset()->source),
             std::filesystem::weakly_canonical(folder.path() / "test-object" / "view.json"));
   EXPECT_EQ(workbench.preset()->scene.objects.size(), 5u) << "the ground, and twice the object and its receiver";
+  EXPECT_EQ(free_name(folder.path() / "test-object"), folder.path() / "test-object-2") << "what is there may be edited by now";
 }
 
 TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)

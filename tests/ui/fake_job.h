@@ -47,6 +47,7 @@ struct FakeSettings {
   std::atomic<bool> adopts{true}; ///< another light, where the preset keeps layers
   std::atomic<int> adopted{0};
   std::function<std::shared_ptr<const job::History>(int step)> history; ///< after so many steps; empty: nothing is measured
+  std::vector<job::ExtraFile> files;
 };
 
 /// lab_mean = level / sqrt(t) against a reference and the run's own estimate, a tenth above it; a row a step of 10 ms.
@@ -98,6 +99,7 @@ public:
     made.phases = {{"photons", 0.002 * done_}};
     if (!preset_.scene.lights.empty())
       made.scalars.push_back({"energy", "emitted_w", preset_.scene.lights[0].power_w}); // tells which light it is of
+    made.files = runs_.files;
     if (runs_.history) made.history = runs_.history(done_);
     return made;
   }

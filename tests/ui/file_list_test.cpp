@@ -17,6 +17,17 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
+/// The current folder, for a while.
+class Inside {
+public:
+  explicit Inside(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder); }
+  ~Inside() { std::filesystem::current_path(before_); }
+  Inside(const Inside&) = delete;
+
+private:
+  std::filesystem::path before_;
+};
+
 class FileListTest : public test::WindowFixture {
 protected:
   FileListTest()
@@ -68,6 +79,19 @@ protected:
     folder.write("a.CSV", "");
   }
 };
+
+// A preset that is named without a folder lies in the present one.
+TEST_F(FileListTest, BeginsInThePresentFolderWhereThePresetHasNone)
+{
+  const Inside here(folder.path());
+  folder.write("near.json", test::preset_text);
+  ASSERT_TRUE(workbench.open("near.json"));
+  workbench.apply({command::Ask{Question::save_preset}});
+  frames(4);
+  read();
+  EXPECT_THAT(names(), ElementsAre("near.json"));
+  EXPECT_TRUE(fs::equivalent(files().folder(), folder.path()));
+}
 
 TEST_F(FileListTest, FoldersComeFirstAndOnlyWantedKindsAreThere)
 {

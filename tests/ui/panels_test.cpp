@@ -149,6 +149,29 @@ TEST_F(PanelsTest, EscapeCancelsAndF5StartsAgain)
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::paused; }));
 }
 
+TEST_F(PanelsTest, EscapeClosesTheHelpFirst)
+{
+  runs.steps = 100000;
+  open();
+  press(ImGuiKey_F1);
+  EXPECT_TRUE(workbench.help_shown());
+  press(ImGuiKey_Escape);
+  EXPECT_FALSE(workbench.help_shown());
+  frames(3);
+  EXPECT_NE(workbench.run().status().state, job::State::cancelled);
+}
+
+TEST_F(PanelsTest, ANoteMovesNothing)
+{
+  open();
+  frames(2);
+  const double height = workspace.panel<ui::ViewPanel>().canvas().size[1];
+  workbench.apply({command::Report{"something is saved", false}});
+  frames(2);
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_EQ(workspace.panel<ui::ViewPanel>().canvas().size[1], height);
+}
+
 TEST_F(PanelsTest, AnErrorTakesAStripThatGoesWhenItIsDismissed)
 {
   open();

@@ -82,6 +82,26 @@ TEST_F(Files, WhatFailsWhileItIsWrittenLeavesNothing)
   EXPECT_THAT(names(), ElementsAre());
 }
 
+TEST_F(Files, ALinkLeadsOnAndTheModeStays)
+{
+  write_file_whole(folder / "own", "old");
+  fs::permissions(folder / "own", fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("own", folder / "link");
+  write_file_whole(folder / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(read_file(folder / "own"), "new");
+  EXPECT_EQ(fs::status(folder / "own").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(Files, APipeIsNotReplaced)
+{
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(error_of([&] { write_file_whole(folder / "pipe", "text"); }).line(),
+              HasSubstr("pipe: cannot be written: it is not a regular file"));
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+  EXPECT_THAT(names(), ElementsAre("pipe"));
+}
+
 TEST_F(Files, BytesSurviveWritingAndReading)
 {
   std::string bytes(300'000, '\0');

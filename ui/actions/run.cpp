@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The menu "Run".
 #include "ui/actions/table.h"
+#include "ui/state/files.h"
+
+#include <algorithm>
 
 namespace nephroid::ui {
 namespace {
@@ -22,6 +25,13 @@ std::string why_no_sweep(const Context& c)
 
 bool has_runs(const Context& c) { return has_picture(c) || !c.comparing.pinned().all().empty(); }
 
+/// Of a finished inverse run.
+bool has_object(const Context& c)
+{
+  return has_picture(c) && c.run.snapshot_is_current() &&
+         std::ranges::count(c.run.snapshot()->files, glass_view, &job::ExtraFile::name) > 0;
+}
+
 void pause(const Context& c) { c.push(command::Pause{c.run.status().state != job::State::paused}); }
 
 } // namespace
@@ -41,6 +51,10 @@ std::vector<Action> run_actions()
        [](const Context&) { return std::string("no sweep is running"); }},
       {menu, "Write a report...", 0, false, "One page over the pinned runs and this one, as nephroid report makes it", has_runs,
        ask<Question::save_report>, [](const Context&) { return std::string("there is no run yet"); }},
+      {menu, "Show as glass", 0, false,
+       "Save the object of a finished inverse run in a new folder beside the preset, and open it as lit glass over its receivers",
+       has_object, push<command::ShowAsGlass>,
+       [](const Context&) { return std::string("there is no finished run of the engine inverse"); }},
   };
 }
 

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "inverse/engine.h"
 #include "ui/state/files.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -15,8 +16,6 @@
 
 namespace nephroid::ui {
 namespace {
-
-constexpr const char* glass_view = "view.json"; ///< of the run's files
 
 float em() { return ImGui::GetFontSize(); }
 
@@ -83,16 +82,9 @@ void AnnealingPanel::draw_toolbar(const Context& context)
   ImGui::Checkbox("over seconds", &look_.seconds);
   places_.note("over seconds");
   ImGui::SetItemTooltip("Over seconds of work; else over what the search counts. A click on a name in the plot hides its line.");
-  const auto& files = snapshot_ ? snapshot_->files : std::vector<job::ExtraFile>();
-  const bool has_view = std::any_of(files.begin(), files.end(), [](const job::ExtraFile& file) { return file.name == glass_view; });
-  const std::filesystem::path folder = proposed_name(context.preset(), "-object");
   ImGui::SameLine();
-  ImGui::BeginDisabled(!has_view || !context.run.snapshot_is_current());
-  if (ImGui::Button("Show as glass")) context.push(command::SaveFiles{folder, glass_view});
+  action_button("Show as glass", context);
   places_.note("show as glass");
-  ImGui::EndDisabled();
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled | ImGuiHoveredFlags_DelayNormal))
-    ImGui::SetTooltip("Saves the finished object in the folder %s, and opens it as lit glass over its receivers", folder.c_str());
 }
 
 void AnnealingPanel::draw_histories()

@@ -115,7 +115,7 @@ void ParametersPanel::draw(const Context& context)
   }
   ImGui::EndChild();
   if (help > 0)
-    draw_wrapped(colour::quiet_text, help_.empty() ? "Drag a number, or click on it and type. A right click on a name resets it." : help_);
+    draw_wrapped(colour::quiet_text, help_.empty() ? "Drag a number, or click on it and type. A right click on a name: its menu." : help_);
   if (reveal_ == revealing) reveal_.clear(); // in sight, or nowhere
   carry_out(context);
 }

@@ -74,6 +74,7 @@ void SweepSection::choose(const NumberField& field)
 {
   key_ = field.key;
   problem_.clear();
+  text_.clear();
   range_.from = field.value;
   range_.to = field.value == 0 ? 1 : 2 * field.value;
   if (!field.bounds.contain(range_.to)) std::tie(range_.from, range_.to) = std::pair(field.value / 2, field.value);
@@ -161,6 +162,7 @@ void SweepSection::draw_choice(WidgetPlaces& places)
     ImGui::SetItemTooltip("%s\n%s", field.sentence.c_str(), field.expected.c_str());
     first = false;
   }
+  if (first) draw_text(colour::quiet_text, "No field that is one number has these letters");
   ImGui::EndCombo();
 }
 

@@ -26,18 +26,24 @@ constexpr const char* titles[] = {"",
 const char* title(Question question) { return titles[static_cast<std::size_t>(question)]; }
 
 /// A field for a file's name, and a button. True where the name is chosen by one of them. replaces: Enter in the field only goes to the
-/// button, so that a file takes two of them.
-bool choose_name(const char* hint, float width, std::string& name, const char* button, bool replaces = false)
+/// button, so that a file takes two of them. possible: whether the name will do.
+bool choose_name(const char* hint, float width, std::string& name, const char* button, bool possible, bool replaces = false)
 {
   ImGui::SetNextItemWidth(width);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered = input_text("##file", hint, name, ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::SameLine();
-  ImGui::BeginDisabled(name.empty());
+  ImGui::BeginDisabled(!possible);
   if (entered && replaces) ImGui::SetKeyboardFocusHere();
   const bool pressed = ImGui::Button(button);
   ImGui::EndDisabled();
-  return pressed || (entered && !name.empty() && !replaces);
+  return pressed || (entered && possible && !replaces);
+}
+
+bool is_folder(const std::string& name)
+{
+  std::error_code ignored;
+  return std::filesystem::is_directory(name, ignored);
 }
 
 } // namespace
@@ -68,7 +74,7 @@ void Dialogs::begin_files(const Workbench& workbench)
   if (shown_ == Question::save_picture) endings = {".png", ".exr"};
   if (shown_ == Question::save_report) endings = {".html"};
   const std::filesystem::path source = save_target(workbench.preset());
-  files_.begin(source.empty() ? std::filesystem::path(".") : source.parent_path(), endings);
+  files_.begin(source.parent_path(), endings);
 }
 
 void Dialogs::draw(const Workbench& workbench, Commands& commands)
@@ -101,7 +107,7 @@ void Dialogs::draw(const Workbench& workbench, Commands& commands)
 void Dialogs::draw_open(Commands& commands)
 {
   const float em = ImGui::GetFontSize();
-  if (choose_name("path of a preset file, or its name", em * 41, name_, "Open")) commands.push_back(command::Open{name_});
+  if (choose_name("path of a preset file, or its name", em * 41, name_, "Open", !name_.empty())) commands.push_back(command::Open{name_});
   if (!ImGui::BeginTabBar("where")) return;
   if (ImGui::BeginTabItem("Shipped presets")) {
     if (ImGui::BeginChild("shipped", {em * 46, em * 16})) {
@@ -132,7 +138,7 @@ bool Dialogs::pick_file()
 
 void Dialogs::draw_open_history(Commands& commands)
 {
-  const bool typed = choose_name("folder of a run, or its history.csv", ImGui::GetFontSize() * 41, name_, "Open");
+  const bool typed = choose_name("folder of a run, or its history.csv", ImGui::GetFontSize() * 41, name_, "Open", !name_.empty());
   const bool picked = pick_file();
   if (typed || picked) commands.push_back(command::PinFile{name_});
   ImGui::TextDisabled("Of a folder the picture is kept too. Dropping it on the window does the same.");
@@ -140,10 +146,10 @@ void Dialogs::draw_open_history(Commands& commands)
 
 void Dialogs::draw_save(Commands& commands)
 {
-  const bool picture = shown_ == Question::save_picture, report = shown_ == Question::save_report,
-             there = !name_.empty() && is_there(name_);
+  const bool picture = shown_ == Question::save_picture, report = shown_ == Question::save_report, folder = is_folder(name_),
+             there = !folder && is_there(name_);
   // A file of the list is only named by a click: replacing it takes the button.
-  const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save", there);
+  const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save", !name_.empty() && !folder, there);
   places_.note("save");
   if (chosen)
     commands.push_back(report    ? Command(command::WriteReport{name_})
@@ -161,6 +167,7 @@ void Dialogs::draw_save(Commands& commands)
   ImGui::SetItemTooltip("The name above, in the folder that is shown");
   if (picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
   if (report) ImGui::TextDisabled("One page that opens in a browser; runs that are in no folder are kept in one beside it");
+  if (folder) ImGui::TextDisabled("This is a folder: the name of a file in it is wanted.");
   if (there) ImGui::TextDisabled("This file is there already: Enter twice, or the button, replaces it.");
 }
 

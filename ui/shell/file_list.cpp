@@ -59,7 +59,7 @@ void FileList::begin(fs::path folder, std::vector<std::string> endings)
 void FileList::go(fs::path folder)
 {
   std::error_code ignored;
-  folder_ = fs::absolute(folder, ignored).lexically_normal();
+  folder_ = fs::absolute(folder.empty() ? "." : folder, ignored).lexically_normal();
   entries_.clear();
   note_ = "Reading the folder";
   // A folder that is still being read is waited for here only where its disk hangs while another one is asked for.

@@ -79,11 +79,15 @@ void draw_toolbar(const Context& context, WidgetPlaces& places)
   ImGui::PopStyleColor();
 }
 
-void run_shortcuts(const Context& context, bool dialog)
+void run_shortcuts(const Context& context, bool dialog, bool help)
 {
   const ImGuiIO& io = ImGui::GetIO();
   const bool elsewhere = dialog || io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); // an open list has the keyboard
   int taken = 0; // of actions with the same keys the first that is enabled has them
+  if (help && !elsewhere && ImGui::IsKeyChordPressed(ImGuiKey_Escape)) {
+    context.push(command::ToggleHelp{});
+    taken = ImGuiKey_Escape;
+  }
   for (const Action& action : actions()) {
     if (!action.shortcut) continue;
     // A window that loses the keyboard never hears that the key went up.

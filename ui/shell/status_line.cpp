@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace nephroid::ui {
 namespace {
@@ -97,15 +96,15 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   ImGui::TextDisabled("%s", help);
 }
 
-float messages_height(const std::vector<Message>& messages, float width)
+float messages_height(std::span<const Message> messages, float width)
 {
   if (messages.empty()) return 0;
   float height = 2 * ImGui::GetStyle().WindowPadding.y;
   for (const Message& message : shown(messages)) height += line_height(message, width);
-  return height;
+  return messages.size() > 1 ? height + ImGui::GetFrameHeight() : height;
 }
 
-void draw_messages(const std::vector<Message>& messages, const Context& context)
+void draw_messages(std::span<const Message> messages, const Context& context)
 {
   const float width = ImGui::GetWindowWidth(), em = ImGui::GetFontSize();
   for (const Message& message : shown(messages)) {
@@ -122,10 +121,14 @@ void draw_messages(const std::vector<Message>& messages, const Context& context)
     } else
       ImGui::SetCursorPosX(width - em * 5.5f);
     if (ImGui::Button("Dismiss")) context.push(command::Dismiss{message.id});
-    ImGui::SetCursorPosY(top + line_height(message, width));
-    ImGui::Dummy({0, 0});
+    ImGui::SetCursorPosY(top + line_height(message, width) - ImGui::GetStyle().ItemSpacing.y);
+    ImGui::Dummy({0, 0}); // the spacing follows it
     ImGui::PopID();
   }
+  if (messages.size() < 2) return;
+  ImGui::SetCursorPosX(width - em * 7);
+  if (ImGui::Button("Dismiss all", {em * 6.5f, 0}))
+    for (const Message& message : messages) context.push(command::Dismiss{message.id});
 }
 
 } // namespace nephroid::ui

@@ -5,6 +5,7 @@
 #include "job/worker.h"
 #include "ui/state/context.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,9 @@ namespace nephroid::ui {
 /// notes: what is worth knowing and needs no answer.
 void draw_status_line(const Context& context, const std::vector<std::string>& notes);
 
-/// The height that the messages take at this width; 0 where there are none.
-float messages_height(const std::vector<Message>& messages, float width);
-void draw_messages(const std::vector<Message>& messages, const Context& context);
+/// The height that messages take at this width; 0 where there are none.
+float messages_height(std::span<const Message> messages, float width);
+void draw_messages(std::span<const Message> messages, const Context& context);
 
 /// "running", "finished", ...
 const char* name_of(job::State state);

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/lower_case.h"
 #include "image/image.h"
 #include "preset/sweep.h"
 #include "ui/shell/glfw_window.h"
@@ -305,6 +306,8 @@ std::unique_ptr<GlfwWindow> open_display(const Options& options)
 int open_window(const Options& options)
 {
   check_layout(options.layout);
+  if (const std::string ending = options.screenshot.extension().string(); !options.screenshot.empty() && lower_case(ending) != ".png")
+    throw bad_input("--screenshot", "a picture of the window cannot be written as \"" + ending + "\"", "expected a file .png");
   const std::string cache_note = compute::prepare_kernel_cache(); // before OpenGL's and our own threads start
   if (!cache_note.empty()) fmt::print(stderr, "note: {}\n", cache_note);
   const std::unique_ptr<GlfwWindow> window = open_display(options);

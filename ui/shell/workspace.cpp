@@ -7,8 +7,11 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace nephroid::ui {
 namespace {
@@ -42,6 +45,30 @@ void strip(const char* name, float height, Draw draw)
   ImGui::End();
 }
 
+/// The errors, or the notes.
+std::vector<Message> those(const std::vector<Message>& messages, bool errors)
+{
+  std::vector<Message> found;
+  std::ranges::copy_if(messages, std::back_inserter(found), [errors](const Message& message) { return message.error == errors; });
+  return found;
+}
+
+/// Over the foot of the panels: notes go by themselves, and nothing that is about to be clicked shall move with them.
+void draw_notes_over_panels(const std::vector<Message>& notes, const Context& context)
+{
+  const ImGuiViewport& viewport = *ImGui::GetMainViewport();
+  const float height = messages_height(notes, viewport.WorkSize.x);
+  if (height == 0) return;
+  ImGui::SetNextWindowPos({viewport.WorkPos.x, viewport.WorkPos.y + viewport.WorkSize.y - height});
+  ImGui::SetNextWindowSize({viewport.WorkSize.x, height});
+  ImGui::SetNextWindowViewport(viewport.ID);
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoDocking |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
+  if (ImGui::Begin("notes", nullptr, flags)) draw_messages(notes, context);
+  if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+  ImGui::End();
+}
+
 /// What menu bar and strips leave of the window is known in this frame, not only in the next: where a message went there would be a hole
 /// until then, and a window that nobody touches draws seldom.
 void take_over_strips()
@@ -72,14 +99,15 @@ Commands Workspace::draw(Workbench& workbench)
       draw_toolbar(context, menu_places_);
       ImGui::EndMainMenuBar();
     }
-    run_shortcuts(context, workbench.question() != Question::none);
+    run_shortcuts(context, workbench.question() != Question::none, workbench.help_shown());
   });
   guarded("status line", commands, [&] {
     strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y, [&] { draw_status_line(context, workbench.notes()); });
   });
   guarded("messages", commands, [&] {
-    const float height = messages_height(workbench.messages(), ImGui::GetMainViewport()->Size.x);
-    if (height > 0) strip("messages", height, [&] { draw_messages(workbench.messages(), context); });
+    const std::vector<Message> errors = those(workbench.messages(), true);
+    const float height = messages_height(errors, ImGui::GetMainViewport()->Size.x);
+    if (height > 0) strip("messages", height, [&] { draw_messages(errors, context); });
   });
   take_over_strips();
   if (context.preset())
@@ -89,6 +117,7 @@ Commands Workspace::draw(Workbench& workbench)
   for (const Open& open : panels_)
     if (context.preset() && serves(open.entry, *context.preset()) && is_open(open.entry, context))
       guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
+  guarded("notes", commands, [&] { draw_notes_over_panels(those(workbench.messages(), false), context); });
   if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
   guarded("commands", commands, [&] { palette_.draw(context, workbench.question() == Question::command); });

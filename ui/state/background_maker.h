@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Something that a frame has no time for, made of the newest request on a thread of its own: a difference of pictures, statistics of a region.
+// Something that a frame has no time for, made of the newest request on a thread of its own: a difference of pictures, statistics of a
+// region.
 #pragma once
 #include <chrono>
 #include <functional>

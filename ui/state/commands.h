@@ -190,11 +190,9 @@ struct SavePreset {
 struct SavePicture {
   std::filesystem::path file;
 };
-/// Writes the files that the run made (job::Snapshot::files) into a folder, in the background, and then opens one of them.
-struct SaveFiles {
-  std::filesystem::path folder;
-  std::string open; ///< a preset's name among them
-};
+/// Writes the files that an inverse run made (job::Snapshot::files) into a new folder, in the background, and then opens the preset among
+/// them that shows the object as glass.
+struct ShowAsGlass {};
 /// The report over the pinned runs and the present one (run_report.h), in the background.
 struct WriteReport {
   std::filesystem::path file;
@@ -244,7 +242,7 @@ using Command =
                  command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric,
                  command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles, command::Nudged,
                  command::AddBookmark, command::GoToBookmark, command::RenameBookmark, command::DeleteBookmark, command::Ask,
-                 command::SavePreset, command::SavePicture, command::SaveFiles, command::WriteReport, command::Dismiss,
+                 command::SavePreset, command::SavePicture, command::ShowAsGlass, command::WriteReport, command::Dismiss,
                  command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout,
                  command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;

@@ -55,8 +55,8 @@ void DifferenceMaker::want(const DifferenceRequest& request, Clock::time_point n
   const auto& newest = maker_.newest();
   const bool known = newest && same_values(newest->of, request);
   if (known && newest->of.scale == request.scale) return;
-  const bool only_picture_changed = newest && newest->of.other.owner == request.other.owner && newest->of.metric == request.metric &&
-                                    newest->of.scale == request.scale;
+  const bool only_picture_changed =
+      newest && newest->of.other.owner == request.other.owner && newest->of.metric == request.metric && newest->of.scale == request.scale;
   if (only_picture_changed && maker_.rests(now)) return;
   maker_.start([request, values = known ? newest->values : nullptr] { return make(request, values); });
 }

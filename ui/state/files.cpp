@@ -125,6 +125,13 @@ std::string proposed_name(const preset::Preset* preset, const std::string& endin
   return (!preset || preset->source.empty() ? "untitled" : std::filesystem::path(preset->source).stem().string()) + ending;
 }
 
+std::filesystem::path free_name(const std::filesystem::path& path)
+{
+  std::filesystem::path free = path;
+  for (int n = 2; is_there(free); ++n) free = path.string() + fmt::format("-{}", n);
+  return free;
+}
+
 void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown)
 {
   background_.push_back(std::async(std::launch::async, [=] {
@@ -171,12 +178,8 @@ void FileWork::save_report(const std::filesystem::path& file, std::vector<Pinned
 void FileWork::import_scene(const std::filesystem::path& file)
 {
   background_.push_back(std::async(std::launch::async, [file] {
-    // A folder that is there may hold what somebody has edited since.
-    std::filesystem::path folder = std::filesystem::path(file).replace_extension();
-    const std::string stem = folder.filename().string();
-    for (int n = 1; n == 1 || is_there(folder); ++n)
-      folder.replace_filename(n == 1 ? stem + "-scene" : fmt::format("{}-scene-{}", stem, n));
-    const run::Imported made = run::import_gltf(file, folder / (stem + ".json"));
+    const std::string stem = file.stem().string();
+    const run::Imported made = run::import_gltf(file, free_name(file.parent_path() / (stem + "-scene")) / (stem + ".json"));
     return Done{made.summary(), {}, made.preset};
   }));
 }

@@ -41,6 +41,11 @@ std::string parent_to_keep(const preset::Preset& preset);
 /// A proposal for a file's name in the current folder: the preset's own with another ending.
 std::string proposed_name(const preset::Preset* preset, const std::string& ending);
 
+/// The path, or where something is there already, may be edited since, the first of PATH-2, PATH-3, ... where nothing is.
+std::filesystem::path free_name(const std::filesystem::path& path);
+/// Of the files that an inverse run makes the preset that shows its object as glass.
+inline constexpr const char* glass_view = "view.json";
+
 /// The View's picture, for a file.
 struct PictureToSave {
   HeldPicture picture;

@@ -282,9 +282,11 @@ PictureToSave Workbench::shown_picture() const
   return {map->of.picture, map, chosen_.look, white, map->error};
 }
 
-void Workbench::carry_out(const command::SaveFiles& c)
+void Workbench::carry_out(const command::ShowAsGlass&)
 {
-  if (run_.snapshot()) files_.save_files(c.folder, run_.snapshot(), c.open);
+  if (!run_.snapshot() || !edits_) return;
+  const std::filesystem::path beside = save_target(&edits_->current()).parent_path();
+  files_.save_files(free_name(beside / proposed_name(&edits_->current(), "-object")), run_.snapshot(), glass_view);
 }
 
 void Workbench::carry_out(const command::WriteReport& c)

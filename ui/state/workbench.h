@@ -104,7 +104,7 @@ private:
   void carry_out(const command::Ask& c);
   void carry_out(const command::SavePreset& c);
   void carry_out(const command::SavePicture& c);
-  void carry_out(const command::SaveFiles& c);
+  void carry_out(const command::ShowAsGlass&);
   void carry_out(const command::WriteReport& c);
   void carry_out(const command::Dismiss& c) { messages_.dismiss(c.message); }
   void carry_out(const command::ToggleHelp&) { help_shown_ = !help_shown_; }

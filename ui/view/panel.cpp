@@ -150,6 +150,8 @@ void ViewPanel::own_keys(const Context& context)
   if ((!context.chosen.pixel && context.selection() == Selection{}) || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
   for (const ImGuiKey key : {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow})
     ImGui::SetKeyOwner(key, ImGui::GetItemID());
+  if (context.selection() == Selection{}) return;
+  for (const ImGuiKey key : {ImGuiKey_PageUp, ImGuiKey_PageDown}) ImGui::SetKeyOwner(key, ImGui::GetItemID());
 }
 
 void ViewPanel::use_mouse(const Context& context)

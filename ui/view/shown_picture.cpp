@@ -21,6 +21,9 @@ std::string too_large_hint(const std::array<int, 2>& size)
                      size[0], size[1], platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight);
 }
 
+/// The pictures of a bake, of which no path of a pixel is, come before those of the scene.
+bool bakes(const Context& context) { return context.engine() == "environment" && context.run.snapshot()->progress.work == 0; }
+
 /// What to do or to wait for before the first picture.
 std::string waiting_hint(const Context& context)
 {
@@ -93,7 +96,7 @@ ShownPicture shown_picture(const Context& context)
     shown.rgb = held.pixels.rgb;
     if (const std::string why = context.comparing.why_no_picture(); !why.empty())
       shown.hint = fmt::format("Nothing to show: {}. Choose above, or go on with L.", why);
-    shown.label = comparison.layer;
+    shown.label = bakes(context) ? "The object is baked first: its caustic spheres, as far as they are" : comparison.layer;
   } else if (const HeldPicture other = context.comparing.other_picture(); !other.owner)
     shown.hint = "Nothing to compare with: " + context.comparing.why_not();
   else if (comparison.flip) {
