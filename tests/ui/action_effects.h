@@ -176,7 +176,7 @@ inline void add_run_and_view(Effects& all)
         d.apply(command::Cancel{});
         d.runs.files = {{glass_view, [text = ball_text()](ByteSink& file) { file.write(std::as_bytes(std::span(text))); }}};
         d.apply(command::Restart{});
-        EXPECT_TRUE(d.comes_to([](Desk& all) { return all.workbench.run().snapshot_is_current(); }));
+        EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.workbench.run().snapshot_is_current(); }));
       },
       [](Desk& d) { return is_there(d.folder.path() / "test-object" / glass_view); }};
 
