@@ -136,11 +136,12 @@ private:
   std::size_t at_ = 0;
 };
 
-/// path: what errors name. close() is the last call.
+/// path: what errors name. mode: of the file that is replaced; 0: there is none. close(), which flushes to disk, is the last call.
 class FileSink final : public ByteSink {
 public:
-  FileSink(const fs::path& temporary, const fs::path& path)
-      : path_(path), file_(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
+  FileSink(const fs::path& temporary, const fs::path& path, mode_t mode)
+      : path_(path), mode_(mode & 07777),
+        file_(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode ? mode & 0777 : 0666))
   {
     if (!file_.ok()) give_up(path_, errno);
   }
@@ -155,7 +156,8 @@ public:
   void close()
   {
     flush();
-    if (!file_.close()) give_up(path_, errno);
+    if (mode_ != 0) ::fchmod(file_.number(), mode_); // some file systems have no modes
+    if (::fsync(file_.number()) != 0 || !file_.close()) give_up(path_, errno);
   }
 
 private:
@@ -175,6 +177,7 @@ private:
   }
 
   fs::path path_;
+  mode_t mode_;
   Descriptor file_;
   std::vector<std::byte> waiting_;
 };
@@ -200,11 +203,9 @@ fs::path temporary_name(const fs::path& path)
   return path.parent_path() / fmt::format(".{}.{}-{}.tmp{}", path.stem().string(), ::getpid(), count++, path.extension().string());
 }
 
-/// Flushes a written temporary file to disk and renames it to path.
+/// Renames a temporary file that is on disk to path.
 void commit_file(const fs::path& temporary, const fs::path& path)
 {
-  Descriptor file(::open(temporary.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.ok() || ::fsync(file.number()) != 0 || !file.close()) give_up(path, errno);
   if (::rename(temporary.c_str(), path.c_str()) != 0) give_up(path, errno);
   // The new name reaches the disk with its folder. Some file systems refuse to sync folders; the file itself is safe by then.
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -287,10 +288,9 @@ void write_file_whole(const fs::path& path, const std::function<void(ByteSink&)>
   struct stat status {};
   const fs::path target = file_to_replace(path, status), temporary = temporary_name(target);
   try {
-    FileSink file(temporary, path);
+    FileSink file(temporary, path, status.st_mode);
     write(file);
     file.close();
-    if (status.st_mode != 0) ::chmod(temporary.c_str(), status.st_mode & 07777); // some file systems have no modes
     commit_file(temporary, target);
   } catch (...) {
     ::unlink(temporary.c_str());

@@ -90,7 +90,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     const Band all = whole_cluster(0);
     own[0] = end_of(&world, path, hit, &all, (float3)(1.0f), seed, ENDS_OF_PIXEL * pass, pixel, coarse);
   } else {
-    const float u = golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
+    const float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
     const Surface surface = surface_at(&world.geometry, objects, hit);
     const DeviceMaterial material = material_of(&world, surface.object);
     for (int c = 0; c < ENDS_OF_PIXEL - 1; ++c) {

@@ -174,6 +174,7 @@ inline void add_run_and_view(Effects& all)
   all["Show as glass"] = {
       [](Desk& d) {
         d.apply(command::Cancel{});
+        EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.workbench.run().status().state == job::State::cancelled; }));
         d.runs.files = {{glass_view, [text = ball_text()](ByteSink& file) { file.write(std::as_bytes(std::span(text))); }}};
         d.apply(command::Restart{});
         EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.workbench.run().snapshot_is_current(); }));

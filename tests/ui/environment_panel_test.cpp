@@ -6,6 +6,7 @@
 #include "preset/read.h"
 #include "tests/environment/maps.h"
 #include "ui/environment/panel.h"
+#include "ui/view/panel.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>
@@ -19,21 +20,30 @@ using test::direction_of;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-/// Fake jobs of which every other light is hidden by a quarter.
+/// Fake jobs of which every other light is hidden by a quarter. A picture of a bake has no layers.
 class LitJob : public test::FakeJob {
 public:
-  LitJob(const preset::Preset& preset, test::FakeSettings& runs, int lights) : FakeJob(preset, runs), lights_(lights) {}
+  LitJob(const preset::Preset& preset, test::FakeSettings& runs, int lights, bool bakes)
+      : FakeJob(preset, runs), lights_(lights), bakes_(bakes)
+  {
+  }
   job::Snapshot snapshot() override
   {
     job::Snapshot made = FakeJob::snapshot();
     job::Curve curve{"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}};
     for (int i = 0; i < lights_; ++i) curve.rows.push_back({double(i + 1), 0, 0, 1, 1, 1, i % 2 == 0 ? 1 : 0.75});
     made.curves.push_back(curve);
+    if (bakes_) {
+      auto sheet = std::make_shared<job::Picture>(*made.picture);
+      sheet->layers.clear();
+      made.picture = sheet;
+    }
     return made;
   }
 
 private:
   int lights_;
+  bool bakes_;
 };
 
 class LitRuns : public test::FakeRuns {
@@ -41,10 +51,11 @@ public:
   NewRun make(const preset::Preset& preset) override
   {
     NewRun run = FakeRuns::make(preset);
-    if (lights > 0) run.job = std::make_unique<LitJob>(preset, *this, lights.load());
+    if (lights > 0 || bakes) run.job = std::make_unique<LitJob>(preset, *this, lights.load(), bakes.load());
     return run;
   }
   std::atomic<int> lights{0};
+  std::atomic<bool> bakes{false}; ///< all the time
 };
 
 class EnvironmentPanelTest : public test::WindowFixtureOf<LitRuns> {
@@ -94,6 +105,18 @@ TEST_F(EnvironmentPanelTest, WithoutAnEnvironmentItSaysSo)
   EXPECT_FALSE(has("rotation"));
   EXPECT_TRUE(workbench.messages().empty());
   EXPECT_EQ(panel().model().maps_read(), 0);
+}
+
+TEST_F(EnvironmentPanelTest, OnlyPicturesOfABakeAreSaidToBeOfOne)
+{
+  const auto label = [&] { return workspace.panel<ViewPanel>().shown().label; };
+  open(text(""));
+  finish();
+  frames(2);
+  EXPECT_EQ(label(), "");
+  runs.bakes = true;
+  workbench.apply({command::Restart{}});
+  EXPECT_TRUE(test::eventually([&] { frame(); }, [&] { return label().find("baked") != std::string::npos; }));
 }
 
 TEST_F(EnvironmentPanelTest, IsForPresetsThatHaveAnEnvironment)

@@ -31,6 +31,9 @@ TEST(ShownPixels, AreRightOnEitherSideOfEveryStep)
     const float value = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
     EXPECT_EQ(int(shown_byte(value * 1.0005f, 1)), byte);
     EXPECT_EQ(int(shown_byte(value * 0.9995f, 1)), byte - 1);
+    float near = value * 0.99999f; // and float by float, where the two have to step at the same one
+    for (int i = 0; i < 400; ++i, near = std::nextafter(near, 2.0f))
+      ASSERT_EQ(int(shown_byte(near, 1)), int(image::shown(near, 1))) << near;
   }
 }
 

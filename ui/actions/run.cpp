@@ -52,7 +52,8 @@ std::vector<Action> run_actions()
       {menu, "Write a report...", 0, false, "One page over the pinned runs and this one, as nephroid report makes it", has_runs,
        ask<Question::save_report>, [](const Context&) { return std::string("there is no run yet"); }},
       {menu, "Show as glass", 0, false,
-       "Save the object of a finished inverse run in a new folder beside the preset, and open it as lit glass over its receivers",
+       "Save the object of a finished inverse run in a new folder beside the preset, else in the current one, and open it as lit glass "
+       "over its receivers",
        has_object, push<command::ShowAsGlass>,
        [](const Context&) { return std::string("there is no finished run of the engine inverse"); }},
   };

@@ -96,39 +96,43 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   ImGui::TextDisabled("%s", help);
 }
 
-float messages_height(std::span<const Message> messages, float width)
+float errors_height(std::span<const Message> errors, float width)
 {
-  if (messages.empty()) return 0;
+  if (errors.empty()) return 0;
   float height = 2 * ImGui::GetStyle().WindowPadding.y;
-  for (const Message& message : shown(messages)) height += line_height(message, width);
-  return messages.size() > 1 ? height + ImGui::GetFrameHeight() : height;
+  for (const Message& error : shown(errors)) height += line_height(error, width);
+  return errors.size() > 1 ? height + ImGui::GetFrameHeight() : height;
 }
 
-void draw_messages(std::span<const Message> messages, const Context& context)
+void draw_errors(std::span<const Message> errors, const Context& context)
 {
   const float width = ImGui::GetWindowWidth(), em = ImGui::GetFontSize();
-  for (const Message& message : shown(messages)) {
-    ImGui::PushID(static_cast<int>(message.id));
+  for (const Message& error : shown(errors)) {
+    ImGui::PushID(static_cast<int>(error.id));
     const float top = ImGui::GetCursorPosY();
     ImGui::AlignTextToFramePadding();
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + text_width(width));
-    draw_text(message.error ? colour::error : colour::text, message.line);
+    draw_text(colour::error, error.line);
     ImGui::PopTextWrapPos();
     ImGui::SetCursorPos({width - em * 10.5f, top});
-    if (message.error) {
-      action_button("Open...", context);
-      ImGui::SameLine();
-    } else
-      ImGui::SetCursorPosX(width - em * 5.5f);
-    if (ImGui::Button("Dismiss")) context.push(command::Dismiss{message.id});
-    ImGui::SetCursorPosY(top + line_height(message, width) - ImGui::GetStyle().ItemSpacing.y);
+    action_button("Open...", context);
+    ImGui::SameLine();
+    if (ImGui::Button("Dismiss")) context.push(command::Dismiss{error.id});
+    ImGui::SetCursorPosY(top + line_height(error, width) - ImGui::GetStyle().ItemSpacing.y);
     ImGui::Dummy({0, 0}); // the spacing follows it
     ImGui::PopID();
   }
-  if (messages.size() < 2) return;
+  if (errors.size() < 2) return;
   ImGui::SetCursorPosX(width - em * 7);
   if (ImGui::Button("Dismiss all", {em * 6.5f, 0}))
-    for (const Message& message : messages) context.push(command::Dismiss{message.id});
+    for (const Message& error : shown(errors)) context.push(command::Dismiss{error.id});
+}
+
+void draw_note_lines(std::span<const Message> notes, float width)
+{
+  ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);
+  for (const Message& note : shown(notes)) ImGui::TextUnformatted(note.line.c_str());
+  ImGui::PopTextWrapPos();
 }
 
 } // namespace nephroid::ui

@@ -14,9 +14,11 @@ namespace nephroid::ui {
 /// notes: what is worth knowing and needs no answer.
 void draw_status_line(const Context& context, const std::vector<std::string>& notes);
 
-/// The height that messages take at this width; 0 where there are none.
-float messages_height(std::span<const Message> messages, float width);
-void draw_messages(std::span<const Message> messages, const Context& context);
+/// The height that errors take at this width; 0 where there are none.
+float errors_height(std::span<const Message> errors, float width);
+void draw_errors(std::span<const Message> errors, const Context& context);
+/// The newest notes, wrapped at this width.
+void draw_note_lines(std::span<const Message> notes, float width);
 
 /// "running", "finished", ...
 const char* name_of(job::State state);

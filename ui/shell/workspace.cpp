@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -53,18 +54,16 @@ std::vector<Message> those(const std::vector<Message>& messages, bool errors)
   return found;
 }
 
-/// Over the foot of the panels: notes go by themselves, and nothing that is about to be clicked shall move with them.
-void draw_notes_over_panels(const std::vector<Message>& notes, const Context& context)
+/// Over the foot of the panels, where they take neither room nor mouse: they go by themselves.
+void draw_notes_over_panels(std::span<const Message> notes)
 {
+  if (notes.empty()) return;
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
-  const float height = messages_height(notes, viewport.WorkSize.x);
-  if (height == 0) return;
-  ImGui::SetNextWindowPos({viewport.WorkPos.x, viewport.WorkPos.y + viewport.WorkSize.y - height});
-  ImGui::SetNextWindowSize({viewport.WorkSize.x, height});
-  ImGui::SetNextWindowViewport(viewport.ID);
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoDocking |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("notes", nullptr, flags)) draw_messages(notes, context);
+  ImGui::SetNextWindowPos({viewport.WorkPos.x, viewport.WorkPos.y + viewport.WorkSize.y}, ImGuiCond_Always, {0, 1});
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoDocking |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                     ImGuiWindowFlags_AlwaysAutoResize;
+  if (ImGui::Begin("notes", nullptr, flags)) draw_note_lines(notes, viewport.WorkSize.x);
   if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
   ImGui::End();
 }
@@ -106,8 +105,8 @@ Commands Workspace::draw(Workbench& workbench)
   });
   guarded("messages", commands, [&] {
     const std::vector<Message> errors = those(workbench.messages(), true);
-    const float height = messages_height(errors, ImGui::GetMainViewport()->Size.x);
-    if (height > 0) strip("messages", height, [&] { draw_messages(errors, context); });
+    const float height = errors_height(errors, ImGui::GetMainViewport()->Size.x);
+    if (height > 0) strip("messages", height, [&] { draw_errors(errors, context); });
   });
   take_over_strips();
   if (context.preset())
@@ -117,7 +116,7 @@ Commands Workspace::draw(Workbench& workbench)
   for (const Open& open : panels_)
     if (context.preset() && serves(open.entry, *context.preset()) && is_open(open.entry, context))
       guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
-  guarded("notes", commands, [&] { draw_notes_over_panels(those(workbench.messages(), false), context); });
+  guarded("notes", commands, [&] { draw_notes_over_panels(those(workbench.messages(), false)); });
   if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
   guarded("commands", commands, [&] { palette_.draw(context, workbench.question() == Question::command); });

@@ -67,6 +67,17 @@ std::string write_shown(const std::filesystem::path& file, const PictureToSave& 
   return fmt::format(", false colour of {:.3g} to {:.3g} W/m2/sr", tone.range.low, tone.range.high);
 }
 
+/// free_name(), made: whoever makes another one at the same time has another name.
+std::filesystem::path make_new_folder(const std::filesystem::path& path)
+{
+  std::error_code error;
+  while (true) {
+    const std::filesystem::path folder = free_name(path);
+    if (std::filesystem::create_directories(folder, error)) return folder;
+    if (error) throw failed(folder.string(), "cannot be made: " + error.message());
+  }
+}
+
 /// Null: of no kind but a preset's.
 const Kind* known_kind(const std::string& ending)
 {
@@ -162,11 +173,9 @@ void FileWork::save_thumbnail(const std::filesystem::path& file, std::shared_ptr
 void FileWork::save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open)
 {
   background_.push_back(std::async(std::launch::async, [=] {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw failed(folder.string(), "cannot be made: " + error.message());
-    for (const job::ExtraFile& file : of->files) write_file_whole(folder / file.name, file.write);
-    return Done{fmt::format("saved {} in {}", counted(of->files.size(), "file"), folder.string()), {}, folder / open};
+    const std::filesystem::path made = make_new_folder(folder);
+    for (const job::ExtraFile& file : of->files) write_file_whole(made / file.name, file.write);
+    return Done{fmt::format("saved {} in {}", counted(of->files.size(), "file"), made.string()), {}, made / open};
   }));
 }
 

@@ -62,7 +62,7 @@ public:
   void save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown);
   /// write_thumbnail(), of which nothing is said unless it fails.
   void save_thumbnail(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops);
-  /// The files of a run, into a folder that is made where it is not there. open: the one to be opened then.
+  /// The files of a run, into a new folder, the free_name() of this one. open: the file to be opened then.
   void save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open);
   /// write_report() of run_report.h.
   void save_report(const std::filesystem::path& file, std::vector<PinnedRun> runs);

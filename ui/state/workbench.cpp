@@ -286,7 +286,7 @@ void Workbench::carry_out(const command::ShowAsGlass&)
 {
   if (!run_.snapshot() || !edits_) return;
   const std::filesystem::path beside = save_target(&edits_->current()).parent_path();
-  files_.save_files(free_name(beside / proposed_name(&edits_->current(), "-object")), run_.snapshot(), glass_view);
+  files_.save_files(beside / proposed_name(&edits_->current(), "-object"), run_.snapshot(), glass_view);
 }
 
 void Workbench::carry_out(const command::WriteReport& c)

@@ -21,8 +21,8 @@ std::string too_large_hint(const std::array<int, 2>& size)
                      size[0], size[1], platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight);
 }
 
-/// The pictures of a bake, of which no path of a pixel is, come before those of the scene.
-bool bakes(const Context& context) { return context.engine() == "environment" && context.run.snapshot()->progress.work == 0; }
+/// Pictures of a bake come before those of the scene, and alone have no layers.
+bool bakes(const Context& context) { return context.engine() == "environment" && context.run.snapshot()->picture->layers.empty(); }
 
 /// What to do or to wait for before the first picture.
 std::string waiting_hint(const Context& context)
