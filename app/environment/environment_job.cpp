@@ -70,22 +70,22 @@ public:
     job::Progress p;
     p.work_seconds = work_seconds();
     const auto directions = static_cast<std::int64_t>(task_->directions.size());
-    const double baked = bake_ ? 1 : (static_cast<double>(directions_done()) + baker_->part()) / static_cast<double>(directions);
     if (render_) {
       p.step = renderer_ ? passes() : 0;
       p.steps = passes_;
       p.work = static_cast<std::uint64_t>(renderer_ ? (static_cast<double>(p.step) + renderer_->part()) * width_ * height_ : 0);
       p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
       // A bake takes about as long as all passes.
-      const double rendered =
-          renderer_ && passes_ > 0 ? (static_cast<double>(p.step) + renderer_->part()) / static_cast<double>(passes_) : 0;
-      p.fraction = bake_seconds_ > 0 ? 0.5 * baked + 0.5 * rendered : rendered;
+      const double rendered = renderer_ && passes_ > 0 ? rendered_part() : 0;
+      const std::optional<double> baked = baked_part();
+      p.fraction = baked ? 0.5 * *baked + 0.5 * rendered : rendered;
     } else {
       p.steps = stop_.passes ? std::min<std::int64_t>(directions, *stop_.passes) : directions;
       p.step = directions_done();
       p.work = bake_ ? photons_ : baker_->photons();
       p.units = {.step = "direction", .steps = "directions", .work = "photon", .works = "photons"};
-      p.fraction = baked * static_cast<double>(directions) / static_cast<double>(p.steps);
+      const double baked = bake_ ? static_cast<double>(directions) : static_cast<double>(directions_done()) + baker_->part();
+      p.fraction = baked / static_cast<double>(p.steps);
     }
     p.fraction = finished() ? 1 : std::min(1.0, std::max(p.fraction, stop_.seconds ? work_seconds() / *stop_.seconds : 0));
     return p;
@@ -172,6 +172,8 @@ public:
         resumes_ = false;
         bake_seconds_ = render_seconds_ = 0;
         caustics_seconds_before_ = caustics_seconds;
+        photons_before_ = photons();
+        throws_first_ = false;
       }
       want_own();
     }
@@ -181,6 +183,27 @@ public:
 
 private:
   double work_seconds() const { return bake_seconds_ + render_seconds_; }
+
+  /// That were sent from the bake's directions and the lights' own.
+  std::uint64_t photons() const { return (baker_ ? baker_->photons() : photons_) + (own_ ? own_->photons() : 0); }
+
+  /// 0..1 of what this picture has to have baked; nothing where all was there.
+  std::optional<double> baked_part() const
+  {
+    const std::uint64_t sent = photons() - photons_before_;
+    const std::uint64_t most_own = static_cast<std::uint64_t>(own_directions(settings(preset_))) * OwnDirections::photons_each(*task_);
+    const std::uint64_t left = (baker_ ? task_->directions.size() * std::uint64_t{task_->photons} - baker_->photons() : 0) +
+                               (own_ ? own_->photons_left() : most_own);
+    if (sent + left == 0) return std::nullopt;
+    return static_cast<double>(sent) / static_cast<double>(sent + left);
+  }
+
+  /// 0..1 of all passes, with the one that is thrown away.
+  double rendered_part() const
+  {
+    const int thrown = throws_first_ && (own_->complete() || resumes_) ? 1 : 0;
+    return (static_cast<double>(renderer_->passes() + thrown) + renderer_->part()) / static_cast<double>(passes_ + (throws_first_ ? 1 : 0));
+  }
 
   void bake()
   {
@@ -228,6 +251,7 @@ private:
   void want_own()
   {
     own_->want(strong());
+    throws_first_ |= !own_->complete();
     if (own_->complete() && caustics_->own_directions() != own_->bake().directions) take_own();
   }
 
@@ -368,9 +392,11 @@ private:
   double caustics_seconds_before_ = 0; ///< of Caustics::seconds(), what was before the newest preset
   std::optional<OwnDirections> own_;   ///< with the renderer
   bool resumes_ = false;               ///< the passes that are done had own directions, which are baked again
+  bool throws_first_ = false;          ///< this picture's first pass is without its own directions, and is thrown away
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
-  std::uint64_t photons_ = 0; ///< that the finished bake took here
+  std::uint64_t photons_ = 0;        ///< that the finished bake took here
+  std::uint64_t photons_before_ = 0; ///< of photons(), those for earlier pictures
   double bake_seconds_ = 0, render_seconds_ = 0;
   std::shared_ptr<const job::Picture> sheet_; ///< of the directions in spheres_
   std::vector<job::NamedPicture> spheres_;    ///< of each direction that is shown and baked

@@ -90,6 +90,23 @@ TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise)
   }
 }
 
+// Over the bake, a first pass that is thrown away, the lamp's own direction and the passes; then without the bake, which is read.
+TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes)
+{
+  for (const char* what : {"baked", "read"}) {
+    const auto job = job_of(lit());
+    double before = 0;
+    while (!job->finished()) {
+      job->step();
+      const job::Progress now = job->progress();
+      EXPECT_GE(now.fraction, before) << what << ", after pass " << now.step;
+      EXPECT_LT(now.fraction, before + 0.3) << what << ", after pass " << now.step;
+      EXPECT_EQ(now.fraction == 1, job->finished()) << what;
+      before = now.fraction;
+    }
+  }
+}
+
 // Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded.
 TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits)
 {

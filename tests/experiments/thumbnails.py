@@ -4,8 +4,8 @@
 
     tests/experiments/thumbnails.py PROGRAM [NAME...]     of these presets, or of all; one at a time, with the lowest priority
 
-Each is rendered small for a few seconds. What takes longer, or needs a file that this machine has not, is skipped with the reason.
-ImageMagick makes the JPEG files.
+Each is rendered small for a few seconds; of the engine environment the bake comes before that, from fewer photons. What takes longer, or
+needs a file that this machine has not, is skipped with the reason. ImageMagick makes the JPEG files.
 """
 import json
 import os
@@ -15,36 +15,37 @@ import tempfile
 from pathlib import Path
 
 WIDTH, HEIGHT = 128, 96
-SECONDS, PATIENCE = 6, 60
+SECONDS, PASSES, PATIENCE = 6, 16, 120
 TARGET = Path(__file__).resolve().parents[2] / "presets" / "thumbnails"
 
 
-def own_resolution(file):
-    """As the file or its parents say it; 512 x 512 is the default."""
+def own(file, find, default):
+    """What find(JSON) has of the file, or else of its parents."""
     value = json.loads(file.read_text())
-    found = value.get("scene", {}).get("camera", {}).get("resolution")
+    found = find(value)
     if found:
         return found
-    if "parent" not in value:
-        return [512, 512]
-    root = TARGET.parent
-    for folder in (file.parent, root):
+    for folder in (file.parent, TARGET.parent):
         for ending in ("", ".json"):
-            parent = folder / (value["parent"] + ending)
+            parent = folder / (value.get("parent", "") + ending)
             if parent.is_file():
-                return own_resolution(parent)
-    return [512, 512]
+                return own(parent, find, default)
+    return default
 
 
 def render(program, preset, target):
     """Empty, or why there is no picture."""
-    width, height = own_resolution(Path(preset["file"]))
+    file = Path(preset["file"])
+    width, height = own(file, lambda value: value.get("scene", {}).get("camera", {}).get("resolution"), [512, 512])
     scale = min(WIDTH / width, HEIGHT / height)
     size = [max(1, round(width * scale)), max(1, round(height * scale))]
     with tempfile.TemporaryDirectory() as folder:
         command = ["nice", "-n", "19", program, "run", preset["name"], "--seconds", str(SECONDS), "-o", folder + "/run",
                    "--set", f"scene.camera.resolution={size}", "--set", "sweep=null", "--set", "reference=null", "--set", "animation=null",
                    "--set", "measure.mask=null", "--set", "stop.error=null"]
+        if own(file, lambda value: value.get("engine"), "spectral") == "environment":
+            command[command.index("--seconds"):command.index("--seconds") + 2] = ["--passes", str(PASSES)]
+            command += ["--set", "environment.photons=16384"]
         try:
             run = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
         except subprocess.TimeoutExpired:

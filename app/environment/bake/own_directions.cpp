@@ -5,13 +5,18 @@
 
 namespace nephroid::environment {
 
+// One direction stands alone where else four are put together, and its caustics are sharp.
+std::uint32_t OwnDirections::photons_each(const BakeTask& task)
+{
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(8 * std::uint64_t{task.photons}, 1U << 30));
+}
+
 OwnDirections::OwnDirections(const BakeTask& task, const compute::Context& context) : context_(context), task_(task)
 {
   task_.radii = task_.own_radii;
   bake_ = task_.empty_bake();
   bake_.directions.clear();
-  // One direction stands alone where else four are put together, and its caustics are sharp.
-  task_.photons = static_cast<std::uint32_t>(std::min<std::uint64_t>(8 * std::uint64_t{task.photons}, 1U << 30));
+  task_.photons = photons_each(task);
 }
 
 void OwnDirections::want(const std::vector<glm::dvec3>& directions)
@@ -33,7 +38,10 @@ void OwnDirections::want(const std::vector<glm::dvec3>& directions)
     wanted.ways.insert(wanted.ways.end(), ways, ways + static_cast<std::ptrdiff_t>(bake_.direction_texels()));
   }
   wanted.directions.insert(wanted.directions.end(), missing.begin(), missing.end());
-  if (baker_ && (missing.empty() || missing.front() != task_.directions.front())) baker_.reset();
+  if (baker_ && (missing.empty() || missing.front() != task_.directions.front())) {
+    sent_ += baker_->photons();
+    baker_.reset();
+  }
   bake_ = std::move(wanted);
 }
 
@@ -46,6 +54,7 @@ void OwnDirections::step()
   }
   baker_->step();
   if (!baker_->finished()) return;
+  sent_ += baker_->photons();
   const Bake one = baker_->take();
   baker_.reset(); // its device memory is for others
   bake_.baked.push_back(one.baked.front());
