@@ -121,7 +121,7 @@ private:
     if (!before || target_.preset.reference) return nullptr; // a reference is of one frame
     preset::Preset now = target_.preset;
     now.name = shared.of_job.name; // the name is a frame's, and changes nothing
-    const auto adoptable = engine::engine_of(now).adoptable;
+    const auto adoptable = engine::engine_of(shared.of_job).adoptable;
     if (!adoptable || !adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
     shared.of_job = std::move(now);
     const job::Progress progress = before->progress();

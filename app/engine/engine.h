@@ -36,7 +36,7 @@ struct Engine {
   /// The engine's closed forms through its real kernels, for `nephroid check`.
   std::vector<check::Check> (*checks)();
 
-  /// Whether a job of `before` may take on `now` (job::Job::adopt). Null: never.
+  /// Whether a job of `before`, a preset of this engine, may take on `now`, one of any engine (job::Job::adopt). Null: never.
   bool (*adoptable)(const preset::Preset& before, const preset::Preset& now) = nullptr;
 };
 

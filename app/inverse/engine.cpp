@@ -85,7 +85,7 @@ InversePlan make_plan(const preset::Preset& preset)
 
 bool may_go_on(const preset::Preset& before, const preset::Preset& now)
 {
-  if (settings(before).receivers.size() != settings(now).receivers.size()) return false;
+  if (&before.settings.type() != &now.settings.type() || settings(before).receivers.size() != settings(now).receivers.size()) return false;
   preset::Preset same = now;
   same.name = before.name;
   same.description = before.description;

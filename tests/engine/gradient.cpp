@@ -187,6 +187,7 @@ check::Result rises(const compute::Context&, std::uint64_t seed)
 
 bool only_level(const preset::Preset& before, const preset::Preset& now)
 {
+  if (&before.settings.type() != &now.settings.type()) return false;
   preset::Preset same = now;
   same.settings.as<Settings>().level = settings(before).level;
   return same == before;

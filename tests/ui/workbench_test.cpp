@@ -61,6 +61,23 @@ TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
   EXPECT_EQ(runs.made, 2);
 }
 
+// The wheel turned for too long, "nan" typed into a field: the preset could be neither saved nor opened again.
+TEST_F(WorkbenchTest, AnEditOutOfRangeIsRefusedInOneMessage)
+{
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  ASSERT_TRUE(until(job::State::finished));
+  for (const double z : {1e8, 2e8, std::nan("")}) edit_z(z, 1, true);
+  workbench.update();
+  ASSERT_EQ(workbench.messages().size(), 1u);
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("test.json#/scene/camera/position/2: is null; expected a number"));
+  EXPECT_EQ(workbench.preset()->scene.camera.position[2], 4);
+  EXPECT_EQ(workbench.edits()->state().entries.size(), 1u);
+  EXPECT_EQ(runs.made, 1);
+  edit_z(2);
+  EXPECT_TRUE(workbench.messages().empty());
+  EXPECT_EQ(workbench.preset()->scene.camera.position[2], 2);
+}
+
 TEST_F(WorkbenchTest, PartsOfAPictureHideAWholeOneOnlyWhereTheRunIsSlow)
 {
   runs.whole_from = 4;

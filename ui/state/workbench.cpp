@@ -28,7 +28,6 @@ preset::Preset surrounded(preset::Preset preset, const std::string& map)
   }
   environment.file = std::filesystem::absolute(map, ignored).string();
   preset.scene.environment = environment;
-  preset::check(preset, [&](const std::string& pointer) { return Place(preset.source, pointer); });
   return preset;
 }
 
@@ -42,6 +41,7 @@ void Workbench::apply(const Commands& commands)
       std::visit([this](const auto& c) { carry_out(c); }, command);
     } catch (const std::exception& error) {
       messages_.error(error);
+      if (std::holds_alternative<command::Edit>(command)) refused_edit_ = messages_.newest();
     }
   }
   if (edits_) run_.start_if_wanted(*edits_);
@@ -149,11 +149,15 @@ void Workbench::carry_out(const command::New& c)
     ask_first(command::New{c.kind, true});
 }
 
+/// Throws bad_input where the preset could not be read again: a number is out of its range, however it came there, or two fields
+/// contradict each other.
 void Workbench::carry_out(const command::Edit& c)
 {
   if (!edits_) return;
+  messages_.dismiss(refused_edit_); // while the mouse drags there is a new one at every move
   preset::Preset edited = c.preset;
   edited.provenance = {}; // what is wrong from now on is what was typed here, not what the file or an option gave
+  preset::parse_preset(preset::to_json(edited), edited.source);
   edits_->push(c.label, std::move(edited), c.gesture);
   run_.follow_edit(c.live);
 }

@@ -145,6 +145,7 @@ private:
   std::optional<UndoStack> edits_;
   Messages messages_;
   std::uint64_t last_before_commands_ = 0; ///< newer messages are about the commands that are being carried out
+  std::uint64_t refused_edit_ = 0;         ///< what was said of the last one that was not done
   RunInHand run_;
   Comparing comparing_{run_};
   SweepQueue sweep_;
