@@ -184,7 +184,7 @@ TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
   open();
   finish();
   press(ImGuiKey_P);
-  change_camera(0);
+  change_camera(-1);
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
   finish();
   EXPECT_EQ(first_texel(), (std::array{0, 0, 0}));
