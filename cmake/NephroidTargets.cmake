@@ -19,6 +19,20 @@ if(NEPHROID_SANITIZE)
   add_link_options(-fsanitize=${NEPHROID_SANITIZE})
 endif()
 
+# nephroid_unity(TARGET MOST file...): compiles the files of a folder as one, at most so many in a unit. Most of a file's time goes into
+# templates that its neighbours make as well. -DNEPHROID_UNITY=OFF compiles each by itself.
+function(nephroid_unity target most)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${NEPHROID_UNITY} UNITY_BUILD_MODE GROUP)
+  foreach(source IN LISTS ARGN)
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER ${folder} folder)
+    math(EXPR count_${folder} "${count_${folder}} + 0")
+    math(EXPR unit "${count_${folder}} / ${most}")
+    math(EXPR count_${folder} "${count_${folder}} + 1")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${unit})
+  endforeach()
+endfunction()
+
 # nephroid_library(NAME [FOLDERS folder...] [LIBS lib...]): every .cpp of the current folder, and of these folders in it, as the static library
 # nephroid_NAME.
 function(nephroid_library name)
@@ -31,6 +45,7 @@ function(nephroid_library name)
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   if(sources)
     add_library(nephroid_${name} STATIC ${sources})
+    nephroid_unity(nephroid_${name} 12 ${sources})
     target_link_libraries(nephroid_${name} PUBLIC nephroid_settings ${arg_LIBS})
   else()
     add_library(nephroid_${name} INTERFACE)

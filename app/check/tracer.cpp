@@ -9,7 +9,7 @@
 namespace nephroid::check {
 namespace {
 
-constexpr std::size_t local_size = 64;
+constexpr std::size_t rays_per_group = 64;
 
 } // namespace
 
@@ -35,7 +35,7 @@ void KernelTracer::set_rays(const std::vector<Ray>& rays)
 
 void KernelTracer::run_closest()
 {
-  closest_.run(rays_.size(), local_size,
+  closest_.run(rays_.size(), rays_per_group,
                {{"nodes", nodes_},
                 {"blocks", blocks_},
                 {"root", bvh_.root},
@@ -47,7 +47,7 @@ void KernelTracer::run_closest()
 
 void KernelTracer::run_any()
 {
-  any_.run(rays_.size(), local_size,
+  any_.run(rays_.size(), rays_per_group,
            {{"nodes", nodes_},
             {"blocks", blocks_},
             {"root", bvh_.root},

@@ -39,11 +39,11 @@ std::string properties(const compute::DeviceInfo& device)
                      device.max_group_items);
 }
 
-constexpr const char* row = "{:<42}  {:>10}  {:>10}  {:<9}  {}\n";
+constexpr const char* line_format = "{:<42}  {:>10}  {:>10}  {:<9}  {}\n";
 
 void print_row(const check::Result& result, bool details)
 {
-  fmt::print(fmt::runtime(row), result.name, std::isnan(result.figure) ? "none" : fmt::format("{:.3g}", result.figure),
+  fmt::print(fmt::runtime(line_format), result.name, std::isnan(result.figure) ? "none" : fmt::format("{:.3g}", result.figure),
              fmt::format("{:.3g}", result.tolerance), result.unit, result.passed() ? "pass" : "FAIL");
   if (details || !result.passed()) fmt::print("    {}\n", result.detail);
   std::fflush(stdout);
@@ -66,7 +66,7 @@ std::vector<std::string> check_device(const CheckOptions& options, const compute
   const compute::DeviceInfo& device = context.device();
   if (!options.json) {
     fmt::print("{}\n   {}\n\n", device_line(device), properties(device));
-    fmt::print(fmt::runtime(row), "check", "figure", "tolerance", "unit", "result");
+    fmt::print(fmt::runtime(line_format), "check", "figure", "tolerance", "unit", "result");
   }
   std::vector<check::Result> results;
   std::vector<std::string> failures;

@@ -26,6 +26,8 @@
 namespace nephroid::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 using spectral::Clustering;
 using spectral::ClusterMethod;
 
@@ -98,7 +100,6 @@ Task make_task(const ClusterOptions& options)
 
 void print_json(const Clustering& clustering)
 {
-  using Json = nlohmann::ordered_json;
   Json clusters = Json::array();
   for (const spectral::Cluster& c : clustering.clusters)
     clusters.push_back({{"wavelengths_nm", wavelengths_nm(c.wavelengths)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});

@@ -20,6 +20,8 @@
 namespace nephroid::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 using Method = spectral::Settings::Effort;
 
 struct ImportanceOptions {
@@ -88,7 +90,6 @@ std::string word(Method method) { return method == Method::importance ? "thesis"
 
 void print_json(const Answer& answer)
 {
-  using Json = nlohmann::ordered_json;
   std::vector<int> all;
   for (int w = 0; w < optics::wavelength_count; ++w) all.push_back(w);
   Json iterations = Json::array(), surroundings = Json::array();

@@ -18,7 +18,7 @@ constexpr double reflectance = 0.8, ground_reflectance = 0.25;
 /// Of D65's power of 380..780 nm that is luminance without its factor: the mean of y over the wavelengths, weighted by it.
 constexpr double luminous_part = 0.27;
 constexpr double fov_deg = 30;
-constexpr int height = 600, least_width = 600, most_width = 1800;
+constexpr int view_height = 600, least_width = 600, most_width = 1800;
 
 preset::Vec3 vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -82,8 +82,8 @@ preset::Camera camera(const Layout& layout)
   const double deep = (last + layout.thickness) * std::sin(up) + std::max(layout.size.y, layout.receiver.y) * std::cos(up);
   preset::Camera camera;
   camera.fov_deg = fov_deg;
-  camera.resolution = {std::clamp(static_cast<int>(height * wide / high), least_width, most_width), height};
-  const double aspect = static_cast<double>(camera.resolution[0]) / height;
+  camera.resolution = {std::clamp(static_cast<int>(view_height * wide / high), least_width, most_width), view_height};
+  const double aspect = static_cast<double>(camera.resolution[0]) / view_height;
   const double away = 1.05 * std::max(high, wide / aspect) / 2 / std::tan(glm::radians(fov_deg / 2)) + deep / 2;
   const glm::dvec3 target{0, 0, (layout.thickness - last) / 2};
   camera.target = vec(target);

@@ -17,7 +17,7 @@ constexpr Colour ground{32, 32, 32}, ink{224, 224, 224};
 
 // All in units of a stroke.
 constexpr int digit_width = 5, digit_height = 9, digit_step = digit_width + 2, point_step = 3;
-constexpr int margin = 6, bar_width = 14, gap = 4, longest_number = 7; ///< "-2.5E-7"
+constexpr int bar_margin = 6, bar_width = 14, gap = 4, longest_number = 7; ///< "-2.5E-7"
 
 /// Segments a to g as bits 0 to 6: top, right above, right below, bottom, left below, left above, middle.
 int segments(char character)
@@ -91,7 +91,7 @@ ColourBar colour_bar(int picture_height, double scale, bool is_signed)
   bar.unit = std::max(1, picture_height / 400);
   bar.height = std::max(picture_height, 4 * digit_height * bar.unit);
   bar.numbers = bar.height > 12 * digit_height * bar.unit ? 5 : is_signed ? 3 : 2;
-  bar.width = (2 * margin + bar_width + gap + longest_number * digit_step) * bar.unit;
+  bar.width = (2 * bar_margin + bar_width + gap + longest_number * digit_step) * bar.unit;
   bar.scale = scale;
   bar.is_signed = is_signed;
   return bar;
@@ -99,8 +99,8 @@ ColourBar colour_bar(int picture_height, double scale, bool is_signed)
 
 void draw(Bitmap& bitmap, int x, const ColourBar& bar)
 {
-  const int top = margin * bar.unit, length = bar.height - 2 * top;
-  const int left = x + margin * bar.unit, right = left + bar_width * bar.unit;
+  const int top = bar_margin * bar.unit, length = bar.height - 2 * top;
+  const int left = x + bar_margin * bar.unit, right = left + bar_width * bar.unit;
   for (int y = 0; y < length; ++y) bitmap.fill(left, top + y, bar_width * bar.unit, 1, map_colour(1 - (y + 0.5) / length, bar.is_signed));
   for (int i = 0; i < bar.numbers; ++i) {
     const double share = static_cast<double>(i) / (bar.numbers - 1);

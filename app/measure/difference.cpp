@@ -15,7 +15,7 @@
 namespace nephroid::measure {
 namespace {
 
-constexpr std::size_t block_pixels = 8192;
+constexpr std::size_t map_block_pixels = 8192;
 
 double lab_distance(const float* a, const float* b)
 {
@@ -83,7 +83,7 @@ std::vector<float> difference_map(const Pixels& picture, const Pixels& reference
   if (metric == DifferenceMetric::flip) return flip_map(picture, reference);
   constexpr double largest = std::numeric_limits<float>::max();
   std::vector<float> map(picture.rgb.size() / 3);
-  for_ranges(map.size(), block_pixels, [&](std::size_t, Range range) {
+  for_ranges(map.size(), map_block_pixels, [&](std::size_t, Range range) {
     for (std::size_t p = range.begin; p < range.end; ++p)
       map[p] = static_cast<float>(std::clamp(value(&picture.rgb[3 * p], &reference.rgb[3 * p], metric), -largest, largest));
   });

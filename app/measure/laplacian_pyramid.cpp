@@ -16,7 +16,7 @@ namespace {
 constexpr double unit = std::numbers::sqrt2 / 16;
 constexpr std::array<double, 5> binomial{1 * unit, 4 * unit, 6 * unit, 4 * unit, 1 * unit};
 
-constexpr std::size_t block_rows = 32;
+constexpr std::size_t pyramid_block_rows = 32;
 
 /// Mirrored about the first and the last sample, which are not repeated; position is -2..n + 1 and n at least 2.
 std::size_t reflected(std::ptrdiff_t position, std::size_t n)
@@ -30,7 +30,7 @@ std::size_t reflected(std::ptrdiff_t position, std::size_t n)
 Plane transposed(const Plane& plane)
 {
   Plane result(plane.height, plane.width);
-  for_ranges(result.height, block_rows, [&](std::size_t, Range rows) {
+  for_ranges(result.height, pyramid_block_rows, [&](std::size_t, Range rows) {
     for (std::size_t y = rows.begin; y < rows.end; ++y)
       for (std::size_t x = 0; x < result.width; ++x) result.row(y)[x] = plane.row(x)[y];
   });
@@ -41,7 +41,7 @@ Plane transposed(const Plane& plane)
 Plane rows_halved(const Plane& plane)
 {
   Plane result(plane.width, (plane.height + 1) / 2);
-  for_ranges(result.height, block_rows, [&](std::size_t, Range rows) {
+  for_ranges(result.height, pyramid_block_rows, [&](std::size_t, Range rows) {
     for (std::size_t y = rows.begin; y < rows.end; ++y)
       for (std::size_t tap = 0; tap < 5; ++tap) {
         const double* const from = plane.row(reflected(static_cast<std::ptrdiff_t>(2 * y + tap) - 2, plane.height));
@@ -55,7 +55,7 @@ Plane rows_halved(const Plane& plane)
 Plane rows_doubled(const Plane& plane, std::size_t height)
 {
   Plane result(plane.width, height);
-  for_ranges(height, block_rows, [&](std::size_t, Range rows) {
+  for_ranges(height, pyramid_block_rows, [&](std::size_t, Range rows) {
     for (std::size_t y = rows.begin; y < rows.end; ++y)
       for (std::size_t tap = 0; tap < 5; ++tap) {
         const std::size_t stuffed = reflected(static_cast<std::ptrdiff_t>(y + tap) - 2, height);
@@ -102,7 +102,7 @@ Plane rows_enlarged(const Plane& plane, std::size_t height)
 {
   Plane result(plane.width, height);
   const EnlargedLine line{plane.height};
-  for_ranges(height, block_rows, [&](std::size_t, Range rows) {
+  for_ranges(height, pyramid_block_rows, [&](std::size_t, Range rows) {
     for (std::size_t y = rows.begin; y < rows.end; ++y)
       for (std::size_t x = 0; x < plane.width; ++x) result.row(y)[x] = line(y, [&](std::size_t i) { return plane.row(i)[x]; });
   });

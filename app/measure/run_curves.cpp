@@ -8,7 +8,7 @@
 namespace nephroid::measure {
 namespace {
 
-constexpr std::string_view estimated = "estimated_", masked = "masked_";
+constexpr std::string_view estimated_prefix = "estimated_", masked = "masked_";
 
 const std::map<std::string, MetricText, std::less<>>& texts()
 {
@@ -53,7 +53,7 @@ Curve column_curve(const job::History& history, std::size_t column, bool falls)
 
 ErrorColumn error_column_of(std::string_view column)
 {
-  if (column.starts_with(estimated)) return {std::string(column.substr(estimated.size())), true};
+  if (column.starts_with(estimated_prefix)) return {std::string(column.substr(estimated_prefix.size())), true};
   return {std::string(column), false};
 }
 

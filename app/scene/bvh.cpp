@@ -21,8 +21,7 @@
 namespace nephroid::scene {
 namespace {
 
-constexpr std::size_t children_per_node = 8, triangles_per_block = 4, ellipsoids_per_block = 3, primitives_per_leaf = 8,
-                      floats_per_node = 64, floats_per_block = 40, floats_per_ellipsoid = 13;
+constexpr std::size_t primitives_per_leaf = 8;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Box {

@@ -11,10 +11,6 @@
 namespace nephroid::scene {
 namespace {
 
-// The layout of kernels/tracing/bvh.h.
-constexpr std::size_t children_per_node = 8, triangles_per_block = 4, ellipsoids_per_block = 3, floats_per_node = 64, floats_per_block = 40,
-                      floats_per_ellipsoid = 13;
-
 /// What waits on the stack: a node or leaf, and how far it is.
 struct Waiting {
   double entry = 0;

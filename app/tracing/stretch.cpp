@@ -12,7 +12,7 @@ namespace {
 using optics::Spectrum;
 using optics::wavelength_count;
 
-constexpr std::size_t middle = 200; // 580 nm
+constexpr std::size_t middle_wavelength = 200; // 580 nm
 constexpr double jump_ratio = 8;
 
 /// The curves of all glass that an object is of and that disperses, each once.
@@ -35,7 +35,8 @@ Spectrum parameter(const scene::Scene& scene)
   const std::vector<const Spectrum*> curves = dispersive_curves(scene);
   Spectrum s{};
   for (std::size_t w = 0; w < s.size(); ++w)
-    s[w] = curves.size() == 1 ? (*curves[0])[w] - (*curves[0])[middle] : static_cast<double>(w) - static_cast<double>(middle);
+    s[w] = curves.size() == 1 ? (*curves[0])[w] - (*curves[0])[middle_wavelength]
+                              : static_cast<double>(w) - static_cast<double>(middle_wavelength);
   return s;
 }
 

@@ -16,8 +16,6 @@ constexpr double least_circle = 2.5;                     ///< a smaller disc is 
 constexpr int outline_points = 16;                       ///< along a side of a region
 constexpr ImU32 marked_colour = IM_COL32(255, 255, 255, 255);
 
-ImVec2 vec(const std::array<double, 2>& at) { return {static_cast<float>(at[0]), static_cast<float>(at[1])}; }
-
 /// 0..1.
 double wrapped(double u) { return u - std::floor(u); }
 

@@ -15,7 +15,7 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr double percent = 100;
+constexpr double to_percent = 100;
 constexpr double room = 1.3; ///< beside the outermost points, as a factor
 
 /// Numbers at ticks: ImPlot's own of a log axis have none within a decade.
@@ -34,7 +34,7 @@ void plot_method(const std::string& name, const Quality& errors)
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!(errors[i] > 0)) continue;
     lights.push_back(quality_lights.at(i));
-    values.push_back(percent * errors[i]);
+    values.push_back(to_percent * errors[i]);
   }
   ImPlotSpec spec;
   spec.LineWeight = 1.5f * scale();
@@ -50,8 +50,8 @@ std::array<double, 2> error_range(const ShownMap& shown)
   double least = 0, most = 0;
   const auto widen = [&](double error) {
     if (!(error > 0)) return;
-    least = least > 0 ? std::min(least, percent * error) : percent * error;
-    most = std::max(most, percent * error);
+    least = least > 0 ? std::min(least, to_percent * error) : to_percent * error;
+    most = std::max(most, to_percent * error);
   };
   for (const Quality& errors : shown.quality)
     for (const double error : errors) widen(error);
@@ -78,7 +78,7 @@ void QualityPlot::draw(const ShownMap& shown, float height)
   for (const auto& choice : preset::Choices<environment::SegmentMethod>::all)
     plot_method(std::string(choice.name), shown.quality.at(static_cast<std::size_t>(choice.value)));
   if (shown.cut_error && *shown.cut_error > 0) {
-    const double error = percent * *shown.cut_error;
+    const double error = to_percent * *shown.cut_error;
     ImPlotSpec spec;
     spec.Marker = ImPlotMarker_Circle;
     spec.MarkerSize = 5 * scale();

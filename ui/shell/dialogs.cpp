@@ -23,7 +23,7 @@ constexpr const char* titles[] = {"",
                                   "",
                                   "Write a report over the runs"};
 
-const char* title(Question question) { return titles[static_cast<std::size_t>(question)]; }
+const char* title_of(Question question) { return titles[static_cast<std::size_t>(question)]; }
 
 /// A field for a file's name, and a button. True where the name is chosen by one of them. replaces: Enter in the field only goes to the
 /// button, so that a file takes two of them. possible: whether the name will do.
@@ -61,7 +61,7 @@ void Dialogs::begin(const Workbench& workbench)
     keep_parent_ = !preset::own_parent(workbench.preset()->source).empty();
   }
   shipped_.clear();
-  ImGui::OpenPopup(title(shown_));
+  ImGui::OpenPopup(title_of(shown_));
   if (shown_ == Question::open) shipped_ = preset::shipped_presets();
   if (shown_ != Question::unsaved) begin_files(workbench);
 }
@@ -87,7 +87,7 @@ void Dialogs::draw(const Workbench& workbench, Commands& commands)
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->GetWorkCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   bool open = true;
-  if (!ImGui::BeginPopupModal(title(shown_), &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+  if (!ImGui::BeginPopupModal(title_of(shown_), &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     commands.push_back(command::Ask{Question::none}); // closed by its cross
     return;
   }

@@ -17,7 +17,7 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr const char* title = "Commands";
+constexpr const char* palette_title = "Commands";
 
 /// Whether the whole name is typed: then no other is meant, whatever its letters score.
 bool is_name(const std::string& typed, const Palette::Entry& entry) { return lower_case(typed) == lower_case(entry.name); }
@@ -36,7 +36,7 @@ void Palette::begin()
     entries_.push_back({"Open " + shipped.name, shipped.description, "", nullptr,
                         [file = shipped.file.string()](const Context& c) { c.push(command::Open{file}); }});
   search();
-  ImGui::OpenPopup(title);
+  ImGui::OpenPopup(palette_title);
 }
 
 void Palette::search()
@@ -71,7 +71,7 @@ void Palette::draw(const Context& context, bool shown)
   ImGui::SetNextWindowPos({viewport.GetWorkCenter().x, viewport.WorkPos.y + 2 * em}, ImGuiCond_Always, {0.5f, 0});
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings;
   // Not modal: a click beside it closes it.
-  if (!ImGui::BeginPopup(title, flags)) return context.push(command::Ask{Question::none});
+  if (!ImGui::BeginPopup(palette_title, flags)) return context.push(command::Ask{Question::none});
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(em * 38);
   const std::string before = typed_;

@@ -15,7 +15,7 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr std::chrono::milliseconds look_every{200}; ///< at the kernels folder
+constexpr std::chrono::milliseconds look_at_kernels_every{200}; ///< at the kernels folder
 
 /// What the run is measured against. The window shows a picture with or without one: what stands against it becomes a note. A recipe is
 /// not rendered here, because every edit of the scene asks for another one.
@@ -74,7 +74,7 @@ void DeviceRuns::watch(const std::stop_token& stop)
 {
   std::unique_lock lock(building_);
   while (!stop.stop_requested()) {
-    stopping_.wait_for(lock, stop, look_every, [] { return false; });
+    stopping_.wait_for(lock, stop, look_at_kernels_every, [] { return false; });
     if (context_ && compute::kernels_changed(*context_)) changed_ = true;
   }
 }

@@ -24,7 +24,7 @@
 namespace nephroid::ui {
 namespace {
 
-struct Kind {
+struct KnownKind {
   FileKind kind;
   std::string_view endings; ///< lower case, each followed by a space
   const char* what;
@@ -32,18 +32,19 @@ struct Kind {
 };
 
 constexpr std::array kinds{
-    Kind{FileKind::dispersion, ".yml .yaml ", "is dispersion data",
-         "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion {}`"},
-    Kind{FileKind::scene, ".gltf .glb ", "is a scene",
-         "drop it on the window, which makes a preset of it, or run `nephroid import {} -o PRESET.json`"},
-    Kind{FileKind::mesh, ".obj .ply .stl .3ds ", "is a mesh",
-         "drop it on the window once a preset with a scene is open, or name it in one as an object's \"mesh\""},
-    Kind{FileKind::map, ".exr .hdr ", "is a picture",
-         "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
-    Kind{FileKind::picture, ".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
-         "drop it on the window once a preset of the engine inverse is open, whose object then casts it; a run's pictures lie beside its "
-         "preset.json: open that; an environment is a .hdr or .exr"},
-    Kind{FileKind::kernel, ".cl ", "is a kernel source", "start with --kernels and its folder"},
+    KnownKind{FileKind::dispersion, ".yml .yaml ", "is dispersion data",
+              "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion {}`"},
+    KnownKind{FileKind::scene, ".gltf .glb ", "is a scene",
+              "drop it on the window, which makes a preset of it, or run `nephroid import {} -o PRESET.json`"},
+    KnownKind{FileKind::mesh, ".obj .ply .stl .3ds ", "is a mesh",
+              "drop it on the window once a preset with a scene is open, or name it in one as an object's \"mesh\""},
+    KnownKind{FileKind::map, ".exr .hdr ", "is a picture",
+              "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
+    KnownKind{
+        FileKind::picture, ".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
+        "drop it on the window once a preset of the engine inverse is open, whose object then casts it; a run's pictures lie beside its "
+        "preset.json: open that; an environment is a .hdr or .exr"},
+    KnownKind{FileKind::kernel, ".cl ", "is a kernel source", "start with --kernels and its folder"},
 };
 
 /// Writes the PNG; returns what else is worth saying of it.
@@ -79,11 +80,11 @@ std::filesystem::path make_new_folder(const std::filesystem::path& path)
 }
 
 /// Null: of no kind but a preset's.
-const Kind* known_kind(const std::string& ending)
+const KnownKind* known_kind(const std::string& ending)
 {
   if (ending.empty()) return nullptr;
   const auto found =
-      std::ranges::find_if(kinds, [&](const Kind& kind) { return kind.endings.find(ending + ' ') != std::string_view::npos; });
+      std::ranges::find_if(kinds, [&](const KnownKind& kind) { return kind.endings.find(ending + ' ') != std::string_view::npos; });
   return found == kinds.end() ? nullptr : &*found;
 }
 
@@ -100,7 +101,7 @@ bool may_be_object(const std::filesystem::path& file)
 
 FileKind kind_of(const std::filesystem::path& file)
 {
-  const Kind* kind = known_kind(lower_case(file.extension().string()));
+  const KnownKind* kind = known_kind(lower_case(file.extension().string()));
   return kind ? kind->kind : FileKind::other;
 }
 
@@ -110,7 +111,8 @@ void refuse_other_kinds(const std::string& name)
   if (!std::filesystem::is_regular_file(name, ignored)) return;
   constexpr const char* expected = "the window opens presets";
   const std::string ending = lower_case(std::filesystem::path(name).extension().string());
-  if (const Kind* kind = known_kind(ending)) throw bad_input(name, kind->what, expected, fmt::format(fmt::runtime(kind->remedy), name));
+  if (const KnownKind* kind = known_kind(ending))
+    throw bad_input(name, kind->what, expected, fmt::format(fmt::runtime(kind->remedy), name));
   if (ending != ".json" && !may_be_object(name))
     throw bad_input(name, "is no preset and of no kind that Nephroid knows", std::string(expected) + ", JSON files",
                     "see `nephroid presets` for those that are shipped");

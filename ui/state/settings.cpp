@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int version = 1;
+constexpr int settings_version = 1;
 constexpr int deepest = 16;                                   ///< parts in parts: nobody splits a window so often
 constexpr std::size_t most_panels = 64;                       ///< in one place
 constexpr const char* splits[] = {"none", "columns", "rows"}; // in the order of Dock::Split
@@ -87,7 +87,7 @@ std::string to_json(const Settings& settings)
     for (const Floating& one : of_engine.layout.floating) value["floating"].push_back({{"panel", one.panel}, {"place", one.place}});
     if (!(of_engine.layout.docks == Dock{})) value["docks"] = to_json(of_engine.layout.docks);
   }
-  return json_text({{"version", version},
+  return json_text({{"version", settings_version},
                     {"theme", settings.theme == Theme::light ? "light" : "dark"},
                     {"text_size", settings.text_size},
                     {"engines", engines}},
@@ -98,7 +98,7 @@ Settings parse_settings(const std::string& text, const std::string& source)
 {
   try {
     const Json value = Json::parse(text);
-    if (value.at("version").get<int>() != version) throw std::out_of_range("the version is another one");
+    if (value.at("version").get<int>() != settings_version) throw std::out_of_range("the version is another one");
     Settings settings;
     settings.theme = value.at("theme").get<std::string>() == "light" ? Theme::light : Theme::dark;
     settings.text_size = number(value.at("text_size"), Settings::smallest_text, Settings::largest_text);

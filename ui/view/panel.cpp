@@ -26,7 +26,6 @@ constexpr double wheel_gesture_s = 0.6;      ///< a longer rest starts a new ent
 constexpr double pixel_squares_from = 3;     ///< at this zoom and above pixels are shown as squares
 
 Point mouse() { return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}; }
-ImVec2 vec(const Point& p) { return {static_cast<float>(p[0]), static_cast<float>(p[1])}; }
 
 /// Lines of text on a dark ground, its upper left corner at `at`.
 void draw_overlay(const ImVec2& at, const std::string& text)

@@ -18,8 +18,6 @@ using LightType = preset::Light::Type;
 constexpr ImU32 lamp = IM_COL32(255, 214, 102, 255), marked = IM_COL32(255, 150, 50, 255);
 constexpr float icon_radius = 6, grab_radius = 10; ///< pixels at scale 1
 
-ImVec2 vec(const Point& p) { return {static_cast<float>(p[0]), static_cast<float>(p[1])}; }
-
 /// A line of the scene, as far as it is before the camera. Dark below, so that it is seen on any colour.
 void draw_line(const Sight& sight, glm::dvec3 a, glm::dvec3 b, ImU32 colour)
 {

@@ -5,6 +5,8 @@
 
 #include <imgui.h>
 
+#include <array>
+
 namespace nephroid::ui {
 
 namespace colour {
@@ -33,5 +35,8 @@ void add_font();
 void set_theme(float scale, Theme theme = Theme::dark);
 /// The scale that was set: sizes in pixels are multiplied by it.
 inline float scale() { return ImGui::GetStyle().FontScaleDpi; }
+
+/// A point or an extent in pixels.
+inline ImVec2 vec(const std::array<double, 2>& at) { return {static_cast<float>(at[0]), static_cast<float>(at[1])}; }
 
 } // namespace nephroid::ui

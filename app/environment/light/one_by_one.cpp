@@ -11,7 +11,7 @@
 namespace nephroid::environment {
 namespace {
 
-constexpr std::size_t group = 32;
+constexpr std::size_t items_per_group = 32;
 
 bool compiles(Technique t) { return t == Technique::compiled || t == Technique::compiled_launches || t == Technique::compiled_buffers; }
 bool has_buffers(Technique t) { return t == Technique::direct_buffers || t == Technique::compiled_buffers; }
@@ -66,7 +66,7 @@ void OneByOne::set_lights(const TurnedSpheres& turned, const std::vector<TurnedS
 void OneByOne::cast(const TurnedSpheres& turned, const CastTexels& texels, std::uint32_t first, std::uint32_t count)
 {
   if (compiles(technique_)) {
-    cast_compiled_.run(count, group,
+    cast_compiled_.run(count, items_per_group,
                        {{"compiled", compiled_},
                         {"radii", turned.radii},
                         {"spheres", turned.spheres},
@@ -106,7 +106,7 @@ void OneByOne::run(compute::Kernel& kernel, std::uint32_t items, const TurnedSph
       const std::size_t direction = i < launch.directions.size() ? static_cast<std::size_t>(launch.directions[i]) : 0;
       shared.emplace_back(names[i], of_direction_[direction]);
     }
-    kernel.run(items, group, shared, own);
+    kernel.run(items, items_per_group, shared, own);
   }
   context_.finish();
 }

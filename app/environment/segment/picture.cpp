@@ -10,7 +10,6 @@
 namespace nephroid::environment {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int width = 1024, height = 512;
 constexpr double disc_radius = 4, rim = 1.5; // pixels
 constexpr std::array<unsigned char, 3> green{0, 255, 0}, black{0, 0, 0};
@@ -76,8 +75,8 @@ public:
 
   void disc(const glm::dvec3& direction)
   {
-    const double column = (std::atan2(direction.x, -direction.z) / (2 * pi) + 0.5) * width;
-    const double row = std::acos(std::clamp(direction.y, -1.0, 1.0)) / pi * height;
+    const double column = (std::atan2(direction.x, -direction.z) / (2 * std::numbers::pi) + 0.5) * width;
+    const double row = std::acos(std::clamp(direction.y, -1.0, 1.0)) / std::numbers::pi * height;
     const int reach = static_cast<int>(disc_radius + rim) + 1, x0 = static_cast<int>(column), y0 = static_cast<int>(row);
     for (int y = std::max(0, y0 - reach); y <= std::min(height - 1, y0 + reach); ++y)
       for (int x = x0 - reach; x <= x0 + reach; ++x) {
@@ -110,7 +109,8 @@ private:
       }
     for (int row = 0; row < height; ++row)
       for (int column = 0; column < width; ++column) {
-        const double zenith = pi * (row + 0.5) / height, azimuth = 2 * pi * (column + 0.5) / width - pi;
+        const double zenith = std::numbers::pi * (row + 0.5) / height,
+                     azimuth = 2 * std::numbers::pi * (column + 0.5) / width - std::numbers::pi;
         const CubePoint at = met_point({std::sin(zenith) * std::sin(azimuth), std::cos(zenith), -std::sin(zenith) * std::cos(azimuth)});
         of_pixel.push_back(of_texel[cube.texel(at.face, texel_of(at.s, size), texel_of(at.t, size))]);
       }

@@ -11,34 +11,34 @@ namespace nephroid::environment {
 namespace {
 
 /// Of a block of texels: the sum of flux times unit direction, of each channel.
-using Moments = glm::dmat3;
+using AxisMoments = glm::dmat3;
 
 constexpr int blocks_along = 128; // of a face: a block is as small as a texel of the smallest cube
 
 /// A block's light does not count as one direction's, so a plane is lit rightly by every block but those that it cuts.
-std::vector<Moments> blocks_of(const CubeMap& cube)
+std::vector<AxisMoments> blocks_of(const CubeMap& cube)
 {
   const int side = (cube.size + blocks_along - 1) / blocks_along;
-  std::vector<Moments> blocks;
+  std::vector<AxisMoments> blocks;
   for (int face = 0; face < face_count; ++face)
     for (int top = 0; top < cube.size; top += side)
       for (int left = 0; left < cube.size; left += side) {
-        Moments sum(0);
+        AxisMoments sum(0);
         for (int y = top; y < std::min(top + side, cube.size); ++y)
           for (int x = left; x < std::min(left + side, cube.size); ++x) {
             const glm::dvec3 direction = glm::normalize(position({face, middle(x, cube.size), middle(y, cube.size)}));
             sum += glm::outerProduct(direction, cube.flux_of(cube.texel(face, x, y)));
           }
-        if (sum != Moments(0)) blocks.push_back(sum);
+        if (sum != AxisMoments(0)) blocks.push_back(sum);
       }
   return blocks;
 }
 
 /// E(n) = sum of max(0, n . moment).
-glm::dvec3 irradiance(const std::vector<Moments>& blocks, const glm::dvec3& normal)
+glm::dvec3 irradiance(const std::vector<AxisMoments>& blocks, const glm::dvec3& normal)
 {
   glm::dvec3 sum{0};
-  for (const Moments& block : blocks) sum += glm::max(normal * block, glm::dvec3(0));
+  for (const AxisMoments& block : blocks) sum += glm::max(normal * block, glm::dvec3(0));
   return sum;
 }
 
@@ -46,7 +46,7 @@ glm::dvec3 irradiance(const std::vector<Moments>& blocks, const glm::dvec3& norm
 
 std::vector<glm::dvec3> irradiances(const CubeMap& cube, int normals)
 {
-  const std::vector<Moments> blocks = blocks_of(cube);
+  const std::vector<AxisMoments> blocks = blocks_of(cube);
   std::vector<glm::dvec3> result(static_cast<std::size_t>(normals));
   for_blocks(result.size(), [&](std::size_t i) { result[i] = irradiance(blocks, scene::even_direction(static_cast<int>(i), normals)); });
   return result;
@@ -54,7 +54,7 @@ std::vector<glm::dvec3> irradiances(const CubeMap& cube, int normals)
 
 double irradiance_error(const std::vector<glm::dvec3>& truth, const Segmentation& segmentation)
 {
-  std::vector<Moments> lights;
+  std::vector<AxisMoments> lights;
   for (const Region& region : segmentation.lights) lights.push_back(glm::outerProduct(region.direction, region.flux));
   double differences = 0, squares = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {

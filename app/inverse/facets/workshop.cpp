@@ -33,7 +33,7 @@ std::string png_scale(const Layout& layout, const Solid& solid)
                      scale_of(layout));
 }
 
-void write_text(std::string_view text, ByteSink& to) { to.write(std::as_bytes(std::span(text))); }
+void write_json(std::string_view text, ByteSink& to) { to.write(std::as_bytes(std::span(text))); }
 
 } // namespace
 
@@ -69,7 +69,7 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
 void write_facets(const Layout& layout, const Solid& solid, ByteSink& to)
 {
   const glm::dvec2 facet = layout.facet();
-  write_text(fmt::format("{{\"columns\": {}, \"rows\": {}, \"facet_mm\": [{}, {}],\n"
+  write_json(fmt::format("{{\"columns\": {}, \"rows\": {}, \"facet_mm\": [{}, {}],\n"
                          " \"order\": \"row by row from the top, from -x to +x\",\n"
                          " \"normal\": \"(dz_dx, dz_dy, -1), not of unit length: out of the object\",\n"
                          " \"numbers\": [\"slope_x\", \"slope_y\", \"dz_dx\", \"dz_dy\", \"middle_z_mm\"],\n \"facets\": [",
@@ -79,10 +79,10 @@ void write_facets(const Layout& layout, const Solid& solid, ByteSink& to)
   for (const Facet& f : solid.facets) {
     fmt::format_to(std::back_inserter(line), "{}[{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}]", &f == solid.facets.data() ? "\n" : ",\n", f.slope.x,
                    f.slope.y, f.gradient.x, f.gradient.y, f.height);
-    write_text({line.data(), line.size()}, to);
+    write_json({line.data(), line.size()}, to);
     line.clear();
   }
-  write_text("\n ]}\n", to);
+  write_json("\n ]}\n", to);
 }
 
 image::Image height_map(const Layout& layout, const Solid& solid)

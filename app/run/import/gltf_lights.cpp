@@ -19,7 +19,6 @@ namespace {
 constexpr double most_lumens = 683; ///< a watt at 555 nm, by the definition of the candela
 using std::numbers::pi;
 
-preset::Vec3 vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 glm::dvec3 to_glm(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 double sum(const optics::Spectrum& spectrum)

@@ -11,6 +11,8 @@
 
 namespace nephroid::run {
 
+inline preset::Vec3 vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
 struct GltfNode {
   GltfValue value;
   glm::dmat4 to_world;

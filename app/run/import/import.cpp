@@ -57,8 +57,6 @@ struct Bounds {
   double size() const { return std::max(glm::length(high - low), 1e-3); }
 };
 
-preset::Vec3 vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 class Import {
 public:
   Import(const GltfFile& file, fs::path preset) : root_(file.json, file.where()), meshes_(file), preset_file_(std::move(preset))

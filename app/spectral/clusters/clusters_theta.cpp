@@ -10,7 +10,7 @@
 namespace nephroid::spectral {
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
+constexpr double degree = std::numbers::pi / 180;
 
 /// Gauss-Legendre nodes and weights on 0..1. The integrands are analytic up to a distance of about 1 degree from the end of the
 /// interval, so that 64 nodes leave an error below 1e-8 of the integral at n next to 1, and rounding elsewhere.
@@ -49,12 +49,12 @@ double arc_integral(double ratio, double end)
 
 double refraction_integral_deg2(double n)
 {
-  constexpr double end = last_angle_deg * radian;
-  if (n >= 1) return arc_integral(1 / n, end) / (radian * radian);
+  constexpr double end = last_angle_deg * degree;
+  if (n >= 1) return arc_integral(1 / n, end) / (degree * degree);
   // Below 1 the integrand has an infinite slope at the critical angle and stays at 90 degrees beyond it. Integrating by parts
   // exchanges the axes, and the inverse theta1 = asin(n sin theta2) is smooth.
   const double theta2_end = std::asin(std::min(1.0, std::sin(end) / n));
-  return (end * theta2_end - arc_integral(n, theta2_end)) / (radian * radian);
+  return (end * theta2_end - arc_integral(n, theta2_end)) / (degree * degree);
 }
 
 std::vector<double> theta_exact(std::span<const double> n)
