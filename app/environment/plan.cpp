@@ -38,7 +38,7 @@ std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask
 {
   static constexpr std::array<std::string_view, 4> names{"mirrors", "bending", "attenuation", "smooth normals"};
   std::vector<plan::Pass> passes =
-      tracing::code_omissions(tracing::leave_out_all(preset.leave_out), task.caster.scene, task.tables.wavelengths.attenuator_count).passes;
+      tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out}, task.caster.scene, task.tables.wavelengths.attenuator_count).passes;
   std::erase_if(passes, [](const plan::Pass& pass) { return !std::ranges::count(names, pass.name); });
   return passes;
 }

@@ -292,7 +292,7 @@ std::vector<std::string> setting_notes(const preset::Preset& preset, const scene
 
 RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
-  return make_plan(preset, scene, bvh, tracing::leave_out_all(preset.leave_out));
+  return make_plan(preset, scene, bvh, tracing::LeaveOut{.all = preset.leave_out});
 }
 
 RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const tracing::LeaveOut& leave_out)

@@ -55,7 +55,7 @@ BakeTask make_task(const preset::Preset& preset)
   task.seed = preset.seed;
   const scene::Scene& scene = task.caster.scene;
   task.bvh = scene::build_bvh(scene.geometry);
-  const tracing::LeaveOut leave_out = tracing::leave_out_all(preset.leave_out);
+  const tracing::LeaveOut leave_out{.all = preset.leave_out};
   std::vector<int> all(optics::wavelength_count);
   std::iota(all.begin(), all.end(), 0);
   task.tables = tracing::make_scene_tables(scene, {all}, leave_out);

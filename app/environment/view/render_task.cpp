@@ -69,7 +69,7 @@ Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube)
 RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster,
                             const RenderTask* before)
 {
-  const tracing::LeaveOut leave_out = tracing::leave_out_all(preset.leave_out);
+  const tracing::LeaveOut leave_out{.all = preset.leave_out};
   RenderTask task;
   task.scene = lit_scene(scene);
   task.bvh = std::make_shared<const scene::Bvh>(bvh);
