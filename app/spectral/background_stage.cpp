@@ -72,13 +72,6 @@ bool goes_one_way(const scene::Scene& scene)
   });
 }
 
-std::vector<int> all_wavelengths()
-{
-  std::vector<int> all(WAVELENGTH_COUNT);
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 class BackgroundStage final : public EyeStage {
 public:
   BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
@@ -86,7 +79,7 @@ public:
         tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
         texels_(tracing::upload_vector(world.context, "environment", scene.environment->rgb)),
         primary_xyz_(tracing::upload_vector(world.context, "colours of the primaries", tables_.primary_xyz)),
-        wavelengths_(tracing::upload_vector(world.context, "wavelengths", all_wavelengths())),
+        wavelengths_(tracing::upload_vector(world.context, "wavelengths", optics::all_wavelengths())),
         spectrum_cdf_(tracing::upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf))
   {
     compute::Defines defines = world.defines;
@@ -118,11 +111,33 @@ private:
   compute::Kernel kernel_;
 };
 
-} // namespace
+plan::Pass background_pass(const PlanInput& input)
+{
+  const char* const name = "background";
+  const auto& environment = input.scene.environment;
+  if (!input.settings.background) return not_asked_for(name, name);
+  if (!environment) return {name, false, "there is no environment: what meets nothing is black", "", false};
+  if (environment->is_black()) return {name, false, "the environment is black", "", false};
+  return {name, true,
+          fmt::format("{}, seen directly, through glass and in mirrors; {}", size_of(*environment), samples_a_pixel(input, true)),
+          "/spectral/background", true};
+}
 
-std::unique_ptr<Stage> make_background_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+PlanPart plan_background(const PlanInput& input)
+{
+  PlanPart part{.passes = {background_pass(input)}};
+  if (part.passes[0].runs)
+    part.buffers = {{"environment", input.scene.environment->rgb.size() * sizeof(float)}, {"film background", input.film_bytes()}};
+  return part;
+}
+
+std::unique_ptr<Stage> make_background(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
 {
   return std::make_unique<BackgroundStage>(world, scene, settings);
 }
+
+} // namespace
+
+const RunPart background_stage{plan_background, make_background, "background"};
 
 } // namespace nephroid::spectral

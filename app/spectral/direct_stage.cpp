@@ -27,11 +27,31 @@ private:
   compute::Kernel kernel_;
 };
 
-} // namespace
+plan::Pass direct_pass(const PlanInput& input)
+{
+  const char* const name = "direct";
+  if (!input.settings.direct) return not_asked_for(name, name);
+  const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
+  if (!missing.empty()) return tracing::omission(name, input.leave_out.direct, false, missing);
+  return tracing::omission(name, input.leave_out.direct, true,
+                           fmt::format("{} lit by {}, {}", counted(input.objects.diffuse, "diffuse object"),
+                                       counted(shining_lights(input), "light"), samples_a_pixel(input, !input.settings.relight)));
+}
 
-std::unique_ptr<Stage> make_direct_stage(DeviceWorld& world, const Settings& settings)
+PlanPart plan_direct(const PlanInput& input)
+{
+  PlanPart part{.passes = {direct_pass(input)}};
+  if (part.passes[0].runs) part.buffers = {{"film direct", input.film_bytes()}};
+  return part;
+}
+
+std::unique_ptr<Stage> make_direct(DeviceWorld& world, const scene::Scene&, const Settings& settings)
 {
   return std::make_unique<DirectStage>(world, settings);
 }
+
+} // namespace
+
+const RunPart direct_stage{plan_direct, make_direct, "direct"};
 
 } // namespace nephroid::spectral

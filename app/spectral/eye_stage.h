@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stage with one sample a pixel and pass from the eye, into a film of its own: the layers "direct" and "background".
 #pragma once
+#include "base/counted.h"
 #include "spectral/sampled_pixels.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <initializer_list>
 #include <string>
 
 namespace nephroid::spectral {
+
+/// For the plan. goes_on: for pixels of glass, where there are any.
+inline std::string samples_a_pixel(const PlanInput& input, bool goes_on)
+{
+  return fmt::format("{} a pixel{}", counted(input.settings.pixel_samples, "sample"),
+                     goes_on && tracing::may_see_glass_or_mirror(input.scene) ? ", more where glass or a mirror is seen" : "");
+}
 
 class EyeStage : public Stage {
 public:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect": kernels/spectral/indirect.cl.
+#include "base/counted.h"
 #include "optics/colour.h"
 #include "spectral/effort/emitters.h"
 #include "spectral/stage.h"
@@ -147,11 +148,33 @@ private:
   tracing::PhotonSlices slices_;
 };
 
-} // namespace
+plan::Pass indirect_pass(const PlanInput& input)
+{
+  const char* const name = "indirect";
+  if (input.settings.relight) return not_in_layers(name, "its light met several reflectors");
+  if (!input.settings.indirect) return not_asked_for(name, name);
+  const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
+  if (!missing.empty()) return {name, false, missing, "", false};
+  std::string reason = counted(input.settings.indirect_photons_per_pass, "photon a pass", "photons a pass");
+  if (input.objects.dielectrics + input.objects.mirrors > 0)
+    reason += ", shown where the camera sees a surface directly; through glass and in mirrors it is left out";
+  return {name, true, reason, "/spectral/indirect", true};
+}
 
-std::unique_ptr<Stage> make_indirect_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+PlanPart plan_indirect(const PlanInput& input)
+{
+  PlanPart part{.passes = {indirect_pass(input)}};
+  if (part.passes[0].runs) part.buffers = {{"film indirect", input.film_bytes()}};
+  return part;
+}
+
+std::unique_ptr<Stage> make_indirect(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
 {
   return std::make_unique<IndirectStage>(world, scene, settings);
 }
+
+} // namespace
+
+const RunPart indirect_stage{plan_indirect, make_indirect, "indirect"};
 
 } // namespace nephroid::spectral

@@ -2,10 +2,11 @@
 // Photons that are splatted into the pixel that sees them: kernels/spectral/photons.cl.
 #include "spectral/effort/emission_guide.h"
 #include "spectral/effort/variance_deal.h"
-#include "spectral/maps/photon_map.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
@@ -20,7 +21,7 @@ constexpr double least_gain = 1.5;
 
 class PhotonStage final : public Stage {
 public:
-  PhotonStage(DeviceWorld& world, const Settings& settings, PhotonMap* map)
+  PhotonStage(DeviceWorld& world, const Settings& settings)
       : world_(world), insists_(settings.effort == Settings::Effort::variance),
         by_variance_(insists_ || settings.effort == Settings::Effort::automatic), deal_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
@@ -29,7 +30,7 @@ public:
         guide_table_(world.context, "guide of directions", std::span<const float>(guide_.table())),
         film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0)
   {
-    if (map) stored_ = map->stored();
+    if (world.map) stored_ = world.map->stored();
     make_kernel();
   }
 
@@ -153,11 +154,28 @@ private:
   tracing::PhotonSlices slices_;
 };
 
+PlanPart plan_photons(const PlanInput& input)
+{
+  if (!input.caustics.runs) return {.passes = {input.caustics}};
+  if (input.is_sppm()) return {.passes = {{"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false}}};
+  PlanPart part{.passes = {input.caustics}, .buffers = {{"film caustic", input.film_bytes()}}};
+  using Effort = Settings::Effort;
+  if (const Effort effort = input.settings.effort; effort == Effort::variance || effort == Effort::automatic)
+    part.buffers.push_back({"guide of directions", input.tables.lights.size() * (EmissionGuide::floats * sizeof(float) +
+                                                                                 EmissionGuide::cells * sizeof(std::int64_t))});
+  if (const int wanted = input.settings.photons_per_pass; input.tables.photons_per_pass > static_cast<unsigned>(wanted))
+    part.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light", wanted,
+                                     input.tables.photons_per_pass));
+  return part;
+}
+
+std::unique_ptr<Stage> make_photons(DeviceWorld& world, const scene::Scene&, const Settings& settings)
+{
+  return std::make_unique<PhotonStage>(world, settings);
+}
+
 } // namespace
 
-std::unique_ptr<Stage> make_photon_stage(DeviceWorld& world, const Settings& settings, PhotonMap* map)
-{
-  return std::make_unique<PhotonStage>(world, settings, map);
-}
+const RunPart photon_stage{plan_photons, make_photons, "caustic"};
 
 } // namespace nephroid::spectral

@@ -3,6 +3,10 @@
 
 #include "base/parallel.h"
 #include "base/summed_area.h"
+#include "spectral/plan_part.h"
+#include "tracing/scene_buffers.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -180,13 +184,22 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
 } // namespace
 
 Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, bool everywhere)
-    : width_(scene.camera.width), height_(scene.camera.height), everywhere_(everywhere),
-      seen_(static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height))
+    : width_(scene.camera.width), height_(scene.camera.height), everywhere_(everywhere)
 {
+  scene::Scene seen = scene;
+  seen.environment.reset(); // the largest part of a scene, and no look needs it
+  view_ = std::make_unique<const View>(std::move(seen), bvh);
+}
+
+void Smoothing::look()
+{
+  if (!view_) return;
+  const std::unique_ptr<const View> view = std::move(view_);
+  seen_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   std::vector<Sight> sights(seen_.size());
   for_ranges(sights.size(), 1 << 10, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      sights[i] = look_through_pixel(scene, bvh, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
+      sights[i] = look_through_pixel(view->scene, view->bvh, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
   const std::vector<bool> pulled = are_near_pulled(sights, width_, height_);
   for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
@@ -201,11 +214,11 @@ void Smoothing::find_edges()
   });
 }
 
-std::uint64_t Smoothing::bytes(const scene::Camera& camera)
+std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
-  return (sizeof(Sight) + sizeof(Seen) + pulled_apart) * static_cast<std::uint64_t>(camera.width) *
-         static_cast<std::uint64_t>(camera.height);
+  const std::uint64_t pixels = static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
+  return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) + (sizeof(Sight) + sizeof(Seen) + pulled_apart) * pixels;
 }
 
 bool Smoothing::are_level(const Seen& a, const Seen& b)
@@ -294,9 +307,10 @@ std::vector<float> Smoothing::shares(const Weights& by, const std::vector<float>
   return worthwhile_shares(rgb, error_draw, rgb_spread, a, b, by.light, width_, height_);
 }
 
-void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) const
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw)
 {
   if (error_draw.empty()) return;
+  look();
   const std::vector<double> light = light_of(rgb);
   std::vector<double> wanted = portions(light, error_draw, width_, height_);
   for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
@@ -321,5 +335,42 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) 
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);
 }
+
+namespace {
+
+plan::Pass smoothing_pass(const PlanInput& input)
+{
+  const char* const name = "smoothing";
+  using Choice = Settings::Smoothing;
+  const Choice choice = input.settings.smoothing;
+  if (choice == Choice::off) return {name, false, "spectral.smoothing is off", "", false};
+  if (!input.caustics.runs) return {name, false, "there are no caustics", "", false};
+  if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own", "", false};
+  if (!input.estimate.runs)
+    return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
+  if (input.preset.stop.passes == 1) return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is", "", false};
+  return {name, true,
+          fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in how far it goes",
+                      Smoothing::noise, choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps"),
+          "", false};
+}
+
+PlanPart plan_smoothing(const PlanInput& input)
+{
+  const plan::Pass pass = smoothing_pass(input);
+  PlanPart part;
+  if (input.caustics.runs) part.passes = {pass};
+  if (pass.runs) part.buffers = {{"surfaces in pixels (host)", Smoothing::bytes(input.scene, input.bvh), true}};
+  if (input.settings.smoothing != Settings::Smoothing::on) return part;
+  if (!pass.runs)
+    part.notes = {"spectral.smoothing: on does nothing here: " + pass.reason};
+  else if (input.preset.stop.error && !input.preset.reference)
+    part.notes = {"stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does"};
+  return part;
+}
+
+} // namespace
+
+const RunPart smoothing_part{plan_smoothing};
 
 } // namespace nephroid::spectral

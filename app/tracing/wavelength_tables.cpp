@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <numeric>
 
 namespace nephroid::tracing {
 namespace {
@@ -130,8 +129,7 @@ void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, Wa
 /// Photons are dealt by a light's spectrum and carry it too, but for those of the environment, which carry three parts.
 void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
-  std::vector<int> all(wavelength_count);
-  std::iota(all.begin(), all.end(), 0);
+  const std::vector<int> all = optics::all_wavelengths();
   for (const scene::Light* light : lights) {
     if (is_environment(*light))
       for (const Spectrum& primary : light->primaries) add_spectrum_rows(primary, all, tables);

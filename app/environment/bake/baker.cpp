@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <span>
 
 namespace nephroid::environment {
@@ -56,16 +55,13 @@ BakeTask make_task(const preset::Preset& preset)
   const scene::Scene& scene = task.caster.scene;
   task.bvh = scene::build_bvh(scene.geometry);
   const tracing::LeaveOut leave_out{.all = preset.leave_out};
-  std::vector<int> all(optics::wavelength_count);
-  std::iota(all.begin(), all.end(), 0);
-  task.tables = tracing::make_scene_tables(scene, {all}, leave_out);
+  task.tables = tracing::make_scene_tables(scene, {optics::all_wavelengths()}, leave_out);
   task.coloured = is_coloured(task.tables.wavelengths);
   task.defines = tracing::code_omissions(leave_out, scene, task.tables.wavelengths.attenuator_count).defines;
   task.defines["NEPHROID_CHANNELS"] = std::to_string(task.coloured ? 3 : 1);
   task.defines["NEPHROID_JITTER"] = std::to_string(int(task.coloured));
   task.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(0);
-  task.defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!task.bvh.ellipsoid_places.empty()));
-  task.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(task.bvh.stack, 1));
+  task.defines.merge(scene::tree_defines(task.bvh));
   return task;
 }
 

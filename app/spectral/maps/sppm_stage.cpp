@@ -13,6 +13,8 @@
 #include "tracing/scales.h"
 #include "tracing/step_size.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -323,11 +325,36 @@ void SppmStage::report(std::int64_t passes, bool done, Energy& energy)
                      static_cast<std::uint64_t>(watts[OUTCOME_REFUSED])};
 }
 
-} // namespace
+plan::Pass sppm_pass(const PlanInput& input)
+{
+  const char* const name = "photon maps";
+  if (!input.caustics.runs) return {name, false, "there are no caustics to gather", "", false};
+  return {name, true,
+          fmt::format("spectral.estimator is sppm: every caustic is gathered, {}, {}", map_radius(input.settings, input.scene),
+                      input.settings.effort == Settings::Effort::random ? "one cluster a pass in shared statistics"
+                                                                        : "with statistics of each pixel in each cluster"),
+          "", false};
+}
 
-std::unique_ptr<Stage> make_sppm_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+PlanPart plan_sppm(const PlanInput& input)
+{
+  PlanPart part = plan_gathering(input, sppm_pass(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
+  // A pass has one cluster's turn after the other, with one wavelength each.
+  part.defines = {{"NEPHROID_PASS_BANDS", "1"}};
+  if (!part.passes[0].runs) return part;
+  const std::uint64_t runs = input.settings.effort == Settings::Effort::random ? 1 : input.tables.wavelengths.clusters.size();
+  part.buffers.push_back({"statistics of pixels", runs * input.pixels() * sizeof(shared::PixelStatistics)});
+  part.buffers.push_back({"radiance", 3 * input.pixels() * sizeof(float)});
+  return part;
+}
+
+std::unique_ptr<Stage> make_sppm(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
 {
   return std::make_unique<SppmStage>(world, scene, settings);
 }
+
+} // namespace
+
+const RunPart sppm_stage{plan_sppm, make_sppm, "caustic"};
 
 } // namespace nephroid::spectral

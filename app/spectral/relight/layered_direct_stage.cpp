@@ -3,6 +3,7 @@
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
+#include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"
 
@@ -11,9 +12,6 @@
 
 namespace nephroid::spectral {
 namespace {
-
-/// A sample through glass adds up to four times to one cell.
-constexpr double paths_through_glass = 4;
 
 class LayeredDirectStage final : public Stage {
 public:
@@ -57,6 +55,7 @@ public:
                   {"first_row", static_cast<int>(first_row)},
                   {"row_count", static_cast<int>(rows)},
                   {"film_scale", world_.on_device(world_.tables.direct_scale)},
+                  // A sample through glass adds to one cell as often as it has paths.
                   {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
     });
   }
@@ -133,11 +132,24 @@ private:
   tracing::PixelSteps rows_;
 };
 
+PlanPart plan_layered_direct(const PlanInput& input)
+{
+  PlanPart part{.passes = direct_stage.plan(input).passes};
+  if (!part.passes[0].runs) return part;
+  const RunTables& tables = input.tables;
+  const std::size_t lights = tables.lights.size(), clusters = tables.wavelengths.clusters.size();
+  plan_layer_film("film direct", lights, unbent_cells(tables.camera), input, part);
+  plan_layer_film("film direct through glass", lights * clusters, bent_cells(tables.camera, tables.spheres), input, part);
+  return part;
+}
+
+std::unique_ptr<Stage> make_layered_direct(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+{
+  return std::make_unique<LayeredDirectStage>(world, relighting_of(world, scene), settings);
+}
+
 } // namespace
 
-std::unique_ptr<Stage> make_layered_direct_stage(DeviceWorld& world, const Relighting& relighting, const Settings& settings)
-{
-  return std::make_unique<LayeredDirectStage>(world, relighting, settings);
-}
+const RunPart layered_direct_stage{plan_layered_direct, make_layered_direct, "direct"};
 
 } // namespace nephroid::spectral

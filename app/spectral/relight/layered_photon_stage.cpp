@@ -5,6 +5,7 @@
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
+#include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"
 
@@ -188,11 +189,23 @@ private:
   tracing::PhotonSlices slices_;
 };
 
+PlanPart plan_layered_photons(const PlanInput& input)
+{
+  PlanPart part = photon_stage.plan(input);
+  part.buffers.clear();
+  if (input.caustics.runs)
+    plan_layer_film("film caustic", input.tables.lights.size() * input.tables.wavelengths.clusters.size(),
+                    unbent_cells(input.tables.camera), input, part);
+  return part;
+}
+
+std::unique_ptr<Stage> make_layered_photons(DeviceWorld& world, const scene::Scene& scene, const Settings&)
+{
+  return std::make_unique<LayeredPhotonStage>(world, relighting_of(world, scene));
+}
+
 } // namespace
 
-std::unique_ptr<Stage> make_layered_photon_stage(DeviceWorld& world, const Relighting& relighting)
-{
-  return std::make_unique<LayeredPhotonStage>(world, relighting);
-}
+const RunPart layered_photon_stage{plan_layered_photons, make_layered_photons, "caustic"};
 
 } // namespace nephroid::spectral
