@@ -111,52 +111,55 @@ public:
 
   void save(ByteSink& sink) override
   {
-    tracing::StateWriter to(sink);
-    to.value(checkpoint_version);
-    to.value(bake_seconds_);
-    to.value(render_seconds_);
-    const std::uint8_t complete = bake_ ? 1 : 0;
-    to.value(complete);
-    if (baker_) baker_->save(to);
+    tracing::State state(sink);
+    std::uint32_t version = checkpoint_version;
+    bool complete = bake_.has_value();
+    state.value(version);
+    state.value(bake_seconds_);
+    state.value(render_seconds_);
+    state.value(complete);
+    if (baker_) baker_->state(state);
     if (!renderer_) return;
-    to.value(caustics_->seconds() - caustics_seconds_before_);
-    to.value(static_cast<std::uint8_t>(own_->complete() || resumes_));
-    renderer_->save(to);
+    double caustics_seconds = caustics_->seconds() - caustics_seconds_before_;
+    bool had_own = own_->complete() || resumes_;
+    state.value(caustics_seconds);
+    state.value(had_own);
+    renderer_->state(state);
   }
 
   /// A bake that was complete is in its file, or is baked again. So are lights' own directions.
   void load(ByteSource& source) override
   {
-    tracing::StateReader from(source);
+    tracing::State state(source);
     std::uint32_t version = 0;
-    std::uint8_t complete = 0;
-    from.value(version);
+    state.value(version);
     if (version != checkpoint_version)
       throw bad_input("checkpoint", fmt::format("is of version {}", version),
                       fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
     double bake_seconds = 0, render_seconds = 0;
-    from.value(bake_seconds);
-    from.value(render_seconds);
-    from.value(complete);
-    if (complete != 0 && !bake_) return;
-    if (complete == 0) {
+    bool complete = false;
+    state.value(bake_seconds);
+    state.value(render_seconds);
+    state.value(complete);
+    if (complete && !bake_) return;
+    if (!complete) {
       bake_.reset();
       own_.reset();
       renderer_.reset();
       if (!baker_) baker_.emplace(*task_, context_);
-      baker_->load(from);
+      baker_->state(state);
     } else if (renderer_) {
-      std::uint8_t had_own = 0;
+      bool had_own = false;
       double caustics_seconds = 0;
-      from.value(caustics_seconds);
-      from.value(had_own);
-      renderer_->load(from);
+      state.value(caustics_seconds);
+      state.value(had_own);
+      renderer_->state(state);
       caustics_seconds_before_ = caustics_->seconds() - caustics_seconds;
-      resumes_ = had_own != 0 && !own_->complete();
+      resumes_ = had_own && !own_->complete();
     }
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
-    if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
+    if (source.left() > 0) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
   }
 
   /// While the object is baked, the change waits until it is rendered.

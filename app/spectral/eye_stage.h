@@ -38,15 +38,10 @@ public:
   }
   void share_work(double factor) override { pixels_.sample_one_pass_in(static_cast<double>(pixels_.every()) / factor); }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    pixels_.save(to);
-    to.buffer(film_);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    pixels_.load(from);
-    from.buffer(film_);
+    pixels_.state(state);
+    state.buffer(film_);
   }
 
 protected:

@@ -124,17 +124,11 @@ public:
     energy.caustics.refused_contributions += static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    slices_.save(to);
-    to.buffer(film_);
-    to.buffer(energy_);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    slices_.load(from);
-    from.buffer(film_);
-    from.buffer(energy_);
+    slices_.state(state);
+    state.buffer(film_);
+    state.buffer(energy_);
   }
 
 private:

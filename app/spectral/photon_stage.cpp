@@ -10,7 +10,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace nephroid::spectral {
 namespace {
@@ -76,28 +75,18 @@ public:
     tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    slices_.save(to);
-    to.value(by_variance_);
-    to.buffer(film_);
-    deal_.save(to);
-    guide_.save(to);
-    to.buffer(moments_);
-    to.buffer(guide_moments_);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    slices_.load(from);
-    bool by_variance = false;
-    from.value(by_variance);
-    from.buffer(film_);
-    deal_.load(from);
-    guide_.load(from);
-    from.buffer(moments_);
-    from.buffer(guide_moments_);
-    write_deal();
-    if (std::exchange(by_variance_, by_variance) != by_variance) make_kernel();
+    const bool was_by_variance = by_variance_;
+    slices_.state(state);
+    state.value(by_variance_);
+    state.buffer(film_);
+    deal_.state(state);
+    guide_.state(state);
+    state.buffer(moments_);
+    state.buffer(guide_moments_);
+    if (state.is_read()) write_deal();
+    if (by_variance_ != was_by_variance) make_kernel();
   }
 
 private:

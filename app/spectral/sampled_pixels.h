@@ -58,17 +58,13 @@ public:
     return both;
   }
 
-  void save(tracing::StateWriter& to) const
+  void state(tracing::State& state)
   {
-    steps_.save(to);
-    for (const std::int64_t value : {every_, in_hand_, passes_of_all_[0], passes_of_all_[1], passes_of_glass_[0], passes_of_glass_[1]})
-      to.value(value);
-  }
-  void load(tracing::StateReader& from)
-  {
-    steps_.load(from);
-    for (std::int64_t* value : {&every_, &in_hand_, &passes_of_all_[0], &passes_of_all_[1], &passes_of_glass_[0], &passes_of_glass_[1]})
-      from.value(*value);
+    steps_.state(state);
+    state.value(every_);
+    state.value(in_hand_);
+    state.value(passes_of_all_);
+    state.value(passes_of_glass_);
   }
 
 private:

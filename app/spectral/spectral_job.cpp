@@ -27,7 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 6;
+constexpr std::uint32_t checkpoint_version = 7;
 
 PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene)
 {
@@ -159,31 +159,22 @@ public:
 
   void save(ByteSink& sink) override
   {
-    tracing::StateWriter to(sink);
-    to.value(checkpoint_version);
-    to.value(at_);
-    to.buffer(world_.energy);
-    for (const TimedStage& s : stages_) {
-      to.value(s.seconds);
-      s.stage->save(to);
-    }
+    tracing::State state(sink);
+    std::uint32_t version = checkpoint_version;
+    state.value(version);
+    this->state(state);
   }
 
   void load(ByteSource& source) override
   {
-    tracing::StateReader from(source);
+    tracing::State state(source);
     std::uint32_t version = 0;
-    from.value(version);
+    state.value(version);
     if (version != checkpoint_version)
       throw bad_input("checkpoint", fmt::format("is of version {}", version),
                       fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
-    from.value(at_);
-    from.buffer(world_.energy);
-    for (TimedStage& s : stages_) {
-      from.value(s.seconds);
-      s.stage->load(from);
-    }
-    if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
+    this->state(state);
+    if (source.left() > 0) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
     world_.context.finish();
   }
 
@@ -237,6 +228,16 @@ private:
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (const double work = stages_[s].stage->glass_work(); work > 0 && of_photons > 0)
         stages_[s].stage->share_work(std::sqrt(noise_over_work(s, work, true) / of_photons));
+  }
+
+  void state(tracing::State& state)
+  {
+    state.value(at_);
+    state.buffer(world_.energy);
+    for (TimedStage& s : stages_) {
+      state.value(s.seconds);
+      s.stage->state(state);
+    }
   }
 
   /// A black picture without layers, with room for a draw of its error where films have halves.

@@ -10,7 +10,7 @@
 #include "spectral/energy.h"
 #include "spectral/plan_part.h"
 #include "spectral/tables/device_world.h"
-#include "tracing/state_bytes.h"
+#include "tracing/state.h"
 
 #include <cstdint>
 #include <memory>
@@ -31,12 +31,12 @@ public:
   virtual void warm_up()
   {
     ByteStore kept; // little: films are still all 0, and such pieces are left out
-    tracing::StateWriter before(kept);
-    save(before);
+    tracing::State before(kept);
+    state(before);
     step(0);
     StoredBytes bytes(kept.bytes(), name());
-    tracing::StateReader back(bytes);
-    load(back);
+    tracing::State back(bytes);
+    state(back);
   }
   /// How many passes it takes part in: what has had enough samples takes no more.
   virtual std::int64_t passes() const { return preset::max_passes; }
@@ -59,9 +59,8 @@ public:
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether theirs is the power in DeviceWorld::energy.
   virtual bool counts_energy() const { return false; }
-  /// Everything that it needs to go on with the same bits. load() gets what save() wrote.
-  virtual void save(tracing::StateWriter& to) const = 0;
-  virtual void load(tracing::StateReader& from) = 0;
+  /// Everything that it needs to go on with the same bits.
+  virtual void state(tracing::State& state) = 0;
 };
 
 } // namespace nephroid::spectral

@@ -146,33 +146,21 @@ void Baker::finish_direction()
   sent_ = 0;
 }
 
-void Baker::save(tracing::StateWriter& to) const
+void Baker::state(tracing::State& state)
 {
-  to.value(sent_);
-  to.value(std::uint64_t{bake_.baked.size()});
-  for (const BakedDirection& direction : bake_.baked) to.value(direction);
-  to.bytes(std::as_bytes(std::span(bake_.halves)));
-  to.bytes(std::as_bytes(std::span(bake_.ways)));
-  to.buffer(film_);
-  to.buffer(ways_);
-  to.buffer(energy_);
-}
-
-void Baker::load(tracing::StateReader& from)
-{
-  from.value(sent_);
-  std::uint64_t baked = 0;
-  from.value(baked);
-  if (baked > task_.directions.size() || sent_ >= task_.photons) throw bad_input("checkpoint", "is of another run");
+  std::uint64_t baked = bake_.baked.size();
+  state.value(sent_);
+  state.value(baked);
+  if (state.is_read() && (baked > task_.directions.size() || sent_ >= task_.photons)) throw bad_input("checkpoint", "is of another run");
   bake_.baked.resize(baked);
-  for (BakedDirection& direction : bake_.baked) from.value(direction);
   bake_.halves.resize(baked * bake_.direction_items());
-  from.bytes(std::as_writable_bytes(std::span(bake_.halves)));
   bake_.ways.resize(baked * bake_.direction_texels());
-  from.bytes(std::as_writable_bytes(std::span(bake_.ways)));
-  from.buffer(film_);
-  from.buffer(ways_);
-  from.buffer(energy_);
+  state.items(std::span(bake_.baked));
+  state.items(std::span(bake_.halves));
+  state.items(std::span(bake_.ways));
+  state.buffer(film_);
+  state.buffer(ways_);
+  state.buffer(energy_);
 }
 
 } // namespace nephroid::environment

@@ -69,28 +69,14 @@ void VarianceDeal::give_out(std::int64_t pass, const std::vector<unsigned>& coun
   first_pass_ = pass;
 }
 
-void VarianceDeal::save(tracing::StateWriter& to) const
+void VarianceDeal::state(tracing::State& state)
 {
-  to.value(first_pass_);
-  to.value(first_variance_);
-  to.value(last_variance_);
-  for (std::size_t e = 0; e < emitters_.size(); ++e) {
-    to.value(emitters_[e]);
-    to.value(squares_[e]);
-    to.value(photons_[e]);
-  }
-}
-
-void VarianceDeal::load(tracing::StateReader& from)
-{
-  from.value(first_pass_);
-  from.value(first_variance_);
-  from.value(last_variance_);
-  for (std::size_t e = 0; e < emitters_.size(); ++e) {
-    from.value(emitters_[e]);
-    from.value(squares_[e]);
-    from.value(photons_[e]);
-  }
+  state.value(first_pass_);
+  state.value(first_variance_);
+  state.value(last_variance_);
+  state.items(std::span(emitters_));
+  state.items(std::span(squares_));
+  state.items(std::span(photons_));
 }
 
 } // namespace nephroid::spectral

@@ -67,22 +67,14 @@ public:
     tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    eye_.save(to);
-    to.value(paths_);
-    to.value(before_);
-    to.buffer(film_);
-    to.buffer(map_.stored());
-  }
-  void load(tracing::StateReader& from) override
-  {
-    eye_.load(from);
-    from.value(paths_);
-    from.value(before_);
-    from.buffer(film_);
-    from.buffer(map_.stored());
-    sorted_pass_ = -1;
+    eye_.state(state);
+    state.value(paths_);
+    state.value(before_);
+    state.buffer(film_);
+    state.buffer(map_.stored());
+    if (state.is_read()) sorted_pass_ = -1;
   }
 
 private:

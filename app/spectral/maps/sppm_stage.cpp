@@ -93,28 +93,17 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override;
   void report(std::int64_t passes, bool done, Energy& energy) override;
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    to.value(at_);
-    slices_.save(to);
-    eye_.save(to);
-    to.buffer(map_.stored());
-    for (const ClusterRun& run : runs_) {
-      to.buffer(run.statistics);
-      to.buffer(run.energy);
-    }
-  }
-  void load(tracing::StateReader& from) override
-  {
-    from.value(at_);
-    slices_.load(from);
-    eye_.load(from);
-    from.buffer(map_.stored());
+    state.value(at_);
+    slices_.state(state);
+    eye_.state(state);
+    state.buffer(map_.stored());
     for (ClusterRun& run : runs_) {
-      from.buffer(run.statistics);
-      from.buffer(run.energy);
+      state.buffer(run.statistics);
+      state.buffer(run.energy);
     }
-    sorted_ = false;
+    if (state.is_read()) sorted_ = false;
   }
 
 private:

@@ -101,17 +101,11 @@ public:
     return true;
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    rows_.save(to);
-    unbent_.save(to);
-    bent_.save(to);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    rows_.load(from);
-    unbent_.load(from);
-    bent_.load(from);
+    rows_.state(state);
+    unbent_.state(state);
+    bent_.state(state);
   }
 
 private:

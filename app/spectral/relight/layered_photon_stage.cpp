@@ -90,29 +90,17 @@ public:
     return true;
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    to.value(at_);
-    to.value(dealt_ == relighting_.changes);
-    slices_.save(to);
-    for (std::size_t e = 0; e < emitters_.size(); ++e) {
-      to.value(sent_[e]);
-      to.value(emitters_[e]);
-    }
-    film_.save(to);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    from.value(at_);
-    bool dealt = true;
-    from.value(dealt);
+    bool dealt = dealt_ == relighting_.changes;
+    state.value(at_);
+    state.value(dealt);
+    slices_.state(state);
+    state.items(std::span(sent_));
+    state.items(std::span(emitters_));
+    film_.state(state);
+    if (!state.is_read()) return;
     dealt_ = relighting_.changes - (dealt ? 0 : 1);
-    slices_.load(from);
-    for (std::size_t e = 0; e < emitters_.size(); ++e) {
-      from.value(sent_[e]);
-      from.value(emitters_[e]);
-    }
-    film_.load(from);
     world_.emitters.write(emitters_);
   }
 
