@@ -84,14 +84,13 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
 {
   const auto bytes_of = [](const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); };
   const scene::Scene& s = *render.scene;
-  const auto pixels = static_cast<std::uint64_t>(s.camera.width) * static_cast<std::uint64_t>(s.camera.height);
   const std::uint64_t sky = s.environment ? bytes_of(s.environment->rgb) : 0;
   return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), own_directions(settings), bake.own_radii, settings.technique)},
           {"whole scene", tracing::tree_bytes(*render.bvh) + bytes_of(s.geometry.triangles) + bytes_of(s.geometry.positions) +
                               bytes_of(s.geometry.normals)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
           {"receivers", Renderer::receiver_bytes()},
-          {"paths of the view", Renderer::bytes_a_pixel(render) * pixels},
+          {"paths of the view", Renderer::bytes_a_pixel(render) * s.camera.pixels()},
           {"medium", render.has_medium ? Renderer::medium_bytes(bake.empty_bake()) : 0},
           {"environment (host)", 2 * sky + bytes_of(render.cube.flux), true}};
 }

@@ -116,8 +116,8 @@ plan::Pass background_pass(const PlanInput& input)
   const char* const name = "background";
   const auto& environment = input.scene.environment;
   if (!input.settings.background) return not_asked_for(name, name);
-  if (!environment) return {name, false, "there is no environment: what meets nothing is black", "", false};
-  if (environment->is_black()) return {name, false, "the environment is black", "", false};
+  if (!environment) return {name, false, "there is no environment: what meets nothing is black"};
+  if (environment->is_black()) return {name, false, "the environment is black"};
   return {name, true,
           fmt::format("{}, seen directly, through glass and in mirrors; {}", size_of(*environment), samples_a_pixel(input, true)),
           "/spectral/background", true};
@@ -125,19 +125,12 @@ plan::Pass background_pass(const PlanInput& input)
 
 PlanPart plan_background(const PlanInput& input)
 {
-  PlanPart part{.passes = {background_pass(input)}};
-  if (part.passes[0].runs)
-    part.buffers = {{"environment", input.scene.environment->rgb.size() * sizeof(float)}, {"film background", input.film_bytes()}};
-  return part;
-}
-
-std::unique_ptr<Stage> make_background(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-{
-  return std::make_unique<BackgroundStage>(world, scene, settings);
+  const std::uint64_t texels = input.scene.environment ? input.scene.environment->rgb.size() : 0;
+  return part_of(background_pass(input), {{"environment", texels * sizeof(float)}, {"film background", input.film_bytes()}});
 }
 
 } // namespace
 
-const RunPart background_stage{plan_background, make_background, "background"};
+const RunPart background_stage{plan_background, make_stage<BackgroundStage>, "background"};
 
 } // namespace nephroid::spectral

@@ -35,9 +35,9 @@ plan::Pass differentials_pass(const PlanInput& input)
   const char* const name = "differentials";
   if (input.settings.relight) return not_in_layers(name, "a layer is a whole cluster's");
   if (!input.settings.differentials) return not_asked_for(name, name);
-  if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted", "", false};
+  if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
-  if (along == tracing::StretchParameter::none) return {name, false, "no glass bends one wavelength otherwise than another", "", false};
+  if (along == tracing::StretchParameter::none) return {name, false, "no glass bends one wavelength otherwise than another"};
   return {name, true,
           fmt::format("splats are stretched along the way that they move with the {}",
                       along == tracing::StretchParameter::index ? "index of refraction" : "wavelength, for there are several curves"),
@@ -66,12 +66,12 @@ plan::Pass caustics_pass(const PlanInput& input)
   const char* const name = "photons";
   if (!input.settings.caustic) return not_asked_for(name, "caustic");
   // No field brings these back: there is nothing to send.
-  if (const std::string dark = no_light(input); !dark.empty()) return {name, false, dark, "", false};
+  if (const std::string dark = no_light(input); !dark.empty()) return {name, false, dark};
   const std::string missing = input.objects.dielectrics + input.objects.mirrors == 0 ? "no object is of glass or a mirror"
                               : input.objects.diffuse == 0                           ? "no diffuse surface can receive a caustic"
                                                                                      : "";
   if (!missing.empty()) return tracing::omission(name, input.leave_out.photons, false, missing);
-  if (input.tables.emitters.empty()) return {name, false, "no light shines on glass or a mirror", "", false};
+  if (input.tables.emitters.empty()) return {name, false, "no light shines on glass or a mirror"};
   return tracing::omission(name, input.leave_out.photons, true,
                            fmt::format("{} photons a pass in {}", input.tables.photons_per_pass,
                                        counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));
@@ -84,7 +84,7 @@ plan::Pass jitter_pass(const PlanInput& input)
     return {name, false, "spectral.jitter is false: every path of a cluster has the cluster's mean n", field, true};
   if (input.settings.relight)
     return {name, false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
-  if (!input.tables.wavelengths.clusters_spread) return {name, false, "n is the same at all wavelengths of every cluster", "", false};
+  if (!input.tables.wavelengths.clusters_spread) return {name, false, "n is the same at all wavelengths of every cluster"};
   return {name, true, "each path takes one wavelength of its cluster, so clusters leave no bias", field, true};
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 class DirectStage final : public EyeStage {
 public:
-  DirectStage(DeviceWorld& world, const Settings& settings)
+  DirectStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
       : EyeStage(world, "direct", settings), kernel_(compute::Program(world.context, "spectral/direct.cl", world.defines).kernel("direct"))
   {
   }
@@ -38,20 +38,10 @@ plan::Pass direct_pass(const PlanInput& input)
                                        counted(shining_lights(input), "light"), samples_a_pixel(input, !input.settings.relight)));
 }
 
-PlanPart plan_direct(const PlanInput& input)
-{
-  PlanPart part{.passes = {direct_pass(input)}};
-  if (part.passes[0].runs) part.buffers = {{"film direct", input.film_bytes()}};
-  return part;
-}
-
-std::unique_ptr<Stage> make_direct(DeviceWorld& world, const scene::Scene&, const Settings& settings)
-{
-  return std::make_unique<DirectStage>(world, settings);
-}
+PlanPart plan_direct(const PlanInput& input) { return part_of(direct_pass(input), {{"film direct", input.film_bytes()}}); }
 
 } // namespace
 
-const RunPart direct_stage{plan_direct, make_direct, "direct"};
+const RunPart direct_stage{plan_direct, make_stage<DirectStage>, "direct"};
 
 } // namespace nephroid::spectral

@@ -48,13 +48,13 @@ struct IndirectTables {
 IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons)
 {
   IndirectTables result;
-  const scene::Sphere all = tracing::everything(scene);
-  result.everything.centre_radius = {all.centre.x, all.centre.y, all.centre.z, all.radius};
-  result.outside_distance = 2.5f * all.radius;
+  const scene::Sphere target = tracing::everything(scene);
+  result.everything.centre_radius = {target.centre.x, target.centre.y, target.centre.z, target.radius};
+  result.outside_distance = 2.5f * target.radius;
   std::vector<PhotonSource> sources;
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
-    const double watts = tracing::towards_targets_w(light, {all}, scene.metres_per_unit);
+    const double watts = tracing::towards_targets_w(light, {target}, scene.metres_per_unit);
     const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
     sources.push_back({watts * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
     result.emitted_w += watts;
@@ -148,27 +148,17 @@ plan::Pass indirect_pass(const PlanInput& input)
   if (input.settings.relight) return not_in_layers(name, "its light met several reflectors");
   if (!input.settings.indirect) return not_asked_for(name, name);
   const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
-  if (!missing.empty()) return {name, false, missing, "", false};
+  if (!missing.empty()) return {name, false, missing};
   std::string reason = counted(input.settings.indirect_photons_per_pass, "photon a pass", "photons a pass");
   if (input.objects.dielectrics + input.objects.mirrors > 0)
     reason += ", shown where the camera sees a surface directly; through glass and in mirrors it is left out";
   return {name, true, reason, "/spectral/indirect", true};
 }
 
-PlanPart plan_indirect(const PlanInput& input)
-{
-  PlanPart part{.passes = {indirect_pass(input)}};
-  if (part.passes[0].runs) part.buffers = {{"film indirect", input.film_bytes()}};
-  return part;
-}
-
-std::unique_ptr<Stage> make_indirect(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-{
-  return std::make_unique<IndirectStage>(world, scene, settings);
-}
+PlanPart plan_indirect(const PlanInput& input) { return part_of(indirect_pass(input), {{"film indirect", input.film_bytes()}}); }
 
 } // namespace
 
-const RunPart indirect_stage{plan_indirect, make_indirect, "indirect"};
+const RunPart indirect_stage{plan_indirect, make_stage<IndirectStage>, "indirect"};
 
 } // namespace nephroid::spectral

@@ -20,7 +20,7 @@ constexpr double least_gain = 1.5;
 
 class PhotonStage final : public Stage {
 public:
-  PhotonStage(DeviceWorld& world, const Settings& settings)
+  PhotonStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
       : world_(world), insists_(settings.effort == Settings::Effort::variance),
         by_variance_(insists_ || settings.effort == Settings::Effort::automatic), deal_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
@@ -146,7 +146,7 @@ private:
 PlanPart plan_photons(const PlanInput& input)
 {
   if (!input.caustics.runs) return {.passes = {input.caustics}};
-  if (input.is_sppm()) return {.passes = {{"photons", false, "spectral.estimator is sppm: nothing is splatted", "", false}}};
+  if (input.is_sppm()) return {.passes = {{"photons", false, "spectral.estimator is sppm: nothing is splatted"}}};
   PlanPart part{.passes = {input.caustics}, .buffers = {{"film caustic", input.film_bytes()}}};
   using Effort = Settings::Effort;
   if (const Effort effort = input.settings.effort; effort == Effort::variance || effort == Effort::automatic)
@@ -158,13 +158,8 @@ PlanPart plan_photons(const PlanInput& input)
   return part;
 }
 
-std::unique_ptr<Stage> make_photons(DeviceWorld& world, const scene::Scene&, const Settings& settings)
-{
-  return std::make_unique<PhotonStage>(world, settings);
-}
-
 } // namespace
 
-const RunPart photon_stage{plan_photons, make_photons, "caustic"};
+const RunPart photon_stage{plan_photons, make_stage<PhotonStage>, "caustic"};
 
 } // namespace nephroid::spectral

@@ -61,7 +61,7 @@ plan::Pass environment_light_pass(const PlanInput& input)
 {
   const std::string name = "environment light", field = "/scene/environment/lights";
   const scene::Environment& environment = *input.scene.environment;
-  if (environment.is_black()) return {name, false, "the environment is black", "", false};
+  if (environment.is_black()) return {name, false, "the environment is black"};
   if (input.settings.relight) return not_in_layers(name, "every texel has a spectrum of its own");
   if (!environment.lights) return {name, false, "scene.environment.lights is false: it is only seen", field, true};
   return {name, true, size_of(environment) + ": sends photons and lights diffuse surfaces, each texel by its flux", field, true};
@@ -80,10 +80,10 @@ plan::Pass estimate_pass(const preset::Preset& preset, const plan::Pass& caustic
 {
   const char* const name = "error estimate";
   if (preset.measure.estimate && caustics.runs && spectral::settings(preset).estimator == Settings::Estimator::sppm)
-    return {name, false, "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves", "", false};
+    return {name, false, "spectral.estimator is sppm, whose radii hang on all photons: there are no two independent halves"};
   // Nothing else can stop the run, so nobody may switch it off.
   if (preset.measure.estimate && preset.stop.error && !preset.reference)
-    return {name, true, "every film is kept in two independent halves: stop.error needs them, there is no reference", "", false};
+    return {name, true, "every film is kept in two independent halves: stop.error needs them, there is no reference"};
   return {name, preset.measure.estimate,
           preset.measure.estimate ? "every film is kept in two independent halves" : "measure.estimate is false", "/measure/estimate",
           true};
@@ -133,7 +133,7 @@ plan::Pass not_asked_for(const std::string& name, const std::string& field)
 
 plan::Pass not_in_layers(const std::string& name, const std::string& why)
 {
-  return {name, false, "spectral.relight is true, and layers cannot hold it: " + why, "", false};
+  return {name, false, "spectral.relight is true, and layers cannot hold it: " + why};
 }
 
 std::ptrdiff_t shining_lights(const PlanInput& input)

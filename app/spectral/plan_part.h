@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nephroid::spectral {
@@ -36,7 +37,7 @@ struct PlanInput {
 
   bool is_sppm() const { return settings.estimator == Settings::Estimator::sppm; }
   std::uint64_t halves() const { return estimate.runs ? 2 : 1; }
-  std::uint64_t pixels() const { return static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height); }
+  std::uint64_t pixels() const { return scene.camera.pixels(); }
   /// Of a film of XYZ.
   std::uint64_t film_bytes() const { return halves() * 3 * sizeof(std::int64_t) * pixels(); }
 };
@@ -48,6 +49,14 @@ struct PlanPart {
   std::map<std::string, std::string> defines = {};
   std::vector<std::string> notes = {};
 };
+
+/// Of a stage: its pass, and its buffers where that runs.
+inline PlanPart part_of(plan::Pass pass, std::vector<plan::PlannedBuffer> buffers)
+{
+  PlanPart part{.passes = {std::move(pass)}};
+  if (part.passes[0].runs) part.buffers = std::move(buffers);
+  return part;
+}
 
 struct RunPart {
   /// The first pass says whether this part runs; without passes it does not.

@@ -39,7 +39,7 @@ public:
   {
     in_hand_ = pass;
     if (size(pass) == 0 || (!has_all(pass) && pass % every_ != 0)) return true;
-    const std::uint32_t begin = has_all(pass) ? 0 : lists_.all;
+    const std::uint32_t begin = has_all(pass) ? 0 : lists_.count;
     const bool complete = steps_.step(size(pass), most, [&](std::uint32_t first, std::uint32_t count) { work(begin + first, count); });
     if (complete) ++(has_all(pass) ? passes_of_all_ : passes_of_glass_)[half()];
     return complete;
@@ -50,12 +50,12 @@ public:
   {
     // Without a pass of all pixels the film is black but for glass, in any number of passes.
     const bool glass = enough_ == 0 || lists_.may_show_glass[pixel];
-    std::array<double, 2> both{};
+    std::array<double, 2> counts{};
     for (std::size_t half = 0; half < 2; ++half)
-      both[half] = static_cast<double>(passes_of_all_[half] + (glass ? passes_of_glass_[half] : 0));
+      counts[half] = static_cast<double>(passes_of_all_[half] + (glass ? passes_of_glass_[half] : 0));
     const auto at = static_cast<std::size_t>(steps_.done());
-    if (at > 0 && pixel < (has_all(in_hand_) ? at : glass ? lists_.glass[at] : 0)) ++both[half()];
-    return both;
+    if (at > 0 && pixel < (has_all(in_hand_) ? at : glass ? lists_.glass[at] : 0)) ++counts[half()];
+    return counts;
   }
 
   void state(tracing::State& state)
@@ -69,7 +69,7 @@ public:
 
 private:
   bool has_all(std::int64_t pass) const { return pass < enough_; }
-  std::int64_t size(std::int64_t pass) const { return has_all(pass) ? static_cast<std::int64_t>(lists_.all) : glass(); }
+  std::int64_t size(std::int64_t pass) const { return has_all(pass) ? static_cast<std::int64_t>(lists_.count) : glass(); }
   std::size_t half() const { return static_cast<std::size_t>(in_hand_ % 2); }
 
   const PixelLists& lists_;

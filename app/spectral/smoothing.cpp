@@ -39,15 +39,15 @@ struct Offset {
 /// The pixels within reach, nearest first.
 const std::vector<Offset>& offsets()
 {
-  static const std::vector<Offset> all = [] {
-    std::vector<Offset> made;
+  static const std::vector<Offset> sorted = [] {
+    std::vector<Offset> offsets;
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x)
-        if (x * x + y * y <= reach * reach) made.push_back({x, y});
-    std::stable_sort(made.begin(), made.end(), [](const Offset& a, const Offset& b) { return a.distance2() < b.distance2(); });
-    return made;
+        if (x * x + y * y <= reach * reach) offsets.push_back({x, y});
+    std::stable_sort(offsets.begin(), offsets.end(), [](const Offset& a, const Offset& b) { return a.distance2() < b.distance2(); });
+    return offsets;
   }();
-  return all;
+  return sorted;
 }
 
 /// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in the dark.
@@ -217,8 +217,7 @@ void Smoothing::find_edges()
 std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
-  const std::uint64_t pixels = static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
-  return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) + (sizeof(Sight) + sizeof(Seen) + pulled_apart) * pixels;
+  return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) + (sizeof(Sight) + sizeof(Seen) + pulled_apart) * scene.camera.pixels();
 }
 
 bool Smoothing::are_level(const Seen& a, const Seen& b)
@@ -266,10 +265,10 @@ void Smoothing::give_parts(const Weights& by, const Needed& needed, const Give& 
       if (!needed(i)) continue;
       find_kernel(i, by.wanted[i], by.light, kernel);
       const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * by.favour[kernel.pixels[k]]; };
-      double all = 0;
-      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) all += weight(k);
+      double sum = 0;
+      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) sum += weight(k);
       for (std::size_t k = 0; k < kernel.pixels.size(); ++k)
-        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / all);
+        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / sum);
     }
   });
 }
@@ -296,13 +295,13 @@ void Smoothing::spread_shares(const Weights& by, std::span<const float> share, s
 std::vector<float> Smoothing::shares(const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
                                      const std::vector<float>& rgb_spread) const
 {
-  const std::vector<float> all(seen_.size(), 1);
+  const std::vector<float> whole(seen_.size(), 1);
   std::vector<float> a(rgb.size()), b(rgb.size()), none;
   std::transform(rgb.begin(), rgb.end(), error_draw.begin(), a.begin(), std::plus());
   std::transform(rgb.begin(), rgb.end(), error_draw.begin(), b.begin(), std::minus());
   for (std::vector<float>* half : {&a, &b}) {
     const std::vector<double> light = light_of(*half);
-    spread_shares({light, by.wanted, by.favour}, all, *half, none);
+    spread_shares({light, by.wanted, by.favour}, whole, *half, none);
   }
   return worthwhile_shares(rgb, error_draw, rgb_spread, a, b, by.light, width_, height_);
 }
@@ -323,9 +322,9 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw)
       by, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
   std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
 
-  const std::vector<float> all(seen_.size(), 1);
+  const std::vector<float> whole(seen_.size(), 1);
   std::vector<float> rgb_spread = rgb, draw_spread = error_draw;
-  spread_shares(by, all, rgb_spread, draw_spread);
+  spread_shares(by, whole, rgb_spread, draw_spread);
   if (!everywhere_) {
     const std::vector<float> share = shares(by, rgb, error_draw, rgb_spread);
     rgb_spread = rgb, draw_spread = error_draw;
@@ -343,16 +342,15 @@ plan::Pass smoothing_pass(const PlanInput& input)
   const char* const name = "smoothing";
   using Choice = Settings::Smoothing;
   const Choice choice = input.settings.smoothing;
-  if (choice == Choice::off) return {name, false, "spectral.smoothing is off", "", false};
-  if (!input.caustics.runs) return {name, false, "there are no caustics", "", false};
-  if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own", "", false};
+  if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
+  if (!input.caustics.runs) return {name, false, "there are no caustics"};
+  if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
   if (!input.estimate.runs)
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
-  if (input.preset.stop.passes == 1) return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is", "", false};
+  if (input.preset.stop.passes == 1) return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
   return {name, true,
           fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in how far it goes",
-                      Smoothing::noise, choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps"),
-          "", false};
+                      Smoothing::noise, choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
 }
 
 PlanPart plan_smoothing(const PlanInput& input)

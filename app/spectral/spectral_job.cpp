@@ -32,14 +32,14 @@ constexpr std::uint32_t checkpoint_version = 7;
 PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene)
 {
   PixelLists lists;
-  lists.all = static_cast<std::uint32_t>(scene.camera.width) * static_cast<std::uint32_t>(scene.camera.height);
+  lists.count = static_cast<std::uint32_t>(scene.camera.pixels());
   lists.glass = glass_pixels(scene);
-  lists.may_show_glass.assign(lists.all, false);
+  lists.may_show_glass.assign(lists.count, false);
   for (const std::uint32_t pixel : lists.glass) lists.may_show_glass[pixel] = true;
-  std::vector<std::uint32_t> both(lists.all);
-  std::iota(both.begin(), both.end(), 0);
-  both.insert(both.end(), lists.glass.begin(), lists.glass.end());
-  lists.on_device = tracing::upload_vector(context, "pixels", both);
+  std::vector<std::uint32_t> pixels(lists.count);
+  std::iota(pixels.begin(), pixels.end(), 0);
+  pixels.insert(pixels.end(), lists.glass.begin(), lists.glass.end());
+  lists.on_device = tracing::upload_vector(context, "pixels", pixels);
   return lists;
 }
 

@@ -63,4 +63,11 @@ public:
   virtual void state(tracing::State& state) = 0;
 };
 
+/// RunPart::make.
+template <class Kind>
+std::unique_ptr<Stage> make_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+{
+  return std::make_unique<Kind>(world, scene, settings);
+}
+
 } // namespace nephroid::spectral

@@ -118,11 +118,11 @@ TEST(LayerWeights, AddUpToTheColourOfTheReflectorUnderTheLight)
   const optics::Colour white = optics::xyz_to_linear_srgb(optics::to_xyz(light.spectra[0]));
   ASSERT_EQ(weights.clusters.size(), 6u);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_NEAR(weights.all[0][k], 1.5 * white[k], 1e-9);
-    EXPECT_NEAR(weights.all[1][k], 0.25 * 1.5 * white[k], 1e-9);
+    EXPECT_NEAR(weights.whole[0][k], 1.5 * white[k], 1e-9);
+    EXPECT_NEAR(weights.whole[1][k], 0.25 * 1.5 * white[k], 1e-9);
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) sum += weights.clusters[2 * c][k];
-    EXPECT_NEAR(sum, weights.all[0][k], 1e-9);
+    EXPECT_NEAR(sum, weights.whole[0][k], 1e-9);
   }
 }
 

@@ -23,13 +23,13 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
   if (!scene.camera.inside.empty()) return 1;
   const int width = scene.camera.width, height = scene.camera.height,
             step = std::max(1, static_cast<int>(std::sqrt(width * 1.0 * height) / 64));
-  int bent = 0, all = 0;
+  int bent = 0, looks = 0;
   for (int row = step / 2; row < height; row += step)
-    for (int column = step / 2; column < width; column += step, ++all) {
+    for (int column = step / 2; column < width; column += step, ++looks) {
       const int object = look_through_pixel(scene, bvh, column, row).first.object;
       bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type != scene::Material::Type::diffuse;
     }
-  return static_cast<double>(bent) / all;
+  return static_cast<double>(bent) / looks;
 }
 
 } // namespace
@@ -38,7 +38,7 @@ unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsi
 {
   constexpr double most = 64, of_photons = 1.0 / 3; // a path takes about twice as long as a photon
   if (!tracing::may_see_glass_or_mirror(scene)) return 1;
-  const double pixels = static_cast<double>(scene.camera.width) * scene.camera.height * bent_share(scene, bvh);
+  const double pixels = static_cast<double>(scene.camera.pixels()) * bent_share(scene, bvh);
   return static_cast<unsigned>(std::clamp(of_photons * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
 }
 

@@ -49,7 +49,7 @@ public:
                    {"film", film_},
                    {"energy", world_.energy},
                    {"pixels", world_.pixels.on_device},
-                   {"picture", world_.pixels.all},
+                   {"picture", world_.pixels.count},
                    {"pass", number},
                    {"first", first},
                    {"count", count},
@@ -94,13 +94,12 @@ plan::Pass map_pass(const PlanInput& input)
   const char* const name = "photon maps";
   if (input.settings.relight)
     return {name, false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight", false};
-  if (!input.caustics.runs) return {name, false, "there are no caustics to gather", "", false};
+  if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
   const bool sees = tracing::may_see_glass_or_mirror(input.scene);
   if (input.settings.estimator == Settings::Estimator::splat)
     return {name, false,
             fmt::format("spectral.estimator is splat: {}",
-                        sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror"),
-            "", false};
+                        sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror")};
   return tracing::omission(
       name, input.leave_out.photon_maps, sees,
       sees ? fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
@@ -120,13 +119,8 @@ PlanPart plan_maps(const PlanInput& input)
   return part;
 }
 
-std::unique_ptr<Stage> make_maps(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-{
-  return std::make_unique<MapStage>(world, scene, settings);
-}
-
 } // namespace
 
-const RunPart map_stage{plan_maps, make_maps, "caustic"};
+const RunPart map_stage{plan_maps, make_stage<MapStage>, "caustic"};
 
 } // namespace nephroid::spectral

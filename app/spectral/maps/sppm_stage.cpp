@@ -317,12 +317,11 @@ void SppmStage::report(std::int64_t passes, bool done, Energy& energy)
 plan::Pass sppm_pass(const PlanInput& input)
 {
   const char* const name = "photon maps";
-  if (!input.caustics.runs) return {name, false, "there are no caustics to gather", "", false};
+  if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
   return {name, true,
           fmt::format("spectral.estimator is sppm: every caustic is gathered, {}, {}", map_radius(input.settings, input.scene),
                       input.settings.effort == Settings::Effort::random ? "one cluster a pass in shared statistics"
-                                                                        : "with statistics of each pixel in each cluster"),
-          "", false};
+                                                                        : "with statistics of each pixel in each cluster")};
 }
 
 PlanPart plan_sppm(const PlanInput& input)
@@ -337,13 +336,8 @@ PlanPart plan_sppm(const PlanInput& input)
   return part;
 }
 
-std::unique_ptr<Stage> make_sppm(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-{
-  return std::make_unique<SppmStage>(world, scene, settings);
-}
-
 } // namespace
 
-const RunPart sppm_stage{plan_sppm, make_sppm, "caustic"};
+const RunPart sppm_stage{plan_sppm, make_stage<SppmStage>, "caustic"};
 
 } // namespace nephroid::spectral

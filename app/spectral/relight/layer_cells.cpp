@@ -18,11 +18,11 @@ void add_samples(const Survey& survey, int x, int y, int weight, std::vector<See
   const auto samples = static_cast<std::size_t>(survey.samples);
   for (const int reflector : survey.seen.subspan(pixel * samples, samples)) {
     if (reflector < 0) continue;
-    const auto found = std::find_if(list.begin(), list.end(), [&](const Seen& s) { return s.reflector == reflector; });
-    if (found == list.end())
+    const auto seen = std::find_if(list.begin(), list.end(), [&](const Seen& s) { return s.reflector == reflector; });
+    if (seen == list.end())
       list.push_back({reflector, weight});
     else
-      found->count += weight;
+      seen->count += weight;
   }
 }
 

@@ -15,10 +15,10 @@ namespace {
 
 class LayeredDirectStage final : public Stage {
 public:
-  LayeredDirectStage(DeviceWorld& world, const Relighting& relighting, const Settings& settings)
-      : world_(world), relighting_(relighting), pixel_samples_(settings.pixel_samples),
-        unbent_(world.context, "film direct", relighting.unbent, world.tables.lights.size(), world.halves, world.defines),
-        bent_(world.context, "film direct through glass", relighting.bent,
+  LayeredDirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+      : world_(world), relighting_(relighting_of(world, scene)), pixel_samples_(settings.pixel_samples),
+        unbent_(world.context, "film direct", relighting_.unbent, world.tables.lights.size(), world.halves, world.defines),
+        bent_(world.context, "film direct through glass", relighting_.bent,
               world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),
         cluster_cdf_(world.context, "cluster choice", std::span<const float>(world.tables.wavelengths.cluster_cdf)),
         kernel_(compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("direct")),
@@ -64,7 +64,8 @@ public:
   {
     const int reflectors = world_.tables.wavelengths.reflector_count;
     const double quanta = world_.tables.direct_scale;
-    const std::array<std::vector<float>, 2> straight = unbent_.weigh(half_sums(relighting_.weights.all, reflectors, world_.halves, quanta)),
+    const std::array<std::vector<float>, 2> straight =
+                                                unbent_.weigh(half_sums(relighting_.weights.whole, reflectors, world_.halves, quanta)),
                                             through =
                                                 bent_.weigh(half_sums(relighting_.weights.clusters, reflectors, world_.halves, quanta));
     std::vector<float>& rgb = tracing::layer_of(picture, "direct").rgb;
@@ -137,13 +138,8 @@ PlanPart plan_layered_direct(const PlanInput& input)
   return part;
 }
 
-std::unique_ptr<Stage> make_layered_direct(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-{
-  return std::make_unique<LayeredDirectStage>(world, relighting_of(world, scene), settings);
-}
-
 } // namespace
 
-const RunPart layered_direct_stage{plan_layered_direct, make_layered_direct, "direct"};
+const RunPart layered_direct_stage{plan_layered_direct, make_stage<LayeredDirectStage>, "direct"};
 
 } // namespace nephroid::spectral

@@ -16,9 +16,9 @@ namespace {
 
 class LayeredPhotonStage final : public Stage {
 public:
-  LayeredPhotonStage(DeviceWorld& world, const Relighting& relighting)
-      : world_(world), relighting_(relighting), emitters_(world.tables.emitters), sent_(emitters_.size()),
-        film_(world.context, "film caustic", relighting.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
+  LayeredPhotonStage(DeviceWorld& world, const scene::Scene& scene, const Settings&)
+      : world_(world), relighting_(relighting_of(world, scene)), emitters_(world.tables.emitters), sent_(emitters_.size()),
+        film_(world.context, "film caustic", relighting_.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
         // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
         scale_(world.tables.caustic_scale / world.tables.photons_per_pass)
   {
@@ -187,13 +187,8 @@ PlanPart plan_layered_photons(const PlanInput& input)
   return part;
 }
 
-std::unique_ptr<Stage> make_layered_photons(DeviceWorld& world, const scene::Scene& scene, const Settings&)
-{
-  return std::make_unique<LayeredPhotonStage>(world, relighting_of(world, scene));
-}
-
 } // namespace
 
-const RunPart layered_photon_stage{plan_layered_photons, make_layered_photons, "caustic"};
+const RunPart layered_photon_stage{plan_layered_photons, make_stage<LayeredPhotonStage>, "caustic"};
 
 } // namespace nephroid::spectral

@@ -16,7 +16,7 @@ namespace nephroid::spectral {
 struct PixelLists {
   std::vector<std::uint32_t> glass;         ///< glass_pixels.h
   std::vector<bool> may_show_glass;         ///< [pixel]
-  std::uint32_t all = 0;                    ///< pixels of the picture
+  std::uint32_t count = 0;                  ///< pixels of the picture
   compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass
 };
 
