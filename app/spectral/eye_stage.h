@@ -66,8 +66,7 @@ protected:
   /// Stage::develop. quanta_per_unit: of the film, of what becomes 1 in the picture.
   void add_to(job::Picture& picture, double quanta_per_unit) const
   {
-    const std::vector<std::int64_t> sums = film_.read();
-    tracing::add_layer(layer_, {sums, quanta_per_unit, [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
+    tracing::add_layer(layer_, {film_.read(), quanta_per_unit, [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
   }
 
   DeviceWorld& world_;

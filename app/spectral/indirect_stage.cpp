@@ -111,17 +111,15 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
-    const std::vector<std::int64_t> sums = film_.read();
-    tracing::add_layer("indirect", {sums, tables_.film_scale * world_.white, samples}, picture);
+    tracing::add_layer("indirect", {film_.read(), tables_.film_scale * world_.white, samples}, picture);
   }
 
   void report(std::int64_t passes, bool done, Energy& energy) override
   {
-    const std::vector<std::int64_t> sums = energy_.read();
-    const double all = static_cast<double>(passes) + (done ? 1 : part());
-    const auto watts = [&](int outcome) { return tracing::mean_watts(sums[static_cast<std::size_t>(outcome)], tables_.energy_scale, all); };
-    energy.indirect = {watts(OUTCOME_EMITTED), watts(OUTCOME_ABSORBED), watts(OUTCOME_ESCAPED), watts(OUTCOME_LOST)};
-    energy.caustics.refused_contributions += static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
+    const double passes_done = static_cast<double>(passes) + (done ? 1 : part());
+    const EnergyBalance e = balance_of(outcome_watts(energy_.read(), tables_.energy_scale, passes_done));
+    energy.indirect = {e.emitted_w, e.absorbed_w, e.escaped_w, e.lost_w};
+    energy.caustics.refused_contributions += e.refused_contributions;
   }
 
   void state(tracing::State& state) override

@@ -134,7 +134,8 @@ public:
     snapshot.picture = std::move(picture);
     snapshot.whole = at_.pass > 0;
     snapshot.progress = progress();
-    Energy energy{energy_balance(), {}};
+    const double photon_passes = this->photon_passes() - at_.energy_from;
+    Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, photon_passes)), {}};
     for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
     add_energy(energy, snapshot);
     return snapshot;
@@ -287,24 +288,6 @@ private:
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (stages_[s].stage->counts_energy()) return static_cast<double>(at_.pass) + part_of(s);
     return 0;
-  }
-
-  EnergyBalance energy_balance()
-  {
-    const std::vector<std::int64_t> sums = world_.energy.read();
-    const double passes = photon_passes() - at_.energy_from;
-    const auto watts = [&](int outcome) {
-      return tracing::mean_watts(sums[static_cast<std::size_t>(outcome)], world_.tables.energy_scale, passes);
-    };
-    EnergyBalance e;
-    e.emitted_w = watts(OUTCOME_EMITTED);
-    e.deposited_w = watts(OUTCOME_DEPOSITED);
-    e.missed_w = watts(OUTCOME_MISSED);
-    e.absorbed_w = watts(OUTCOME_ABSORBED);
-    e.escaped_w = watts(OUTCOME_ESCAPED);
-    e.lost_w = watts(OUTCOME_LOST);
-    e.refused_contributions = static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
-    return e;
   }
 
   DeviceWorld world_;        ///< the stages use it

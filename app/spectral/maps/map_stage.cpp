@@ -63,8 +63,7 @@ public:
   void develop(std::int64_t, bool, job::Picture& picture) override
   {
     const auto samples = [&](std::size_t pixel) { return eye_.pixels().samples(pixel); };
-    const std::vector<std::int64_t> sums = film_.read();
-    tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
   void state(tracing::State& state) override

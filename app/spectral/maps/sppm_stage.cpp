@@ -293,25 +293,17 @@ void SppmStage::develop(std::int64_t passes, bool done, job::Picture& picture)
 
 void SppmStage::report(std::int64_t passes, bool done, Energy& energy)
 {
-  std::array<double, OUTCOME_COUNT> watts{};
+  OutcomeWatts watts{};
   for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
     const bool in_hand = !done && (random_ || run == at_.cluster);
     const bool had = done || (!random_ && run < at_.cluster) || (in_hand && at_.sent);
     const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.part() : 0);
     if (count <= 0) continue;
-    const std::vector<std::int64_t> quanta = runs_[static_cast<std::size_t>(run)].energy.read();
+    const OutcomeWatts of_run = outcome_watts(runs_[static_cast<std::size_t>(run)].energy.read(), world_.tables.energy_scale, count);
     const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
-    for (std::size_t i = 0; i < watts.size(); ++i)
-      watts[i] +=
-          i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : share * tracing::mean_watts(quanta[i], world_.tables.energy_scale, count);
+    for (std::size_t i = 0; i < watts.size(); ++i) watts[i] += i == OUTCOME_REFUSED ? of_run[i] : share * of_run[i];
   }
-  energy.caustics = {watts[OUTCOME_EMITTED],
-                     watts[OUTCOME_DEPOSITED],
-                     watts[OUTCOME_MISSED],
-                     watts[OUTCOME_ABSORBED],
-                     watts[OUTCOME_ESCAPED],
-                     watts[OUTCOME_LOST],
-                     static_cast<std::uint64_t>(watts[OUTCOME_REFUSED])};
+  energy.caustics = balance_of(watts);
 }
 
 plan::Pass sppm_pass(const PlanInput& input)
