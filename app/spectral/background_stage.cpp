@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": kernels/spectral/background.cl.
+#include "base/counted.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/colour.h"
 #include "optics/primary_spectra.h"
@@ -9,6 +10,8 @@
 #include "tracing/exact_cdf.h"
 #include "tracing/scales.h"
 #include "tracing/sky_tables.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +122,8 @@ plan::Pass background_pass(const PlanInput& input)
   if (!environment) return {name, false, "there is no environment: what meets nothing is black"};
   if (environment->is_black()) return {name, false, "the environment is black"};
   return {name, true,
-          fmt::format("{}, seen directly, through glass and in mirrors; {}", size_of(*environment), samples_a_pixel(input, true)),
+          fmt::format("{}, seen directly, through glass and in mirrors; {} a pixel{}", size_of(*environment),
+                      counted(input.settings.pixel_samples, "sample"), more_through_glass(input)),
           "/spectral/background", true};
 }
 

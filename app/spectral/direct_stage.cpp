@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer: kernels/spectral/direct.cl.
+#include "base/counted.h"
 #include "spectral/eye_stage.h"
+
+#include <fmt/format.h>
 
 namespace nephroid::spectral {
 namespace {
@@ -34,8 +37,9 @@ plan::Pass direct_pass(const PlanInput& input)
   const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
   if (!missing.empty()) return tracing::omission(name, input.leave_out.direct, false, missing);
   return tracing::omission(name, input.leave_out.direct, true,
-                           fmt::format("{} lit by {}, {}", counted(input.objects.diffuse, "diffuse object"),
-                                       counted(shining_lights(input), "light"), samples_a_pixel(input, !input.settings.relight)));
+                           fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),
+                                       counted(shining_lights(input), "light"), counted(input.settings.pixel_samples, "sample"),
+                                       input.settings.relight ? "" : more_through_glass(input)));
 }
 
 PlanPart plan_direct(const PlanInput& input) { return part_of(direct_pass(input), {{"film direct", input.film_bytes()}}); }

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stage with one sample a pixel and pass from the eye, into a film of its own: the layers "direct" and "background".
 #pragma once
-#include "base/counted.h"
 #include "spectral/sampled_pixels.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -14,11 +11,10 @@
 
 namespace nephroid::spectral {
 
-/// For the plan. goes_on: for pixels of glass, where there are any.
-inline std::string samples_a_pixel(const PlanInput& input, bool goes_on)
+/// For the plan: what a stage adds to "64 samples a pixel".
+inline const char* more_through_glass(const PlanInput& input)
 {
-  return fmt::format("{} a pixel{}", counted(input.settings.pixel_samples, "sample"),
-                     goes_on && tracing::may_see_glass_or_mirror(input.scene) ? ", more where glass or a mirror is seen" : "");
+  return tracing::may_see_glass_or_mirror(input.scene) ? ", more where glass or a mirror is seen" : "";
 }
 
 class EyeStage : public Stage {
