@@ -21,15 +21,8 @@ constexpr double reach = 5.5, rounding = 0x1p-24 * reach;
 /// A rod of radius 1 with a brilliant in it: thin triangles, about 600.
 scene::Mesh rod_and_brilliant()
 {
-  preset::Shape rod, brilliant;
-  rod.type = preset::Shape::Type::cylinder;
-  rod.radius = 1;
-  rod.height = 2;
-  rod.segments = 120;
-  brilliant.type = preset::Shape::Type::brilliant;
-  brilliant.radius = 0.7;
-  scene::Mesh mesh = scene::make_shape(rod);
-  const scene::Mesh inner = scene::make_shape(brilliant);
+  scene::Mesh mesh = scene::make_shape({.type = preset::Shape::Type::cylinder, .radius = 1, .height = 2, .segments = 120});
+  const scene::Mesh inner = scene::make_shape({.type = preset::Shape::Type::brilliant, .radius = 0.7});
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), inner.positions.begin(), inner.positions.end());
   for (const glm::uvec3& t : inner.triangles) mesh.triangles.push_back(t + first);

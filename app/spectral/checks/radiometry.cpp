@@ -184,9 +184,7 @@ preset::Preset everything(std::uint64_t seed)
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["mirror"].reflectance.value = 0.9;
   p.scene.materials["white"] = white();
-  preset::Shape diamond;
-  diamond.type = preset::Shape::Type::brilliant;
-  diamond.radius = 1;
+  const preset::Shape diamond{.type = preset::Shape::Type::brilliant, .radius = 1};
   p.scene.objects = {object("ball", ball(1), "glass", at({-1.5, 1.5, 0})),
                      object("diamond", diamond, "glass", at({1.5, 1.5, 0}, {20, 0, 15})),
                      object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})), object("floor", quad(12, 12), "white")};

@@ -126,10 +126,7 @@ Result prism(const compute::Context& context, std::uint64_t seed)
   material.dispersion.type = preset::Dispersion::Type::sellmeier;
   material.dispersion.b.assign(std::begin(sf11_b), std::end(sf11_b));
   material.dispersion.c_um2.assign(std::begin(sf11_c), std::end(sf11_c));
-  preset::Shape shape;
-  shape.type = preset::Shape::Type::prism;
-  shape.side = shape.height = side;
-  p.scene.objects.push_back(object("prism", shape, "glass"));
+  p.scene.objects.push_back(object("prism", {.type = preset::Shape::Type::prism, .height = side, .side = side}, "glass"));
   spectral::settings(p).method = spectral::Settings::Method::brute_force;
   spectral::settings(p).photons_per_pass = 1 << 14;
   double worst = 0;
