@@ -50,8 +50,6 @@ public:
       bake_own();
     else if (renderer_)
       renderer_->step();
-    else if (bake_)
-      begin_rendering(); // a change of the preset failed and left no renderer
     else
       bake();
     seconds += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -97,6 +95,7 @@ public:
     job::Snapshot made;
     if (!renderer_ || passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
     made.picture = renderer_ ? renderer_->picture() : sheet_;
+    made.stands_in = render_ && !renderer_;
     made.pictures = spheres_;
     if (renderer_ && sheet_) made.pictures.insert(made.pictures.begin(), {"spheres", sheet_});
     made.progress = progress();
@@ -159,29 +158,37 @@ public:
     if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
   }
 
-  /// While the object is baked, the change waits until it is rendered.
+  /// While the object is baked, the change waits until it is rendered. After one that failed there is no renderer to go on with.
   bool adopt(const preset::Preset& preset) override
   {
-    if (!render_ || !adoptable(preset_, preset)) return false;
+    if (!render_ || (bake_ && !renderer_) || !adoptable(preset_, preset)) return false;
     const preset::Preset turned = with_view_of(preset_, preset);
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
-    if (renderer_) {
-      const double caustics_seconds = caustics_->seconds();
-      if (go_on_with(preset)) { // another picture begins
-        resumes_ = false;
-        bake_seconds_ = render_seconds_ = 0;
-        caustics_seconds_before_ = caustics_seconds;
-        photons_before_ = photons();
-        throws_first_ = false;
-      }
-      want_own();
+    try {
+      if (renderer_) change_picture(preset);
+    } catch (...) {
+      renderer_.reset(); // it is neither as it was nor as it shall be
+      throw;
     }
     preset_ = preset;
     return true;
   }
 
 private:
+  void change_picture(const preset::Preset& preset)
+  {
+    const double caustics_seconds = caustics_->seconds();
+    if (go_on_with(preset)) { // another picture begins
+      resumes_ = false;
+      bake_seconds_ = render_seconds_ = 0;
+      caustics_seconds_before_ = caustics_seconds;
+      photons_before_ = photons();
+      throws_first_ = false;
+    }
+    want_own();
+  }
+
   double work_seconds() const { return bake_seconds_ + render_seconds_; }
 
   /// That were sent from the bake's directions and the lights' own.
