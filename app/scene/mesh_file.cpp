@@ -159,7 +159,7 @@ Mesh load_mesh(const std::filesystem::path& file)
   // Good files need some 20 times their size and a second for 50 MB; glTF may keep its data in another file.
   const unsigned cpu_seconds = 5 + static_cast<unsigned>(size >> 20);
   Reader reader(file, cpu_seconds, (std::size_t{2} << 30) + 64 * size);
-  const Mesh mesh = [&] {
+  Mesh mesh = [&] {
     try {
       return ask_reader(reader, cpu_seconds);
     } catch (const std::runtime_error& refusal) {

@@ -25,9 +25,9 @@ protected:
     "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "floor": {"type": "diffuse", "reflectance": 0.8}},
     "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "glass"},
                 {"name": "floor", "shape": {"type": "quad", "size": [30, 1, 30]}, "material": "floor", "transform": {"translate": [0, -1.2, 0]}}],
-    "environment": {"type": "constant"}
+    "environment": {"type": "constant", "colour": [1, 1, 1], "radiance": 1}
   },
-  "environment": {"photons": 20000, "spheres": 4, "resolution": 32}
+  "environment": {"photons": 8000, "spheres": 2, "resolution": 16}
 })");
   }
   Ended run_to(const std::string& name, std::vector<std::string> more) const
