@@ -50,8 +50,6 @@ public:
       bake_own_directions();
     else if (renderer_)
       renderer_->step();
-    else if (bake_)
-      begin_rendering(); // a change of the preset failed and left no renderer
     else
       bake();
     seconds += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -97,6 +95,7 @@ public:
     job::Snapshot snapshot;
     if (!renderer_ || passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
     snapshot.picture = renderer_ ? renderer_->picture() : sheet_;
+    snapshot.stands_in = render_ && !renderer_;
     snapshot.pictures = spheres_;
     if (renderer_ && sheet_) snapshot.pictures.insert(snapshot.pictures.begin(), {"spheres", sheet_});
     snapshot.progress = progress();
@@ -162,29 +161,37 @@ public:
     if (source.left() > 0) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
   }
 
-  /// While the object is baked, the change waits until it is rendered.
+  /// While the object is baked, the change waits until it is rendered. After one that failed there is no renderer to go on with.
   bool adopt(const preset::Preset& preset) override
   {
-    if (!render_ || !adoptable(preset_, preset)) return false;
+    if (!render_ || (bake_ && !renderer_) || !adoptable(preset_, preset)) return false;
     const preset::Preset turned = with_view_of(preset_, preset);
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
-    if (renderer_) {
-      const double caustics_seconds = caustics_->seconds();
-      if (go_on_with(preset)) { // another picture begins
-        bakes_own_again_ = false;
-        bake_seconds_ = render_seconds_ = 0;
-        caustics_seconds_before_ = caustics_seconds;
-        photons_before_ = photons();
-        first_pass_lacks_own_ = false;
-      }
-      ask_for_own_directions();
+    try {
+      if (renderer_) change_picture(preset);
+    } catch (...) {
+      renderer_.reset(); // it is neither as it was nor as it shall be
+      throw;
     }
     preset_ = preset;
     return true;
   }
 
 private:
+  void change_picture(const preset::Preset& preset)
+  {
+    const double caustics_seconds = caustics_->seconds();
+    if (go_on_with(preset)) { // another picture begins
+      bakes_own_again_ = false;
+      bake_seconds_ = render_seconds_ = 0;
+      caustics_seconds_before_ = caustics_seconds;
+      photons_before_ = photons();
+      first_pass_lacks_own_ = false;
+    }
+    ask_for_own_directions();
+  }
+
   double work_seconds() const { return bake_seconds_ + render_seconds_; }
 
   /// That were sent from the bake's directions and the lights' own.

@@ -75,6 +75,7 @@ struct ExtraFile {
 struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
   bool whole = true;                      ///< false: parts of the picture are black since nothing was computed for them yet
+  bool stands_in = false;                 ///< true: the picture shows the work before the first one of what was asked for, and is no result
   std::vector<NamedPicture> pictures;     ///< the others
   Progress progress;
   std::vector<Scalar> scalars;
@@ -114,7 +115,8 @@ public:
   virtual void load(ByteSource& from) = 0;
   /// Takes on another preset without starting again, and keeps what was computed so far. True only where the engine can do so
   /// (engine::Engine::adoptable): a relighting run can where only the light differs. Throws bad_input at FILE#/scene/lights/... for a
-  /// spectrum that cannot be used. Where it returns false or throws, nothing has changed.
+  /// spectrum that cannot be used, failed where the device fails. Where it returns false, nothing has changed. Where it throws, the next
+  /// adopt() comes before any step() or snapshot(); where the job cannot go on from there, it returns false.
   virtual bool adopt(const preset::Preset&) { return false; }
 };
 

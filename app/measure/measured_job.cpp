@@ -270,6 +270,10 @@ private:
     const auto begin = Clock::now();
     const job::Snapshot snapshot = job_->snapshot();
     const job::Progress& progress = snapshot.progress;
+    if (snapshot.stands_in) { // a run that ends before its first picture has no error
+      last_seconds_ = progress.work_seconds;
+      return;
+    }
     job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, {}};
     for (const auto& [name, value] : errors_of(*snapshot.picture)) row.errors.push_back(value);
     row.wall_seconds = wall_seconds();

@@ -56,7 +56,7 @@ void write_settings(const std::filesystem::path& folder, const Prepared& prepare
 std::optional<job::Progress> finished_run(const std::filesystem::path& folder, const preset::Preset& preset);
 
 /// Writes image.exr, image.png, history.csv (where the snapshot has a history), preset.json, plan.json and run.json into folder (made if
-/// missing), each whole. reference: what the run was measured against, or null.
+/// missing), each whole; no image where the snapshot's stands in for one. reference: what the run was measured against, or null.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
                const job::Snapshot& snapshot, const measure::Reference* reference, bool finished);
 /// report.html of a run whose other files are written. Throws as report::report_html does.
