@@ -121,8 +121,7 @@ private:
     if (!before || target_.preset.reference) return nullptr; // a reference is of one frame
     preset::Preset now = target_.preset;
     now.name = shared.of_job.name; // the name is a frame's, and changes nothing
-    const auto adoptable = engine::engine_of(shared.of_job).adoptable;
-    if (!adoptable || !adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
+    if (!engine::adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
     shared.of_job = std::move(now);
     const job::Progress progress = before->progress();
     if (progress.step != 0 || progress.work != 0 || progress.work_seconds != 0) return nullptr;
@@ -140,8 +139,9 @@ private:
     try {
       return run::load_checkpoint(target_.folder, prepared, context, job);
     } catch (const Error& error) {
-      if (!is_frame() || error.kind() != ErrorKind::bad_input) throw;
-      fmt::print(stderr, "note: {}: its checkpoint cannot be used, the frame starts anew\n", target_.label);
+      if (error.kind() != ErrorKind::bad_input) throw;
+      if (!is_frame()) throw error.noting("run without --resume to start over");
+      fmt::print(stderr, "note: {}; the frame starts anew\n", error.line());
       return false;
     }
   }

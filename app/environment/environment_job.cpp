@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
 #include "base/error.h"
-#include "base/hash.h"
+#include "base/hashed_bytes.h"
 #include "environment/adoptable.h"
 #include "environment/bake/bake_file.h"
 #include "environment/bake/own_directions.h"
@@ -23,8 +23,6 @@ namespace nephroid::environment {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr std::uint32_t checkpoint_version = 5;
 
 class EnvironmentJob final : public job::Job {
 public:
@@ -112,7 +110,6 @@ public:
   void save(ByteSink& sink) override
   {
     tracing::StateWriter to(sink);
-    to.value(checkpoint_version);
     to.value(bake_seconds_);
     to.value(render_seconds_);
     const std::uint8_t complete = bake_ ? 1 : 0;
@@ -128,17 +125,12 @@ public:
   void load(ByteSource& source) override
   {
     tracing::StateReader from(source);
-    std::uint32_t version = 0;
     std::uint8_t complete = 0;
-    from.value(version);
-    if (version != checkpoint_version)
-      throw bad_input("checkpoint", fmt::format("is of version {}", version),
-                      fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
     double bake_seconds = 0, render_seconds = 0;
     from.value(bake_seconds);
     from.value(render_seconds);
     from.value(complete);
-    if (complete != 0 && !bake_) return;
+    if (complete != 0 && !bake_) return read_to_end(source);
     if (complete == 0) {
       bake_.reset();
       own_.reset();
@@ -156,13 +148,12 @@ public:
     }
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
-    if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
   }
 
   /// While the object is baked, the change waits until it is rendered.
   bool adopt(const preset::Preset& preset) override
   {
-    if (!render_ || !adoptable(preset_, preset)) return false;
+    if (!render_ || !engine::adoptable(preset_, preset)) return false;
     const preset::Preset turned = with_view_of(preset_, preset);
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown

@@ -98,7 +98,7 @@ public:
   /// The stop counts from here.
   bool adopt(const preset::Preset& preset) override
   {
-    if (!may_go_on(preset_, preset)) return false;
+    if (!engine::adoptable(preset_, preset)) return false;
     if (settings(preset) != settings(preset_) || preset.stop != preset_.stop) {
       InversePlan plan = make_plan(preset);
       layout_ = std::move(plan.layout);

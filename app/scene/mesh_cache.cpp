@@ -4,6 +4,8 @@
 #include "base/files.h"
 #include "base/hash.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <list>
 #include <mutex>
@@ -26,11 +28,18 @@ std::uint64_t bytes_of(const Mesh& mesh)
 
 } // namespace
 
+bool has_further_files(const std::filesystem::path& file)
+{
+  std::string extension = file.extension();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == ".gltf";
+}
+
 std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file)
 {
   static std::mutex mutex;
   static std::list<Kept> all; // the last used first
-  if (file.extension() == ".gltf") return std::make_shared<const Mesh>(load_mesh(file));
+  if (has_further_files(file)) return std::make_shared<const Mesh>(load_mesh(file));
   const std::lock_guard lock(mutex);
   const std::string bytes = read_file(file);
   Kept wanted{file, bytes.size(), hash_of(bytes), nullptr};

@@ -27,8 +27,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 6;
-
 PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene)
 {
   PixelLists lists;
@@ -187,7 +185,6 @@ public:
   void save(ByteSink& sink) override
   {
     tracing::StateWriter to(sink);
-    to.value(checkpoint_version);
     to.value(at_);
     to.buffer(world_.energy);
     for (const TimedStage& s : stages_) {
@@ -199,24 +196,18 @@ public:
   void load(ByteSource& source) override
   {
     tracing::StateReader from(source);
-    std::uint32_t version = 0;
-    from.value(version);
-    if (version != checkpoint_version)
-      throw bad_input("checkpoint", fmt::format("is of version {}", version),
-                      fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
     from.value(at_);
     from.buffer(world_.energy);
     for (TimedStage& s : stages_) {
       from.value(s.seconds);
       s.stage->load(from);
     }
-    if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
     world_.context.finish();
   }
 
   bool adopt(const preset::Preset& preset) override
   {
-    if (!relighting_ || !spectral::only_relit(preset_, preset)) return false;
+    if (!relighting_ || !engine::adoptable(preset_, preset)) return false;
     change_light(*relighting_, world_, layer_light(preset));
     preset_ = preset;
     world_.white = preset.white;

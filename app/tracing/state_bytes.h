@@ -69,7 +69,6 @@ public:
       buffer.RawBuffer::write(piece_.data(), piece_.size(), at);
     }
   }
-  bool at_end() const { return from_.left() == 0; }
 
 private:
   ByteSource& from_;
