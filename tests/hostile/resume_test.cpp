@@ -20,12 +20,15 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string corner(double top) { return fmt::format("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 {} 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n", top); }
+std::string tetrahedron(double top)
+{
+  return fmt::format("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 {} 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n", top);
+}
 
-std::string glass(double n) { return fmt::format("DATA:\n  - type: tabulated n\n    data: |\n        0.3 {0}\n        0.9 {0}\n", n); }
+std::string index_file(double n) { return fmt::format("DATA:\n  - type: tabulated n\n    data: |\n        0.3 {0}\n        0.9 {0}\n", n); }
 
-/// The positions and indices of corner(), as a glTF's buffer.
-std::string buffer(float top)
+/// The tetrahedron, as a glTF's buffer.
+std::string gltf_buffer(float top)
 {
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 0, 1, 0, top, 0};
   const std::uint16_t indices[] = {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
@@ -35,7 +38,7 @@ std::string buffer(float top)
   return bytes;
 }
 
-constexpr const char* gltf = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+constexpr const char* gltf_beside_buffer = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
   "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
   "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,2,1]},
                {"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],
@@ -46,10 +49,10 @@ class Resumed : public ProgramTest {
 protected:
   Resumed()
   {
-    write("a.obj", corner(1));
-    write("b.gltf", gltf);
-    write("c.bin", buffer(1));
-    write("glass.yml", glass(1.5));
+    write("a.obj", tetrahedron(1));
+    write("b.gltf", gltf_beside_buffer);
+    write("c.bin", gltf_buffer(1));
+    write("glass.yml", index_file(1.5));
     for (const char* picture : {"sky.exr", "reference.exr", "mask.exr", "wanted.exr"}) write_picture(picture, 1);
     write("spectral.json", R"({"engine": "spectral", "seed": 7, "stop": {"passes": 1}, "reference": "reference.exr",
       "measure": {"mask": "mask.exr"}, "spectral": {"photons_per_pass": 1000}, "scene": {"camera": {"resolution": [16, 16]},
@@ -100,11 +103,11 @@ TEST_F(Resumed, RunsOntoAnotherFileSayWhichItIs)
       const fs::path changes = folder / (file == "b.gltf" ? "c.bin" : file);
       const std::string before = read_file(changes);
       if (file == "a.obj")
-        write(file, corner(2));
+        write(file, tetrahedron(2));
       else if (file == "b.gltf")
-        write("c.bin", buffer(2));
+        write("c.bin", gltf_buffer(2));
       else if (file == "glass.yml")
-        write(file, glass(1.6));
+        write(file, index_file(1.6));
       else
         write_picture(file, 0.75f);
       const std::string changed = fmt::format("the file '{}' has changed since the run began", file);
@@ -158,7 +161,7 @@ TEST_F(Resumed, FramesOfAnotherFileStartAnew)
   ASSERT_EQ(resume("film").exit_code, 0) << resume("film").err;
   EXPECT_THAT(resume("film").err, HasSubstr("these frames are finished"));
   const std::string before = read_file(folder / "out/film/frame_0001.exr");
-  write("a.obj", corner(2));
+  write("a.obj", tetrahedron(2));
   const Ended ended = resume("film");
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.err, HasSubstr("note: film: the file 'a.obj' has changed since the run began: finished frames start anew\n"));
@@ -181,7 +184,7 @@ TEST_F(Resumed, ReferencesAreOfTheFilesAsTheyAre)
   write_picture("wanted.exr", 0.75f);
   EXPECT_TRUE(rendered()) << "of another picture";
   EXPECT_FALSE(rendered());
-  write("glass.yml", glass(1.6));
+  write("glass.yml", index_file(1.6));
   EXPECT_TRUE(rendered()) << "of another index";
 }
 

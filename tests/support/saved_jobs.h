@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jobs saved to memory and loaded from there.
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 
 #include <cstddef>
 #include <span>
@@ -19,7 +19,10 @@ std::vector<std::byte> saved(Saver& saver)
     saver.save(store);
   else {
     Writer to(store);
-    saver.save(to);
+    if constexpr (requires { saver.state(to); })
+      saver.state(to);
+    else
+      saver.save(to);
   }
   return store.bytes();
 }
@@ -33,7 +36,10 @@ bool load(Loader& loader, std::span<const std::byte> bytes)
     loader.load(stored);
   else {
     Reader from(stored);
-    loader.load(from);
+    if constexpr (requires { loader.state(from); })
+      loader.state(from);
+    else
+      loader.load(from);
   }
   return stored.left() == 0;
 }
