@@ -8,6 +8,7 @@
 #include "engine/engine.h"
 #include "measure/measured_job.h"
 #include "run/animation.h"
+#include "run/content.h"
 #include "run/picture.h"
 #include "run/reference.h"
 
@@ -96,6 +97,7 @@ public:
       if (!job) {
         job = measure::measured(run::make_job(prepared, context), prepared.preset, reference_, began_, options_.pictures_at);
         shared.of_job = target_.preset;
+        shared.inputs_of_job = prepared.plan->inputs;
       }
       activity_.clear();
       compute::tell_of_compiling(context, [] {}); // the context outlives this
@@ -119,6 +121,7 @@ private:
   {
     std::unique_ptr<job::Job> before = std::move(shared.job);
     if (!before || target_.preset.reference) return nullptr; // a reference is of one frame
+    if (!run::what_changed(shared.inputs_of_job, shared.prepared->plan->inputs).empty()) return nullptr;
     preset::Preset now = target_.preset;
     now.name = shared.of_job.name; // the name is a frame's, and changes nothing
     if (!engine::adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
