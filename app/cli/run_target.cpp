@@ -8,6 +8,7 @@
 #include "engine/engine.h"
 #include "measure/measured_job.h"
 #include "run/animation.h"
+#include "run/content.h"
 #include "run/picture.h"
 #include "run/reference.h"
 
@@ -106,6 +107,7 @@ public:
       if (!job) {
         job = measure::measured(run::make_job(prepared, context), prepared.preset, reference_, began_, options_.pictures_at);
         shared.of_job = target_.preset;
+        shared.inputs_of_job = prepared.plan->inputs;
       }
       activity_.clear();
       compute::tell_of_compiling(context, [] {}); // the context outlives this
@@ -129,10 +131,10 @@ private:
   {
     std::unique_ptr<job::Job> before = std::move(shared.job);
     if (!before || target_.preset.reference) return nullptr; // a reference is of one frame
+    if (!run::what_changed(shared.inputs_of_job, shared.prepared->plan->inputs).empty()) return nullptr;
     preset::Preset now = target_.preset;
     now.name = shared.of_job.name; // the name is a frame's, and changes nothing
-    const auto adoptable = engine::engine_of(shared.of_job).adoptable;
-    if (!adoptable || !adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
+    if (!engine::adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
     shared.of_job = std::move(now);
     const job::Progress progress = before->progress();
     if (progress.step != 0 || progress.work != 0 || progress.work_seconds != 0) return nullptr;
@@ -150,8 +152,9 @@ private:
     try {
       return run::load_checkpoint(target_.folder, prepared, context, job);
     } catch (const Error& error) {
-      if (!is_frame() || error.kind() != ErrorKind::bad_input) throw;
-      fmt::print(stderr, "note: {}: its checkpoint cannot be used, the frame starts anew\n", target_.label);
+      if (error.kind() != ErrorKind::bad_input) throw;
+      if (!is_frame()) throw error.noting("run without --resume to start over");
+      fmt::print(stderr, "note: {}; the frame starts anew\n", error.line());
       return false;
     }
   }

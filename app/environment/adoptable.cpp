@@ -36,8 +36,8 @@ preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset
 bool adoptable(const preset::Preset& before, const preset::Preset& now)
 {
   const auto may_be_lit = [](const preset::Preset& preset) { return preset.scene.environment || !preset.scene.lights.empty(); };
-  if (&before.settings.type() != &now.settings.type() || before.scene.camera.resolution != now.scene.camera.resolution ||
-      before.scene.objects.size() != now.scene.objects.size() || may_be_lit(before) != may_be_lit(now))
+  if (before.scene.camera.resolution != now.scene.camera.resolution || before.scene.objects.size() != now.scene.objects.size() ||
+      may_be_lit(before) != may_be_lit(now))
     return false;
   // What is baked together may not move apart.
   const auto is_caster = [&](const preset::Object& object) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
 #include "base/error.h"
-#include "base/hash.h"
+#include "base/hashed_bytes.h"
 #include "environment/adoptable.h"
 #include "environment/bake/bake_file.h"
 #include "environment/bake/own_directions.h"
@@ -23,8 +23,6 @@ namespace nephroid::environment {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr std::uint32_t checkpoint_version = 5;
 
 class EnvironmentJob final : public job::Job {
 public:
@@ -111,9 +109,7 @@ public:
   void save(ByteSink& sink) override
   {
     tracing::State state(sink);
-    std::uint32_t version = checkpoint_version;
     bool complete = bake_.has_value();
-    state.value(version);
     state.value(bake_seconds_);
     state.value(render_seconds_);
     state.value(complete);
@@ -130,17 +126,12 @@ public:
   void load(ByteSource& source) override
   {
     tracing::State state(source);
-    std::uint32_t version = 0;
-    state.value(version);
-    if (version != checkpoint_version)
-      throw bad_input("checkpoint", fmt::format("is of version {}", version),
-                      fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
     double bake_seconds = 0, render_seconds = 0;
     bool complete = false;
     state.value(bake_seconds);
     state.value(render_seconds);
     state.value(complete);
-    if (complete && !bake_) return;
+    if (complete && !bake_) return read_to_end(source);
     if (!complete) {
       bake_.reset();
       own_.reset();
@@ -158,13 +149,12 @@ public:
     }
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
-    if (source.left() > 0) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
   }
 
   /// While the object is baked, the change waits until it is rendered. After one that failed there is no renderer to go on with.
   bool adopt(const preset::Preset& preset) override
   {
-    if (!render_ || (bake_ && !renderer_) || !adoptable(preset_, preset)) return false;
+    if (!render_ || (bake_ && !renderer_) || !engine::adoptable(preset_, preset)) return false;
     const preset::Preset turned = with_view_of(preset_, preset);
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown

@@ -51,6 +51,7 @@ std::vector<check::Check> closed_forms()
 
 constinit const engine::Engine engine{
     .settings = settings_type,
+    .state_version = 7,
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) -> std::unique_ptr<plan::Plan> {
       return std::make_unique<RunPlan>(make_plan(preset, scene, bvh));
     },

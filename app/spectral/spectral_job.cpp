@@ -27,8 +27,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 7;
-
 PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene)
 {
   PixelLists lists;
@@ -161,27 +159,19 @@ public:
   void save(ByteSink& sink) override
   {
     tracing::State state(sink);
-    std::uint32_t version = checkpoint_version;
-    state.value(version);
     this->state(state);
   }
 
   void load(ByteSource& source) override
   {
     tracing::State state(source);
-    std::uint32_t version = 0;
-    state.value(version);
-    if (version != checkpoint_version)
-      throw bad_input("checkpoint", fmt::format("is of version {}", version),
-                      fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
     this->state(state);
-    if (source.left() > 0) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
     world_.context.finish();
   }
 
   bool adopt(const preset::Preset& preset) override
   {
-    if (!world_.relighting || !spectral::only_relit(preset_, preset)) return false;
+    if (!world_.relighting || !engine::adoptable(preset_, preset)) return false;
     change_light(*world_.relighting, world_, layer_light(preset));
     preset_ = preset;
     world_.white = preset.white;
