@@ -21,10 +21,17 @@ std::string keys_page()
       "| mouse | what it does |\n|---|---|\n";
   for (const MouseHabit& habit : mouse_habits()) page += fmt::format("| {} | {} |\n", habit.how, habit.what);
   std::string menu;
-  for (const Action& action : actions()) {
-    if (action.menu != menu) page += fmt::format("\n## {}\n\n| action | keys | what it does |\n|---|---|---|\n", action.menu);
-    menu = action.menu;
-    page += fmt::format("| {} | {} | {} |\n", action.name, keys_of(action), action.help);
+  const std::span<const Action> table = actions();
+  for (std::size_t i = 0; i < table.size();) {
+    if (table[i].menu != menu) page += fmt::format("\n## {}\n\n| action | keys | what it does |\n|---|---|---|\n", table[i].menu);
+    menu = table[i].menu;
+    std::string names = table[i].name, keys = keys_of(table[i]);
+    const std::string& help = table[i].help;
+    while (++i < table.size() && table[i].menu == menu && table[i].help == help) { // one row for what is told alike
+      names += ", " + table[i].name;
+      if (table[i].shortcut) keys += fmt::format(", {}", keys_of(table[i]));
+    }
+    page += fmt::format("| {} | {} | {} |\n", names, keys, help);
   }
   return page;
 }
