@@ -18,12 +18,12 @@ std::string keys_page()
   std::string page =
       "# Mouse and keys of the window\n\n"
       "This page is made of the program's own table of actions, from which menus and F1 are made too. Ctrl+Shift+P lists all actions.\n\n"
-      "| mouse | what it does |\n|---|---|\n";
-  for (const MouseHabit& habit : mouse_habits()) page += fmt::format("| {} | {} |\n", habit.how, habit.what);
+      "|mouse|what it does|\n|---|---|\n";
+  for (const MouseHabit& habit : mouse_habits()) page += fmt::format("|{}|{}|\n", habit.how, habit.what);
   std::string menu;
   const std::span<const Action> table = actions();
   for (std::size_t i = 0; i < table.size();) {
-    if (table[i].menu != menu) page += fmt::format("\n## {}\n\n| action | keys | what it does |\n|---|---|---|\n", table[i].menu);
+    if (table[i].menu != menu) page += fmt::format("\n## {}\n\n|action|keys|what it does|\n|---|---|---|\n", table[i].menu);
     menu = table[i].menu;
     std::string names = table[i].name, keys = keys_of(table[i]);
     const std::string& help = table[i].help;
@@ -31,7 +31,7 @@ std::string keys_page()
       names += ", " + table[i].name;
       if (table[i].shortcut) keys += fmt::format(", {}", keys_of(table[i]));
     }
-    page += fmt::format("| {} | {} | {} |\n", names, keys, help);
+    page += fmt::format("|{}|{}|{}|\n", names, keys, help);
   }
   return page;
 }
