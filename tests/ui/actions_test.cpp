@@ -48,7 +48,7 @@ int count(bool (*which)(const Action&))
 bool any(const Action&) { return true; }
 bool has_keys(const Action& action) { return action.shortcut != 0; }
 
-/// For docs/window.md.
+/// For docs/notebook/window.md.
 void say(const char* how, int pressed) { fmt::print("actions {}: {} of {}\n", how, pressed, actions().size()); }
 
 TEST(Actions, NamesAndEffectsAreOneToOne)
