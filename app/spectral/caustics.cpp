@@ -16,8 +16,8 @@ namespace {
 plan::Pass stray_photons_pass(const PlanInput& input)
 {
   const bool aims = input.leave_out.stray_photons;
-  return tracing::omission(
-      "stray photons", aims, false,
+  return tracing::not_needed(
+      "stray photons", aims,
       aims ? fmt::format("photons start towards {} about glass and mirrors only", counted(std::ssize(input.tables.spheres), "sphere"))
            : "photons need not start where there is no glass and no mirror");
 }
@@ -70,11 +70,10 @@ plan::Pass caustics_pass(const PlanInput& input)
   const std::string missing = input.objects.dielectrics + input.objects.mirrors == 0 ? "no object is of glass or a mirror"
                               : input.objects.diffuse == 0                           ? "no diffuse surface can receive a caustic"
                                                                                      : "";
-  if (!missing.empty()) return tracing::omission(name, input.leave_out.photons, false, missing);
+  if (!missing.empty()) return tracing::not_needed(name, input.leave_out.photons, missing);
   if (input.tables.emitters.empty()) return {name, false, "no light shines on glass or a mirror"};
-  return tracing::omission(name, input.leave_out.photons, true,
-                           fmt::format("{} photons a pass in {}", input.tables.photons_per_pass,
-                                       counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));
+  return tracing::needed(name, fmt::format("{} photons a pass in {}", input.tables.photons_per_pass,
+                                           counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));
 }
 
 plan::Pass jitter_pass(const PlanInput& input)

@@ -35,11 +35,10 @@ plan::Pass direct_pass(const PlanInput& input)
   const char* const name = "direct";
   if (!input.settings.direct) return not_asked_for(name, name);
   const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
-  if (!missing.empty()) return tracing::omission(name, input.leave_out.direct, false, missing);
-  return tracing::omission(name, input.leave_out.direct, true,
-                           fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),
-                                       counted(shining_lights(input), "light"), counted(input.settings.pixel_samples, "sample"),
-                                       input.settings.relight ? "" : more_through_glass(input)));
+  if (!missing.empty()) return tracing::not_needed(name, input.leave_out.direct, missing);
+  return tracing::needed(name, fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),
+                                           counted(shining_lights(input), "light"), counted(input.settings.pixel_samples, "sample"),
+                                           input.settings.relight ? "" : more_through_glass(input)));
 }
 
 PlanPart plan_direct(const PlanInput& input) { return part_of(direct_pass(input), {{"film direct", input.film_bytes()}}); }

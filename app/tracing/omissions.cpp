@@ -151,18 +151,19 @@ bool may_see_glass_or_mirror(const scene::Scene& scene)
   });
 }
 
-plan::Pass omission(const std::string& name, bool leave_out, bool needed, std::string reason)
+plan::Pass needed(const std::string& name, std::string reason) { return {name, true, std::move(reason), "/leave_out", false}; }
+
+plan::Pass not_needed(const std::string& name, bool leave_out, std::string reason)
 {
-  plan::Pass pass{name, needed || !leave_out, std::move(reason), "/leave_out", false};
-  if (!needed && !leave_out) pass.reason += ", but leave_out is false";
-  return pass;
+  if (!leave_out) reason += ", but leave_out is false";
+  return {name, !leave_out, std::move(reason), "/leave_out", false};
 }
 
 std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::Scene& scene, const std::vector<scene::Sphere>& targets)
 {
   std::vector<plan::Pass> passes;
   const auto add = [&](const char* name, bool may, std::size_t without, const std::string& reason) {
-    if (without > 0) passes.push_back(omission(name, may, false, reason));
+    if (without > 0) passes.push_back(not_needed(name, may, reason));
   };
   std::size_t dark = 0, ways = 0, unreached = 0;
   for (const scene::Light& light : scene.lights) {
@@ -187,30 +188,33 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const bool bends = anything_bends(scene), blocked = !nothing_blocks_the_view(scene);
   CodeOmissions omissions;
   // Adds a pass, and says whether its code is there.
-  const auto has = [&](const char* name, bool may_leave_out, bool needed, const std::string& yes, const std::string& no) {
-    omissions.passes.push_back(omission(name, may_leave_out, needed, needed ? yes : no));
+  const auto has = [&](plan::Pass pass) {
+    omissions.passes.push_back(std::move(pass));
     return omissions.passes.back().runs;
   };
+  const bool occlusion =
+      has(blocked ? needed("occlusion", "objects in view may stand before each other")
+                  : not_needed("occlusion", leave_out.occlusion, "the camera sees flat objects only, none before another"));
+  const std::string seen_types = light_types_reason(types);
+  const bool every_type =
+      has(types == all_light_types ? needed("light types", seen_types) : not_needed("light types", leave_out.light_types, seen_types));
+  const bool mirrors = has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror object"))
+                                              : not_needed("mirrors", leave_out.mirrors, "no object is a mirror"));
+  const bool bending = has(bends ? needed("bending", "glass has another n than its surroundings")
+                                 : not_needed("bending", leave_out.bending, "no glass has another n than 1"));
+  const bool attenuation =
+      has(attenuators > 0 ? needed("attenuation", counted(attenuators, "material takes", "materials take") + " light away by wavelength")
+                          : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no mirror is coloured"));
+  const bool smooth = has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
+                                            : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
   const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
-  omissions.defines = {
-      {"NEPHROID_OCCLUSION", flag(has("occlusion", leave_out.occlusion, blocked, "objects in view may stand before each other",
-                                      "the camera sees flat objects only, none before another"))},
-      {"NEPHROID_LIGHT_TYPES", std::to_string(has("light types", leave_out.light_types, types == all_light_types, light_types_reason(types),
-                                                  light_types_reason(types))
-                                                  ? all_light_types
-                                                  : types)},
-      {"NEPHROID_MIRRORS",
-       flag(has("mirrors", leave_out.mirrors, counts.mirrors > 0, counted(counts.mirrors, "mirror object"), "no object is a mirror"))},
-      {"NEPHROID_BENDING",
-       flag(has("bending", leave_out.bending, bends, "glass has another n than its surroundings", "no glass has another n than 1"))},
-      // Without materials that attenuate, one place for none of them: the code is there and does nothing.
-      {"NEPHROID_ATTENUATORS", std::to_string(has("attenuation", leave_out.attenuation, attenuators > 0,
-                                                  counted(attenuators, "material takes", "materials take") + " light away by wavelength",
-                                                  "no glass absorbs and no mirror is coloured")
-                                                  ? std::max(attenuators, 1)
-                                                  : 0)},
-      {"NEPHROID_SMOOTH", flag(has("smooth normals", leave_out.smooth_normals, counts.smooth > 0, counted(counts.smooth, "smooth object"),
-                                   "no mesh has smooth normals"))}};
+  omissions.defines = {{"NEPHROID_OCCLUSION", flag(occlusion)},
+                       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
+                       {"NEPHROID_MIRRORS", flag(mirrors)},
+                       {"NEPHROID_BENDING", flag(bending)},
+                       // Without materials that attenuate, one place for none of them: the code is there and does nothing.
+                       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
+                       {"NEPHROID_SMOOTH", flag(smooth)}};
   return omissions;
 }
 

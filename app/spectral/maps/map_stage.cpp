@@ -99,11 +99,11 @@ plan::Pass map_pass(const PlanInput& input)
     return {name, false,
             fmt::format("spectral.estimator is splat: {}",
                         sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror")};
-  return tracing::omission(
-      name, input.leave_out.photon_maps, sees,
-      sees ? fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
-                         map_radius(input.settings, input.scene), counted(input.tables.eye_paths, "path"))
-           : "the camera sees no glass and no mirror, so every caustic is splatted");
+  if (!sees)
+    return tracing::not_needed(name, input.leave_out.photon_maps, "the camera sees no glass and no mirror, so every caustic is splatted");
+  return tracing::needed(
+      name, fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
+                        map_radius(input.settings, input.scene), counted(input.tables.eye_paths, "path")));
 }
 
 PlanPart plan_maps(const PlanInput& input)
