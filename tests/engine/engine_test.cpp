@@ -11,11 +11,11 @@
 
 #include <cmath>
 
+namespace nephroid::engine_test {
+
 using namespace nephroid::test;
 using nlohmann::json;
 using testing::HasSubstr;
-
-namespace {
 
 class GradientEngine : public ProgramTest {
 protected:
@@ -160,4 +160,4 @@ TEST_F(GradientEngine, ACheckpointOfAnotherEngineIsRefused)
   EXPECT_THAT(ended.err, HasSubstr("out/checkpoint.bin: belongs to another preset or seed"));
 }
 
-} // namespace
+} // namespace nephroid::engine_test

@@ -18,9 +18,8 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace {
+namespace nephroid::bake_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 using environment::Bake;
 using std::numbers::pi;
@@ -271,4 +270,4 @@ TEST(Bake, IsOfTheObjectWhereverItStands)
   EXPECT_NE(bake.halves, scaled.halves);
 }
 
-} // namespace
+} // namespace nephroid::bake_test

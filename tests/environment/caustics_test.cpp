@@ -16,9 +16,8 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace nephroid::caustics_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 using scene::even_direction;
 
@@ -363,4 +362,4 @@ TEST(Caustics, OneChannelIsThreeAlike)
   for (std::size_t t = 0; t < a.size(); ++t) EXPECT_LT(glm::distance(a[t], b[t]), 1e-5 * glm::length(a[t]));
 }
 
-} // namespace
+} // namespace nephroid::caustics_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-namespace {
+namespace nephroid::directions_test {
 
 using namespace nephroid::environment;
 
@@ -74,4 +74,4 @@ TEST(SphereMap, HasTexelsOfEqualSolidAngle)
   for (const int n : filled) EXPECT_NEAR(n, 1000, 30);
 }
 
-} // namespace
+} // namespace nephroid::directions_test

@@ -14,9 +14,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::drawn_lights_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 using test::pi;
 
@@ -115,4 +114,4 @@ TEST(DrawnLights, FindTheFewThatAreSeen)
       0);
 }
 
-} // namespace
+} // namespace nephroid::drawn_lights_test

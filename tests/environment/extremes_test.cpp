@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme skies, lamps, objects and receivers of engine 2. docs/extremes.md has the table.
 #include "tests/support/extremes.h"
+#include "tests/support/process_state.h"
 
 #include "environment/ball_map.h"
 #include "image/image.h"
@@ -8,10 +9,9 @@
 #include "tests/environment/picture_files.h"
 #include "tests/environment/views.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::extremes_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// One for all cases: most have the same ball.
 const TemporaryFolder& cache()
@@ -339,14 +339,9 @@ const Extreme cases[] = {
 };
 
 class EnvironmentExtremes : public testing::TestWithParam<Extreme> {
-protected:
-  EnvironmentExtremes()
-  {
-    bake_context(); // OpenCL has caches of its own in that folder, which it looks for once
-    setenv("XDG_CACHE_HOME", cache().path().c_str(), 1);
-  }
+  CacheHome home_{cache().path()};
 };
 TEST_P(EnvironmentExtremes, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(All, EnvironmentExtremes, testing::ValuesIn(cases), [](const auto& test) { return test.param.name; });
 
-} // namespace
+} // namespace nephroid::extremes_test

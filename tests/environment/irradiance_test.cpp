@@ -14,9 +14,8 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace nephroid::irradiance_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 using test::pi;
 
@@ -123,4 +122,4 @@ TEST(Irradiance, TurnsToTheLeft)
   EXPECT_GT(irradiance(polynomial, {0, 0, -1}).y, 2 * irradiance(polynomial, {1, 0, 0}).y);
 }
 
-} // namespace
+} // namespace nephroid::irradiance_test

@@ -16,9 +16,8 @@
 #include <algorithm>
 #include <map>
 
-namespace {
+namespace nephroid::job_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 using environment::EnvironmentPlan;
 using testing::AllOf;
@@ -158,7 +157,7 @@ TEST_F(EnvironmentJob, AnotherObjectsFileIsNotUsed)
 TEST_F(EnvironmentJob, ABakeThatCannotBeKeptIsSaid)
 {
   write_file_whole(cache.path() / "file", "x");
-  setenv("XDG_CACHE_HOME", (cache.path() / "file").c_str(), 1);
+  const test::Variable no_folder("XDG_CACHE_HOME", (cache.path() / "file").string());
   const job::Snapshot made = run(small());
   EXPECT_THAT(made.warnings, ElementsAre(AllOf(HasSubstr("cannot be made"), HasSubstr("the next start bakes again"))));
 }
@@ -341,4 +340,4 @@ TEST_F(EnvironmentInput, OddObjects)
               AllOf(HasSubstr("outside of it"), testing::Not(HasSubstr("open")))); // a mirror may well be
 }
 
-} // namespace
+} // namespace nephroid::job_test

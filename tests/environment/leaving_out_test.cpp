@@ -9,9 +9,8 @@
 
 #include <algorithm>
 
-namespace {
+namespace nephroid::leaving_out_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 
 class EnvironmentLeavesOut : public EnvironmentJobs {
@@ -133,4 +132,4 @@ TEST_F(EnvironmentLeavesOut, CutsOfOneColour)
   EXPECT_EQ(environment::even_segments(cube, 25).lights.size(), 54u);
 }
 
-} // namespace
+} // namespace nephroid::leaving_out_test

@@ -15,9 +15,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace nephroid::nested_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 using environment::Bake;
 using environment::Caster;
@@ -239,4 +238,4 @@ TEST(Nested, WhatMovesAgainstTheOthersHasAnotherBake)
   EXPECT_EQ(key_of(together({10, 20, 30}, {1, 2, 3}, {R"(environment.objects=["third", "second", "first"])"})), key);
 }
 
-} // namespace
+} // namespace nephroid::nested_test

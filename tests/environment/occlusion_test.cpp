@@ -17,9 +17,8 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace nephroid::occlusion_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 using test::pi;
 
@@ -314,4 +313,4 @@ TEST(Occlusion, IsOfThePointThatLooks)
   EXPECT_NEAR(4 * pi - sum_y(sky.seen_past(scene, 0, {4, 3, 0})), cap_sr(std::asin(0.25)), 0.003);
 }
 
-} // namespace
+} // namespace nephroid::occlusion_test

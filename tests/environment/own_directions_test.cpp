@@ -10,9 +10,8 @@
 
 #include <cmath>
 
-namespace {
+namespace nephroid::own_directions_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 
 void finish(environment::OwnDirections& own)
@@ -80,4 +79,4 @@ TEST_F(EnvironmentOwnDirections, ALampBetweenBakedDirectionsHasSharpCaustics)
   EXPECT_LT(distance(own, reference), 0.5 * distance(blended, reference));
 }
 
-} // namespace
+} // namespace nephroid::own_directions_test

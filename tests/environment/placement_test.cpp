@@ -9,9 +9,8 @@
 
 #include <algorithm>
 
-namespace {
+namespace nephroid::placement_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 
 /// The largest distance between the caster's vertices in the scene and where the placement has them.
@@ -52,4 +51,4 @@ TEST(Placement, TakesTheBakesVerticesToTheScenes)
   }
 }
 
-} // namespace
+} // namespace nephroid::placement_test

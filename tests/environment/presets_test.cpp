@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace {
+namespace nephroid::presets_test {
 
 using namespace nephroid::test;
 using nlohmann::json;
@@ -67,4 +67,4 @@ TEST_F(EnvironmentRun, GoesOnWhereItStopped)
   EXPECT_EQ(nephroid::image::read_image(folder / "part/image.exr").data, nephroid::image::read_image(folder / "whole/image.exr").data);
 }
 
-} // namespace
+} // namespace nephroid::presets_test

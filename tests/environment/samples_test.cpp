@@ -13,9 +13,8 @@
 #include <span>
 #include <vector>
 
-namespace {
+namespace nephroid::samples_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 
 Segmentation cut(const CubeMap& cube, int lights) { return segment(cube, {.lights = lights}); }
@@ -232,4 +231,4 @@ TEST(Samples, FindWhatABallHides)
   EXPECT_LT(of_lights.largest, even_of_lights.largest);
 }
 
-} // namespace
+} // namespace nephroid::samples_test

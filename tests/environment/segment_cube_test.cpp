@@ -9,9 +9,8 @@
 
 #include <random>
 
-namespace {
+namespace nephroid::segment_cube_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 
 TEST(SegmentCube, FacesLieAsInCubeMapsOfOpenGl)
@@ -166,4 +165,4 @@ TEST(SegmentCube, DirectionsTurnAsTheMapDoes)
   EXPECT_LT(glm::distance(turned({0, 1, 0}, 33), glm::dvec3(0, 1, 0)), 1e-15);
 }
 
-} // namespace
+} // namespace nephroid::segment_cube_test

@@ -10,9 +10,8 @@
 #include <array>
 #include <cstdio>
 
-namespace {
+namespace nephroid::segment_quality_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 
 double median(std::vector<double> values)
@@ -74,4 +73,4 @@ TEST(SegmentQuality, VarianceIsBetterThanHalving)
   EXPECT_GE(better, 24);
 }
 
-} // namespace
+} // namespace nephroid::segment_quality_test

@@ -12,9 +12,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace {
+namespace nephroid::segment_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -388,4 +387,4 @@ TEST(Segment, FewerThanSixAreRefused)
               "q: is " + std::to_string(lights) + "; expected 6 or more, as a cube has 6 faces");
 }
 
-} // namespace
+} // namespace nephroid::segment_test

@@ -11,10 +11,9 @@
 
 #include <limits>
 
-namespace {
+namespace nephroid::segment_verb_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -221,4 +220,4 @@ TEST_F(SegmentVerb, BadInputIsAnsweredInOneLine)
   for (const test::Wrong& wrong : cases) test::expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace
+} // namespace nephroid::segment_verb_test

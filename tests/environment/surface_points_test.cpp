@@ -15,9 +15,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::surface_points_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 
 glm::dvec3 mean(const std::vector<glm::dvec3>& points)
@@ -82,4 +81,4 @@ TEST(SurfacePoints, SeeACardHideTheSunLittleByLittle)
   }
 }
 
-} // namespace
+} // namespace nephroid::surface_points_test

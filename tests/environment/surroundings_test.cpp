@@ -9,9 +9,8 @@
 #include <cstddef>
 #include <vector>
 
-namespace {
+namespace nephroid::surroundings_test {
 
-using namespace nephroid;
 using environment::without_caster;
 using preset::Shape;
 using testing::ElementsAre;
@@ -91,4 +90,4 @@ TEST(WithoutCaster, OfOneObjectNothingIsLeft)
   EXPECT_THAT(rest.geometry.ellipsoids, IsEmpty());
 }
 
-} // namespace
+} // namespace nephroid::surroundings_test

@@ -11,9 +11,8 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace nephroid::turned_sets_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 
 constexpr int some = 300; ///< directions, even on the sphere
@@ -251,4 +250,4 @@ TEST(StrongDirections, AreOfNarrowLightsThatHaveAPartOfAll)
   EXPECT_TRUE(strong_directions({}, rotation, 26, 4).empty());
 }
 
-} // namespace
+} // namespace nephroid::turned_sets_test

@@ -16,9 +16,8 @@
 #include <map>
 #include <vector>
 
-namespace {
+namespace nephroid::view_job_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -384,4 +383,4 @@ TEST_F(EnvironmentViewJob, RefusesLightOfNoOneDirection)
   }
 }
 
-} // namespace
+} // namespace nephroid::view_job_test

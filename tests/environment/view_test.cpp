@@ -13,9 +13,8 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace nephroid::view_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 using std::numbers::pi;
 
@@ -262,4 +261,4 @@ TEST_F(EnvironmentView, AFloorGetsThePowerThatLeavesTheBallTowardsIt)
   }
 }
 
-} // namespace
+} // namespace nephroid::view_test

@@ -19,9 +19,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::volume_photons_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 using environment::Bake;
 using Picture = std::vector<double>;
@@ -188,4 +187,4 @@ TEST(VolumePhotons, AnEllipsoid)
 // It stands in the beam. What it hides from the middle is dark, though some light goes by aslant.
 TEST(VolumePhotons, AScreenInTheBeam) { expect_near(compare("screen", {.screen_y = -2, .screen_half = 0.5}, isotropic), 0.19, 0.09); }
 
-} // namespace
+} // namespace nephroid::volume_photons_test

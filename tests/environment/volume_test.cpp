@@ -12,9 +12,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace nephroid::volume_test {
 
-using namespace nephroid;
 using namespace nephroid::test;
 using environment::Bake;
 
@@ -113,4 +112,4 @@ TEST(Volume, WhatStandsBeforeThePlaceHidesIt)
   EXPECT_NEAR(seen(R"("extinction": 0.1)", screen), wanted, 0.02 * wanted);
 }
 
-} // namespace
+} // namespace nephroid::volume_test

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace {
+namespace nephroid::animation_test {
 
 namespace fs = std::filesystem;
 using namespace nephroid::test;
@@ -178,4 +178,4 @@ TEST_F(Animations, AreRefusedBeforeTheFirstFrame)
       "has no length; expected a direction; in frame 1");
 }
 
-} // namespace
+} // namespace nephroid::animation_test

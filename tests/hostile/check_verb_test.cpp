@@ -8,12 +8,12 @@
 
 #include <cmath>
 
+namespace nephroid::check_verb_test {
+
 using namespace nephroid::test;
 using nlohmann::json;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-namespace {
 
 class CheckVerb : public ProgramTest {
 protected:
@@ -80,4 +80,4 @@ TEST_F(CheckVerb, CtrlCEndsInOrder)
   EXPECT_THAT(ended.err, HasSubstr("interrupted after "));
 }
 
-} // namespace
+} // namespace nephroid::check_verb_test

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace {
+namespace nephroid::cli_test {
 
 namespace fs = std::filesystem;
 using namespace nephroid::test;
@@ -132,4 +132,4 @@ TEST_F(CommandLine, AClosedStandardOutputIsAFailureNotSilence)
   }
 }
 
-} // namespace
+} // namespace nephroid::cli_test

@@ -12,10 +12,9 @@
 #include <algorithm>
 #include <limits>
 
-namespace {
+namespace nephroid::compare_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using namespace nephroid::test;
 using json = nlohmann::ordered_json;
 using testing::HasSubstr;
@@ -204,4 +203,4 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
   for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace
+} // namespace nephroid::compare_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <set>
 
-namespace {
+namespace nephroid::importance_verb_test {
 
 using namespace nephroid::test;
 using nlohmann::json;
@@ -121,4 +121,4 @@ TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine)
   for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace
+} // namespace nephroid::importance_verb_test

@@ -11,13 +11,13 @@
 #include <map>
 #include <string>
 
+namespace nephroid::loaded_libraries_test {
+
 using namespace nephroid::test;
 using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::SizeIs;
-
-namespace {
 
 /// By the file name of each program that a run of nephroid started, itself among them: every library that it initialised, one a line.
 std::map<std::string, std::string> programs_of(const std::vector<std::string>& arguments)
@@ -83,4 +83,4 @@ TEST(LoadedLibraries, ARunLoadsPicturesAndTheDriver)
   EXPECT_THAT(loaded, HasSubstr("libpocl"));
 }
 
-} // namespace
+} // namespace nephroid::loaded_libraries_test

@@ -8,7 +8,7 @@
 
 #include <sys/resource.h>
 
-namespace {
+namespace nephroid::memory_held_test {
 
 using namespace nephroid::test;
 
@@ -64,4 +64,4 @@ TEST_F(MemoryHeld, LayersForAnotherLightTakeWhatThePlanSays)
   EXPECT_LE(large - small, planned + margin_mib);
 }
 
-} // namespace
+} // namespace nephroid::memory_held_test

@@ -4,11 +4,11 @@
 
 #include <sys/stat.h>
 
+namespace nephroid::mesh_reader_test {
+
 using namespace nephroid::test;
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-namespace {
 
 const fs::path real_reader = fs::path(NEPHROID_PROGRAM).parent_path().parent_path() / "lib/nephroid/nephroid_mesh_reader";
 
@@ -100,4 +100,4 @@ TEST_F(MeshReaderLimits, Patience)
   EXPECT_EQ(read("waits.obj").signal, SIGALRM);
 }
 
-} // namespace
+} // namespace nephroid::mesh_reader_test

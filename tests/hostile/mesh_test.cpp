@@ -17,8 +17,7 @@
 #include <random>
 #include <string>
 
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::mesh_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -188,5 +187,4 @@ TEST_F(HostileMesh, CutAndChangedFilesDoNotBringTheProgramDown)
   }
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::mesh_test

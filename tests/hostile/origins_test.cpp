@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::origins_test {
 
 using namespace nephroid::test;
 using nlohmann::json;
@@ -113,4 +113,4 @@ TEST_F(Origins, FilesOfOverridesAreLookedForInTheCurrentFolderFirst)
   EXPECT_EQ(json::parse(again.out)["clusters"][0]["n_mean"], 1.75) << "the run's preset means the same file";
 }
 
-} // namespace
+} // namespace nephroid::origins_test

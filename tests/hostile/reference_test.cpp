@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace {
+namespace nephroid::reference_test {
 
 namespace fs = std::filesystem;
 using namespace nephroid::test;
@@ -210,4 +210,4 @@ TEST_F(Measured, ACacheThatCannotBeWrittenToIsSaidBeforeTheWork)
   EXPECT_FALSE(fs::exists(file("a")));
 }
 
-} // namespace
+} // namespace nephroid::reference_test

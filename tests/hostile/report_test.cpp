@@ -9,7 +9,7 @@
 
 #include <gmock/gmock.h>
 
-namespace {
+namespace nephroid::report_test {
 
 namespace fs = std::filesystem;
 using namespace nephroid::test;
@@ -220,4 +220,4 @@ TEST_F(ReportInBrowser, shows_what_files_say_as_text)
   for (const char* element : {"><img src=x", "><b>", "><i>", "><!--", ": <b>cost</b"}) EXPECT_THAT(html, testing::Not(HasSubstr(element)));
 }
 
-} // namespace
+} // namespace nephroid::report_test

@@ -18,7 +18,7 @@
 #include <cstdlib>
 #include <sys/mount.h>
 
-namespace {
+namespace nephroid::run_test {
 
 namespace fs = std::filesystem;
 using namespace nephroid::test;
@@ -421,4 +421,4 @@ TEST(Prepare, LendsTheTreeWhereTheTrianglesAreTheSame)
   EXPECT_NE(prepare(turned, &first).loaded->bvh, first.loaded->bvh);
 }
 
-} // namespace
+} // namespace nephroid::run_test

@@ -18,9 +18,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::spectral_input_test {
 
-using namespace nephroid;
 using nlohmann::json;
 using test::refusal_of;
 using testing::AllOf;
@@ -315,4 +314,4 @@ TEST_F(DamagedMeshes, TheProgramRefusesWithOneLine)
               HasSubstr("object 'die': dielectric, but not closed: 4 edges with one triangle; light that enters may never leave"));
 }
 
-} // namespace
+} // namespace nephroid::spectral_input_test

@@ -9,7 +9,7 @@
 
 #include <set>
 
-namespace {
+namespace nephroid::spectral_verbs_test {
 
 using namespace nephroid::test;
 using nlohmann::json;
@@ -148,4 +148,4 @@ TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
   for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace
+} // namespace nephroid::spectral_verbs_test

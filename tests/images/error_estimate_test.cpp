@@ -15,9 +15,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace {
-
-using namespace nephroid;
+namespace nephroid::error_estimate_test {
 
 constexpr int runs = 8;
 
@@ -104,4 +102,4 @@ INSTANTIATE_TEST_SUITE_P(Presets, ErrorEstimate,
                            return name;
                          });
 
-} // namespace
+} // namespace nephroid::error_estimate_test

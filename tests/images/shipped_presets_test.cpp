@@ -15,10 +15,9 @@
 #include <array>
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::shipped_presets_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// The preset small and short, so that all of them take seconds; of a sweep its first run.
 preset::Preset small(const std::string& name)
@@ -111,4 +110,4 @@ TEST(Prism, ColoursComeInTheOrderOfTheirWavelengths)
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names("spectral")), shipped_test_name);
 
-} // namespace
+} // namespace nephroid::shipped_presets_test

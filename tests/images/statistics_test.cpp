@@ -16,10 +16,9 @@
 
 #include <fstream>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::statistics_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr int stored_renders = 64;
 constexpr std::uint64_t first_stored_seed = 1'000'001, fresh_seed = 7;
@@ -294,4 +293,4 @@ TEST_P(StoredPicture, DISABLED_PassesWithTwentySeeds)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StoredPicture, testing::ValuesIn(cases), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::statistics_test

@@ -12,9 +12,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace nephroid::assignment_test {
 
-using namespace nephroid;
 using inverse::Assignment;
 using inverse::Cost;
 using inverse::Layout;
@@ -175,4 +174,4 @@ TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
   EXPECT_NEAR(inverse::cost_of(t, std::vector<double>{4, 2, 2, 0.01}, 10).cost, c.cost, 1e-9);
 }
 
-} // namespace
+} // namespace nephroid::assignment_test

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace {
-
-using namespace nephroid;
+namespace nephroid::bending_test {
 
 glm::dvec3 random_direction(std::mt19937_64& random)
 {
@@ -74,4 +72,4 @@ TEST(Bending, SlopesEndWhereLightRunsAlongTheFacet)
   EXPECT_NEAR(inverse::transmitted({0, 0}, 1.5), 0.96, 1e-12); // ((n - 1) / (n + 1))^2 is reflected
 }
 
-} // namespace
+} // namespace nephroid::bending_test

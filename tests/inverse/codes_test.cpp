@@ -6,9 +6,9 @@
 
 #include <gmock/gmock.h>
 
-using namespace nephroid::test;
+namespace nephroid::codes_test {
 
-namespace {
+using namespace nephroid::test;
 
 class Codes : public ProgramTest {
 protected:
@@ -55,4 +55,4 @@ TEST_F(Codes, AreReadAtTheirOwnDistance)
   for (const char* picture : {"target_2.png", "receiver_2.png"}) EXPECT_EQ(read(picture), "CAUSTICS") << picture;
 }
 
-} // namespace
+} // namespace nephroid::codes_test

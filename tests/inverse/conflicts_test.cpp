@@ -9,9 +9,8 @@
 #include <algorithm>
 #include <numeric>
 
-namespace {
+namespace nephroid::conflicts_test {
 
-using namespace nephroid;
 using inverse::Assignment;
 using inverse::Conflicts;
 using inverse::ConflictSearch;
@@ -109,4 +108,4 @@ TEST(Conflicts, BlameNoThird)
   EXPECT_LT(fight(c, 1, 2), 0.1 * fight(c, 0, 2));
 }
 
-} // namespace
+} // namespace nephroid::conflicts_test

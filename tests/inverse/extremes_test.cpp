@@ -6,11 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-using namespace nephroid;
+namespace nephroid::extremes_test {
+
 using namespace nephroid::test;
-
-namespace {
-
 using Json = nlohmann::json;
 
 /// A ring and a disc by 32 x 32 facets.
@@ -174,4 +172,4 @@ INSTANTIATE_TEST_SUITE_P(ExtremesOfObjects, Inverse, testing::ValuesIn(objects),
 INSTANTIATE_TEST_SUITE_P(ExtremesOfScreens, Inverse, testing::ValuesIn(screens), name_of);
 INSTANTIATE_TEST_SUITE_P(ExtremesOfLights, Inverse, testing::ValuesIn(lights), name_of);
 
-} // namespace
+} // namespace nephroid::extremes_test

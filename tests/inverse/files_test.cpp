@@ -17,9 +17,8 @@
 #include <cstdlib>
 #include <regex>
 
-namespace {
+namespace nephroid::files_test {
 
-using namespace nephroid;
 using inverse::Layout;
 using inverse::Solid;
 using testing::HasSubstr;
@@ -155,4 +154,4 @@ TEST_F(InverseFiles, AWallHasTwoPartsWhereEdgesCross)
   EXPECT_NEAR(solid.highest_wall, 5 * g, 1e-12);
 }
 
-} // namespace
+} // namespace nephroid::files_test

@@ -9,9 +9,8 @@
 #include <numeric>
 #include <random>
 
-namespace {
+namespace nephroid::footprint_test {
 
-using namespace nephroid;
 using inverse::Layout;
 
 Layout coarse()
@@ -132,4 +131,4 @@ TEST(Footprint, IsBlurredByTheSunAndByRoughness)
   for (std::size_t i = 0; i < is.size(); ++i) EXPECT_NEAR(is[i], truth[i], 0.01) << i;
 }
 
-} // namespace
+} // namespace nephroid::footprint_test

@@ -14,9 +14,8 @@
 #include <cstdint>
 #include <limits>
 
-namespace {
+namespace nephroid::going_on_test {
 
-using namespace nephroid;
 using inverse::Assignment;
 using inverse::Layout;
 using inverse::Picture;
@@ -198,4 +197,4 @@ TEST(GoingOn, IsRefusedWhereFacetsOrReceiversAreOthers)
   EXPECT_TRUE(run->finished()) << "nothing has changed";
 }
 
-} // namespace
+} // namespace nephroid::going_on_test

@@ -9,9 +9,8 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace nephroid::heights_test {
 
-using namespace nephroid;
 using inverse::Layout;
 using inverse::Solid;
 
@@ -179,4 +178,4 @@ TEST(Heights, FlatOnesAreZero)
   EXPECT_EQ(inverse::heights_of(layout, slopes), std::vector<double>(slopes.size()));
 }
 
-} // namespace
+} // namespace nephroid::heights_test

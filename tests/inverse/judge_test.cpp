@@ -10,9 +10,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace nephroid::judge_test {
 
-using namespace nephroid;
 using inverse::Fates;
 using inverse::Judge;
 using inverse::Layout;
@@ -148,4 +147,4 @@ TEST(Judge, BlursAsTheFootprintDoes)
   EXPECT_NEAR(variance, 1 / 12.0 + 0.25 / 12 + sun * sun / 4 + 1, 0.1);
 }
 
-} // namespace
+} // namespace nephroid::judge_test

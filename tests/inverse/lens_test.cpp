@@ -12,9 +12,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace nephroid::lens_test {
 
-using namespace nephroid;
 using inverse::Grid;
 
 const Place own = Place("p.json") / "inverse";
@@ -191,4 +190,4 @@ TEST(FacetSlope, TakesBackFacetGradient)
       EXPECT_LT(glm::length(inverse::facet_slope(inverse::facet_gradient(slope, n), n) - slope), 1e-12) << n;
 }
 
-} // namespace
+} // namespace nephroid::lens_test

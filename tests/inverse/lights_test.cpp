@@ -14,9 +14,8 @@
 #include <numeric>
 #include <random>
 
-namespace {
+namespace nephroid::lights_test {
 
-using namespace nephroid;
 using inverse::Incoming;
 using inverse::Judge;
 using inverse::Layout;
@@ -272,4 +271,4 @@ TEST(Lights, ThatCannotBeAreRefused)
   EXPECT_NO_THROW(with(layout, lamp(offered(near, "expected at least ") + 0.1)));
 }
 
-} // namespace
+} // namespace nephroid::lights_test

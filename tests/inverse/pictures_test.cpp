@@ -14,9 +14,8 @@
 #include <fstream>
 #include <numeric>
 
-namespace {
+namespace nephroid::pictures_test {
 
-using namespace nephroid;
 using inverse::Layout;
 using inverse::Picture;
 using inverse::Target;
@@ -183,4 +182,4 @@ TEST_F(PictureFiles, AreRefusedWhereTheyAreHuge)
               AllOf(HasSubstr("p.hdr"), HasSubstr("60000 x 60000 pixels of 3 channels, and at most 2^29 values are read")));
 }
 
-} // namespace
+} // namespace nephroid::pictures_test

@@ -7,9 +7,7 @@
 
 #include <cmath>
 
-namespace {
-
-using namespace nephroid;
+namespace nephroid::presets_test {
 
 TEST(InversePresets, AreDesignedAndJudged)
 {
@@ -34,4 +32,4 @@ TEST(InversePresets, AreDesignedAndJudged)
   EXPECT_GE(count, 13);
 }
 
-} // namespace
+} // namespace nephroid::presets_test

@@ -9,11 +9,11 @@
 
 #include <algorithm>
 
+namespace nephroid::run_test {
+
 using namespace nephroid::test;
 using nlohmann::json;
 using testing::HasSubstr;
-
-namespace {
 
 class InverseRun : public ProgramTest {
 protected:
@@ -182,4 +182,4 @@ TEST_F(InverseRun, IsPlannedWithItsReasons)
   EXPECT_EQ(thesis.at("notes").at(0), "the thesis' pipeline takes up to 251 trials and stops after 12: a 'stop.passes' of 251 lets it end");
 }
 
-} // namespace
+} // namespace nephroid::run_test

@@ -13,9 +13,8 @@
 
 #include <cmath>
 
-namespace {
+namespace nephroid::settings_test {
 
-using namespace nephroid;
 using inverse::Layout;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -226,4 +225,4 @@ TEST_F(InverseSettings, DrawingsCoverWhatTheyShould)
   EXPECT_NEAR(lit(R"({"type": "disc", "radius": 0.25, "background": 0.5})"), 0.5 + 0.5 * 3.14159 / 16, 1e-3);
 }
 
-} // namespace
+} // namespace nephroid::settings_test

@@ -11,9 +11,8 @@
 
 #include <cmath>
 
-namespace {
+namespace nephroid::smoothing_test {
 
-using namespace nephroid;
 using inverse::Assignment;
 using inverse::Layout;
 using inverse::Picture;
@@ -82,4 +81,4 @@ TEST(Smoothing, CostsErrorAndMakesSmoother)
 // A weight so small that it turns no choice gives the same slopes as none, which has no term.
 TEST(Smoothing, NoneIsTheSameAsATermOfNoWeight) { EXPECT_EQ(made(0).slopes, made(1e-300).slopes); }
 
-} // namespace
+} // namespace nephroid::smoothing_test

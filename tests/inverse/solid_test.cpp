@@ -9,13 +9,11 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace nephroid::solid_test {
 
-using namespace nephroid;
 using inverse::Layout;
 using inverse::Part;
 using inverse::Solid;
-
 using test::expect_sound, test::random_slopes, test::small;
 
 TEST(Solid, IsClosedWithAnySlopes)
@@ -83,4 +81,4 @@ TEST(Solid, FacetsHaveTheirNormals)
   EXPECT_GE(facets, 4u * 63);
 }
 
-} // namespace
+} // namespace nephroid::solid_test

@@ -11,9 +11,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace nephroid::thesis_parts_test {
 
-using namespace nephroid;
 using inverse::Aim;
 using inverse::Annealer;
 using inverse::Draws;
@@ -226,4 +225,4 @@ TEST(ThesisAnnealer, TakesRisesAsTheTemperatureSays)
   }
 }
 
-} // namespace
+} // namespace nephroid::thesis_parts_test

@@ -9,9 +9,8 @@
 
 #include <cmath>
 
-namespace {
+namespace nephroid::thesis_test {
 
-using namespace nephroid;
 using inverse::Layout;
 using inverse::Picture;
 using inverse::Pipeline;
@@ -134,4 +133,4 @@ TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
   EXPECT_GT(job::scalar(s, "thesis", "gain_annealing_2"), 0.05);
 }
 
-} // namespace
+} // namespace nephroid::thesis_test

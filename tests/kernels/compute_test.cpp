@@ -18,9 +18,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::compute_test {
 
-using namespace nephroid;
 using compute::Buffer;
 using compute::Context;
 using compute::Program;
@@ -237,4 +236,4 @@ TEST(Environment, WithoutHomeOrAWritableCacheThereIsANoteAndAWayOn)
   }
 }
 
-} // namespace
+} // namespace nephroid::compute_test

@@ -14,11 +14,10 @@
 #include <numbers>
 #include <random>
 
-using namespace nephroid;
+namespace nephroid::differential_test {
+
 using namespace nephroid::test;
 using check::ball;
-
-namespace {
 
 constexpr int steps = 24; // surfaces of a path
 
@@ -362,4 +361,4 @@ TEST(PrismDifferential, IsTheAngularDispersionAtMinimumDeviation)
   RecordProperty("worst relative error", std::to_string(1e6 * worst) + "e-6");
 }
 
-} // namespace
+} // namespace nephroid::differential_test

@@ -18,14 +18,13 @@
 #include <random>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::ellipsoid_test {
+
 using namespace nephroid::test;
 using check::Hit;
 using check::KernelTracer;
 using check::no_primitive;
 using check::Ray;
-
-namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -190,4 +189,4 @@ TEST(Ellipsoid, ATreeOfManyFindsTheClosest)
   EXPECT_GT(spheres, rays.size() / 8);
 }
 
-} // namespace
+} // namespace nephroid::ellipsoid_test

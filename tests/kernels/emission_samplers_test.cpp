@@ -13,13 +13,12 @@
 
 #include <functional>
 
-using namespace nephroid;
+namespace nephroid::emission_samplers_test {
+
 using namespace nephroid::test;
 using shared::DeviceLight;
 using shared::DeviceTarget;
 using shared::float4;
-
-namespace {
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
@@ -314,4 +313,4 @@ TEST(EmissionSamplers, DirectionalLight)
   expect_emission(sent, cell, density, watts);
 }
 
-} // namespace
+} // namespace nephroid::emission_samplers_test

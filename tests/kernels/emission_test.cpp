@@ -10,11 +10,10 @@
 #include <array>
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::emission_test {
+
 using shared::DeviceTarget;
 using shared::float4;
-
-namespace {
 
 constexpr const char* source = R"(
 #include "kernels/tracing/shared_types.h"
@@ -77,4 +76,4 @@ TEST(Emission, FromInsideATargetItIsTheWholeSphere)
   }
 }
 
-} // namespace
+} // namespace nephroid::emission_test

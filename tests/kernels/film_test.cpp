@@ -10,9 +10,7 @@
 #include <limits>
 #include <random>
 
-using namespace nephroid;
-
-namespace {
+namespace nephroid::film_test {
 
 using Float4 = shared::float4;
 
@@ -62,4 +60,4 @@ TEST(Film, RefusesWhatDoesNotFit)
   EXPECT_EQ(std::vector<std::int64_t>(sums.begin() + 18, sums.begin() + 21), (std::vector<std::int64_t>{0, 0, 2})); // ties to even
 }
 
-} // namespace
+} // namespace nephroid::film_test

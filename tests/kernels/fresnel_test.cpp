@@ -9,9 +9,7 @@
 
 #include <cmath>
 
-using namespace nephroid;
-
-namespace {
+namespace nephroid::fresnel_test {
 
 using Float4 = shared::float4;
 
@@ -97,4 +95,4 @@ TEST(FresnelKernel, DirectionsKeepTheTangentialPartTimesTheIndex)
   }
 }
 
-} // namespace
+} // namespace nephroid::fresnel_test

@@ -14,9 +14,8 @@
 #include <cstdint>
 #include <vector>
 
-namespace {
+namespace nephroid::guide_test {
 
-using namespace nephroid;
 using Point = std::array<float, 4>;
 
 constexpr std::size_t cells = GUIDE_CELLS;
@@ -193,4 +192,4 @@ TEST(Guide, StaysBelowOne)
   }
 }
 
-} // namespace
+} // namespace nephroid::guide_test

@@ -16,9 +16,8 @@
 #include <numeric>
 #include <vector>
 
-namespace {
+namespace nephroid::low_discrepancy_test {
 
-using namespace nephroid;
 using Point = std::array<float, 4>;
 
 const char* const source = R"(
@@ -157,4 +156,4 @@ TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
   }
 }
 
-} // namespace
+} // namespace nephroid::low_discrepancy_test

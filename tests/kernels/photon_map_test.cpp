@@ -13,11 +13,10 @@
 #include <span>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::photon_map_test {
+
 using shared::StoredPhoton;
 using shared::VisiblePoint;
-
-namespace {
 
 const char* const source = R"(
 #include "kernels/spectral/photon_map.h"
@@ -159,4 +158,4 @@ TEST_F(PhotonMapTest, PlacesBeyondEveryCellAndEmptyMapsAreHarmless)
   EXPECT_EQ(gather(photons, points, 1e-3)[0].count, 0);
 }
 
-} // namespace
+} // namespace nephroid::photon_map_test

@@ -14,10 +14,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::photons_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// A smooth ball, a diamond and a mirror above a coloured floor, of dispersive glass; a point light.
 preset::Preset glass_preset()
@@ -157,4 +156,4 @@ TEST(Photons, SameSeedSameBitsAnotherSeedNot)
   EXPECT_NE(first.picture->rgb, render(p).picture->rgb);
 }
 
-} // namespace
+} // namespace nephroid::photons_test

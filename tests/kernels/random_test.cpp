@@ -7,9 +7,8 @@
 
 #include <array>
 
-namespace {
+namespace nephroid::random_test {
 
-using namespace nephroid;
 using Block = std::array<std::uint32_t, 4>;
 
 TEST(Random, PhiloxGivesThePublishedVectors)
@@ -30,4 +29,4 @@ TEST(Random, PhiloxGivesThePublishedVectors)
   EXPECT_EQ(out.read(), published);
 }
 
-} // namespace
+} // namespace nephroid::random_test

@@ -24,10 +24,9 @@
 #include <ctime>
 #include <fstream>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::relighting_test {
 
-namespace {
+using namespace nephroid::test;
 
 preset::LightSpectrum illuminant(const std::string& name)
 {
@@ -335,4 +334,4 @@ TEST(Relighting, TakesMilliseconds)
   RecordProperty("plain_snapshot_ms", snapshot);
 }
 
-} // namespace
+} // namespace nephroid::relighting_test

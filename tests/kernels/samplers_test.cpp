@@ -12,11 +12,10 @@
 #include <array>
 #include <functional>
 
-using namespace nephroid;
+namespace nephroid::samplers_test {
+
 using namespace nephroid::test;
 using shared::float4;
-
-namespace {
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
@@ -333,4 +332,4 @@ TEST(ReflectOrRefract, HasFresnelsProbability)
   }
 }
 
-} // namespace
+} // namespace nephroid::samplers_test

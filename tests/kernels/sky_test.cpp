@@ -13,11 +13,10 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::sky_test {
+
 using namespace nephroid::test;
 using shared::float4;
-
-namespace {
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
@@ -106,4 +105,4 @@ INSTANTIATE_TEST_SUITE_P(Sizes, SkyKernel, testing::Values(std::array{16, 8}, st
                            return std::to_string(parameter.param[0]) + "x" + std::to_string(parameter.param[1]);
                          });
 
-} // namespace
+} // namespace nephroid::sky_test

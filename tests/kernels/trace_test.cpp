@@ -15,9 +15,8 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
-namespace {
+namespace nephroid::trace_test {
 
-using namespace nephroid;
 using check::Verdict;
 using test::Hit;
 using test::no_primitive;
@@ -258,4 +257,4 @@ TEST_F(Trace, PortableMasksGiveTheSameBits)
   }
 }
 
-} // namespace
+} // namespace nephroid::trace_test

@@ -18,10 +18,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::absorption_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr double radius = 0.05; // m
 
@@ -71,4 +70,4 @@ TEST(AbsorbingBall, TakesWhatItsChordsTake)
     }
 }
 
-} // namespace
+} // namespace nephroid::absorption_test

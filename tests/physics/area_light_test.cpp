@@ -14,10 +14,9 @@
 #include <cmath>
 #include <numeric>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::area_light_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// A floor below a panel of 1.6 m by 1.6 m at height 1, seen from half that height; with or without a sheet of n = 1 under the panel.
 preset::Preset floor_under_a_panel(bool sheet)
@@ -142,4 +141,4 @@ TEST(AreaLight, LowDiscrepancyPhotonsMakeThePanelsIrradiance)
   record("area light, low discrepancy: tolerance of a sixteenth of the floor", widest, 0, 0.3);
 }
 
-} // namespace
+} // namespace nephroid::area_light_test

@@ -18,10 +18,9 @@
 #include <cmath>
 #include <functional>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::background_test {
 
-namespace {
+using namespace nephroid::test;
 
 preset::Preset with_constant(const preset::Vec3& colour, int resolution, double radiance = 1)
 {
@@ -158,9 +157,9 @@ struct Thing {
   double lost; ///< the share of light that total reflection keeps for ever, at most
 };
 
-class WhiteFurnace : public testing::TestWithParam<Thing> {};
+class BackgroundFurnace : public testing::TestWithParam<Thing> {};
 
-TEST_P(WhiteFurnace, GlassCannotBeSeen)
+TEST_P(BackgroundFurnace, GlassCannotBeSeen)
 {
   constexpr int pixels = 12;
   preset::Preset p = with_constant({0.7, 0.4, 0.2}, pixels);
@@ -193,7 +192,7 @@ preset::Material shipped_glass(const std::string& file)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Things, WhiteFurnace,
+    Things, BackgroundFurnace,
     testing::Values(Thing{"glass_ball",
                           [](preset::Preset& p) {
                             p.scene.materials["glass"] = glass(1.5);
@@ -354,4 +353,4 @@ TEST(Background, IsLeftOutWhereThereIsNothingToSee)
   EXPECT_FALSE(pass(p).runs);
 }
 
-} // namespace
+} // namespace nephroid::background_test

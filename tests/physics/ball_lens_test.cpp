@@ -11,10 +11,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::ball_lens_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr double n = 1.5;
 
@@ -133,4 +132,4 @@ TEST(BallLens, IrradianceOnAScreenIsTheIntegralOverHeights)
   }
 }
 
-} // namespace
+} // namespace nephroid::ball_lens_test

@@ -22,10 +22,9 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
-namespace fs = std::filesystem;
+namespace nephroid::check_test {
 
-namespace {
+namespace fs = std::filesystem;
 
 std::string line_of(const check::Result& r)
 {
@@ -167,4 +166,4 @@ TEST_P(CheckFault, IsSeen)
 
 INSTANTIATE_TEST_SUITE_P(Kernels, CheckFault, testing::ValuesIn(faults()), [](const auto& tested) { return test_name(tested.param.name); });
 
-} // namespace
+} // namespace nephroid::check_test

@@ -14,11 +14,9 @@
 
 #include <algorithm>
 
-using namespace nephroid;
+namespace nephroid::effort_test {
+
 using namespace nephroid::test;
-
-namespace {
-
 using Effort = spectral::Settings::Effort;
 
 /// X, Y and Z of the layer "caustic", and the power that came down.
@@ -65,4 +63,4 @@ TEST_P(DealtEffort, LeavesThePictureAsItIs)
 
 INSTANTIATE_TEST_SUITE_P(Choices, DealtEffort, testing::Values(Effort::equal, Effort::importance, Effort::radziszewski));
 
-} // namespace
+} // namespace nephroid::effort_test

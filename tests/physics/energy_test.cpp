@@ -13,10 +13,9 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::energy_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// Every run of a shipped preset, small and short: energy does not depend on the camera.
 std::vector<preset::Preset> small_runs(const std::string& name)
@@ -97,4 +96,4 @@ TEST(Energy, WhatEscapesIsWhatARoomCatches)
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names("spectral")), shipped_test_name);
 
-} // namespace
+} // namespace nephroid::energy_test

@@ -14,10 +14,9 @@
 #include <cmath>
 #include <numeric>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::environment_light_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr int pixels = 24, group = 4, groups = pixels / group;
 const Screen screen{{0, -1, 0}, 3, pixels};
@@ -290,4 +289,4 @@ TEST(EnvironmentLight, IsAskedFor)
   EXPECT_EQ(row(), "no row");
 }
 
-} // namespace
+} // namespace nephroid::environment_light_test

@@ -13,10 +13,9 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::extreme_glass_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr int photons = 1 << 17;
 
@@ -251,4 +250,4 @@ class Glass : public testing::TestWithParam<Extreme> {};
 TEST_P(Glass, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Glass, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_glass_test

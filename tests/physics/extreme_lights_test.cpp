@@ -9,10 +9,9 @@
 #include "spectral/engine.h"
 #include "tests/support/extremes.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::extreme_lights_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr int photons = 1 << 17;
 
@@ -261,4 +260,4 @@ class Lights : public testing::TestWithParam<Extreme> {};
 TEST_P(Lights, AreRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Lights, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_lights_test

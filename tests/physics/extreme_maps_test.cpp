@@ -10,11 +10,9 @@
 #include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
 
-using namespace nephroid;
+namespace nephroid::extreme_maps_test {
+
 using namespace nephroid::test;
-
-namespace {
-
 using Estimator = spectral::Settings::Estimator;
 using Effort = spectral::Settings::Effort;
 
@@ -148,4 +146,4 @@ class Maps : public testing::TestWithParam<Extreme> {};
 TEST_P(Maps, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Maps, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_maps_test

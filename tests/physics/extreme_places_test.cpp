@@ -15,10 +15,9 @@
 #include <filesystem>
 #include <fstream>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::extreme_places_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr int photons = 1 << 17;
 
@@ -292,4 +291,4 @@ class Places : public testing::TestWithParam<Extreme> {};
 TEST_P(Places, AreRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Places, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_places_test

@@ -13,10 +13,9 @@
 
 #include <limits>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::extreme_surroundings_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// One colour behind a ball of glass, of which the camera sees both.
 preset::Preset ball_before_sky(double radiance, int pixels = 8)
@@ -213,4 +212,4 @@ class Surroundings : public testing::TestWithParam<Extreme> {};
 TEST_P(Surroundings, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Surroundings, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_surroundings_test

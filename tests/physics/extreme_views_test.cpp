@@ -8,10 +8,9 @@
 #include "spectral/engine.h"
 #include "tests/support/extremes.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::extreme_views_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// Looking at a wall from far away through a telescope: the picture of a white square of 1 m on black, which fills half of it.
 Outcome telescope(double distance)
@@ -169,4 +168,4 @@ class Views : public testing::TestWithParam<Extreme> {};
 TEST_P(Views, AreRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Views, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_views_test

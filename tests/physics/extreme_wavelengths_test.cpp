@@ -14,11 +14,9 @@
 
 #include <array>
 
-using namespace nephroid;
+namespace nephroid::extreme_wavelengths_test {
+
 using namespace nephroid::test;
-
-namespace {
-
 using Effort = spectral::Settings::Effort;
 using Method = spectral::Settings::Method;
 
@@ -251,4 +249,4 @@ class Wavelengths : public testing::TestWithParam<Extreme> {};
 TEST_P(Wavelengths, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Wavelengths, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_wavelengths_test

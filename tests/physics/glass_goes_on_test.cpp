@@ -13,8 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace nephroid {
-namespace {
+namespace nephroid::glass_goes_on_test {
 
 using test::layer;
 
@@ -113,5 +112,4 @@ TEST(ThroughGlass, SharesChangeNoLight)
   EXPECT_NEAR(by_gain / as_before, 1, 0.05);
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::glass_goes_on_test

@@ -17,10 +17,9 @@
 #include <cmath>
 #include <functional>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::indirect_test {
 
-namespace {
+using namespace nephroid::test;
 
 preset::Preset indirect_only(int resolution)
 {
@@ -286,4 +285,4 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   EXPECT_EQ(spectral::indirect_energy_of(resumed)->escaped_w, spectral::indirect_energy_of(whole)->escaped_w);
 }
 
-} // namespace
+} // namespace nephroid::indirect_test

@@ -16,10 +16,9 @@
 
 #include <algorithm>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::leaving_out_test {
 
-namespace {
+using namespace nephroid::test;
 
 plan::Pass pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {})
 {
@@ -194,4 +193,4 @@ TEST(NotLeftOut, WhatAnAreaLightsPlaneCuts)
   EXPECT_TRUE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
 }
 
-} // namespace
+} // namespace nephroid::leaving_out_test

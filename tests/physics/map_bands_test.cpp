@@ -15,10 +15,9 @@
 #include <array>
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::map_bands_test {
 
-namespace {
+using namespace nephroid::test;
 
 struct Line {
   double nm, n, share; ///< the prism's n; of the lamp's power
@@ -138,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(, MapBands,
                                              spectral::Settings::Method::brute_force}),
                          [](const auto& way) { return std::string(way.param.name); });
 
-} // namespace
+} // namespace nephroid::map_bands_test

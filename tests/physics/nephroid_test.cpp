@@ -26,10 +26,9 @@
 #include <cmath>
 #include <fstream>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::nephroid_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr double slope = 0.5;          // down per unit along
 constexpr double s0 = 0.05, s1 = 0.95; // from the wall to the floor
@@ -205,4 +204,4 @@ TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
   expect_truth("nephroid: irradiance over its law nearest the edge", (excess[0] / pixels[0] - third_ray) / (law[0] / pixels[0]), 1, 0.04);
 }
 
-} // namespace
+} // namespace nephroid::nephroid_test

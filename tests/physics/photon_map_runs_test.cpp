@@ -12,12 +12,11 @@
 
 #include <algorithm>
 
-using namespace nephroid;
+namespace nephroid::photon_map_runs_test {
+
 using namespace nephroid::test;
 using Estimator = spectral::Settings::Estimator;
 using Effort = spectral::Settings::Effort;
-
-namespace {
 
 /// A ball of dispersive glass that absorbs, and a mirror behind it, in view; two lamps.
 preset::Preset glass_in_view(Estimator estimator, Effort effort = Effort::power)
@@ -185,4 +184,4 @@ TEST(MapPlan, SppmTakesTwentyBytesForEachPixelInEachCluster)
   EXPECT_EQ(bytes_of(plan_of(p), "statistics of pixels"), 400u * 20);
 }
 
-} // namespace
+} // namespace nephroid::photon_map_runs_test

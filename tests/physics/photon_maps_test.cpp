@@ -16,11 +16,10 @@
 #include <cmath>
 #include <numeric>
 
-using namespace nephroid;
+namespace nephroid::photon_maps_test {
+
 using namespace nephroid::test;
 using Estimator = spectral::Settings::Estimator;
-
-namespace {
 
 /// Mean Y of the layer "caustic", of a light of 1 W.
 std::vector<double> mean_luminance(const job::Snapshot& snapshot)
@@ -267,4 +266,4 @@ TEST(PhotonMaps, AMirrorShowsWhatTheMirroredCameraSees)
   expect_same_picture("maps in a mirror", render_passes(maps, mirrored), render_passes(splat, block_sums), 0.4);
 }
 
-} // namespace
+} // namespace nephroid::photon_maps_test

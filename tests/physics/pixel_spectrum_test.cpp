@@ -10,11 +10,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::pixel_spectrum_test {
+
 using namespace nephroid::test;
-
-namespace {
-
 using testing::HasSubstr;
 
 constexpr int size = 16;
@@ -169,4 +167,4 @@ TEST(PixelSpectrum, WithoutLayersSaysWhatToSwitchOn)
   EXPECT_EQ(spectrum_of(*job, {-1, 5}), nullptr);
 }
 
-} // namespace
+} // namespace nephroid::pixel_spectrum_test

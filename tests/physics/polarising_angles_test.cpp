@@ -16,10 +16,9 @@
 #include <array>
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::polarising_angles_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr int photons = 1 << 19;
 
@@ -104,4 +103,4 @@ kernel void reflectances(global const float4* in, global float4* out, uint count
   expect_truth("Brewster's angle: kernel against optics/fresnel.h, n = 1 to 4", worst, 0, 2e-7);
 }
 
-} // namespace
+} // namespace nephroid::polarising_angles_test

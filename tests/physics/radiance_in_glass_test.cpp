@@ -12,10 +12,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::radiance_in_glass_test {
 
-namespace {
+using namespace nephroid::test;
 
 // A white sheet and a lamp of intensity I = P / (4 pi) inside a block of glass, seen from above along the normal. The sheet has the
 // radiance L = I cos(theta) / (pi d^2); of that the eye gets (1 - R) L / n^2 with R = ((n - 1) / (n + 1))^2 at normal incidence.
@@ -50,4 +49,4 @@ TEST(RadianceInGlass, IsDividedByTheSquareOfTheIndexOnTheWayOut)
   EXPECT_NEAR(mean / truth, 1, 0.01);
 }
 
-} // namespace
+} // namespace nephroid::radiance_in_glass_test

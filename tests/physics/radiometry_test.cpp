@@ -12,10 +12,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::radiometry_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// A floor seen from straight above, a light above it, and nothing or a sheet of "glass" with n = 1 between them.
 /// The floor is the plane y = 0, reflectance 1; the camera is at height 2 and sees 1 m x 1 m of it.
@@ -186,4 +185,4 @@ INSTANTIATE_TEST_SUITE_P(Lights, Photons,
                                          preset::Light::Type::area),
                          light_name);
 
-} // namespace
+} // namespace nephroid::radiometry_test

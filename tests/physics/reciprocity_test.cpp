@@ -16,10 +16,9 @@
 #include <cmath>
 #include <numeric>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::reciprocity_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// A rectangle that shines or receives: u and v are its full edges' lengths, `up` runs along v.
 struct Patch {
@@ -173,4 +172,4 @@ TEST(Reciprocity, TheEyeSeesThroughGlassWhatPhotonsBring)
   }
 }
 
-} // namespace
+} // namespace nephroid::reciprocity_test

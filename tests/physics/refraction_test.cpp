@@ -14,10 +14,9 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::refraction_test {
 
-namespace {
+using namespace nephroid::test;
 
 // ---- Plate -----------------------------------------------------------------------------------------------------------------
 // A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m that lies in y = 0; a floor below catches what goes through.
@@ -266,4 +265,4 @@ TEST(TotalReflection, ACubeKeepsWhatIsOutsideItsCones)
   EXPECT_NEAR(e.emitted_w, 1, 1e-6);
 }
 
-} // namespace
+} // namespace nephroid::refraction_test

@@ -11,10 +11,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::slab_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr double n = 1.5;
 
@@ -81,4 +80,4 @@ TEST(Slab, LeavesIrradianceUniform)
   }
 }
 
-} // namespace
+} // namespace nephroid::slab_test

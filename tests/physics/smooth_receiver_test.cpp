@@ -16,10 +16,9 @@
 #include <cmath>
 #include <fstream>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::smooth_receiver_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr double n = 1.5;
 const preset::Vec3 direction = {0.25, -1, 0.15};
@@ -163,4 +162,4 @@ TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals)
   EXPECT_LT(error, 0.15);
 }
 
-} // namespace
+} // namespace nephroid::smooth_receiver_test

@@ -16,8 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace nephroid {
-namespace {
+namespace nephroid::smoothing_test {
 
 using Smooth = spectral::Settings::Smoothing;
 
@@ -136,5 +135,4 @@ TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
   EXPECT_EQ(smoothing_pass(sppm).field, "");
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::smoothing_test

@@ -11,11 +11,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::spectral_differentials_test {
+
 using namespace nephroid::test;
-
-namespace {
-
 using Columns = std::vector<std::array<double, 3>>; // XYZ
 
 constexpr double prism_side = 0.1, drop = 0.1;                    // metres; the receiver is `drop` below the prism's middle
@@ -306,4 +304,4 @@ TEST(SpectralDifferentials, AreLeftOutWhereNothingDisperses)
   EXPECT_EQ(plan_of(newton.preset()).defines.at("NEPHROID_DIFFERENTIALS"), "0");
 }
 
-} // namespace
+} // namespace nephroid::spectral_differentials_test

@@ -14,10 +14,9 @@
 
 #include <stdexcept>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::wavelength_jitter_test {
 
-namespace {
+using namespace nephroid::test;
 
 /// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
 /// whole clusters, are independent, and are dealt by power: what a test is about it turns on.
@@ -181,4 +180,4 @@ TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters)
   EXPECT_LT(ratio, 2);
 }
 
-} // namespace
+} // namespace nephroid::wavelength_jitter_test

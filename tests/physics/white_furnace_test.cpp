@@ -20,10 +20,9 @@
 #include <array>
 #include <cmath>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::white_furnace_test {
 
-namespace {
+using namespace nephroid::test;
 
 constexpr double cube = 3, receiver_side = 0.4, reflectance = 0.7, radiance = 1;
 constexpr int groups = 6, group = 4; // pixels are looked at in squares of 4 x 4, of which there are 6 x 6
@@ -173,4 +172,4 @@ TEST_P(WhiteFurnace, NothingInItCanBeSeen)
 INSTANTIATE_TEST_SUITE_P(Things, WhiteFurnace, testing::ValuesIn(furnaces()),
                          [](const testing::TestParamInfo<Furnace>& parameter) { return std::string(parameter.param.name); });
 
-} // namespace
+} // namespace nephroid::white_furnace_test

@@ -9,8 +9,7 @@
 #include <map>
 #include <set>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::actions_test {
 
 using test::Desk;
 
@@ -97,5 +96,4 @@ TEST(Actions, EachButtonOfTheToolbarIsClicked)
   say("clicked on the toolbar", pressed);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::actions_test

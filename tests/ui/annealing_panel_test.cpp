@@ -11,8 +11,7 @@
 #include <filesystem>
 #include <numeric>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::annealing_panel_test {
 
 using ::testing::ElementsAre;
 using ::testing::SizeIs;
@@ -218,5 +217,4 @@ TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)
   EXPECT_FALSE(facet_beam(slopes, layout, {0, 0})) << "of another run";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::annealing_panel_test

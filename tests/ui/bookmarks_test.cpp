@@ -4,8 +4,7 @@
 
 #include "window_fixture.h"
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::bookmarks_test {
 
 class Bookmarks : public test::WindowFixture {
 protected:
@@ -91,5 +90,4 @@ TEST_F(Bookmarks, StayWhenAnotherPresetIsOpened)
   EXPECT_NE(all()[1].name, all()[0].name);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::bookmarks_test

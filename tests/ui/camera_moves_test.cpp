@@ -7,8 +7,7 @@
 
 #include <cmath>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::camera_moves_test {
 
 constexpr double tolerance = 1e-9;
 
@@ -103,5 +102,4 @@ TEST(CameraMoves, OrbitToTheLeftTurnsTheSceneToTheRight)
   EXPECT_GT(seen(orbit(at(0, 0, 4), 0, 10), {0, 0, 1})[1], 0);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::camera_moves_test

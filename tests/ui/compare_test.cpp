@@ -10,8 +10,7 @@
 
 #include <limits>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::compare_test {
 
 using test::eventually;
 using test::falling_history;
@@ -293,5 +292,4 @@ TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::compare_test

@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::device_runs_test {
 
 using ::testing::StartsWith;
 
@@ -111,5 +110,4 @@ TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
   EXPECT_EQ(workbench.run().status().generation, run);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::device_runs_test

@@ -14,8 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dispersion_edits_test {
 
 using spectral::ClusterMethod;
 using ::testing::ElementsAre;
@@ -147,5 +146,4 @@ TEST(DispersionFigures, BandsCoverEveryWavelengthOnceAndKeepTheirCluster)
   EXPECT_EQ(next, optics::wavelength_count);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dispersion_edits_test

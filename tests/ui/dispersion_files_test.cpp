@@ -9,8 +9,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dispersion_files_test {
 
 using spectral::ClusterMethod;
 using test::five, test::from_file, test::from_points, test::shipped;
@@ -105,5 +104,4 @@ TEST_F(DispersionFilesTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
   EXPECT_EQ(panel().model().error(), "");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dispersion_files_test

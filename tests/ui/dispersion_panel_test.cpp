@@ -9,8 +9,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dispersion_panel_test {
 
 using spectral::ClusterMethod;
 using test::five, test::from_file, test::from_points, test::shipped;
@@ -249,5 +248,4 @@ TEST_F(DispersionPanelTest, AStepOfADragTakesLessThanAFrame)
   }
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dispersion_panel_test

@@ -9,8 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dispersion_window_test {
 
 using test::bytes_at;
 
@@ -76,5 +75,4 @@ TEST_F(DispersionWindowTest, ADraggedPointIsInThePresetThatIsSaved)
   EXPECT_GE(longest_run(picture, at[1][0], colour::text), 8) << "one at its left; those at its right lie below its tooltip";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dispersion_window_test

@@ -14,8 +14,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dropped_mesh_test {
 
 using testing::HasSubstr;
 
@@ -148,5 +147,4 @@ TEST_F(DroppedMeshTest, ForAPresetThatIsGoneIsForgotten)
   EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dropped_mesh_test

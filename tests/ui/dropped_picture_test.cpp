@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dropped_picture_test {
 
 class DroppedPicture : public test::WorkbenchFixture {
 protected:
@@ -52,5 +51,4 @@ TEST_F(DroppedPicture, SaysWhatToDoWithItElsewhere)
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dropped_picture_test

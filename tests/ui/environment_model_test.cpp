@@ -15,8 +15,7 @@
 
 #include <functional>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::environment_model_test {
 
 using environment::SegmentMethod;
 using ::testing::AllOf;
@@ -179,5 +178,4 @@ TEST_F(EnvironmentModelTest, ABlackMapHasNoLights)
   EXPECT_EQ(shown.cut_error, 0);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_model_test

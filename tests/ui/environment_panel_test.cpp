@@ -13,8 +13,7 @@
 
 #include <algorithm>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::environment_panel_test {
 
 using test::direction_of;
 using ::testing::HasSubstr;
@@ -413,5 +412,4 @@ TEST_F(EnvironmentPanelTest, AFrameAndAStepOfADragAreTimed)
   timed("4096_lights", [](int) {});
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_panel_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::environment_picture_test {
 
 using environment::SegmentMethod;
 using test::direction_of;
@@ -205,5 +204,4 @@ TEST(MapDrags, TurnTheWayOfTheMouse)
   EXPECT_EQ(dragged_rotation(0, 1.0 / 3000, flat), -0.1);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_picture_test

@@ -9,8 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::environment_session_test {
 
 class EnvironmentSession : public test::RealWindow {
 protected:
@@ -78,5 +77,4 @@ TEST_F(EnvironmentSession, FromTheStartPageToASavedPicture)
   EXPECT_EQ(left.edits->saved, left.edits->index);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_session_test

@@ -14,8 +14,7 @@
 #include <limits>
 #include <set>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::error_lines_test {
 
 using test::falling_history;
 using ::testing::ElementsAre;
@@ -227,5 +226,4 @@ TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
   EXPECT_THAT(refusal(folder.path() / "none.csv"), HasSubstr("none.csv"));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::error_lines_test

@@ -10,8 +10,7 @@
 #include <chrono>
 #include <limits>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::error_panel_test {
 
 using test::falling_history;
 using ::testing::SizeIs;
@@ -150,5 +149,4 @@ TEST_F(ErrorPanelTest, CopiesGoToTheClipboard)
   EXPECT_TRUE(commands.empty());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::error_panel_test

@@ -3,6 +3,7 @@
 // vanish, names of no file, files that are there already.
 #include "base/files.h"
 #include "preset/read.h"
+#include "tests/support/process_state.h"
 #include "window_fixture.h"
 
 #include <gmock/gmock.h>
@@ -10,23 +11,11 @@
 
 #include <filesystem>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::file_list_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-/// The current folder, for a while.
-class Inside {
-public:
-  explicit Inside(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder); }
-  ~Inside() { std::filesystem::current_path(before_); }
-  Inside(const Inside&) = delete;
-
-private:
-  std::filesystem::path before_;
-};
 
 class FileListTest : public test::WindowFixture {
 protected:
@@ -83,7 +72,7 @@ protected:
 // A preset that is named without a folder lies in the present one.
 TEST_F(FileListTest, BeginsInThePresentFolderWhereThePresetHasNone)
 {
-  const Inside here(folder.path());
+  const test::CurrentFolder here(folder.path());
   folder.write("near.json", test::preset_text);
   ASSERT_TRUE(workbench.open("near.json"));
   workbench.apply({command::Ask{Question::save_preset}});
@@ -230,5 +219,4 @@ TEST_F(FileListTest, EnterReplacesAFileTheSecondTimeOnly)
   EXPECT_EQ(preset::read_preset(kept.string()).name, "Test");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::file_list_test

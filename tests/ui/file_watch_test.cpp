@@ -7,8 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::file_watch_test {
 
 class FileWatchTest : public test::WorkbenchFixture {
 protected:
@@ -151,5 +150,4 @@ TEST_F(FileWatchTest, ADeviceThatWasLostIsOpenedAgain)
   EXPECT_TRUE(until(job::State::finished));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::file_watch_test

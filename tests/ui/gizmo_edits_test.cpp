@@ -17,8 +17,7 @@
 #include <numbers>
 #include <random>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::gizmo_edits_test {
 
 using Kind = Selection::Kind;
 constexpr Selection first_object{Kind::object, 0}, first_light{Kind::light, 0};
@@ -252,5 +251,4 @@ TEST(GizmoMatrices, ProjectAsTheCameraDoes)
   }
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::gizmo_edits_test

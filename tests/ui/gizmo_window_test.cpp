@@ -6,6 +6,7 @@
 #include "preset/read.h"
 #include "real_window.h"
 #include "seen_scene.h"
+#include "tests/support/process_state.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +16,7 @@
 #include <filesystem>
 #include <thread>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::gizmo_window_test {
 
 using test::Pixel, test::pixel;
 
@@ -52,13 +52,9 @@ constexpr const char* environment_text = R"({
 
 class GizmoWindowTest : public test::RealWindow {
 protected:
-  GizmoWindowTest() : RealWindow({"Xvfb", "xdotool", "import"})
-  {
-    // Bakes go with the test; compiled kernels stay.
-    const char* const home = std::getenv("HOME");
-    setenv("POCL_CACHE_DIR", (std::string(home ? home : "/tmp") + "/.cache/pocl/kcache").c_str(), 0);
-    setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
-  }
+  GizmoWindowTest() : RealWindow({"Xvfb", "xdotool", "import"}) {}
+
+  test::CacheHome cache{folder.path() / "cache"}; // bakes go with the test
 };
 
 struct Places {
@@ -147,5 +143,4 @@ TEST_F(GizmoWindowTest, TheEnvironmentsRunGoesOnWithAMovedBall)
   EXPECT_NEAR(preset::read_preset(file).scene.objects[0].transform.translate[0] - from[0], right_by, 0.02 * right_by);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::gizmo_window_test

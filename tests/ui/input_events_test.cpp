@@ -7,8 +7,7 @@
 
 #include <functional>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::input_events_test {
 
 class InputEventsTest : public ::testing::Test {
 protected:
@@ -79,5 +78,4 @@ TEST_F(InputEventsTest, AClickHasTheModifierThatWasHeld)
   EXPECT_EQ(frames_with([] { return ImGui::IsMouseClicked(0) && ImGui::GetIO().KeyCtrl; }), 1);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::input_events_test

@@ -9,8 +9,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::inspector_test {
 
 using test::eventually;
 using ::testing::Each;
@@ -234,5 +233,4 @@ TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::inspector_test

@@ -8,8 +8,7 @@
 #include "scene/mesh.h"
 #include "ui/annealing/panel.h"
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::inverse_session_test {
 
 class InverseSession : public test::RealWindow {
 protected:
@@ -66,5 +65,4 @@ TEST_F(InverseSession, FromTheStartPageToASavedMesh)
   EXPECT_NEAR(object(view, "receiver 3").transform.translate[2], -after[2].distance_mm, 1e-6);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::inverse_session_test

@@ -9,8 +9,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace nephroid::test {
-namespace {
+namespace nephroid::test::killed_window_test {
 
 namespace fs = std::filesystem;
 
@@ -115,5 +114,4 @@ TEST_F(KilledWindow, ComesBackWithItsEdits)
   EXPECT_GT(kept, 0);
 }
 
-} // namespace
-} // namespace nephroid::test
+} // namespace nephroid::test::killed_window_test

@@ -6,8 +6,7 @@
 #include <gmock/gmock.h>
 #include <imgui_internal.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::layout_test {
 
 class LayoutTest : public test::WindowFixture {
 protected:
@@ -240,5 +239,4 @@ TEST_F(LayoutTest, EscapeClosesThePaletteAndNotTheRun)
   EXPECT_EQ(workbench.run().status().state, job::State::running);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::layout_test

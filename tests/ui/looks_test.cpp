@@ -12,8 +12,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::looks_test {
 
 using test::eventually;
 using ::testing::ElementsAre;
@@ -310,5 +309,4 @@ TEST(LooksOfASession, AreKept)
   EXPECT_ANY_THROW(parse_session(other, "session.json"));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::looks_test

@@ -7,8 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::opening_test {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -194,5 +193,4 @@ TEST_F(OpeningTest, LeavesPresetsToTheReader)
   EXPECT_EQ(refusal(folder.write("empty", "")), "");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::opening_test

@@ -19,8 +19,7 @@
 #include <thread>
 #include <utility>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::panel_pictures_test {
 
 using test::in_window_like, test::pixel;
 
@@ -254,5 +253,4 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
   EXPECT_EQ(preset::read_preset(file).scene.camera.fov_deg, 34);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::panel_pictures_test

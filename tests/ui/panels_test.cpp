@@ -10,8 +10,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::panels_test {
 
 using test::eventually;
 
@@ -344,5 +343,4 @@ TEST(StatusLine, SaysRatesAndTimesAsAPersonWould)
   EXPECT_EQ(duration_text(7800), "2 h 10 min");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::panels_test

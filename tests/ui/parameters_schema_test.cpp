@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <set>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::parameters_schema_test {
 
 using test::Json;
 
@@ -279,5 +278,4 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
   RecordProperty("fields", static_cast<int>(edited.size()));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::parameters_schema_test

@@ -5,8 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::parameters_test {
 
 using test::Json;
 using ::testing::HasSubstr;
@@ -336,5 +335,4 @@ TEST_F(ParametersTest, ATableOfManyRowsIsDrawnInAFrame)
   RecordProperty("median_us", static_cast<int>(1000 * milliseconds[10]));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::parameters_test

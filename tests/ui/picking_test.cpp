@@ -10,8 +10,7 @@
 
 #include <cmath>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::picking_test {
 
 preset::Preset scene()
 {
@@ -104,5 +103,4 @@ TEST(Picking, KnowsTheBoxAboutAnObject)
   EXPECT_FALSE(local_box(nullptr, preset, 0));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::picking_test

@@ -8,8 +8,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::plan_panel_test {
 
 using test::eventually;
 
@@ -101,5 +100,4 @@ TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
   EXPECT_TRUE(workspace.panel<ui::PlanPanel>().box_of("mirrors"));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::plan_panel_test

@@ -9,8 +9,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::presets_panel_test {
 
 namespace fs = std::filesystem;
 using ::testing::Contains;
@@ -258,5 +257,4 @@ TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
   EXPECT_EQ(good->pixels()[4 * (128 * 50 + 5)], 255);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::presets_panel_test

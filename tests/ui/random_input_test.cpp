@@ -3,6 +3,7 @@
 // presets of all engines, on fake jobs. NEPHROID_RANDOM_SECONDS=600 plays for ten minutes what was not played before; under ./test.sh asan
 // it looks for what nobody sees.
 #include "preset/read.h"
+#include "tests/support/process_state.h"
 #include "window_fixture.h"
 
 #include <fmt/format.h>
@@ -11,8 +12,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::random_input_test {
 
 namespace fs = std::filesystem;
 
@@ -29,9 +29,7 @@ protected:
     files_.push_back(folder.write("scene.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"children": [0]}]})"));
     files_.push_back(folder.write("glass.yml", "DATA:\n  - type: formula 1\n    coefficients: 0 1 0.1\n"));
     files_.push_back((folder.path() / "gone.json").string());
-    fs::current_path(folder.path()); // where a name without a folder is saved
   }
-  ~RandomInput() override { fs::current_path("/"); }
 
   /// A shipped preset, beside the materials that it names, to be saved over.
   void copy_preset(const std::string& name)
@@ -155,6 +153,7 @@ protected:
   std::vector<std::string> files_;
   std::mt19937 random_;
   std::uint64_t events_ = 0;
+  test::CurrentFolder here_{folder.path()}; // where a name without a folder is saved
 };
 
 TEST_F(RandomInput, TheWindowStays)
@@ -183,5 +182,4 @@ TEST_F(RandomInput, TheWindowStays)
   fmt::print("{} events, {} seeds from {}, {} times a preset was there\n", events_, seeds, first, presets);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::random_input_test

@@ -10,8 +10,7 @@
 #include <memory>
 #include <numeric>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::region_test {
 
 using ::testing::Each;
 using ::testing::HasSubstr;
@@ -128,5 +127,4 @@ TEST(RegionMaker, MakesWhatIsWantedOnce)
   EXPECT_EQ(maker.newest(), nullptr);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::region_test

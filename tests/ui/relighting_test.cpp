@@ -6,8 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::relighting_test {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
@@ -153,5 +152,4 @@ TEST_F(RelightingTest, ALightThatIsDraggedIsShownWhileTheMouseMoves)
   EXPECT_EQ(runs.made, made);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::relighting_test

@@ -4,8 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::row_drags_test {
 
 using test::five, test::from_points;
 using ::testing::IsEmpty;
@@ -113,5 +112,4 @@ TEST_F(RowDragsTest, UndoOfAnAdditionEndsTheDrag)
   EXPECT_EQ(points().size(), 6u) << "what was undone can be redone: nothing was edited since";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::row_drags_test

@@ -10,8 +10,7 @@
 
 #include <limits>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::rows_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -178,5 +177,4 @@ TEST_F(RowEditorTest, WhatIsRemovedIsNotMovedInTheSameFrame)
   EXPECT_TRUE(follow({Kind::move, 1, {510, 1.55}}));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::rows_test

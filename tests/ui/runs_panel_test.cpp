@@ -12,8 +12,7 @@
 
 #include <gmock/gmock.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::runs_panel_test {
 
 using test::eventually;
 using test::falling_history;
@@ -308,5 +307,4 @@ TEST_F(RunsPanelTest, ADamagedFolderIsSaidOnce)
   EXPECT_THAT(workbench.messages(), SizeIs(0));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::runs_panel_test

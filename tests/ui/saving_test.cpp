@@ -11,8 +11,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::saving_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -203,5 +202,4 @@ TEST_F(SavingTest, ADroppedSceneBecomesAPresetInAFolderOfItsOwn)
   EXPECT_EQ(workbench.preset()->source, folder.path() / "tri-scene-2/tri.json");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::saving_test

@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::select_test {
 
 using Kind = Selection::Kind;
 constexpr Selection nothing{}, ball{Kind::object, 0}, floor_quad{Kind::object, 1}, lamp{Kind::light, 0}, spot{Kind::light, 1},
@@ -363,5 +362,4 @@ TEST_F(Select, OfAnInversePresetNothingIs)
   EXPECT_FALSE(view().overlay().gizmo().places());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::select_test

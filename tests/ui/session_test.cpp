@@ -9,8 +9,7 @@
 
 #include <random>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::session_test {
 
 using test::FakeRuns;
 using test::TemporaryFolder;
@@ -350,5 +349,4 @@ TEST(Settings, WhatCannotBeIsRefused)
   EXPECT_THROW(parse_settings(deep, ""), Error);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::session_test

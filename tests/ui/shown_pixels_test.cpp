@@ -10,8 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::shown_pixels_test {
 
 TEST(ShownPixels, AreTheBytesOfImageShown)
 {
@@ -61,5 +60,4 @@ TEST(ShownPixels, ExposureIsInStops)
   EXPECT_EQ(bytes[7], 255);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::shown_pixels_test

@@ -14,8 +14,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::spectra_edits_test {
 
 using preset::LightSpectrum;
 using ::testing::ElementsAre;
@@ -194,5 +193,4 @@ TEST(WavelengthColour, IsBlueThenGreenThenRed)
     }
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::spectra_edits_test

@@ -13,8 +13,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::spectra_panel_test {
 
 using test::eventually;
 using test::room_text;
@@ -284,5 +283,4 @@ TEST_F(SpectraPanelTest, AStepOfADragIsTimed)
   RecordProperty("drag_step_ms_worst", std::to_string(steps_ms.back()));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::spectra_panel_test

@@ -11,8 +11,7 @@
 
 #include <vector>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::spectra_window_test {
 
 using test::bytes_at;
 
@@ -56,5 +55,4 @@ TEST_F(SpectraWindowTest, ADraggedRowIsInThePresetThatIsSaved)
   EXPECT_TRUE(has(at[1][0], [](const auto& c) { return c[0] > c[2] + 60; })) << "a red bar";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::spectra_window_test

@@ -6,8 +6,7 @@
 #include "recorded_session.h"
 #include "ui/dispersion/edits.h"
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::spectral_session_test {
 
 class SpectralSession : public test::RealWindow {
 protected:
@@ -82,5 +81,4 @@ TEST_F(SpectralSession, FromTheStartPageToASavedPicture)
   EXPECT_EQ(left.edits->saved, left.edits->index);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::spectral_session_test

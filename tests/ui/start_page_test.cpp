@@ -9,8 +9,7 @@
 #include <array>
 #include <string>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::start_page_test {
 
 class StartPageTest : public test::WindowFixture {
 protected:
@@ -139,5 +138,4 @@ TEST_F(StartPageTest, TabAndSpaceOpenAnExample)
   EXPECT_EQ(workbench.preset()->name, "shapes");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::start_page_test

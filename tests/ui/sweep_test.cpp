@@ -13,15 +13,13 @@
 
 #include <cmath>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::sweep_test {
 
 using test::eventually;
 using test::falling_history;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
-
 using Queue = SweepQueue::State;
 
 class SweepTest : public test::WindowFixtureOf<test::FakeRuns> {
@@ -438,5 +436,4 @@ TEST_F(SweepTest, TheActionsSayWhyNot)
   EXPECT_TRUE(action("Stop the sweep").enabled(context()));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::sweep_test

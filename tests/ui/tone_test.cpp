@@ -14,8 +14,7 @@
 #include <random>
 #include <vector>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::tone_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr float float_nan = std::numeric_limits<float>::quiet_NaN(), float_infinity = std::numeric_limits<float>::infinity();
@@ -185,5 +184,4 @@ TEST(Tones, Timed)
   EXPECT_EQ(bytes[3], 255);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::tone_test

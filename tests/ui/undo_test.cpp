@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::undo_test {
 
 preset::Preset with_seed(std::uint64_t seed)
 {
@@ -105,5 +104,4 @@ TEST(UndoStack, IsBounded)
   EXPECT_TRUE(history.modified());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::undo_test

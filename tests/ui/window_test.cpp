@@ -16,14 +16,12 @@
 #include <cmath>
 #include <optional>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::window_test {
 
+using test::bytes_at;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-using test::bytes_at;
 
 /// Where a window of this size draws the picture of a preset.
 Placement placement_in_window(int width, int height, const std::string& preset, const std::array<int, 2>& picture)
@@ -187,5 +185,4 @@ TEST_F(WindowEvents, AreFollowed)
   EXPECT_EQ(screen().height, 800);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::window_test

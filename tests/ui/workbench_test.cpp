@@ -8,8 +8,7 @@
 
 #include <algorithm>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::workbench_test {
 
 using namespace std::chrono_literals;
 using ::testing::ElementsAre;
@@ -277,5 +276,4 @@ TEST_F(WorkbenchTest, WhatWaitsForAnAnswerGoesWithItsQuestion)
   EXPECT_FALSE(workbench.quitting()) << "nobody answered that the window may close";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::workbench_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nephroid {
-namespace {
+namespace nephroid::adoptable_test {
 
 // A preset is edited into one of another engine while its run goes on: Parameters do so.
 TEST(Adoptable, NoEngineTakesOnAnothersPreset)
@@ -24,5 +23,4 @@ TEST(Adoptable, NoEngineTakesOnAnothersPreset)
   }
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::adoptable_test

@@ -10,9 +10,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::animation_test {
 
-using namespace nephroid;
 using preset::Preset;
 using test::refusal_of;
 using testing::ElementsAre;
@@ -183,4 +182,4 @@ TEST(Animation, SaysWhichFrameCannotBe)
   EXPECT_EQ(refusal_of([&] { preset::at_frame(p, 5); }), "a.json#/animation/tracks/0: has no length; expected a direction; in frame 5");
 }
 
-} // namespace
+} // namespace nephroid::animation_test

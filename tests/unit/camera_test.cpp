@@ -10,8 +10,7 @@
 
 #include <cmath>
 
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::camera_test {
 
 using test::expect_near;
 
@@ -110,5 +109,4 @@ TEST(Camera, RefusesWhatIsNoView)
   expect_refused(bad, "target");
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::camera_test

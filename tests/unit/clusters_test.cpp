@@ -14,9 +14,8 @@
 #include <numeric>
 #include <random>
 
-namespace {
+namespace nephroid::clusters_test {
 
-using namespace nephroid;
 using namespace nephroid::spectral;
 using optics::Spectrum;
 
@@ -303,4 +302,4 @@ TEST(Clusters, CommonRefinementOfNothingOneAndItself)
   EXPECT_EQ(common_refinement(std::vector{one, one}), common_refinement(std::vector{one}));
 }
 
-} // namespace
+} // namespace nephroid::clusters_test

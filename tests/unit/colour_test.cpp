@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace {
+namespace nephroid::colour_test {
 
 using namespace nephroid::optics;
 
@@ -84,4 +84,4 @@ TEST(Colour, LightnessOfKnownLuminances)
   EXPECT_NEAR(lightness(0), 0, 1e-12);
 }
 
-} // namespace
+} // namespace nephroid::colour_test

@@ -11,9 +11,8 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace nephroid::corners_test {
 
-using namespace nephroid;
 using namespace nephroid::scene;
 using test::error_of;
 using testing::HasSubstr;
@@ -73,4 +72,4 @@ TEST(Corners, TrianglesThatTheSceneDoesNotHoldAreRefused)
   EXPECT_EQ(error_of([&] { spectral::split_by_losses({{0, 1}}, outline, 8, 0.1); }).kind(), ErrorKind::failed);
 }
 
-} // namespace
+} // namespace nephroid::corners_test

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace {
+namespace nephroid::counted_test {
 
 using nephroid::counted;
 
@@ -21,4 +21,4 @@ TEST(Counted, OneAndMany)
   EXPECT_EQ(counted(std::int64_t{-1}, "photon"), "-1 photons");
 }
 
-} // namespace
+} // namespace nephroid::counted_test

@@ -14,9 +14,8 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::designed_curves_test {
 
-using namespace nephroid;
 using namespace nephroid::spectral;
 using optics::Spectrum;
 
@@ -94,4 +93,4 @@ TEST(DesignedCurves, SortedTheyNeedTheThesisNumbersOfClusters)
   EXPECT_EQ(clusters_without_sorting(material("arbitrary-2"), 0.05), 247u);
 }
 
-} // namespace
+} // namespace nephroid::designed_curves_test

@@ -18,10 +18,9 @@
 #include <cmath>
 #include <numeric>
 
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::device_scene_test {
 
-namespace {
+using namespace nephroid::test;
 
 preset::Preset scene_with(const preset::Shape& shape, const preset::Material& material)
 {
@@ -244,4 +243,4 @@ TEST(SpectralPlan, SaysThatStepsDoNothingWithoutBruteForce)
   EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
 }
 
-} // namespace
+} // namespace nephroid::device_scene_test

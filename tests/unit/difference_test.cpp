@@ -9,9 +9,8 @@
 
 #include <limits>
 
-namespace {
+namespace nephroid::difference_test {
 
-using namespace nephroid;
 using namespace nephroid::measure;
 using test::flat;
 using test::Picture;
@@ -195,4 +194,4 @@ TEST(Difference, RefusesAsComparisonsDo)
               HasSubstr("b: pixel (1, 0) has NaN in B"));
 }
 
-} // namespace
+} // namespace nephroid::difference_test

@@ -7,7 +7,7 @@
 
 #include <ostream>
 
-namespace {
+namespace nephroid::dispersion_file_test {
 
 using nephroid::Error;
 using nephroid::optics::parse_dispersion;
@@ -108,4 +108,4 @@ const Malformed cases[] = {
 INSTANTIATE_TEST_SUITE_P(Dispersion, MalformedFile, testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(test.param.name); });
 
-} // namespace
+} // namespace nephroid::dispersion_file_test

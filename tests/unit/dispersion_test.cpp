@@ -12,7 +12,7 @@
 #include <cmath>
 #include <functional>
 
-namespace {
+namespace nephroid::dispersion_test {
 
 using namespace nephroid::optics;
 using nephroid::test::refusal_of;
@@ -270,4 +270,4 @@ TEST(Dispersion, BadCurvesAreRefused)
   EXPECT_THAT(refusal_of([&] { constant_index(1.5).sample(NAN); }), HasSubstr("a number above 0"));
 }
 
-} // namespace
+} // namespace nephroid::dispersion_test

@@ -13,12 +13,11 @@
 #include <algorithm>
 #include <numeric>
 
-using namespace nephroid;
+namespace nephroid::effort_test {
+
 using namespace nephroid::test;
 using spectral::RunTables;
 using Effort = spectral::Settings::Effort;
-
-namespace {
 
 constexpr unsigned photons = 1 << 16;
 
@@ -171,4 +170,4 @@ TEST(DealtEffort, IsInThePlan)
   EXPECT_THAT(reason_of(Effort::variance, false), testing::HasSubstr("variance that is measured"));
 }
 
-} // namespace
+} // namespace nephroid::effort_test

@@ -9,9 +9,8 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace nephroid::emission_guide_test {
 
-using namespace nephroid;
 using spectral::EmissionGuide;
 
 constexpr std::size_t cells = GUIDE_CELLS;
@@ -163,4 +162,4 @@ TEST(EmissionGuide, MayBeOfNoLight)
   EXPECT_TRUE(guide.table().empty());
 }
 
-} // namespace
+} // namespace nephroid::emission_guide_test

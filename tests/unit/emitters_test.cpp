@@ -7,9 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
+namespace nephroid::emitters_test {
 
-using namespace nephroid;
 using testing::ElementsAre;
 
 TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
@@ -66,4 +65,4 @@ TEST(Emitters, SequencesAreLongerThan32Bits)
   EXPECT_EQ(emitter.sequence_start_high, 6u);
 }
 
-} // namespace
+} // namespace nephroid::emitters_test

@@ -6,9 +6,8 @@
 
 #include <gmock/gmock.h>
 
-namespace {
+namespace nephroid::error_place_test {
 
-using namespace nephroid;
 using preset::field_of;
 using test::error_of;
 
@@ -55,4 +54,4 @@ TEST(ErrorPlace, OfAValueThatTurnsOutWrongLater)
   EXPECT_EQ(field_of(p, fail_at(Place(p.source) / "white").place()), "/white");
 }
 
-} // namespace
+} // namespace nephroid::error_place_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace {
+namespace nephroid::exact_cdf_test {
 
 using nephroid::tracing::exact_cdf;
 using nephroid::tracing::exact_cdf_from_zero;
@@ -53,4 +53,4 @@ TEST(ExactCdf, FromZeroHasOneMore)
   EXPECT_THAT(exact_cdf_from_zero({}), ElementsAre(0));
 }
 
-} // namespace
+} // namespace nephroid::exact_cdf_test

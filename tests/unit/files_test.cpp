@@ -6,6 +6,7 @@
 #include "base/interrupts.h"
 #include "base/nearest.h"
 #include "tests/support/errors.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -20,10 +21,9 @@
 #include <unistd.h>
 #include <vector>
 
-namespace {
+namespace nephroid::files_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using test::error_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -179,14 +179,9 @@ protected:
   void SetUp() override
   {
     for (const char* name : {"beside", "presets", "data/glmark2/models"}) fs::create_directories(folder / name);
-    ::setenv("NEPHROID_PRESETS", (folder / "presets").c_str(), 1);
-    ::setenv("XDG_DATA_DIRS", (folder / "data").c_str(), 1);
   }
-  void TearDown() override
-  {
-    ::unsetenv("NEPHROID_PRESETS");
-    ::unsetenv("XDG_DATA_DIRS");
-  }
+
+  test::Variable presets{"NEPHROID_PRESETS", folder / "presets"}, data{"XDG_DATA_DIRS", folder / "data"};
 };
 
 TEST_F(Finder, LooksBesideThenInPresetsThenInTheSystemsModels)
@@ -221,13 +216,13 @@ TEST_F(Finder, FoldersAreSaidToBeFoldersUnlessAFileIsFoundLater)
 TEST_F(Finder, PresetsFolderOfTheEnvironmentMustBeThere)
 {
   EXPECT_EQ(presets_folder(), folder / "presets");
-  ::setenv("NEPHROID_PRESETS", "/no/such/folder", 1);
+  const test::Variable nowhere("NEPHROID_PRESETS", "/no/such/folder");
   EXPECT_THAT(error_of([] { presets_folder(); }).line(), HasSubstr("NEPHROID_PRESETS: '/no/such/folder' is no folder"));
 }
 
 TEST(Presets, AreFoundFromTheBuildFolder)
 {
-  ::unsetenv("NEPHROID_PRESETS");
+  const test::Variable unset("NEPHROID_PRESETS", std::nullopt);
   EXPECT_TRUE(fs::equivalent(presets_folder(), fs::path(NEPHROID_SOURCE_DIR) / "presets"));
 }
 
@@ -269,4 +264,4 @@ TEST(Interrupts, TheFirstSignalSetsTheTokenAndTheSecondKills)
   EXPECT_FALSE(sigismember(&blocked, SIGINT)) << "signals are as before";
 }
 
-} // namespace
+} // namespace nephroid::files_test

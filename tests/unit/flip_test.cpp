@@ -9,9 +9,8 @@
 #include <map>
 #include <numeric>
 
-namespace {
+namespace nephroid::flip_test {
 
-using namespace nephroid;
 using namespace nephroid::measure;
 using test::flat;
 using test::Picture;
@@ -129,4 +128,4 @@ TEST(Flip, HdrIsFiniteForEveryFiniteValue)
     }
 }
 
-} // namespace
+} // namespace nephroid::flip_test

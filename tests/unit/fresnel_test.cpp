@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace {
+namespace nephroid::fresnel_test {
 
 using namespace nephroid::optics;
 
@@ -77,4 +77,4 @@ TEST(Fresnel, StaysBetweenNothingAndEverything)
     }
 }
 
-} // namespace
+} // namespace nephroid::fresnel_test

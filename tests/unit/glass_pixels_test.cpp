@@ -11,8 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace nephroid {
-namespace {
+namespace nephroid::glass_pixels_test {
 
 constexpr int width = 60, height = 40;
 
@@ -76,5 +75,4 @@ TEST(GlassPixels, AreNoneWhereNoGlassIsInView)
   EXPECT_TRUE(spectral::glass_pixels(scene::load_scene(p)).empty());
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::glass_pixels_test

@@ -22,10 +22,9 @@
 #include <cstring>
 #include <numbers>
 
-namespace {
+namespace nephroid::gltf_import_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using preset::Light;
 using preset::Material;
 using testing::DoubleNear;
@@ -344,4 +343,4 @@ TEST_F(GltfImport, ACutFileIsOneError)
   EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
 }
 
-} // namespace
+} // namespace nephroid::gltf_import_test

@@ -12,10 +12,9 @@
 #include <limits>
 #include <random>
 
-using namespace nephroid;
-using ::testing::HasSubstr;
+namespace nephroid::history_file_test {
 
-namespace {
+using ::testing::HasSubstr;
 
 job::History three_rows()
 {
@@ -157,4 +156,4 @@ TEST_F(HistoryFile, what_is_no_file_is_refused)
   EXPECT_THAT(test::refusal_of([&] { measure::read_history(folder / "huge.csv"); }), HasSubstr("has 1048576 MiB"));
 }
 
-} // namespace
+} // namespace nephroid::history_file_test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::house_test {
 
 namespace fs = std::filesystem;
 using testing::IsEmpty;
@@ -197,4 +197,4 @@ TEST(House, checks_see_what_they_are_for)
             "");
 }
 
-} // namespace
+} // namespace nephroid::house_test

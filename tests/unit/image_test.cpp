@@ -15,10 +15,9 @@
 #include <thread>
 #include <unistd.h>
 
-namespace {
+namespace nephroid::image_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using namespace nephroid::image;
 using test::error_of;
 using testing::HasSubstr;
@@ -173,4 +172,4 @@ TEST_F(Pictures, AFullDiskKeepsTheOldPictureAndNoOther)
   ::umount(folder.c_str());
 }
 
-} // namespace
+} // namespace nephroid::image_test

@@ -15,13 +15,11 @@
 #include <cmath>
 #include <numbers>
 
-using namespace nephroid;
+namespace nephroid::importance_test {
+
 using namespace nephroid::test;
 using spectral::WavelengthImportance;
 using Effort = spectral::Settings::Effort;
-
-namespace {
-
 using optics::Spectrum;
 using std::numbers::pi;
 
@@ -342,4 +340,4 @@ TEST(Iterations, GrowByAtMostOneAPass)
   }
 }
 
-} // namespace
+} // namespace nephroid::importance_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace nephroid::includes_test {
 
 namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
@@ -214,4 +214,4 @@ TEST(Includes, breaks_are_seen)
   EXPECT_THROW(allowed_folders("base, optcis", {"base", "optics"}), std::runtime_error);
 }
 
-} // namespace
+} // namespace nephroid::includes_test

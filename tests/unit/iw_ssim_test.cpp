@@ -7,9 +7,8 @@
 
 #include <map>
 
-namespace {
+namespace nephroid::iw_ssim_test {
 
-using namespace nephroid;
 using namespace nephroid::measure;
 using test::flat;
 using test::Picture;
@@ -108,4 +107,4 @@ TEST(IwSsim, AMaskLeavesOutWhatIsFarFromIt)
   EXPECT_EQ(iw_ssim(a.pixels(), b.pixels(), corner), std::nullopt);
 }
 
-} // namespace
+} // namespace nephroid::iw_ssim_test

@@ -10,11 +10,10 @@
 #include <numeric>
 #include <set>
 
-using namespace nephroid;
+namespace nephroid::layer_cells_test {
+
 using namespace nephroid::spectral;
 using ::testing::ElementsAre;
-
-namespace {
 
 std::vector<int> reflectors_of(const LayerCells& cells, std::size_t pixel)
 {
@@ -126,4 +125,4 @@ TEST(LayerWeights, AddUpToTheColourOfTheReflectorUnderTheLight)
   }
 }
 
-} // namespace
+} // namespace nephroid::layer_cells_test

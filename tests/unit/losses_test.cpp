@@ -13,10 +13,9 @@
 #include <fstream>
 #include <numeric>
 
-using namespace nephroid;
-using namespace nephroid::spectral;
+namespace nephroid::losses_test {
 
-namespace {
+using namespace nephroid::spectral;
 
 double searched_difference(double a, double b, double longest)
 {
@@ -102,4 +101,4 @@ TEST(Losses, ClearGlassAndWhiteMirrorsSplitNothing)
   EXPECT_EQ(split_by_losses(clusters, scene::load_scene(p), 8, 0.01), clusters);
 }
 
-} // namespace
+} // namespace nephroid::losses_test

@@ -12,9 +12,8 @@
 #include <cmath>
 #include <random>
 
-namespace {
+namespace nephroid::measured_job_test {
 
-using namespace nephroid;
 using test::error_of;
 using testing::Contains;
 using testing::Each;
@@ -278,4 +277,4 @@ TEST(MeasuredJob, RefusesWhatCannotBeMeasured)
   EXPECT_EQ(noisy(preset, nullptr)->history()->error_column, "estimated_lab_mean");
 }
 
-} // namespace
+} // namespace nephroid::measured_job_test

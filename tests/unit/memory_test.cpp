@@ -5,9 +5,8 @@
 
 #include <gmock/gmock.h>
 
-namespace {
+namespace nephroid::memory_test {
 
-using namespace nephroid;
 using test::error_of;
 using testing::HasSubstr;
 
@@ -82,4 +81,4 @@ TEST(Memory, ThisMachineSaysWhatItHas)
   EXPECT_LT(*available, std::uint64_t{1} << 50);
 }
 
-} // namespace
+} // namespace nephroid::memory_test

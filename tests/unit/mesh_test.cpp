@@ -15,8 +15,7 @@
 #include <numbers>
 #include <string>
 
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::mesh_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -298,5 +297,4 @@ TEST(WindingNumber, CountsNestedSurfaces)
   EXPECT_TRUE(inspect(mesh).closed());
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::mesh_test

@@ -10,9 +10,8 @@
 
 #include <limits>
 
-namespace {
+namespace nephroid::metrics_test {
 
-using namespace nephroid;
 using namespace nephroid::measure;
 using test::flat;
 using test::Picture;
@@ -312,4 +311,4 @@ TEST(Metrics, BadMasksAreRefused)
   EXPECT_EQ(refusal_of([&] { quick(picture, picture, small); }), "mask: has 23 pixels; expected 6 x 4, as the pictures");
 }
 
-} // namespace
+} // namespace nephroid::metrics_test

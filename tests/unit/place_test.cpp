@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::place_test {
 
 using nephroid::bad_input;
 using nephroid::Error;
@@ -50,4 +50,4 @@ TEST(Place, OfAnErrorIsDataWhateverItsNameHolds)
   EXPECT_EQ(error.at("--set seed=3").line(), "--set seed=3: is 3; expected 4");
 }
 
-} // namespace
+} // namespace nephroid::place_test

@@ -18,11 +18,9 @@
 #include <utility>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::plan_fields_test {
+
 using namespace nephroid::test;
-
-namespace {
-
 using nlohmann::json;
 using Estimator = spectral::Settings::Estimator;
 
@@ -145,4 +143,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PlanFields, testing::Values("ball", "lines", "d
                            return name;
                          });
 
-} // namespace
+} // namespace nephroid::plan_fields_test

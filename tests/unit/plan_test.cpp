@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::plan_test {
 
 using nephroid::plan::Plan;
 using testing::HasSubstr;
@@ -75,4 +75,4 @@ TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory)
   EXPECT_THAT(text, HasSubstr("bunny: 12 open edges"));
 }
 
-} // namespace
+} // namespace nephroid::plan_test

@@ -14,10 +14,9 @@
 #include <optional>
 #include <random>
 
-namespace {
+namespace nephroid::preset_differences_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using preset::Preset;
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
@@ -311,4 +310,4 @@ TEST(PresetDifferences, AreListedByFieldWithBothValues)
   EXPECT_EQ(preset::differences(before, after).at(0).before, "none");
 }
 
-} // namespace
+} // namespace nephroid::preset_differences_test

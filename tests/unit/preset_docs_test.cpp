@@ -9,10 +9,9 @@
 #include <regex>
 #include <sstream>
 
-namespace {
+namespace nephroid::preset_docs_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 
 struct Block {
   std::string file, text; ///< file: the name that a comment before the block gives it
@@ -102,4 +101,4 @@ TEST_F(PresetDocs, InheritanceIsAsThePageSays)
   EXPECT_EQ(swept[1].name, "thresholds,threshold_deg=0.5,seed=2");
 }
 
-} // namespace
+} // namespace nephroid::preset_docs_test

@@ -8,9 +8,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::preset_mutation_test {
 
-using namespace nephroid;
 using Json = nlohmann::ordered_json;
 
 /// Everything that differs in type from what stands there and from every shorthand of it.
@@ -80,4 +79,4 @@ TEST(PresetMutation, AnyByteReplacedGivesAPresetOrAnError)
   EXPECT_GT(refused, 500);
 }
 
-} // namespace
+} // namespace nephroid::preset_mutation_test

@@ -8,10 +8,9 @@
 
 #include <gmock/gmock.h>
 
-namespace {
+namespace nephroid::preset_read_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using preset::Preset;
 using testing::ElementsAre;
 
@@ -198,4 +197,4 @@ TEST(ShippedPresets, AreListedByNameWithALineEach)
               testing::IsSupersetOf({"first-light", "spectral/ball-lens", "spectral/brilliant", "spectral/plate", "spectral/prism"}));
 }
 
-} // namespace
+} // namespace nephroid::preset_read_test

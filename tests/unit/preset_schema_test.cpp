@@ -12,10 +12,9 @@
 
 #include <cstdlib>
 
-namespace {
+namespace nephroid::preset_schema_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 
 /// Validates every file named on its command line against the first; prints those that do not conform.
 constexpr const char* validator = R"(
@@ -117,4 +116,4 @@ TEST_F(Schema, RefusesWhatTheReaderRefuses)
   EXPECT_EQ(refused().size(), fields.size() + 1) << testing::PrintToString(refused());
 }
 
-} // namespace
+} // namespace nephroid::preset_schema_test

@@ -7,9 +7,7 @@
 
 #include <cstdio>
 
-namespace {
-
-using namespace nephroid;
+namespace nephroid::preset_verbs_test {
 
 std::string output_of(const std::string& arguments)
 {
@@ -45,4 +43,4 @@ TEST(PresetVerbs, PresetsAsJson)
   }
 }
 
-} // namespace
+} // namespace nephroid::preset_verbs_test

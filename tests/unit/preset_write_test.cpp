@@ -8,10 +8,9 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::preset_write_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using preset::Preset;
 
 TEST(PresetWriting, EveryShippedPresetReadsBackEqual)
@@ -79,4 +78,4 @@ TEST(PresetWriting, AnotherFolderFindsTheSameFiles)
   EXPECT_EQ(here["own"]["dispersion"]["file"], "own.yml");
 }
 
-} // namespace
+} // namespace nephroid::preset_write_test

@@ -9,10 +9,9 @@
 #include <random>
 #include <vector>
 
+namespace nephroid::primary_spectra_test {
+
 using namespace nephroid::optics;
-
-namespace {
-
 using Second = std::array<double, wavelength_count - 2>;
 
 Second second_differences(const Spectrum& s)
@@ -109,4 +108,4 @@ TEST(PrimarySpectra, GreyHasPowerEverywhere)
   }
 }
 
-} // namespace
+} // namespace nephroid::primary_spectra_test

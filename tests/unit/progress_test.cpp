@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run says about itself while it works: figures, widths, JSON.
 #include "cli/progress.h"
+#include "tests/support/process_state.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -9,9 +10,8 @@
 #include <cstdlib>
 #include <thread>
 
-namespace {
+namespace nephroid::progress_test {
 
-using namespace nephroid;
 using namespace nephroid::cli;
 using testing::HasSubstr;
 using testing::Not;
@@ -81,7 +81,7 @@ TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown)
 TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
 {
   EXPECT_EQ(progress_style(true), ProgressStyle::json);
-  ::setenv("TERM", "dumb", 1);
+  const test::Variable terminal("TERM", "dumb");
   EXPECT_EQ(progress_style(false), ProgressStyle::lines);
 }
 
@@ -111,4 +111,4 @@ TEST(ProgressDisplay, TheLiveLineIsTakenAway)
   EXPECT_THAT(shown, testing::EndsWith("\r\033[K"));
 }
 
-} // namespace
+} // namespace nephroid::progress_test

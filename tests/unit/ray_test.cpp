@@ -9,11 +9,9 @@
 #include <cmath>
 #include <random>
 
-using namespace nephroid;
+namespace nephroid::ray_test {
+
 using namespace nephroid::test;
-
-namespace {
-
 using glm::dvec3;
 
 /// Möller and Trumbore 1997; infinity: not hit. Nothing in common with ray.cpp.
@@ -117,4 +115,4 @@ TEST(EvenDirections, MeasureSolidAngles)
     }
 }
 
-} // namespace
+} // namespace nephroid::ray_test

@@ -11,10 +11,9 @@
 #include <cstring>
 #include <limits>
 
-namespace {
+namespace nephroid::read_picture_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using namespace nephroid::measure;
 using test::refusal_of;
 using testing::ElementsAre;
@@ -127,4 +126,4 @@ TEST_F(ReadPicture, LayersComeWithThePicture)
   EXPECT_TRUE(layers.empty());
 }
 
-} // namespace
+} // namespace nephroid::read_picture_test

@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace nephroid {
-namespace {
+namespace nephroid::relight_preset_test {
 
 preset::Preset layered()
 {
@@ -50,5 +49,4 @@ TEST(OnlyRelit, IsNothingElse)
   EXPECT_FALSE(spectral::only_relit(without, without)) << "a run without layers has nothing to weigh";
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::relight_preset_test

@@ -13,10 +13,9 @@
 
 #include <regex>
 
-namespace {
+namespace nephroid::report_test {
 
 namespace fs = std::filesystem;
-using namespace nephroid;
 using namespace nephroid::test;
 using report::Json;
 using testing::AllOf;
@@ -355,4 +354,4 @@ TEST_F(Report, embeds_pictures_as_shown)
   for (const float value : picture.data) EXPECT_NEAR(value, 188 / 255.0, 1e-6); // sRGB of 0.5 is 187.5
 }
 
-} // namespace
+} // namespace nephroid::report_test

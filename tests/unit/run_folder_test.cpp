@@ -8,9 +8,7 @@
 
 #include <gmock/gmock.h>
 
-namespace {
-
-using namespace nephroid;
+namespace nephroid::run_folder_test {
 
 class RunFolder : public testing::Test {
 protected:
@@ -60,4 +58,4 @@ TEST_F(RunFolder, ADamagedRunJsonIsNoFinishedRun)
     EXPECT_FALSE(with_run_json(text)) << text;
 }
 
-} // namespace
+} // namespace nephroid::run_folder_test

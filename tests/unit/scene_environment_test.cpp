@@ -13,9 +13,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace {
+namespace nephroid::scene_environment_test {
 
-using namespace nephroid;
 using namespace nephroid::scene;
 using test::refusal_of;
 using testing::AllOf;
@@ -158,4 +157,4 @@ TEST_F(SceneEnvironment, TheSceneHasIt)
   EXPECT_EQ(scene.environment->width, 8);
 }
 
-} // namespace
+} // namespace nephroid::scene_environment_test

@@ -13,8 +13,7 @@
 
 #include <filesystem>
 
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::scene_files_test {
 
 using test::ball_over_floor;
 using test::expect_near;
@@ -111,5 +110,4 @@ TEST_F(SceneFiles, TheBunnyIsClosedAndWhole)
   EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::scene_files_test

@@ -12,8 +12,7 @@
 
 #include <numeric>
 
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::scene_light_test {
 
 using test::ball_over_floor;
 using test::expect_near;
@@ -116,5 +115,4 @@ TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance)
   EXPECT_EQ(outside_policy(preset::Outside::refuse), optics::Outside::refuse);
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::scene_light_test

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <functional>
 
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::scene_refusals_test {
 
 using test::ball_over_floor;
 using test::refusal;
@@ -89,5 +88,4 @@ TEST(SceneRefusals, PointAtTheRightPlace)
   }
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::scene_refusals_test

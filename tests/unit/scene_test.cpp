@@ -10,8 +10,7 @@
 
 #include <cmath>
 
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::scene_test {
 
 using preset::Shape;
 using test::ball_over_floor;
@@ -225,5 +224,4 @@ TEST(Scene, WarnsOfOpenDielectrics)
   EXPECT_THAT(load_scene(preset).warnings, ElementsAre(HasSubstr("object 'floor': dielectric, but not closed: 4 edges")));
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::scene_test

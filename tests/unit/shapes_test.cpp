@@ -13,8 +13,7 @@
 #include <numbers>
 #include <set>
 
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::shapes_test {
 
 using Type = preset::Shape::Type;
 constexpr double pi = std::numbers::pi;
@@ -266,5 +265,4 @@ TEST(Shapes, CoarsestCylindersAreClosed)
   }
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::shapes_test

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace nephroid {
-namespace {
+namespace nephroid::sight_test {
 
 constexpr double n = 1.5, degree = std::numbers::pi / 180;
 
@@ -146,5 +145,4 @@ TEST(Sight, a_ball_bends_about_its_normals)
   EXPECT_NEAR(seen.place.x, h / std::cos(turn) - 6 * std::tan(turn), 1e-5);
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::sight_test

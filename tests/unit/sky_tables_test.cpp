@@ -9,9 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace {
-
-using namespace nephroid;
+namespace nephroid::sky_tables_test {
 
 scene::Environment map_of(int width, std::vector<float> rgb)
 {
@@ -103,4 +101,4 @@ TEST(SkyTables, NothingIsLostBesideASun)
   }
 }
 
-} // namespace
+} // namespace nephroid::sky_tables_test

@@ -14,8 +14,7 @@
 #include <random>
 #include <vector>
 
-namespace nephroid {
-namespace {
+namespace nephroid::smoothing_test {
 
 constexpr int size = 48;
 
@@ -358,5 +357,4 @@ TEST(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
   EXPECT_EQ(sum(dark.rgb), 0);
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::smoothing_test

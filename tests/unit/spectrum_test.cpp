@@ -12,7 +12,7 @@
 #include <functional>
 #include <numeric>
 
-namespace {
+namespace nephroid::spectrum_test {
 
 using namespace nephroid::optics;
 using nephroid::test::refusal_of;
@@ -153,4 +153,4 @@ TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
   EXPECT_EQ(constant_spectrum(0.5)[200], 0.5);
 }
 
-} // namespace
+} // namespace nephroid::spectrum_test

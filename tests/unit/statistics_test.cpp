@@ -8,9 +8,9 @@
 
 #include <random>
 
-using namespace nephroid::test;
+namespace nephroid::statistics_test {
 
-namespace {
+using namespace nephroid::test;
 
 TEST(Statistics, SurvivalFunctionsGiveThePublishedQuantiles)
 {
@@ -102,4 +102,4 @@ TEST(Statistics, WeightsTestFindsABiasOfTheTotalAndOfACell)
   EXPECT_GT(weights_test(cells, expectation, samples, 0.1 / 64), false_alarm);
 }
 
-} // namespace
+} // namespace nephroid::statistics_test

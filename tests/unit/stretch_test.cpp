@@ -8,11 +8,10 @@
 #include <cmath>
 #include <numeric>
 
-using namespace nephroid;
+namespace nephroid::stretch_test {
+
 using tracing::make_stretch_tables;
 using tracing::StretchParameter;
-
-namespace {
 
 const std::vector<bool> all_lit(optics::wavelength_count, true);
 
@@ -119,4 +118,4 @@ TEST(Stretch, RunsAreOfNeighboursAndLoseNoWavelength)
   EXPECT_EQ(runs, expected);
 }
 
-} // namespace
+} // namespace nephroid::stretch_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace nephroid::typed_number_test {
 
 using nephroid::cli::typed_number;
 
@@ -34,4 +34,4 @@ TEST(TypedNumber, OthersAreNone)
   EXPECT_FALSE(typed_number<std::uint64_t>("1e17")) << "a double does not say exactly which";
 }
 
-} // namespace
+} // namespace nephroid::typed_number_test

@@ -8,9 +8,8 @@
 
 #include <cmath>
 
-namespace {
+namespace nephroid::variance_deal_test {
 
-using namespace nephroid;
 using spectral::VarianceDeal;
 
 std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
@@ -119,4 +118,4 @@ TEST(VarianceDeal, IsSavedWhole)
   EXPECT_EQ(other.gain(), deal.gain());
 }
 
-} // namespace
+} // namespace nephroid::variance_deal_test

@@ -11,9 +11,8 @@
 #include <future>
 #include <thread>
 
-namespace {
+namespace nephroid::worker_test {
 
-using namespace nephroid;
 using namespace nephroid::job;
 using namespace std::chrono_literals;
 using nephroid::test::eventually;
@@ -413,4 +412,4 @@ TEST(Worker, ASpectrumThatFailsIsTheState)
   EXPECT_TRUE(tells(worker, {1, 0}));
 }
 
-} // namespace
+} // namespace nephroid::worker_test
