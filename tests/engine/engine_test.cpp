@@ -6,16 +6,11 @@
 #include "tests/support/x_display.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <cmath>
 
 namespace nephroid::engine_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
 
 class GradientEngine : public ProgramTest {
 protected:

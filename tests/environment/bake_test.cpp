@@ -12,15 +12,10 @@
 #include "tests/environment/bakes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace nephroid::bake_test {
 
-using namespace nephroid::test;
 using environment::Bake;
 using std::numbers::pi;
 

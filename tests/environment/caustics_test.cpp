@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Baked spheres under lights, on a device: bakes made by formula, looked up where the formula says what is there.
 #include "environment/light/caustics.h"
+#include "tests/support/test.h"
 
 #include "environment/bake/directions.h"
 #include "scene/ray.h"
@@ -9,12 +10,6 @@
 #include "tests/environment/maps.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <vector>
 
 namespace nephroid::caustics_test {
 

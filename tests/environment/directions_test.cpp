@@ -2,12 +2,7 @@
 // The directions of a bake and the map of a sphere.
 #include "environment/bake/directions.h"
 #include "environment/bake/sphere_map.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
+#include "tests/support/test.h"
 
 namespace nephroid::directions_test {
 

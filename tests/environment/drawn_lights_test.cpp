@@ -5,19 +5,13 @@
 #include "scene/ray.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
 
 namespace nephroid::drawn_lights_test {
 
 using namespace nephroid::environment;
-using test::pi;
 
 /// A map as few lights, and the mean of what passes draw of them.
 struct Sky {

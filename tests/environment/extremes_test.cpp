@@ -11,8 +11,6 @@
 
 namespace nephroid::extremes_test {
 
-using namespace nephroid::test;
-
 /// One for all cases: most have the same ball.
 const TemporaryFolder& cache()
 {

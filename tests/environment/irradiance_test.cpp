@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smooth part of an environment's irradiance: closed forms of maps of the first three degrees, all light of made maps, turned maps.
 #include "environment/light/irradiance.h"
+#include "tests/support/test.h"
 
 #include "environment/segment/quality.h"
 #include "scene/ray.h"
@@ -8,16 +9,10 @@
 #include "tests/environment/maps.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace nephroid::irradiance_test {
 
 using namespace nephroid::environment;
-using test::pi;
 
 constexpr int some = 64; ///< normals, even on the sphere
 

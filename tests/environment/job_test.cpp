@@ -10,20 +10,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-
 namespace nephroid::job_test {
 
-using namespace nephroid::test;
 using environment::EnvironmentPlan;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class EnvironmentJob : public EnvironmentJobs {
 protected:

@@ -7,10 +7,7 @@
 #include "tests/environment/bakes.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
-
-#include <gtest/gtest.h>
-
-#include <memory>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

@@ -4,14 +4,9 @@
 #include "environment/settings.h"
 #include "tests/environment/maps.h"
 #include "tests/environment/views.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "tests/support/test.h"
 
 namespace nephroid::leaving_out_test {
-
-using namespace nephroid::test;
 
 class EnvironmentLeavesOut : public EnvironmentJobs {
 protected:

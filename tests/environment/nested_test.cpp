@@ -8,21 +8,11 @@
 #include "tests/support/errors.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numbers>
 
 namespace nephroid::nested_test {
 
-using namespace nephroid::test;
 using environment::Bake;
 using environment::Caster;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
 

@@ -4,23 +4,13 @@
 #include "environment/occlusion/surroundings.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::occlusion_test {
 
 using namespace nephroid::environment;
-using test::pi;
 
 /// The glass ball at the origin, and these objects beside it. The middle of all that is not diffuse is the scene's (0, 0, 0), so that the
 /// ball's is too where the others are diffuse.

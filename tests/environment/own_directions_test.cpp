@@ -6,13 +6,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 namespace nephroid::own_directions_test {
-
-using namespace nephroid::test;
 
 void finish(environment::OwnDirections& own)
 {

@@ -5,13 +5,7 @@
 #include "tests/environment/bakes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 namespace nephroid::placement_test {
-
-using namespace nephroid::test;
 
 /// The largest distance between the caster's vertices in the scene and where the placement has them.
 double largest_distance(const preset::Preset& preset)

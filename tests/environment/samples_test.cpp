@@ -4,14 +4,7 @@
 #include "environment/occlusion/samples.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <span>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::samples_test {
 

@@ -4,10 +4,7 @@
 #include "scene/ray.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"
-
-#include <gtest/gtest.h>
-
-#include <random>
+#include "tests/support/test.h"
 
 namespace nephroid::segment_cube_test {
 

@@ -2,12 +2,10 @@
 // How far the lights' irradiance is from the map's, over all normals, on six made maps: the default method against the thesis'.
 #include "environment/segment/quality.h"
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
 
 namespace nephroid::segment_quality_test {

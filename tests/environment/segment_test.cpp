@@ -7,17 +7,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/pictures.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <limits>
-
 namespace nephroid::segment_test {
 
 using namespace nephroid::environment;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
 
 const std::vector<SegmentMethod> methods{SegmentMethod::variance, SegmentMethod::thesis};
 const std::vector<SegmentWeights> all_weights{SegmentWeights::solid_angle, SegmentWeights::texel};

@@ -6,17 +6,11 @@
 #include "tests/environment/picture_files.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <limits>
 
 namespace nephroid::segment_verb_test {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
 
 class SegmentVerb : public test::ProgramTest {
 protected:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points all over an object, and what they see past a card that goes by: against closed forms of a ball.
 #include "environment/occlusion/surface_points.h"
+#include "tests/support/test.h"
 
 #include "environment/occlusion/occlusion.h"
 #include "environment/occlusion/surroundings.h"
@@ -8,12 +9,6 @@
 #include "tests/environment/maps.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
 
 namespace nephroid::surface_points_test {
 

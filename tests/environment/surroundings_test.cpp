@@ -4,17 +4,10 @@
 #include "scene/corners.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-
-#include <cstddef>
-#include <vector>
-
 namespace nephroid::surroundings_test {
 
 using environment::without_caster;
 using preset::Shape;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 /// Box, balls, cylinder and quad; the camera is in the box and in one of the balls.
 preset::Preset crowd()

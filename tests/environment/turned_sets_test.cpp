@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which baked directions stand for a light, and how their spheres are turned.
 #include "environment/light/turned_sets.h"
+#include "tests/support/test.h"
 
 #include "environment/bake/directions.h"
 #include "scene/ray.h"
 #include "scene/rotation.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 
 namespace nephroid::turned_sets_test {
 

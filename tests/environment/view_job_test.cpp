@@ -8,19 +8,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <map>
-#include <vector>
-
 namespace nephroid::view_job_test {
-
-using namespace nephroid::test;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class EnvironmentViewJob : public EnvironmentJobs {
 protected:

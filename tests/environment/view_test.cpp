@@ -5,17 +5,10 @@
 #include "optics/fresnel.h"
 #include "scene/ray.h"
 #include "tests/environment/views.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <numeric>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::view_test {
 
-using namespace nephroid::test;
 using std::numbers::pi;
 
 class EnvironmentView : public EnvironmentJobs {

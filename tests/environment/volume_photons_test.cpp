@@ -7,21 +7,12 @@
 #include "image/image.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/medium_photons.h"
+#include "tests/support/test.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <map>
-#include <numbers>
-#include <string>
-#include <vector>
 
 namespace nephroid::volume_photons_test {
 
-using namespace nephroid::test;
 using environment::Bake;
 using Picture = std::vector<double>;
 constexpr double pi = std::numbers::pi;

@@ -5,16 +5,12 @@
 #include "environment/bake/directions.h"
 #include "environment/view/renderer.h"
 #include "tests/environment/bakes.h"
+#include "tests/support/test.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
 
 namespace nephroid::volume_test {
 
-using namespace nephroid::test;
 using environment::Bake;
 
 constexpr double largest = 4, impact = 2; ///< radius of the largest sphere; how near the path comes to the middle

@@ -8,19 +8,12 @@
 #include "tests/support/program_test.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cstdlib>
 
 namespace nephroid::animation_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nephroid::write_file_whole;
 using nlohmann::json;
-using testing::HasSubstr;
 
 class Animations : public PlateRuns {
 protected:

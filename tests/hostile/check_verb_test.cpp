@@ -3,17 +3,11 @@
 #include "base/files.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <cmath>
 
 namespace nephroid::check_verb_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
-namespace fs = std::filesystem;
 
 class CheckVerb : public ProgramTest {
 protected:

@@ -5,14 +5,8 @@
 #include "tests/support/program_test.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 namespace nephroid::cli_test {
-
-namespace fs = std::filesystem;
-using namespace nephroid::test;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 class CommandLine : public ProgramTest {};
 

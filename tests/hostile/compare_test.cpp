@@ -6,18 +6,11 @@
 #include "tests/support/pictures.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <limits>
 
 namespace nephroid::compare_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using json = nlohmann::ordered_json;
-using testing::HasSubstr;
 
 class Compare : public ProgramTest {
 protected:

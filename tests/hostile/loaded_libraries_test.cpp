@@ -5,19 +5,7 @@
 #include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <fstream>
-#include <map>
-#include <string>
-
 namespace nephroid::loaded_libraries_test {
-
-using namespace nephroid::test;
-using testing::AnyOf;
-using testing::HasSubstr;
-using testing::Not;
-using testing::SizeIs;
 
 /// By the file name of each program that a run of nephroid started, itself among them: every library that it initialised, one a line.
 std::map<std::string, std::string> programs_of(const std::vector<std::string>& arguments)

@@ -10,8 +10,6 @@
 
 namespace nephroid::memory_held_test {
 
-using namespace nephroid::test;
-
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool keeps_shadows = true; // of every byte, and freed memory for a while
 #else

@@ -6,10 +6,6 @@
 
 namespace nephroid::mesh_reader_test {
 
-using namespace nephroid::test;
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-
 const fs::path real_reader = fs::path(NEPHROID_PROGRAM).parent_path().parent_path() / "lib/nephroid/nephroid_mesh_reader";
 
 /// nephroid in an installation of its own, where a shell script takes the reader's place.

@@ -6,22 +6,9 @@
 #include "scene/mesh.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
-#include <random>
-#include <string>
 
 namespace nephroid::scene::mesh_test {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 constexpr const char* corners = "0 0 0\n1 0 0\n0 1 0\n";
 

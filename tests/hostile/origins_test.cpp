@@ -7,9 +7,7 @@
 
 namespace nephroid::origins_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
 
 /// A refractiveindex.info file of one n everywhere.
 std::string glass_file(const char* n)

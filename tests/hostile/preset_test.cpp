@@ -6,14 +6,8 @@
 #include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <fstream>
 
 namespace nephroid::preset_test {
-
-namespace fs = std::filesystem;
-using test::refusal_of;
 
 struct Case {
   std::string what, text, line;

@@ -6,23 +6,13 @@
 #include "measure/history_file.h"
 #include "tests/support/plate_runs.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <cmath>
-#include <cstdlib>
-#include <limits>
 
 namespace nephroid::reference_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nephroid::write_file_whole;
 using nlohmann::json;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr int width = 48, height = 40;
 

@@ -7,16 +7,10 @@
 #include "tests/support/made_runs.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::report_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nephroid::write_file_whole;
-using testing::AllOf;
-using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
 class Reports : public ProgramTest {

@@ -10,22 +10,15 @@
 #include "tests/support/test_kernels.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <sys/mount.h>
 
 namespace nephroid::run_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nephroid::write_file_whole;
 using nlohmann::json;
-using testing::HasSubstr;
 
 class Runs : public PlateRuns {
 protected:

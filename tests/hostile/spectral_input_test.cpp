@@ -7,28 +7,13 @@
 #include "tests/support/errors.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <fmt/format.h>
-#include <set>
-#include <string>
-#include <vector>
 
 namespace nephroid::spectral_input_test {
 
 using nlohmann::json;
-using test::refusal_of;
-using testing::AllOf;
-using testing::Contains;
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
 
 class SpectralInput : public test::ProgramTest {
 protected:

@@ -2,6 +2,7 @@
 // A run's own estimate of its error (measure/measured_job.h) against its true error, for every shipped preset and with few and many
 // photons: eight independent runs of each, every one judged by the mean of the other seven.
 #include "measure/measured_job.h"
+#include "tests/support/test.h"
 
 #include "compute/compute.h"
 #include "preset/read.h"
@@ -9,10 +10,6 @@
 #include "spectral/engine.h"
 #include "tests/support/render.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace nephroid::error_estimate_test {

@@ -9,15 +9,7 @@
 #include "tests/support/render.h"
 #include "tests/support/shipped_presets.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace nephroid::shipped_presets_test {
-
-using namespace nephroid::test;
 
 /// The preset small and short, so that all of them take seconds; of a sweep its first run.
 preset::Preset small(const std::string& name)

@@ -11,14 +11,9 @@
 #include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/stored_statistics.h"
-
-#include <gtest/gtest.h>
-
-#include <fstream>
+#include "tests/support/test.h"
 
 namespace nephroid::statistics_test {
-
-using namespace nephroid::test;
 
 constexpr int stored_renders = 64;
 constexpr std::uint64_t first_stored_seed = 1'000'001, fresh_seed = 7;

@@ -6,11 +6,7 @@
 #include "inverse/bending.h"
 #include "inverse/pictures/target.h"
 #include "tests/support/saved_jobs.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
+#include "tests/support/test.h"
 
 namespace nephroid::assignment_test {
 

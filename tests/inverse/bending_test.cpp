@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector form of a facet's normal against the thesis' quadratic, Snell's law and the limit of what a facet can bend.
 #include "inverse/bending.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
+#include "tests/support/test.h"
 
 namespace nephroid::bending_test {
 

@@ -4,11 +4,7 @@
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::codes_test {
-
-using namespace nephroid::test;
 
 class Codes : public ProgramTest {
 protected:

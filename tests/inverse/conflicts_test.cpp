@@ -3,11 +3,7 @@
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
 #include "inverse/assign/footprint.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
+#include "tests/support/test.h"
 
 namespace nephroid::conflicts_test {
 

@@ -8,7 +8,6 @@
 
 namespace nephroid::extremes_test {
 
-using namespace nephroid::test;
 using Json = nlohmann::json;
 
 /// A ring and a disc by 32 x 32 facets.

@@ -10,18 +10,14 @@
 #include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <cstdlib>
 #include <regex>
 
 namespace nephroid::files_test {
 
 using inverse::Layout;
 using inverse::Solid;
-using testing::HasSubstr;
 
 std::string text_of(const std::function<void(ByteSink&)>& write)
 {

@@ -2,12 +2,7 @@
 // A facet's footprint against points drawn on it.
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-#include <random>
+#include "tests/support/test.h"
 
 namespace nephroid::footprint_test {
 

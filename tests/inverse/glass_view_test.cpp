@@ -6,13 +6,8 @@
 
 #include <glm/glm.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 namespace nephroid::glass_view_test {
 
-using namespace nephroid::test;
 using nephroid::preset::Camera;
 
 glm::dvec3 vec(const nephroid::preset::Vec3& v) { return {v[0], v[1], v[2]}; }

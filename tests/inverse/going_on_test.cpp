@@ -7,12 +7,7 @@
 #include "inverse/pictures/target.h"
 #include "preset/read.h"
 #include "tests/support/saved_jobs.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace nephroid::going_on_test {
 

@@ -4,11 +4,6 @@
 #include "inverse/facets/heights.h"
 #include "tests/inverse/sound.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 namespace nephroid::heights_test {
 
 using inverse::Layout;

@@ -4,11 +4,7 @@
 #include "inverse/judge.h"
 #include "optics/fresnel.h"
 #include "scene/bvh.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
+#include "tests/support/test.h"
 
 namespace nephroid::judge_test {
 

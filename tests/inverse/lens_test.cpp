@@ -4,13 +4,9 @@
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
+#include "tests/support/test.h"
 
 #include <glm/gtc/constants.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
 
 namespace nephroid::lens_test {
 

@@ -8,12 +8,6 @@
 #include "scene/bvh.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <numeric>
-#include <random>
-
 namespace nephroid::lights_test {
 
 using inverse::Incoming;
@@ -22,8 +16,6 @@ using inverse::Layout;
 using inverse::Light;
 using inverse::Solid;
 using inverse::WayOut;
-using testing::AllOf;
-using testing::HasSubstr;
 
 Light tilted(double tilt_deg, double turn_deg)
 {

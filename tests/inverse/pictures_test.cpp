@@ -7,20 +7,11 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <numeric>
-
 namespace nephroid::pictures_test {
 
 using inverse::Layout;
 using inverse::Picture;
 using inverse::Target;
-using testing::AllOf;
-using testing::HasSubstr;
 
 Layout cells(int across, int down)
 {

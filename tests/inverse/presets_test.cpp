@@ -2,10 +2,7 @@
 // Every shipped preset of engine 3, with few facets: it plans, runs and is judged, and its light is accounted for.
 #include "inverse/engine.h"
 #include "preset/read.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace nephroid::presets_test {
 

@@ -4,16 +4,11 @@
 #include "image/image.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
 
 namespace nephroid::run_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
 
 class InverseRun : public ProgramTest {
 protected:

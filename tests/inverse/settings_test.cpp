@@ -9,15 +9,10 @@
 #include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <cmath>
 
 namespace nephroid::settings_test {
 
 using inverse::Layout;
-using testing::AllOf;
-using testing::HasSubstr;
 
 class InverseSettings : public testing::Test {
 protected:

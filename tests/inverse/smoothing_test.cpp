@@ -7,10 +7,6 @@
 #include "inverse/pictures/target.h"
 #include "tests/inverse/sound.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 namespace nephroid::smoothing_test {
 
 using inverse::Assignment;

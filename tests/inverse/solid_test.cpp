@@ -4,17 +4,11 @@
 #include "inverse/facets/solid.h"
 #include "tests/inverse/sound.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 namespace nephroid::solid_test {
 
 using inverse::Layout;
 using inverse::Part;
 using inverse::Solid;
-using test::expect_sound, test::random_slopes, test::small;
 
 TEST(Solid, IsClosedWithAnySlopes)
 {

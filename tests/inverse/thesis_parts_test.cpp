@@ -5,11 +5,7 @@
 #include "inverse/thesis/sampler.h"
 #include "inverse/uniform.h"
 #include "tests/support/saved_jobs.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
+#include "tests/support/test.h"
 
 namespace nephroid::thesis_parts_test {
 

@@ -4,10 +4,7 @@
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
 #include "tests/support/saved_jobs.h"
-
-#include <gmock/gmock.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace nephroid::thesis_test {
 

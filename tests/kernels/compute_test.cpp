@@ -6,27 +6,13 @@
 #include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <numeric>
-#include <string>
-#include <vector>
 
 namespace nephroid::compute_test {
 
 using compute::Buffer;
 using compute::Context;
 using compute::Program;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
-namespace fs = std::filesystem;
 
 /// The line of the Error that f throws.
 template <class F>

@@ -5,18 +5,12 @@
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tracing/stretch.h"
 #include "tracing/world.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
 namespace nephroid::differential_test {
 
-using namespace nephroid::test;
 using check::ball;
 
 constexpr int steps = 24; // surfaces of a path

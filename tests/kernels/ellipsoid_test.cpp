@@ -6,21 +6,14 @@
 #include "scene/ray.h"
 #include "tests/support/ellipsoids.h"
 #include "tests/support/meshes.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
 
 namespace nephroid::ellipsoid_test {
 
-using namespace nephroid::test;
 using check::Hit;
 using check::KernelTracer;
 using check::no_primitive;

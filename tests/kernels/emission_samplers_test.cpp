@@ -5,17 +5,13 @@
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-
-#include <gtest/gtest.h>
 
 #include <glm/glm.hpp>
 
-#include <functional>
-
 namespace nephroid::emission_samplers_test {
 
-using namespace nephroid::test;
 using shared::DeviceLight;
 using shared::DeviceTarget;
 using shared::float4;

@@ -3,12 +3,8 @@
 // rest.
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
 
 namespace nephroid::emission_test {
 

@@ -2,13 +2,8 @@
 // kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has.
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
 
 namespace nephroid::film_test {
 

@@ -3,11 +3,8 @@
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace nephroid::fresnel_test {
 

@@ -4,15 +4,8 @@
 #include "compute/compute.h"
 #include "spectral/effort/emission_guide.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 namespace nephroid::guide_test {
 

@@ -5,16 +5,9 @@
 #include "kernels/tracing/shared_types.h"
 #include "spectral/effort/emitters.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tracing/scene_buffers.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <numeric>
-#include <vector>
 
 namespace nephroid::low_discrepancy_test {
 

@@ -2,16 +2,8 @@
 // kernels/spectral/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the photons came in.
 #include "compute/compute.h"
 #include "spectral/maps/photon_map.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-#include <span>
-#include <vector>
 
 namespace nephroid::photon_map_test {
 

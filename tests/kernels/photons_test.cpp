@@ -9,14 +9,9 @@
 #include "tests/support/reference_photons.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace nephroid::photons_test {
-
-using namespace nephroid::test;
 
 /// A smooth ball, a diamond and a mirror above a coloured floor, of dispersive glass; a point light.
 preset::Preset glass_preset()

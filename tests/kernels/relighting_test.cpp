@@ -17,16 +17,9 @@
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <chrono>
-#include <cmath>
 #include <ctime>
-#include <fstream>
 
 namespace nephroid::relighting_test {
-
-using namespace nephroid::test;
 
 preset::LightSpectrum illuminant(const std::string& name)
 {

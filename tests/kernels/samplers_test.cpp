@@ -5,16 +5,11 @@
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <functional>
 
 namespace nephroid::samplers_test {
 
-using namespace nephroid::test;
 using shared::float4;
 
 constexpr const char* source = R"(

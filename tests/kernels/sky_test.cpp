@@ -4,18 +4,14 @@
 #include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tracing/sky_tables.h"
 
-#include <gtest/gtest.h>
-
 #include <glm/glm.hpp>
-
-#include <cmath>
 
 namespace nephroid::sky_test {
 
-using namespace nephroid::test;
 using shared::float4;
 
 constexpr const char* source = R"(

@@ -6,21 +6,15 @@
 #include "compute/compute.h"
 #include "scene/bvh.h"
 #include "tests/support/meshes.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tests/support/tracer.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdlib>
 #include <fmt/format.h>
 
 namespace nephroid::trace_test {
 
 using check::Verdict;
-using test::Hit;
-using test::no_primitive;
-using test::Ray;
 
 std::size_t ray_count()
 {

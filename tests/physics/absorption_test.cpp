@@ -14,13 +14,8 @@
 #include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace nephroid::absorption_test {
-
-using namespace nephroid::test;
 
 constexpr double radius = 0.05; // m
 

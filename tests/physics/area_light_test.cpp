@@ -9,14 +9,7 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-
 namespace nephroid::area_light_test {
-
-using namespace nephroid::test;
 
 /// A floor below a panel of 1.6 m by 1.6 m at height 1, seen from half that height; with or without a sheet of n = 1 under the panel.
 preset::Preset floor_under_a_panel(bool sheet)

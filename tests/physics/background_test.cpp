@@ -12,15 +12,8 @@
 #include "tests/support/temporary_folder.h"
 
 #include <glm/glm.hpp>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <functional>
 
 namespace nephroid::background_test {
-
-using namespace nephroid::test;
 
 preset::Preset with_constant(const preset::Vec3& colour, int resolution, double radiance = 1)
 {

@@ -7,13 +7,8 @@
 #include "tests/support/closed_form.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace nephroid::ball_lens_test {
-
-using namespace nephroid::test;
 
 constexpr double n = 1.5;
 

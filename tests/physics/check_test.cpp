@@ -10,21 +10,11 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <fstream>
-#include <ostream>
-#include <set>
-#include <string>
-#include <vector>
 
 namespace nephroid::check_test {
-
-namespace fs = std::filesystem;
 
 std::string line_of(const check::Result& r)
 {

@@ -9,14 +9,10 @@
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "tests/support/test.h"
 
 namespace nephroid::effort_test {
 
-using namespace nephroid::test;
 using Effort = spectral::Settings::Effort;
 
 /// X, Y and Z of the layer "caustic", and the power that came down.

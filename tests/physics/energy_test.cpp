@@ -8,14 +8,7 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/shipped_presets.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace nephroid::energy_test {
-
-using namespace nephroid::test;
 
 /// Every run of a shipped preset, small and short: energy does not depend on the camera.
 std::vector<preset::Preset> small_runs(const std::string& name)

@@ -9,14 +9,7 @@
 #include "tests/support/saved_jobs.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-
 namespace nephroid::environment_light_test {
-
-using namespace nephroid::test;
 
 constexpr int pixels = 24, group = 4, groups = pixels / group;
 const Screen screen{{0, -1, 0}, 3, pixels};

@@ -15,8 +15,6 @@
 
 namespace nephroid::extreme_glass_test {
 
-using namespace nephroid::test;
-
 constexpr int photons = 1 << 17;
 
 /// A plate in y = 0 under a pencil of 0.01 degrees that meets it at theta. The pencil starts 0.1 m from there.

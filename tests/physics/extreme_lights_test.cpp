@@ -11,8 +11,6 @@
 
 namespace nephroid::extreme_lights_test {
 
-using namespace nephroid::test;
-
 constexpr int photons = 1 << 17;
 
 /// Power P gives P times the picture of 1 W.

@@ -9,10 +9,10 @@
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
+#include "tests/support/test.h"
 
 namespace nephroid::extreme_maps_test {
 
-using namespace nephroid::test;
 using Estimator = spectral::Settings::Estimator;
 using Effort = spectral::Settings::Effort;
 

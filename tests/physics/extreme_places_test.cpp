@@ -12,12 +12,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-
 namespace nephroid::extreme_places_test {
-
-using namespace nephroid::test;
 
 constexpr int photons = 1 << 17;
 

@@ -11,11 +11,7 @@
 #include "tests/support/extreme_waves.h"
 #include "tests/support/temporary_folder.h"
 
-#include <limits>
-
 namespace nephroid::extreme_surroundings_test {
-
-using namespace nephroid::test;
 
 /// One colour behind a ball of glass, of which the camera sees both.
 preset::Preset ball_before_sky(double radiance, int pixels = 8)

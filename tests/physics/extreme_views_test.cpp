@@ -10,8 +10,6 @@
 
 namespace nephroid::extreme_views_test {
 
-using namespace nephroid::test;
-
 /// Looking at a wall from far away through a telescope: the picture of a white square of 1 m on black, which fills half of it.
 Outcome telescope(double distance)
 {

@@ -11,12 +11,10 @@
 #include "spectral/clusters/scene_clusters.h"
 #include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
-
-#include <array>
+#include "tests/support/test.h"
 
 namespace nephroid::extreme_wavelengths_test {
 
-using namespace nephroid::test;
 using Effort = spectral::Settings::Effort;
 using Method = spectral::Settings::Method;
 

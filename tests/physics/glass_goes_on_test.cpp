@@ -6,16 +6,9 @@
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/render.h"
 #include "tests/support/saved_jobs.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::glass_goes_on_test {
-
-using test::layer;
 
 /// A ball of glass that dispersion pulls apart, before a sky of one colour; the floor under it, half of the picture, is seen directly.
 preset::Preset ball(int passes, std::uint64_t seed = 1)

@@ -11,15 +11,7 @@
 #include "tests/support/saved_jobs.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <functional>
-
 namespace nephroid::indirect_test {
-
-using namespace nephroid::test;
 
 preset::Preset indirect_only(int resolution)
 {

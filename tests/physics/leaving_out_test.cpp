@@ -10,15 +10,10 @@
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"
+#include "tests/support/test.h"
 #include "tracing/targets.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-
 namespace nephroid::leaving_out_test {
-
-using namespace nephroid::test;
 
 plan::Pass pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {})
 {

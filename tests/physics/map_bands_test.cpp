@@ -10,14 +10,8 @@
 #include "tests/support/passes.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
 
 namespace nephroid::map_bands_test {
-
-using namespace nephroid::test;
 
 struct Line {
   double nm, n, share; ///< the prism's n; of the lamp's power

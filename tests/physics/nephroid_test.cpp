@@ -21,14 +21,8 @@
 #include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
 
 namespace nephroid::nephroid_test {
-
-using namespace nephroid::test;
 
 constexpr double slope = 0.5;          // down per unit along
 constexpr double s0 = 0.05, s1 = 0.95; // from the wall to the floor

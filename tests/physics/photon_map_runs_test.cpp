@@ -8,13 +8,8 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-
 namespace nephroid::photon_map_runs_test {
 
-using namespace nephroid::test;
 using Estimator = spectral::Settings::Estimator;
 using Effort = spectral::Settings::Effort;
 

@@ -10,15 +10,9 @@
 #include "tests/support/passes.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace nephroid::photon_maps_test {
 
-using namespace nephroid::test;
 using Estimator = spectral::Settings::Estimator;
 
 /// Mean Y of the layer "caustic", of a light of 1 W.

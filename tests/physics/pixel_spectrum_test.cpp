@@ -6,14 +6,7 @@
 #include "optics/spectrum.h"
 #include "tests/support/closed_form.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-
 namespace nephroid::pixel_spectrum_test {
-
-using namespace nephroid::test;
-using testing::HasSubstr;
 
 constexpr int size = 16;
 constexpr double metres = 1; ///< of the floor, to a side of the picture

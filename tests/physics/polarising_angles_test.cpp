@@ -11,14 +11,8 @@
 #include "tests/support/test_kernels.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
 
 namespace nephroid::polarising_angles_test {
-
-using namespace nephroid::test;
 
 constexpr int photons = 1 << 19;
 

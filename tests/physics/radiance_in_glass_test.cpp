@@ -7,14 +7,9 @@
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/render.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace nephroid::radiance_in_glass_test {
-
-using namespace nephroid::test;
 
 // A white sheet and a lamp of intensity I = P / (4 pi) inside a block of glass, seen from above along the normal. The sheet has the
 // radiance L = I cos(theta) / (pi d^2); of that the eye gets (1 - R) L / n^2 with R = ((n - 1) / (n + 1))^2 at normal incidence.

@@ -8,13 +8,7 @@
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-
 namespace nephroid::radiometry_test {
-
-using namespace nephroid::test;
 
 /// A floor seen from straight above, a light above it, and nothing or a sheet of "glass" with n = 1 between them.
 /// The floor is the plane y = 0, reflectance 1; the camera is at height 2 and sees 1 m x 1 m of it.

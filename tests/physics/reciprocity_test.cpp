@@ -10,15 +10,7 @@
 #include "tests/support/passes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numeric>
-
 namespace nephroid::reciprocity_test {
-
-using namespace nephroid::test;
 
 /// A rectangle that shines or receives: u and v are its full edges' lengths, `up` runs along v.
 struct Patch {

@@ -9,14 +9,7 @@
 #include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace nephroid::refraction_test {
-
-using namespace nephroid::test;
 
 // ---- Plate -----------------------------------------------------------------------------------------------------------------
 // A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m that lies in y = 0; a floor below catches what goes through.

@@ -11,14 +11,8 @@
 #include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
 
 namespace nephroid::smooth_receiver_test {
-
-using namespace nephroid::test;
 
 constexpr double n = 1.5;
 const preset::Vec3 direction = {0.25, -1, 0.15};

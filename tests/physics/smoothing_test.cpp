@@ -8,14 +8,6 @@
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/render.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <numeric>
-#include <stdexcept>
-#include <vector>
-
 namespace nephroid::smoothing_test {
 
 using Smooth = spectral::Settings::Smoothing;

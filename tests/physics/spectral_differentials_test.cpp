@@ -7,13 +7,9 @@
 #include "tests/support/closed_form.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace nephroid::spectral_differentials_test {
 
-using namespace nephroid::test;
 using Columns = std::vector<std::array<double, 3>>; // XYZ
 
 constexpr double prism_side = 0.1, drop = 0.1;                    // metres; the receiver is `drop` below the prism's middle

@@ -9,14 +9,9 @@
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
-
-#include <gtest/gtest.h>
-
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace nephroid::wavelength_jitter_test {
-
-using namespace nephroid::test;
 
 /// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
 /// whole clusters, are independent, and are dealt by power: what a test is about it turns on.

@@ -15,14 +15,8 @@
 #include "tests/support/passes.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
 
 namespace nephroid::white_furnace_test {
-
-using namespace nephroid::test;
 
 constexpr double cube = 3, receiver_side = 0.4, reflectance = 0.7, radiance = 1;
 constexpr int groups = 6, group = 4; // pixels are looked at in squares of 4 x 4, of which there are 6 x 6

@@ -6,9 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-#include <set>
-
 namespace nephroid::ui::actions_test {
 
 using test::Desk;

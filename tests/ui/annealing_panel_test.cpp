@@ -2,19 +2,10 @@
 // The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
 #include "inverse_runs.h"
 #include "preset/settings_type.h"
+#include "tests/support/test.h"
 #include "ui/annealing/panel.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <numeric>
-
 namespace nephroid::ui::annealing_panel_test {
-
-using ::testing::ElementsAre;
-using ::testing::SizeIs;
 
 class AnnealingPanelTest : public test::WindowFixtureOf<test::InverseRuns> {
 protected:

@@ -9,9 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 namespace nephroid::ui::annealing_window_test {
 
 constexpr std::array<int, 2> size{1200, 960};

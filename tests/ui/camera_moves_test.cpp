@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mouse's camera moves against where a pinhole camera must then be, and see, by hand.
+#include "tests/support/test.h"
 #include "ui/view/camera_moves.h"
 
 #include <glm/glm.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace nephroid::ui::camera_moves_test {
 

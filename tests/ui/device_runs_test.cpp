@@ -4,11 +4,7 @@
 #include "fake_job.h"
 #include "ui/state/device_runs.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::device_runs_test {
-
-using ::testing::StartsWith;
 
 class EngineTest : public ::testing::Test {
 protected:

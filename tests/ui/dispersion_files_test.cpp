@@ -5,16 +5,13 @@
 #include "optics/dispersion.h"
 #include "preset/read.h"
 #include "spectral/clusters/clusters.h"
+#include "tests/support/test.h"
 #include "ui/dispersion/panel.h"
-
-#include <gmock/gmock.h>
 
 namespace nephroid::ui::dispersion_files_test {
 
 using spectral::ClusterMethod;
 using test::five, test::from_file, test::from_points, test::shipped;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
 
 class DispersionFilesTest : public test::DispersionFixture {};
 

@@ -9,14 +9,7 @@
 #include "tests/support/loaded_scenes.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <filesystem>
-
 namespace nephroid::ui::dropped_mesh_test {
-
-using testing::HasSubstr;
 
 /// A closed tetrahedron with edges of 10 along the axes, its corner at (100, 0, 0).
 constexpr const char* tetrahedron = "v 100 0 0\nv 110 0 0\nv 100 10 0\nv 100 0 10\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

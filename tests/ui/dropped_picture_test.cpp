@@ -4,8 +4,6 @@
 #include "preset/read.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::dropped_picture_test {
 
 class DroppedPicture : public test::WorkbenchFixture {

@@ -11,18 +11,9 @@
 #include "tests/support/temporary_folder.h"
 #include "ui/environment/model.h"
 
-#include <gmock/gmock.h>
-
-#include <functional>
-
 namespace nephroid::ui::environment_model_test {
 
 using environment::SegmentMethod;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
-using ::testing::SizeIs;
 
 class EnvironmentModelTest : public ::testing::Test {
 protected:

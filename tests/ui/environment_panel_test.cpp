@@ -5,19 +5,14 @@
 #include "image/image.h"
 #include "preset/read.h"
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 #include "ui/environment/panel.h"
 #include "ui/view/panel.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-
 namespace nephroid::ui::environment_panel_test {
 
 using test::direction_of;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
 
 /// Fake jobs of which every other light is hidden by a quarter. A picture of a bake has no layers.
 class LitJob : public test::FakeJob {

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment as a flat picture, and what is read of its lights: places of directions, lines between regions, figures, drags.
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 #include "ui/environment/lights.h"
 #include "ui/environment/picture.h"
-
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <limits>
 
 namespace nephroid::ui::environment_picture_test {
 
 using environment::SegmentMethod;
 using test::direction_of;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 constexpr MapLayout layouts[] = {MapLayout::latitude_longitude, MapLayout::cube};
 

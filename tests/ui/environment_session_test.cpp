@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "preset/read.h"
 #include "recorded_session.h"
+#include "tests/support/test.h"
 #include "ui/environment/panel.h"
 
 #include <fmt/format.h>

@@ -11,8 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 namespace nephroid::ui::environment_window_test {
 
 using test::Pixel, test::pixel;

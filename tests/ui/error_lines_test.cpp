@@ -7,18 +7,9 @@
 #include "ui/error/lines.h"
 #include "ui/state/pinned_runs.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
-
 namespace nephroid::ui::error_lines_test {
 
 using test::falling_history;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 

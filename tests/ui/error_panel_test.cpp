@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Error": what it plots of any history, how its axes follow, how long a frame takes, what it copies.
 #include "measure/history_file.h"
+#include "tests/support/test.h"
 #include "ui/error/panel.h"
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <chrono>
-#include <limits>
-
 namespace nephroid::ui::error_panel_test {
 
 using test::falling_history;
-using ::testing::SizeIs;
-using ::testing::StartsWith;
 
 class ErrorPanelTest : public test::WindowFixture {
 protected:

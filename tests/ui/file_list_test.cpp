@@ -4,18 +4,12 @@
 #include "base/files.h"
 #include "preset/read.h"
 #include "tests/support/process_state.h"
+#include "tests/support/test.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
 #include <imgui_internal.h>
 
-#include <filesystem>
-
 namespace nephroid::ui::file_list_test {
-
-namespace fs = std::filesystem;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class FileListTest : public test::WindowFixture {
 protected:

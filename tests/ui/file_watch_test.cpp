@@ -5,8 +5,6 @@
 #include "ui/state/file_watch.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::file_watch_test {
 
 class FileWatchTest : public test::WorkbenchFixture {

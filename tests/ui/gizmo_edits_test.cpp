@@ -11,11 +11,6 @@
 #include "ui/view/gizmo.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
 
 namespace nephroid::ui::gizmo_edits_test {
 

@@ -10,12 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <thread>
-
 namespace nephroid::ui::gizmo_window_test {
 
 using test::Pixel, test::pixel;

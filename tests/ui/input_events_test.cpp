@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys and clicks with modifiers that all arrive between two frames.
 #include "headless.h"
+#include "tests/support/test.h"
 #include "ui/shell/input_events.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
 
 namespace nephroid::ui::input_events_test {
 

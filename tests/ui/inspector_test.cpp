@@ -2,22 +2,15 @@
 // The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies.
 #include "layered_runs.h"
 #include "spectral/settings.h"
+#include "tests/support/test.h"
 #include "ui/inspector/panel.h"
 #include "ui/inspector/pixel.h"
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::inspector_test {
 
 using test::eventually;
-using ::testing::Each;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Optional;
-using ::testing::SizeIs;
-using ::testing::StartsWith;
 using Pixel = std::array<int, 2>;
 
 class InspectorTest : public test::WindowFixtureOf<test::LayeredRuns> {

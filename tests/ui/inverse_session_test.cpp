@@ -6,6 +6,7 @@
 #include "preset/read.h"
 #include "recorded_session.h"
 #include "scene/mesh.h"
+#include "tests/support/test.h"
 #include "ui/annealing/panel.h"
 
 namespace nephroid::ui::inverse_session_test {

@@ -6,12 +6,7 @@
 #include "base/files.h"
 #include "ui/state/session.h"
 
-#include <cstdlib>
-#include <random>
-
 namespace nephroid::test::killed_window_test {
-
-namespace fs = std::filesystem;
 
 constexpr const char* preset_text = R"({
   "name": "Killed", "engine": "spectral", "unit": "m",

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layouts of panels by engine: kept, restored, reset; panels closed and shown; the command palette.
+#include "tests/support/test.h"
 #include "ui/shell/layout.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
 #include <imgui_internal.h>
 
 namespace nephroid::ui::layout_test {

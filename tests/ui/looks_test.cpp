@@ -3,6 +3,7 @@
 #include "image/image.h"
 #include "layered_runs.h"
 #include "preset/read.h"
+#include "tests/support/test.h"
 #include "ui/state/session.h"
 #include "ui/state/shown_pixels.h"
 #include "ui/state/tone.h"
@@ -10,15 +11,9 @@
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::looks_test {
 
 using test::eventually;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 class LooksTest : public test::WindowFixtureOf<test::LayeredRuns> {
 protected:

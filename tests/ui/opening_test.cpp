@@ -5,12 +5,7 @@
 #include "ui/state/files.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::opening_test {
-
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 class OpeningTest : public test::WorkbenchFixture {
 protected:

@@ -13,12 +13,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <set>
-#include <thread>
-#include <utility>
-
 namespace nephroid::ui::panel_pictures_test {
 
 using test::in_window_like, test::pixel;

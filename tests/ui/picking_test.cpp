@@ -6,10 +6,6 @@
 #include "seen_scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 namespace nephroid::ui::picking_test {
 
 preset::Preset scene()

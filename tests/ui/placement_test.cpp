@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/support/test.h"
 #include "ui/view/placement.h"
-
-#include <gtest/gtest.h>
 
 namespace nephroid::ui::placement_test {
 

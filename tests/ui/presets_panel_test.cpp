@@ -3,20 +3,12 @@
 // of recent files, also when its file is damaged; small pictures, also broken ones.
 #include "base/files.h"
 #include "image/image.h"
+#include "tests/support/test.h"
 #include "ui/presets/panel.h"
 #include "ui/shell/workspace.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::presets_panel_test {
-
-namespace fs = std::filesystem;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::SizeIs;
 
 class PresetsPanelTest : public test::WindowFixture {
 protected:

@@ -4,17 +4,13 @@
 // it looks for what nobody sees.
 #include "preset/read.h"
 #include "tests/support/process_state.h"
+#include "tests/support/test.h"
 #include "window_fixture.h"
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
 
-#include <cstdlib>
-#include <random>
-
 namespace nephroid::ui::random_input_test {
-
-namespace fs = std::filesystem;
 
 class RandomInput : public test::WindowFixture {
 protected:

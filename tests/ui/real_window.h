@@ -3,20 +3,10 @@
 // event the window draws frames, and the file of --frame-times has a line of each as it is drawn.
 #pragma once
 #include "image/image.h"
+#include "tests/support/test.h"
 #include "tests/support/x_display.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::test {
 

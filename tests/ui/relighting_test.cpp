@@ -4,12 +4,9 @@
 #include "spectral/settings.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::relighting_test {
 
 using namespace std::chrono_literals;
-using ::testing::HasSubstr;
 
 class RelightingTest : public test::WorkbenchFixture {
 protected:

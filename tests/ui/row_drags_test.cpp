@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows that come or go while one is dragged: the drag ends, and no other row goes where the mouse goes.
 #include "dispersion_fixture.h"
-
-#include <gmock/gmock.h>
+#include "tests/support/test.h"
 
 namespace nephroid::ui::row_drags_test {
 
 using test::five, test::from_points;
-using ::testing::IsEmpty;
 
 class RowDragsTest : public test::DispersionFixture {
 protected:

@@ -2,19 +2,13 @@
 // Rows by rising wavelength under edits: they keep apart and inside what a preset may have, drags are one entry, what cannot be is said.
 #include "optics/dispersion.h"
 #include "preset/field.h"
+#include "tests/support/test.h"
 #include "ui/dispersion/edits.h"
 #include "ui/spectra/light_edits.h"
 #include "ui/widgets/rows.h"
 
-#include <gmock/gmock.h>
-
-#include <limits>
-
 namespace nephroid::ui::rows_test {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
 using Kind = RowGesture::Kind;
 
 const std::vector<Row> three{{400, 1.6}, {500, 1.55}, {700, 1.5}};

@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "measure/history_file.h"
 #include "preset/read.h"
+#include "tests/support/test.h"
 #include "ui/runs/panel.h"
 #include "ui/state/run_record.h"
 #include "ui/state/run_report.h"
@@ -10,15 +11,10 @@
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::ui::runs_panel_test {
 
 using test::eventually;
 using test::falling_history;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::SizeIs;
 
 class RunsPanelTest : public test::WindowFixtureOf<test::FakeRuns> {
 protected:

@@ -4,17 +4,15 @@
 #include "base/files.h"
 #include "preset/differences.h"
 #include "preset/read.h"
+#include "tests/support/test.h"
 #include "ui/state/files.h"
 #include "ui/state/new_scenes.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 namespace nephroid::ui::saving_test {
 
-namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 class SavingTest : public test::WindowFixture {

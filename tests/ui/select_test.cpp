@@ -3,10 +3,9 @@
 // keys. What a person gets is looked at in the preset.
 #include "inverse_runs.h"
 #include "seen_scene.h"
+#include "tests/support/test.h"
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
-
-#include <cmath>
 
 namespace nephroid::ui::select_test {
 

@@ -5,10 +5,6 @@
 #include "ui/state/session_keeper.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <random>
-
 namespace nephroid::ui::session_test {
 
 using test::FakeRuns;

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window's fast bytes against image::shown, which files are written with.
 #include "image/image.h"
+#include "tests/support/test.h"
 #include "ui/state/shown_pixels.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
 
 namespace nephroid::ui::shown_pixels_test {
 

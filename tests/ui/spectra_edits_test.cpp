@@ -7,20 +7,12 @@
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/clusters/scene_clusters.h"
+#include "tests/support/test.h"
 #include "ui/spectra/light_edits.h"
-
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <limits>
 
 namespace nephroid::ui::spectra_edits_test {
 
 using preset::LightSpectrum;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
-using ::testing::StartsWith;
 using Type = LightSpectrum::Type;
 
 LightSpectrum table(std::vector<PowerRow> rows) { return {Type::table, "", 0, std::move(rows)}; }

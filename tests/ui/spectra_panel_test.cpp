@@ -4,23 +4,15 @@
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/tables/run_tables.h"
+#include "tests/support/test.h"
 #include "ui/spectra/light_edits.h"
 #include "ui/spectra/panel.h"
 #include "window_fixture.h"
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <vector>
 
 namespace nephroid::ui::spectra_panel_test {
 
 using test::eventually;
 using test::room_text;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 using Type = preset::LightSpectrum::Type;
 using Effort = spectral::Settings::Effort;
 

@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <vector>
-
 namespace nephroid::ui::spectra_window_test {
 
 using test::bytes_at;

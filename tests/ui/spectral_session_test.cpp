@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "preset/read.h"
 #include "recorded_session.h"
+#include "tests/support/test.h"
 #include "ui/dispersion/edits.h"
 
 namespace nephroid::ui::spectral_session_test {

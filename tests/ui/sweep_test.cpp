@@ -2,6 +2,7 @@
 // The sweep of a preset in the window: opened, edited, saved, undone; its runs in a queue, each pinned; the report over them.
 #include "base/files.h"
 #include "preset/read.h"
+#include "tests/support/test.h"
 #include "ui/runs/panel.h"
 #include "ui/runs/sweep_values.h"
 #include "ui/state/run_record.h"
@@ -9,17 +10,10 @@
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-
 namespace nephroid::ui::sweep_test {
 
 using test::eventually;
 using test::falling_history;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
 using Queue = SweepQueue::State;
 
 class SweepTest : public test::WindowFixtureOf<test::FakeRuns> {

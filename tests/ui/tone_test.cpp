@@ -2,17 +2,11 @@
 // Tone curves and false colour against closed forms.
 #include "image/image.h"
 #include "measure/difference.h"
+#include "tests/support/test.h"
 #include "ui/state/shown_pixels.h"
 #include "ui/state/tone.h"
 
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cmath>
 #include <ctime>
-#include <limits>
-#include <random>
-#include <vector>
 
 namespace nephroid::ui::tone_test {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/support/test.h"
 #include "ui/state/undo.h"
-
-#include <gtest/gtest.h>
 
 namespace nephroid::ui::undo_test {
 

@@ -11,17 +11,10 @@
 #include "ui/view/sight.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <optional>
 
 namespace nephroid::ui::window_test {
 
 using test::bytes_at;
-using ::testing::EndsWith;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 /// Where a window of this size draws the picture of a preset.
 Placement placement_in_window(int width, int height, const std::string& preset, const std::array<int, 2>& picture)

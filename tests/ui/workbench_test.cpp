@@ -4,15 +4,9 @@
 #include "preset/read.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-
 namespace nephroid::ui::workbench_test {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class WorkbenchTest : public test::WorkbenchFixture {
 protected:

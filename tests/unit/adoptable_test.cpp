@@ -2,8 +2,7 @@
 #include "engine/engine.h"
 #include "preset/preset.h"
 #include "preset/settings_type.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace nephroid::adoptable_test {
 

@@ -5,16 +5,9 @@
 #include "preset/read.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-
-#include <string>
-#include <vector>
-
 namespace nephroid::animation_test {
 
 using preset::Preset;
-using test::refusal_of;
-using testing::ElementsAre;
 
 constexpr const char* scene = R"("scene": {
   "camera": {"position": [0, 1, 4], "fov_deg": 40},

@@ -5,14 +5,7 @@
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 namespace nephroid::scene::camera_test {
-
-using test::expect_near;
 
 Scene empty_scene(const glm::dvec3& origin = {0, 0, 0})
 {

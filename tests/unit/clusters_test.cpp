@@ -4,16 +4,6 @@
 #include "spectral/clusters/clusters.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <numeric>
-#include <random>
-
 namespace nephroid::clusters_test {
 
 using namespace nephroid::spectral;

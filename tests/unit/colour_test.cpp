@@ -2,10 +2,7 @@
 // Colour against published figures: CIE 015, IEC 61966-2-1, CIELAB.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace nephroid::colour_test {
 

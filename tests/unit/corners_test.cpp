@@ -5,17 +5,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 
-#include <gmock/gmock.h>
-
-#include <cstdint>
-#include <utility>
-#include <vector>
-
 namespace nephroid::corners_test {
 
 using namespace nephroid::scene;
-using test::error_of;
-using testing::HasSubstr;
 
 /// A box about the origin and a quad beside it.
 Scene box_and_quad()

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One pass, two passes.
 #include "base/counted.h"
-
-#include <gtest/gtest.h>
-
-#include <cstdint>
+#include "tests/support/test.h"
 
 namespace nephroid::counted_test {
 

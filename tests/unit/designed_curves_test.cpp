@@ -3,16 +3,7 @@
 // in the thesis (section 4.1.1: 202 and 204 clusters sorted, 247 not sorted). Not here: clustering as such (clusters_test.cpp).
 #include "optics/dispersion.h"
 #include "spectral/clusters/clusters.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <iterator>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::designed_curves_test {
 

@@ -13,14 +13,7 @@
 #include "tests/support/presets.h"
 #include "tracing/targets.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <numeric>
-
 namespace nephroid::device_scene_test {
-
-using namespace nephroid::test;
 
 preset::Preset scene_with(const preset::Shape& shape, const preset::Material& material)
 {

@@ -5,17 +5,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/pictures.h"
 
-#include <gmock/gmock.h>
-
-#include <limits>
-
 namespace nephroid::difference_test {
 
 using namespace nephroid::measure;
-using test::flat;
-using test::Picture;
-using testing::ElementsAre;
-using testing::HasSubstr;
 using Bytes = std::array<unsigned char, 3>;
 
 /// The value of a metric between two pictures of one pixel.

@@ -2,10 +2,7 @@
 // Malformed dispersion files: each answers with one line that names the file, the line where it can, and what is expected.
 #include "base/error.h"
 #include "optics/dispersion.h"
-
-#include <gtest/gtest.h>
-
-#include <ostream>
+#include "tests/support/test.h"
 
 namespace nephroid::dispersion_file_test {
 

@@ -8,14 +8,8 @@
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <numeric>
-
 namespace nephroid::effort_test {
 
-using namespace nephroid::test;
 using spectral::RunTables;
 using Effort = spectral::Settings::Effort;
 

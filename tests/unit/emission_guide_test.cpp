@@ -2,12 +2,7 @@
 // Learning where photons matter: even at the start, the optimum of cases worked out by hand, and what no moment can take away.
 #include "spectral/effort/emission_guide.h"
 #include "tests/support/saved_jobs.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
+#include "tests/support/test.h"
 
 namespace nephroid::emission_guide_test {
 

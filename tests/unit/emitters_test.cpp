@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons dealt to pairs of a light and a cluster: as many as were asked for, in proportion, and numbered without gaps.
 #include "spectral/effort/emitters.h"
-
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <numeric>
+#include "tests/support/test.h"
 
 namespace nephroid::emitters_test {
-
-using testing::ElementsAre;
 
 TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
 {

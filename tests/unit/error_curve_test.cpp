@@ -2,18 +2,11 @@
 // Slopes, times to an error and speed-ups on curves whose answers are known in closed form.
 #include "measure/error_curve.h"
 #include "measure/run_curves.h"
-
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
+#include "tests/support/test.h"
 
 namespace nephroid::error_curve_test {
 
 using namespace nephroid::measure;
-using testing::DoubleNear;
-using testing::ElementsAre;
 
 /// error = factor t^exponent at times first * ratio^i.
 Curve power_curve(double factor, double exponent, double first, double ratio, int points)

@@ -4,12 +4,9 @@
 #include "preset/read.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::error_place_test {
 
 using preset::field_of;
-using test::error_of;
 
 preset::Preset parse(const std::string& fields, const preset::Overrides& overrides = {})
 {

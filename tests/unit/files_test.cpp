@@ -9,24 +9,11 @@
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <span>
 #include <sys/mount.h>
 #include <sys/stat.h>
-#include <thread>
 #include <unistd.h>
-#include <vector>
 
 namespace nephroid::files_test {
-
-namespace fs = std::filesystem;
-using test::error_of;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 class Files : public testing::Test {
 protected:

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snell and Fresnel against closed forms.
 #include "optics/fresnel.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
+#include "tests/support/test.h"
 
 namespace nephroid::fresnel_test {
 

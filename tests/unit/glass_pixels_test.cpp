@@ -6,11 +6,6 @@
 #include "spectral/glass_pixels.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <vector>
-
 namespace nephroid::glass_pixels_test {
 
 constexpr int width = 60, height = 40;

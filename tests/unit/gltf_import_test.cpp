@@ -15,21 +15,12 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <cmath>
-#include <cstring>
-#include <numbers>
 
 namespace nephroid::gltf_import_test {
 
-namespace fs = std::filesystem;
 using preset::Light;
 using preset::Material;
-using testing::DoubleNear;
-using testing::ElementsAre;
-using testing::HasSubstr;
 using Json = nlohmann::json;
 
 std::string base64(const std::string& bytes)

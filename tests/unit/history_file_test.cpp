@@ -5,16 +5,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <random>
-
 namespace nephroid::history_file_test {
-
-using ::testing::HasSubstr;
 
 job::History three_rows()
 {

@@ -6,21 +6,12 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <cstring>
-#include <limits>
 #include <sys/mount.h>
-#include <thread>
 #include <unistd.h>
 
 namespace nephroid::image_test {
 
-namespace fs = std::filesystem;
 using namespace nephroid::image;
-using test::error_of;
-using testing::HasSubstr;
 
 class Pictures : public testing::Test {
 protected:

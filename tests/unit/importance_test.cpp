@@ -9,15 +9,8 @@
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 namespace nephroid::importance_test {
 
-using namespace nephroid::test;
 using spectral::WavelengthImportance;
 using Effort = spectral::Settings::Effort;
 using optics::Spectrum;

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dependencies point one way: every #include of app/, ui/ and kernels/ is held against the folder table of ARCHITECTURE.md, and
 // every library's headers stay in the one folder that knows the library.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <map>
+#include "tests/support/test.h"
+
 #include <regex>
-#include <set>
-#include <sstream>
-#include <string>
-#include <vector>
 
 namespace nephroid::includes_test {
 
-namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
 using FolderTable = std::map<std::string, Folders>;
 

@@ -2,16 +2,11 @@
 // IW-SSIM against its authors' program, and where that program has no answer.
 #include "measure/iw_ssim.h"
 #include "tests/support/pictures.h"
-
-#include <gmock/gmock.h>
-
-#include <map>
+#include "tests/support/test.h"
 
 namespace nephroid::iw_ssim_test {
 
 using namespace nephroid::measure;
-using test::flat;
-using test::Picture;
 
 double similarity(const Picture& a, const Picture& b, Mask mask = {})
 {

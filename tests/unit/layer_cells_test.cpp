@@ -4,16 +4,11 @@
 #include "spectral/relight/layer_cells.h"
 #include "spectral/relight/layer_light.h"
 #include "tests/support/presets.h"
-
-#include <gmock/gmock.h>
-
-#include <numeric>
-#include <set>
+#include "tests/support/test.h"
 
 namespace nephroid::layer_cells_test {
 
 using namespace nephroid::spectral;
-using ::testing::ElementsAre;
 
 std::vector<int> reflectors_of(const LayerCells& cells, std::size_t pixel)
 {

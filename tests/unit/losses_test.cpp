@@ -6,13 +6,6 @@
 #include "tests/support/temporary_folder.h"
 #include "tracing/wavelength_tables.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <numeric>
-
 namespace nephroid::losses_test {
 
 using namespace nephroid::spectral;

@@ -7,19 +7,7 @@
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <random>
-
 namespace nephroid::measured_job_test {
-
-using test::error_of;
-using testing::Contains;
-using testing::Each;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
 
 constexpr int size = 64;
 constexpr double grey = 0.5, sigma = 0.2;

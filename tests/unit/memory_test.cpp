@@ -3,12 +3,7 @@
 #include "run/memory.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::memory_test {
-
-using test::error_of;
-using testing::HasSubstr;
 
 constexpr std::uint64_t gib = std::uint64_t{1} << 30;
 

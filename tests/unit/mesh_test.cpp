@@ -3,22 +3,9 @@
 #include "scene/mesh.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <chrono>
-#include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
-#include <numbers>
-#include <string>
 
 namespace nephroid::scene::mesh_test {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 /// Six quadrilaterals about the cube [0, 2]^3, outwards.
 constexpr std::array<std::array<int, 4>, 6> cube_faces{

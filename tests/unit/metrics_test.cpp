@@ -6,18 +6,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/pictures.h"
 
-#include <gmock/gmock.h>
-
-#include <limits>
-
 namespace nephroid::metrics_test {
 
 using namespace nephroid::measure;
-using test::flat;
-using test::Picture;
-using test::refusal_of;
-using testing::HasSubstr;
-using testing::Optional;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -2,8 +2,8 @@
 // Places and how they read. Keys inside JSON pointers: RFC 6901's own examples, and what another library makes of the same keys.
 #include "base/error.h"
 #include "base/place.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace nephroid::place_test {

@@ -7,20 +7,12 @@
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <optional>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::plan_fields_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
 using Estimator = spectral::Settings::Estimator;
 

@@ -8,17 +8,11 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <optional>
-#include <random>
 
 namespace nephroid::preset_differences_test {
 
-namespace fs = std::filesystem;
 using preset::Preset;
-using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
 Json json_of(const Preset& preset) { return Json::parse(preset::to_json(preset)); }

@@ -4,14 +4,9 @@
 #include "preset/read.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
 #include <regex>
-#include <sstream>
 
 namespace nephroid::preset_docs_test {
-
-namespace fs = std::filesystem;
 
 struct Block {
   std::string file, text; ///< file: the name that a comment before the block gives it

@@ -4,8 +4,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "preset/read.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 namespace nephroid::preset_mutation_test {

@@ -6,13 +6,9 @@
 #include "spectral/settings.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::preset_read_test {
 
-namespace fs = std::filesystem;
 using preset::Preset;
-using testing::ElementsAre;
 
 Preset parse(const std::string& fields, const preset::Overrides& overrides = {})
 {

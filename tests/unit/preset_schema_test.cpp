@@ -7,14 +7,9 @@
 #include "tests/support/random_preset.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
-
 namespace nephroid::preset_schema_test {
-
-namespace fs = std::filesystem;
 
 /// Validates every file named on its command line against the first; prints those that do not conform.
 constexpr const char* validator = R"(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid presets` and `nephroid schema`: the program prints what the library knows.
 #include "preset/read.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>

@@ -5,12 +5,10 @@
 #include "tests/support/random_preset.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 namespace nephroid::preset_write_test {
 
-namespace fs = std::filesystem;
 using preset::Preset;
 
 TEST(PresetWriting, EveryShippedPresetReadsBackEqual)

@@ -2,12 +2,7 @@
 // The spectra of the sRGB primaries: the right colour, and nothing smoother has it.
 #include "optics/colour.h"
 #include "optics/primary_spectra.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::primary_spectra_test {
 

@@ -2,19 +2,13 @@
 // What a run says about itself while it works: figures, widths, JSON.
 #include "cli/progress.h"
 #include "tests/support/process_state.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cstdlib>
-#include <thread>
 
 namespace nephroid::progress_test {
 
 using namespace nephroid::cli;
-using testing::HasSubstr;
-using testing::Not;
 
 job::Progress at(double fraction, std::int64_t step, std::uint64_t photons, double work_seconds)
 {

@@ -3,15 +3,10 @@
 #include "scene/bvh.h"
 #include "scene/ray.h"
 #include "tests/support/meshes.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
+#include "tests/support/test.h"
 
 namespace nephroid::ray_test {
 
-using namespace nephroid::test;
 using glm::dvec3;
 
 /// Möller and Trumbore 1997; infinity: not hit. Nothing in common with ray.cpp.

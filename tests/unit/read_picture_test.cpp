@@ -6,19 +6,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <cstring>
-#include <limits>
-
 namespace nephroid::read_picture_test {
 
-namespace fs = std::filesystem;
 using namespace nephroid::measure;
-using test::refusal_of;
-using testing::ElementsAre;
-using testing::FloatNear;
-using testing::HasSubstr;
 
 class ReadPicture : public testing::Test {
 protected:

@@ -2,8 +2,7 @@
 // Which edits are another light on the same scene.
 #include "spectral/relight/layer_light.h"
 #include "tests/support/presets.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace nephroid::relight_preset_test {
 

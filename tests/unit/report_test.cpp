@@ -9,19 +9,12 @@
 #include "tests/support/temporary_folder.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include <regex>
 
 namespace nephroid::report_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using report::Json;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
 
 class Report : public testing::Test {
 protected:

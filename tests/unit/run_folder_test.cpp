@@ -6,8 +6,6 @@
 #include "tests/support/presets.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
 namespace nephroid::run_folder_test {
 
 class RunFolder : public testing::Test {

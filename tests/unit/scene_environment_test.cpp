@@ -8,20 +8,9 @@
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <limits>
-
 namespace nephroid::scene_environment_test {
 
 using namespace nephroid::scene;
-using test::refusal_of;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class SceneEnvironment : public testing::Test {
 protected:

@@ -8,21 +8,7 @@
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
 namespace nephroid::scene::scene_files_test {
-
-using test::ball_over_floor;
-using test::expect_near;
-using test::refusal;
-using test::volume;
-using test::world_bounds;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class SceneFiles : public testing::Test {
 protected:

@@ -7,17 +7,7 @@
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <numeric>
-
 namespace nephroid::scene::scene_light_test {
-
-using test::ball_over_floor;
-using test::expect_near;
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 TEST(SceneLight, AreaLightHasItsEdges)
 {

@@ -4,16 +4,7 @@
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
 namespace nephroid::scene::scene_refusals_test {
-
-using test::ball_over_floor;
-using test::refusal;
 
 struct Wrong {
   const char* says;

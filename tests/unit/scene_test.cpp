@@ -5,23 +5,9 @@
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 namespace nephroid::scene::scene_test {
 
 using preset::Shape;
-using test::ball_over_floor;
-using test::expect_near;
-using test::shape_object;
-using test::volume;
-using test::world_bounds;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(Scene, HoldsWhatThePresetSays)
 {

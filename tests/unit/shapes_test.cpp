@@ -4,14 +4,7 @@
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/shapes.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
+#include "tests/support/test.h"
 
 namespace nephroid::scene::shapes_test {
 

@@ -6,11 +6,6 @@
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 namespace nephroid::sight_test {
 
 constexpr double n = 1.5, degree = std::numbers::pi / 180;

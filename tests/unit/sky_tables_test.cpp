@@ -2,12 +2,8 @@
 // The environment as a light, on the host: its flux, its spectrum, and the tables that photons are drawn by.
 #include "optics/primary_spectra.h"
 #include "scene/environment_light.h"
+#include "tests/support/test.h"
 #include "tracing/sky_tables.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
 
 namespace nephroid::sky_tables_test {
 

@@ -5,15 +5,6 @@
 #include "spectral/smoothing.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numeric>
-#include <random>
-#include <vector>
-
 namespace nephroid::smoothing_test {
 
 constexpr int size = 48;

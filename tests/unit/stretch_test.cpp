@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // spectral/stretch.h: what a splat is stretched along, without a device.
 #include "optics/wavelength.h"
+#include "tests/support/test.h"
 #include "tracing/stretch.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
 
 namespace nephroid::stretch_test {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers of options as people type them.
 #include "cli/numbers.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace nephroid::typed_number_test {
 

@@ -3,10 +3,7 @@
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/variance_deal.h"
 #include "tests/support/saved_jobs.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace nephroid::variance_deal_test {
 

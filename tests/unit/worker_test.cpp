@@ -3,19 +3,14 @@
 #include "base/error.h"
 #include "job/worker.h"
 #include "tests/support/eventually.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <atomic>
 #include <future>
-#include <thread>
 
 namespace nephroid::worker_test {
 
 using namespace nephroid::job;
 using namespace std::chrono_literals;
-using nephroid::test::eventually;
 
 /// Counts to `steps`; can be held inside a step. Its picture is one pixel with the count.
 class CountingJob : public Job {
