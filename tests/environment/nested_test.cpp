@@ -11,8 +11,7 @@
 
 namespace nephroid::nested_test {
 
-using environment::Bake;
-using environment::Caster;
+using namespace environment;
 
 const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
 

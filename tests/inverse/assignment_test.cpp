@@ -10,11 +10,7 @@
 
 namespace nephroid::assignment_test {
 
-using inverse::Assignment;
-using inverse::Cost;
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Target;
+using namespace inverse;
 
 Layout small()
 {

@@ -7,11 +7,7 @@
 
 namespace nephroid::conflicts_test {
 
-using inverse::Assignment;
-using inverse::Conflicts;
-using inverse::ConflictSearch;
-using inverse::Layout;
-using inverse::Target;
+using namespace inverse;
 
 /// Cells of these columns and rows, half open, of 16 x 16.
 Target box(int left, int right, int top = 0, int bottom = 16)

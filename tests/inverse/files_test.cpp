@@ -16,8 +16,7 @@
 
 namespace nephroid::files_test {
 
-using inverse::Layout;
-using inverse::Solid;
+using namespace inverse;
 
 std::string text_of(const std::function<void(ByteSink&)>& write)
 {

@@ -11,10 +11,7 @@
 
 namespace nephroid::going_on_test {
 
-using inverse::Assignment;
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Target;
+using namespace inverse;
 
 Layout small()
 {

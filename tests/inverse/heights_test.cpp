@@ -6,8 +6,7 @@
 
 namespace nephroid::heights_test {
 
-using inverse::Layout;
-using inverse::Solid;
+using namespace inverse;
 
 /// The slope that has this gradient: the tilt's own, against the direction in which z rises.
 glm::dvec2 slope_with(const glm::dvec2& gradient, double n)

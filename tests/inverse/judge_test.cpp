@@ -8,11 +8,7 @@
 
 namespace nephroid::judge_test {
 
-using inverse::Fates;
-using inverse::Judge;
-using inverse::Layout;
-using inverse::Solid;
-using inverse::WayOut;
+using namespace inverse;
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 

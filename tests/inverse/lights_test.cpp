@@ -10,12 +10,7 @@
 
 namespace nephroid::lights_test {
 
-using inverse::Incoming;
-using inverse::Judge;
-using inverse::Layout;
-using inverse::Light;
-using inverse::Solid;
-using inverse::WayOut;
+using namespace inverse;
 
 Light tilted(double tilt_deg, double turn_deg)
 {

@@ -9,9 +9,7 @@
 
 namespace nephroid::pictures_test {
 
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Target;
+using namespace inverse;
 
 Layout cells(int across, int down)
 {

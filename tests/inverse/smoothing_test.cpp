@@ -9,10 +9,7 @@
 
 namespace nephroid::smoothing_test {
 
-using inverse::Assignment;
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Target;
+using namespace inverse;
 
 // Two rows of three; one facet in the middle of the upper row tilted by theta against all others, which lie flat. It has 3 neighbours, each
 // unlike it alone: 1 - cos theta for itself; of its neighbours, two have 2 of their own and one has 3.

@@ -6,9 +6,7 @@
 
 namespace nephroid::solid_test {
 
-using inverse::Layout;
-using inverse::Part;
-using inverse::Solid;
+using namespace inverse;
 
 TEST(Solid, IsClosedWithAnySlopes)
 {

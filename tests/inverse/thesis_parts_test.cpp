@@ -9,15 +9,7 @@
 
 namespace nephroid::thesis_parts_test {
 
-using inverse::Aim;
-using inverse::Annealer;
-using inverse::Draws;
-using inverse::Knob;
-using inverse::Layout;
-using inverse::Margin;
-using inverse::Need;
-using inverse::Sampler;
-using inverse::Thesis;
+using namespace inverse;
 
 constexpr Thesis::Sampling both[] = {Thesis::Sampling::exact, Thesis::Sampling::rejection};
 

@@ -8,11 +8,7 @@
 
 namespace nephroid::thesis_test {
 
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Pipeline;
-using inverse::Target;
-using inverse::Thesis;
+using namespace inverse;
 
 class ThesisPipeline : public testing::Test {
 protected:

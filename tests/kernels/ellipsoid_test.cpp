@@ -14,10 +14,7 @@
 
 namespace nephroid::ellipsoid_test {
 
-using check::Hit;
-using check::KernelTracer;
-using check::no_primitive;
-using check::Ray;
+using namespace check;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 

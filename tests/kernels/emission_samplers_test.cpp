@@ -12,9 +12,7 @@
 
 namespace nephroid::emission_samplers_test {
 
-using shared::DeviceLight;
-using shared::DeviceTarget;
-using shared::float4;
+using namespace shared;
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"

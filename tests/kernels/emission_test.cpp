@@ -8,8 +8,7 @@
 
 namespace nephroid::emission_test {
 
-using shared::DeviceTarget;
-using shared::float4;
+using namespace shared;
 
 constexpr const char* source = R"(
 #include "kernels/tracing/shared_types.h"

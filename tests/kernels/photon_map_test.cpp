@@ -7,8 +7,7 @@
 
 namespace nephroid::photon_map_test {
 
-using shared::StoredPhoton;
-using shared::VisiblePoint;
+using namespace shared;
 
 const char* const source = R"(
 #include "kernels/spectral/photon_map.h"

@@ -77,13 +77,10 @@ public:
     return holds;
   }
 
-  /// Ctrl+Shift+P, its name, Enter. False, and nothing is done, where the palette has another action first.
+  /// The palette, its name, Enter. False, and nothing is done, where the palette has another action first.
   bool by_palette(const ui::Action& action)
   {
-    hold(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_P);
-    frame();
-    lift(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_P);
-    frames(2);
+    apply(ui::command::Ask{ui::Question::command});
     ImGui::GetIO().AddInputCharactersUTF8(action.name.c_str());
     frames(2);
     const auto& found = workspace.palette().found();

@@ -9,9 +9,6 @@
 
 namespace nephroid::ui::compare_test {
 
-using test::eventually;
-using test::falling_history;
-
 class CompareTest : public test::WindowFixture {
 protected:
   /// A reference of the pictures' size, all of one colour.

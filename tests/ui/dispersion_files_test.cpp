@@ -11,7 +11,6 @@
 namespace nephroid::ui::dispersion_files_test {
 
 using spectral::ClusterMethod;
-using test::five, test::from_file, test::from_points, test::shipped;
 
 class DispersionFilesTest : public test::DispersionFixture {};
 

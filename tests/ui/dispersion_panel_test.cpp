@@ -11,7 +11,6 @@
 namespace nephroid::ui::dispersion_panel_test {
 
 using spectral::ClusterMethod;
-using test::five, test::from_file, test::from_points, test::shipped;
 
 class DispersionPanelTest : public test::DispersionFixture {};
 

@@ -11,8 +11,6 @@
 
 namespace nephroid::ui::dispersion_window_test {
 
-using test::bytes_at;
-
 constexpr std::array<int, 2> size{1100, 760};
 
 preset::Preset with_glass()

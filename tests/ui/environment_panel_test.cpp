@@ -12,8 +12,6 @@
 
 namespace nephroid::ui::environment_panel_test {
 
-using test::direction_of;
-
 /// Fake jobs of which every other light is hidden by a quarter. A picture of a bake has no layers.
 class LitJob : public test::FakeJob {
 public:

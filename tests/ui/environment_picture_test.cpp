@@ -8,7 +8,6 @@
 namespace nephroid::ui::environment_picture_test {
 
 using environment::SegmentMethod;
-using test::direction_of;
 
 constexpr MapLayout layouts[] = {MapLayout::latitude_longitude, MapLayout::cube};
 

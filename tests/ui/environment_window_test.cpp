@@ -13,8 +13,6 @@
 
 namespace nephroid::ui::environment_window_test {
 
-using test::Pixel, test::pixel;
-
 constexpr std::array<int, 2> size{1200, 900};
 
 class EnvironmentWindowTest : public test::RealWindow {

@@ -9,8 +9,6 @@
 
 namespace nephroid::ui::error_lines_test {
 
-using test::falling_history;
-
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes)

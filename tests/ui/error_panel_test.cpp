@@ -8,8 +8,6 @@
 
 namespace nephroid::ui::error_panel_test {
 
-using test::falling_history;
-
 class ErrorPanelTest : public test::WindowFixture {
 protected:
   void hover(const std::array<double, 4>& area)

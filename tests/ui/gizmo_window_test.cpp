@@ -12,8 +12,6 @@
 
 namespace nephroid::ui::gizmo_window_test {
 
-using test::Pixel, test::pixel;
-
 constexpr std::array<int, 2> size{1200, 900};
 constexpr double right_by = 0.8; ///< metres
 

@@ -10,7 +10,6 @@
 
 namespace nephroid::ui::inspector_test {
 
-using test::eventually;
 using Pixel = std::array<int, 2>;
 
 class InspectorTest : public test::WindowFixtureOf<test::LayeredRuns> {

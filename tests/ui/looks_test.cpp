@@ -13,8 +13,6 @@
 
 namespace nephroid::ui::looks_test {
 
-using test::eventually;
-
 class LooksTest : public test::WindowFixtureOf<test::LayeredRuns> {
 protected:
   void SetUp() override

@@ -15,8 +15,6 @@
 
 namespace nephroid::ui::panel_pictures_test {
 
-using test::in_window_like, test::pixel;
-
 constexpr std::array<int, 2> size{1200, 720};
 
 class PanelPictures : public test::RealWindow {

@@ -7,8 +7,6 @@
 
 namespace nephroid::ui::panels_test {
 
-using test::eventually;
-
 class PanelsTest : public test::WindowFixture {};
 
 TEST_F(PanelsTest, DrawsWithNothingOpen)

@@ -6,8 +6,6 @@
 
 namespace nephroid::ui::parameters_schema_test {
 
-using test::Json;
-
 const std::map<std::string, std::vector<std::string>> names{
     {"material", {"glass", "wall"}}, {"illuminant", {"A", "F7"}}, {"patch", {"red", "blue"}}};
 

@@ -6,8 +6,6 @@
 
 namespace nephroid::ui::parameters_test {
 
-using test::Json;
-
 const std::string fov = "/scene/camera/fov_deg", white = "/white";
 
 class ParametersTest : public test::ParametersFixture {

@@ -9,8 +9,6 @@
 
 namespace nephroid::ui::plan_panel_test {
 
-using test::eventually;
-
 class PlanPanelTest : public test::WindowFixture {
 protected:
   PlanPanelTest() : test::WindowFixture("plan")

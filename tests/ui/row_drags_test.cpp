@@ -5,8 +5,6 @@
 
 namespace nephroid::ui::row_drags_test {
 
-using test::five, test::from_points;
-
 class RowDragsTest : public test::DispersionFixture {
 protected:
   /// The mouse holds the point; it was not moved yet.

@@ -13,9 +13,6 @@
 
 namespace nephroid::ui::runs_panel_test {
 
-using test::eventually;
-using test::falling_history;
-
 class RunsPanelTest : public test::WindowFixtureOf<test::FakeRuns> {
 protected:
   RunsPanelTest() : WindowFixtureOf("runs") { runs.plan.engine = "spectral"; }

@@ -7,9 +7,6 @@
 
 namespace nephroid::ui::session_test {
 
-using test::FakeRuns;
-using test::TemporaryFolder;
-
 /// A window without a display: a workbench with its keeper.
 struct Window {
   explicit Window(const std::filesystem::path& state) : keeper(state) {}

@@ -11,8 +11,6 @@
 
 namespace nephroid::ui::spectra_panel_test {
 
-using test::eventually;
-using test::room_text;
 using Type = preset::LightSpectrum::Type;
 using Effort = spectral::Settings::Effort;
 

@@ -11,8 +11,6 @@
 
 namespace nephroid::ui::spectra_window_test {
 
-using test::bytes_at;
-
 constexpr std::array<int, 2> size{1280, 860};
 
 /// Where a window draws these values of the upper plot.

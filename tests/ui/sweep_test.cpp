@@ -12,8 +12,6 @@
 
 namespace nephroid::ui::sweep_test {
 
-using test::eventually;
-using test::falling_history;
 using Queue = SweepQueue::State;
 
 class SweepTest : public test::WindowFixtureOf<test::FakeRuns> {

@@ -14,8 +14,6 @@
 
 namespace nephroid::ui::window_test {
 
-using test::bytes_at;
-
 /// Where a window of this size draws the picture of a preset.
 Placement placement_in_window(int width, int height, const std::string& preset, const std::array<int, 2>& picture)
 {
