@@ -194,16 +194,6 @@ protected:
       if (!there_is(tool)) GTEST_SKIP() << "no " << tool;
   }
   image::Image screen() const { return image::read_image(folder.path() / "screen.png"); }
-  /// Opens a preset, drags with the left button from one place of the window to another, saves and quits.
-  void drag_and_save(const std::string& preset, const std::vector<std::string>& options, const Pixel& from, const Pixel& to) const
-  {
-    PlayedWindow window(preset, options, folder.path());
-    window.drag(from, to);
-    window.save();
-    const Ended ended = window.quit();
-    ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  }
-
   TemporaryFolder folder;
 
 private:
