@@ -32,11 +32,17 @@ private:
   std::vector<Action> before_;
 };
 
-TEST(Actions, NamesAndEffectsAreOneToOne)
+TEST(Actions, HaveNamesKeysAndEffectsOfTheirOwn)
 {
+  // What is selected goes first, and only then these mean something else (run_shortcuts).
+  const std::set<int> shared{ImGuiKey_Escape, ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow};
+  std::set<int> shortcuts;
+  for (const Action& action : actions())
+    EXPECT_TRUE(!action.shortcut || shared.contains(action.shortcut) || shortcuts.insert(action.shortcut).second) << action.name;
   std::set<std::string> names;
   for (const Action& action : actions()) EXPECT_TRUE(names.insert(action.name).second) << action.name << " is there twice";
   for (const auto& [name, effect] : action_effects()) EXPECT_TRUE(names.contains(name)) << name << " is no action";
+  EXPECT_THROW(action("Fly"), Error);
 }
 
 // Each in a new window in which it is possible.

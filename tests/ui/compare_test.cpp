@@ -103,23 +103,6 @@ TEST_F(CompareTest, PinsStandInTheOrderInWhichTheyWereNamed)
   EXPECT_EQ(pins.all()[1].name, "shorter");
 }
 
-TEST_F(CompareTest, ADialogOpensAHistory)
-{
-  open();
-  const std::string file = folder.write("old.csv", measure::to_csv(*falling_history(3)));
-  imgui.key(ImGuiMod_Shift, true);
-  press(ImGuiKey_O, ImGuiMod_Ctrl);
-  imgui.key(ImGuiMod_Shift, false);
-  frames(3);
-  ASSERT_EQ(workbench.question(), Question::open_history);
-  ImGui::GetIO().AddInputCharactersUTF8(file.c_str());
-  frames(2);
-  press(ImGuiKey_Enter);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().pinned().all().size() == 1; }));
-  EXPECT_EQ(workbench.comparing().pinned().all()[0].name, "old");
-  EXPECT_EQ(workbench.question(), Question::none);
-}
-
 TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
 {
   give_reference({1, 0, 0});

@@ -370,39 +370,4 @@ TEST_F(EnvironmentPanelTest, QualityFallsAndIsPlotted)
   EXPECT_EQ(error_range({}), (std::array<double, 2>{1, 10}));
 }
 
-TEST_F(EnvironmentPanelTest, AFrameAndAStepOfADragAreTimed)
-{
-  open_map();
-  constexpr int steps = 200;
-  const auto timed = [&](const std::string& name, auto before) {
-    std::vector<double> milliseconds;
-    for (int i = 0; i < steps; ++i) {
-      before(i);
-      const double begin = test::thread_ms();
-      frame();
-      milliseconds.push_back(test::thread_ms() - begin);
-    }
-    std::sort(milliseconds.begin(), milliseconds.end());
-    RecordProperty(name + "_median_us", static_cast<int>(1000 * milliseconds[steps / 2]));
-    RecordProperty(name + "_worst_us", static_cast<int>(1000 * milliseconds.back()));
-  };
-  timed("rest", [](int) {});
-  const Point from = seen(direction_of(20, 0));
-  press_at(from);
-  timed("turn", [&](int i) { imgui.move(from[0] + 37 * i % 211 - 100, from[1]); });
-  let_go();
-  const Point slider = place("lights");
-  press_at(slider);
-  timed("lights", [&](int i) { imgui.move(slider[0] - 10 - 37 * i % 61, slider[1]); });
-  let_go();
-  rest();
-  workbench.apply({command::Edit{"many", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   environment::settings(p).lights = 4096;
-                                   return p;
-                                 }()}});
-  rest();
-  timed("4096_lights", [](int) {});
-}
-
 } // namespace nephroid::ui::environment_panel_test

@@ -151,13 +151,6 @@ TEST_F(LooksTest, AKeyGoesThroughTheToneCurves)
   frames(2);
   EXPECT_EQ(look().tone, ToneCurve::standard);
   EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
-  for (const char* name : {"Filmic tone", "False colour", "Tone as image.png"}) {
-    Commands commands;
-    action(name).run(workbench.context(commands));
-    workbench.apply(commands);
-    EXPECT_TRUE(action(name).checked(context())) << name;
-  }
-  EXPECT_EQ(look().tone, ToneCurve::standard);
 }
 
 TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure)

@@ -319,14 +319,9 @@ TEST_F(ParametersTest, ATableOfManyRowsIsDrawnInAFrame)
   for (int i = 0; i < 100000; ++i) table["table"].push_back({300 + 0.005 * i, 1});
   open(preset.dump());
   search("scene.lights.0.spectrum.table");
-  std::vector<double> milliseconds;
-  for (int i = 0; i < 20; ++i) {
-    const double begin = test::thread_ms();
-    frame();
-    milliseconds.push_back(test::thread_ms() - begin);
-  }
-  std::sort(milliseconds.begin(), milliseconds.end());
-  RecordProperty("median_us", static_cast<int>(1000 * milliseconds[10]));
+  const double begin = test::thread_ms();
+  frames(20);
+  EXPECT_LT(test::thread_ms() - begin, 2000) << "rows that are not in sight cost nothing";
 }
 
 } // namespace nephroid::ui::parameters_test

@@ -194,6 +194,7 @@ protected:
       if (!there_is(tool)) GTEST_SKIP() << "no " << tool;
   }
   image::Image screen() const { return image::read_image(folder.path() / "screen.png"); }
+
   TemporaryFolder folder;
 
 private:

@@ -167,17 +167,6 @@ TEST_F(SavingTest, NewScenesAreInNoFileAndAskBeforeChangesGo)
   }
 }
 
-TEST_F(SavingTest, EveryNewSceneHasAnAction)
-{
-  for (const auto& [name, engine] :
-       {std::pair{"New scene", "spectral"}, {"New scene: environment", "environment"}, {"New scene: inverse", "inverse"}}) {
-    Commands commands;
-    action(name).run(workbench.context(commands));
-    workbench.apply(commands);
-    EXPECT_EQ(workbench.preset()->settings.type().name, engine);
-  }
-}
-
 TEST_F(SavingTest, ADroppedSceneBecomesAPresetInAFolderOfItsOwn)
 {
   // A triangle with corners (0, 0, 0), (1, 0, 0), (0, 1, 0), without indices.

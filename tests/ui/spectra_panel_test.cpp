@@ -249,28 +249,4 @@ TEST_F(SpectraPanelTest, NothingThatMattersIsASentence)
   EXPECT_THAT(spectra().clusters, IsEmpty());
 }
 
-TEST_F(SpectraPanelTest, AStepOfADragIsTimed)
-{
-  open_room(table);
-  move(panel().plot().place(600, 0.5));
-  imgui.button(0, true);
-  frame();
-  std::vector<double> steps_ms;
-  const std::uint64_t before = panel().maker().made();
-  for (int i = 1; i <= 200; ++i) {
-    const auto to = panel().plot().place(510 + 11 * i % 167, 0.2 + 0.003 * (37 * i % 211));
-    imgui.move(to[0], to[1]);
-    const double begin = test::thread_ms();
-    frame(); // pushes the edit
-    frame(); // shows it
-    steps_ms.push_back(test::thread_ms() - begin);
-  }
-  imgui.button(0, false);
-  frame();
-  EXPECT_GE(panel().maker().made(), before + 190) << "every step changed the curve";
-  std::sort(steps_ms.begin(), steps_ms.end());
-  RecordProperty("drag_step_ms_median", std::to_string(steps_ms[100]));
-  RecordProperty("drag_step_ms_worst", std::to_string(steps_ms.back()));
-}
-
 } // namespace nephroid::ui::spectra_panel_test

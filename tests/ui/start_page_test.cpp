@@ -78,20 +78,6 @@ TEST_F(StartPageTest, AnEarlierSessionIsOfferedWhereThereIsOne)
   EXPECT_TRUE(workbench.take_reopen());
 }
 
-TEST_F(StartPageTest, TheListOpensWhatIsClickedTwice)
-{
-  ImGui::GetIO().DisplaySize = {1300, 1200};
-  listed();
-  const auto place = presets().place_of("environment/ball");
-  ASSERT_TRUE(place);
-  WindowFixtureOf::click(*place);
-  EXPECT_EQ(workbench.preset(), nullptr);
-  WindowFixtureOf::click(*place);
-  frames(3);
-  ASSERT_TRUE(workbench.preset());
-  EXPECT_EQ(workbench.preset()->name, "ball");
-}
-
 TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
 {
   listed();
