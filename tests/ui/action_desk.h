@@ -41,9 +41,8 @@ public:
   /// Another camera, as one edit.
   void edit(double z = 3)
   {
-    preset::Preset edited = preset();
-    edited.scene.camera.position = {0, 0, z};
-    apply(ui::command::Edit{"move the camera", edited});
+    WindowFixtureOf::edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; });
+    frames(4);
   }
   void look(ui::Look look) { apply(ui::command::SetLook{look}); }
   static std::string clipboard()

@@ -23,9 +23,7 @@ protected:
   }
   void change_camera(double z)
   {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.camera.position[2] = z;
-    workbench.apply({command::Edit{"camera", edited}});
+    edit([&](preset::Preset& p) { p.scene.camera.position[2] = z; }, "camera");
   }
   std::array<int, 3> first_texel() const
   {

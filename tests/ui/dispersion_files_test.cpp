@@ -85,9 +85,7 @@ TEST_F(DispersionFilesTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
   refused.outside = preset::Outside::refuse;
   const preset::Dispersion missing = from_file("nowhere.yml");
   for (const preset::Dispersion& bad : {refused, missing, nowhere}) {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.materials.at("glass").dispersion = bad;
-    workbench.apply({command::Edit{"bad", edited}});
+    edit([&](preset::Preset& p) { p.scene.materials.at("glass").dispersion = bad; });
     frames(3);
     EXPECT_NE(panel().model().error(), "");
     move(panel().plot().to_screen({500, 1.5}));

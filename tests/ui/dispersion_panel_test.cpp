@@ -116,9 +116,7 @@ TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
   EXPECT_EQ(shown_count(ClusterMethod::brute_force), 401u);
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 32.0);
   EXPECT_THAT(panel().model().curve().note, HasSubstr("extrapolated below 390 nm"));
-  preset::Preset edited = *workbench.preset();
-  spectral::settings(edited).method = ClusterMethod::thesis;
-  workbench.apply({command::Edit{"method", edited}});
+  edit([&](preset::Preset& p) { spectral::settings(p).method = ClusterMethod::thesis; });
   frames(2);
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 41.0);
   click("Sorted");

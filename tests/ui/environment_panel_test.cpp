@@ -325,11 +325,7 @@ TEST_F(EnvironmentPanelTest, WhatIsHiddenComesFromTheRun)
   ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return panel().figures().at(0).occluded.has_value(); }));
   EXPECT_EQ(panel().figures().at(0).occluded, 0);
   EXPECT_EQ(panel().figures().at(1).occluded, 0.25);
-  workbench.apply({command::Edit{"lights", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   environment::settings(p).lights = 12;
-                                   return p;
-                                 }()}});
+  edit([&](preset::Preset& p) { environment::settings(p).lights = 12; });
   rest();
   ASSERT_THAT(panel().shown().cut->segmentation.lights, SizeIs(12));
   EXPECT_FALSE(panel().figures().at(0).occluded) << "the run's are of 24 lights";
@@ -343,11 +339,7 @@ TEST_F(EnvironmentPanelTest, AMissingMapIsOneLineAndCanBeMended)
   EXPECT_FALSE(panel().shown().cut);
   const auto& [x, y, width, height] = panel().map().area();
   drag_between({x + width / 2, y + height / 2}, {x + width / 4, y + height / 2}); // nothing to see, and nothing goes wrong
-  workbench.apply({command::Edit{"map", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   p.scene.environment->file = "room.exr";
-                                   return p;
-                                 }()}});
+  edit([&](preset::Preset& p) { p.scene.environment->file = "room.exr"; });
   rest();
   EXPECT_EQ(panel().shown().error, "");
   EXPECT_TRUE(panel().shown().cut);

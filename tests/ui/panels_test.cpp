@@ -246,9 +246,7 @@ TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture)
 {
   open();
   for (int size : {32, 80, 16}) {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.camera.resolution = {size, size};
-    workbench.apply({command::Edit{"resolution", edited}});
+    edit([&](preset::Preset& p) { p.scene.camera.resolution = {size, size}; });
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
     frames(3);
     EXPECT_EQ(workspace.panel<ui::ViewPanel>().texture().pixels().size(), 4u * static_cast<unsigned>(size * size));

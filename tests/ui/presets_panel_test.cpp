@@ -128,11 +128,7 @@ TEST_F(PresetsPanelTest, UnsavedChangesAreAskedAbout)
 {
   open();
   rest();
-  workbench.apply({command::Edit{"white", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   p.white = 3;
-                                   return p;
-                                 }()}});
+  edit([&](preset::Preset& p) { p.white = 3; });
   click("environment/ball");
   click("open");
   EXPECT_EQ(workbench.question(), Question::unsaved);

@@ -27,9 +27,7 @@ protected:
   }
   void edit(const std::function<void(preset::Preset&)>& change)
   {
-    preset::Preset edited = *workbench.preset();
-    change(edited);
-    workbench.apply({command::Edit{"edit", edited}});
+    WindowFixtureOf::edit(change);
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
     finish();
   }

@@ -114,9 +114,7 @@ TEST_F(Select, ASelectionThatIsGoneIsNone)
 {
   open();
   select(spot);
-  preset::Preset edited = *workbench.preset();
-  edited.scene.lights.clear();
-  workbench.apply({command::Edit{"remove", edited}});
+  edit([&](preset::Preset& p) { p.scene.lights.clear(); });
   frames(3);
   EXPECT_EQ(context().selection(), nothing);
   EXPECT_FALSE(view().overlay().gizmo().places());
@@ -269,11 +267,7 @@ TEST_F(Select, OwnAxesAreThoseOfTheObject)
 {
   open();
   select(floor_quad);
-  workbench.apply({command::Edit{"turned", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   p.scene.objects[1].transform.rotate_deg = {0, 0, 90};
-                                   return p;
-                                 }()}});
+  edit([&](preset::Preset& p) { p.scene.objects[1].transform.rotate_deg = {0, 0, 90}; });
   press(ImGuiKey_W);
   frames(3);
   const Point tip = handle(1); // its x is the scene's y

@@ -179,9 +179,7 @@ TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsFollowed)
 {
   open_room(R"("D65")");
   const std::int64_t before = spectra().iterations();
-  preset::Preset edited = *workbench.preset();
-  spectral::settings(edited).importance.cluster = spectral::Importance::Cluster::mean;
-  workbench.apply({command::Edit{"mean", edited}});
+  edit([&](preset::Preset& p) { spectral::settings(p).importance.cluster = spectral::Importance::Cluster::mean; });
   frame();
   EXPECT_LT(spectra().iterations(), before) << "without waiting for a run";
 }

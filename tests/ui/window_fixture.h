@@ -33,6 +33,13 @@ protected:
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.panel<ui::ViewPanel>().texture().empty(); }));
     frames(3); // strips and docks take their final places
   }
+  /// As a panel does.
+  void edit(const std::function<void(preset::Preset&)>& change, const std::string& name = "edit")
+  {
+    preset::Preset edited = *workbench.preset();
+    change(edited);
+    workbench.apply({ui::command::Edit{name, edited}});
+  }
   /// Until the run is over and drawn.
   void finish()
   {
