@@ -11,12 +11,7 @@ class AnnealingPanelTest : public test::WindowFixtureOf<test::InverseRuns> {
 protected:
   AnnealingPanelTest() : WindowFixtureOf("annealing") { ImGui::GetIO().DisplaySize = {1200, 1000}; }
   const AnnealingPanel& panel() const { return workspace.panel<AnnealingPanel>(); }
-  void click_widget(const std::string& widget)
-  {
-    const auto at = panel().place_of(widget);
-    ASSERT_TRUE(at) << widget;
-    click({(*at)[0], (*at)[1]});
-  }
+  void click_widget(const std::string& widget) { click_in(panel(), widget, 0); }
   /// On a facet of the map "slopes".
   void click_facet(int x, int y, int facets)
   {

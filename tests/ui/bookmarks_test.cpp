@@ -67,9 +67,7 @@ TEST_F(Bookmarks, AreInAList)
   show_list();
   click(*view().place_of("name 0"));
   frames(2);
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8("from the front");
-  frames(2);
+  retype("from the front");
   press(ImGuiKey_Enter);
   EXPECT_EQ(all()[0].name, "from the front");
   click(*view().place_of("go 0"));

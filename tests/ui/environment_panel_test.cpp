@@ -286,9 +286,7 @@ TEST_F(EnvironmentPanelTest, RadianceAndThresholdAreEdited)
   EXPECT_NEAR(panel().figures().front().flux, radiance * flux, 1e-9 * flux);
   EXPECT_EQ(panel().model().cuts_made(), 1);
   click(place("threshold"));
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8("7");
-  frame();
+  retype("7");
   press(ImGuiKey_Enter);
   EXPECT_EQ(settings().threshold, 1) << "no more than all";
   rest();

@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
+#include "tests/support/errors.h"
 #include "ui/error/lines.h"
 #include "ui/state/pinned_runs.h"
 
@@ -197,15 +198,7 @@ TEST(PinnedRuns, TheNoiseFloorOfARunsFolderIsRead)
 TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
 {
   test::TemporaryFolder folder;
-  const auto refusal = [](const std::filesystem::path& path) {
-    try {
-      read_pin(path);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
-      return error.line();
-    }
-    return std::string();
-  };
+  const auto refusal = [](const std::filesystem::path& path) { return refusal_of([&] { read_pin(path); }); };
   EXPECT_THAT(refusal(folder.path()), HasSubstr("history.csv"));
   EXPECT_THAT(refusal(folder.path() / "none"), HasSubstr("none: there is no such run; expected the folder of a run"));
   EXPECT_THAT(refusal(folder.write("a.png", "no picture")), HasSubstr("a.png: is no run's history; expected the folder of a run"));

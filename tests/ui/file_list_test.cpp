@@ -40,18 +40,7 @@ protected:
     for (const FileList::Entry& entry : files().entries()) all.push_back(entry.path.filename().string());
     return all;
   }
-  void click_on(const std::string& widget)
-  {
-    const auto place = files().place_of(widget);
-    ASSERT_TRUE(place) << widget << " is not drawn";
-    click(*place);
-    frames(2);
-  }
-  void type(const std::string& text)
-  {
-    ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
-    frames(2);
-  }
+  void click_on(const std::string& widget) { click_in(files(), widget, 2); }
   void make_folders()
   {
     fs::create_directories(folder.path() / "runs" / "deep");

@@ -36,9 +36,7 @@ protected:
   }
   void click_on(const std::string& widget)
   {
-    const auto at = inspector().places().of(widget);
-    ASSERT_TRUE(at) << widget;
-    click(*at);
+    click(inspector().places().of(widget).value());
     frames(2);
   }
   PixelRow row(const std::string& name)

@@ -30,11 +30,6 @@ protected:
     const ImGuiWindow* window = ImGui::FindWindowByName(title);
     return window && window->Active && !window->Hidden && (!window->DockNode || window->DockNode->VisibleWindow == window);
   }
-  void type(const char* text)
-  {
-    ImGui::GetIO().AddInputCharactersUTF8(text);
-    frames(2);
-  }
 };
 
 TEST_F(LayoutTest, AKeptLayoutIsWhereThePanelsAre)

@@ -29,13 +29,7 @@ protected:
   static std::array<int, 3> bytes(float r, float g, float b) { return {shown_byte(r, 1), shown_byte(g, 1), shown_byte(b, 1)}; }
   const std::string& layer() { return workbench.comparing().comparison().layer; }
   const Look& look() { return workbench.chosen().look; }
-  void click_on(const std::string& widget)
-  {
-    const auto place = view().place_of(widget);
-    ASSERT_TRUE(place) << widget;
-    click(*place);
-    frames(2);
-  }
+  void click_on(const std::string& widget) { click_in(view(), widget, 2); }
   image::Image saved(const std::string& name)
   {
     const std::filesystem::path file = folder.path() / name;
@@ -105,9 +99,7 @@ TEST_F(LooksTest, ARangeIsTyped)
   frames(3);
   const auto type = [&](const std::string& field, const char* text) {
     click_on(field);
-    press(ImGuiKey_A, ImGuiMod_Ctrl);
-    ImGui::GetIO().AddInputCharactersUTF8(text);
-    frames(2);
+    retype(text);
     press(ImGuiKey_Enter);
     frames(2);
   };

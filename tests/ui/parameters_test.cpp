@@ -80,7 +80,7 @@ TEST_F(ParametersTest, WhileItIsTypedItIsSaidAlready)
   begin_typing(fov, "0");
   EXPECT_TRUE(panel().place_of(fov + ":problem"));
   EXPECT_THAT(problems(), IsEmpty()) << "not entered";
-  type("60");
+  retype("60");
   EXPECT_FALSE(panel().place_of(fov + ":problem"));
   EXPECT_EQ(text(), before) << "no run for every letter";
   press(ImGuiKey_Escape);
@@ -249,7 +249,7 @@ TEST_F(ParametersTest, AMaterialIsRenamedWithItsUses)
   const auto rename = [&](const std::string& name, const std::string& to) {
     search("scene.materials." + name);
     click(materials + "/" + name + ":name");
-    type(to);
+    retype(to);
     press(ImGuiKey_Enter);
     frames(2);
   };

@@ -28,18 +28,7 @@ protected:
     frames(2);
   }
   using test::WindowFixture::click;
-  void click(const std::string& widget)
-  {
-    const auto place = panel().place_of(widget);
-    ASSERT_TRUE(place) << widget << " is not drawn";
-    click(*place);
-    frame();
-  }
-  void type(const std::string& typed)
-  {
-    ImGui::GetIO().AddInputCharactersUTF8(typed.c_str());
-    frames(2);
-  }
+  void click(const std::string& widget) { click_in(panel(), widget); }
   const CatalogueEntry& entry(const std::string& name) const
   {
     for (const CatalogueEntry& e : panel().catalogue().entries())

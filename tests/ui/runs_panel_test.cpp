@@ -18,13 +18,7 @@ protected:
   RunsPanelTest() : WindowFixtureOf("runs") { runs.plan.engine = "spectral"; }
 
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
-  void click_on(const std::string& widget)
-  {
-    const auto place = panel().place_of(widget);
-    ASSERT_TRUE(place) << widget;
-    click(*place);
-    frame();
-  }
+  void click_on(const std::string& widget) { click_in(panel(), widget); }
   void edit(const std::function<void(preset::Preset&)>& change)
   {
     WindowFixtureOf::edit(change);
@@ -181,9 +175,7 @@ TEST_F(RunsPanelTest, ADialogAsksForTheReportsName)
   click_on("report");
   ASSERT_EQ(workbench.question(), Question::save_report);
   frames(3);
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8((folder.path() / "asked.html").c_str());
-  frames(2);
+  retype(folder.path() / "asked.html");
   press(ImGuiKey_Enter);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_TRUE(eventually([&] { frame(); }, [&] { return is_there(folder.path() / "asked.html"); }));

@@ -79,9 +79,7 @@ TEST_F(SavingTest, SaveAsOffersTheParentAndNamesItFromTheNewFolder)
   press_with_shift(ImGuiKey_S);
   frames(3);
   ASSERT_TRUE(workspace.dialogs().place_of("keep the parent"));
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8((folder.path() / "deep/saved.json").c_str());
-  frames(2);
+  retype(folder.path() / "deep/saved.json");
   press(ImGuiKey_Enter);
   frames(2);
   EXPECT_EQ(read(folder.path() / "deep/saved.json"), Json::parse(R"({"parent":"../parent.json","name":"child","seed":5})"));
@@ -93,9 +91,7 @@ TEST_F(SavingTest, WithoutTheCheckTheParentIsNotKept)
   open_file(child);
   press_with_shift(ImGuiKey_S);
   frames(3);
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8((folder.path() / "saved.json").c_str());
-  frames(2);
+  retype(folder.path() / "saved.json");
   click(*workspace.dialogs().place_of("keep the parent"));
   click(*workspace.dialogs().place_of("save"));
   frames(2);

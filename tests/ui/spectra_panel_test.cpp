@@ -31,12 +31,7 @@ protected:
   const Spectra& spectra() const { return panel().maker().spectra(); }
   const preset::LightSpectrum& light() const { return workbench.preset()->scene.lights[0].spectrum; }
   using WindowFixtureOf::click;
-  void click(const std::string& widget)
-  {
-    const auto place = panel().place_of(widget);
-    ASSERT_TRUE(place) << widget;
-    click(*place);
-  }
+  void click(const std::string& widget) { click_in(panel(), widget, 0); }
 };
 
 TEST_F(SpectraPanelTest, AnIlluminantBecomesRowsToDrag)

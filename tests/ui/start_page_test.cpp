@@ -19,13 +19,7 @@ protected:
     frames(5);
   }
   const PresetsPanel& presets() const { return workspace.panel<PresetsPanel>(); }
-  void click(const std::string& widget)
-  {
-    const auto place = workspace.start_page().place_of(widget);
-    ASSERT_TRUE(place) << widget << " is not drawn";
-    WindowFixtureOf::click(*place);
-    frames(3);
-  }
+  void click(const std::string& widget) { click_in(workspace.start_page(), widget, 3); }
   std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.type().name) : ""; }
   void listed()
   {
@@ -81,8 +75,7 @@ TEST_F(StartPageTest, AnEarlierSessionIsOfferedWhereThereIsOne)
 TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
 {
   listed();
-  ImGui::GetIO().AddInputCharactersUTF8("environment/ball"); // the field has the keyboard from the start
-  frames(3);
+  type("environment/ball"); // the field has the keyboard from the start
   ASSERT_EQ(presets().listed().size(), 1u);
   press(ImGuiKey_Enter);
   frames(3);
@@ -93,12 +86,10 @@ TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
 TEST_F(StartPageTest, AMessageThatComesTakesTheKeyboardFromNobody)
 {
   listed();
-  ImGui::GetIO().AddInputCharactersUTF8("environment/");
-  frames(3);
+  type("environment/");
   workbench.apply({command::Report{"something went wrong"}});
   frames(3);
-  ImGui::GetIO().AddInputCharactersUTF8("ball");
-  frames(3);
+  type("ball");
   EXPECT_EQ(presets().listed().size(), 1u);
 }
 
