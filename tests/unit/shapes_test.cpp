@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes against their closed forms: volume, area, closedness, normals; the brilliant against the angles of its cut.
-#include "base/error.h"
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/shapes.h"
-#include "tests/support/test.h"
+#include "tests/support/errors.h"
 
 namespace nephroid::scene::shapes_test {
 
@@ -215,13 +214,8 @@ TEST(Shapes, InwardsTurnsEverythingRound)
 
 void expect_refused(const preset::Shape& bad, const char* pointer)
 {
-  try {
-    make_shape(bad, Place("p.json", "/scene/objects/0/shape"));
-    FAIL() << pointer << " was accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::bad_input);
-    EXPECT_EQ(error.place().text(), std::string("p.json#/scene/objects/0/shape/") + pointer) << error.line();
-  }
+  EXPECT_THAT(refusal_of([&] { make_shape(bad, Place("p.json", "/scene/objects/0/shape")); }),
+              StartsWith(std::string("p.json#/scene/objects/0/shape/") + pointer + ": "));
 }
 
 TEST(Shapes, RefusesWhatIsNoShape)
