@@ -71,11 +71,11 @@ function(nephroid_tests)
   endforeach()
   list(REMOVE_DUPLICATES libs)
   add_executable(${program} ${sources})
+  nephroid_unity(${program} 8 ${sources})
   target_link_libraries(${program} PRIVATE nephroid_settings ${libs} ${ARGN} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE
     NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:$<IF:$<BOOL:${nephroid_test_program}>,${nephroid_test_program},nephroid>>" $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
   target_compile_options(${program} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>) # tests compute little themselves and take long to compile
-  set_target_properties(${program} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/suites.cmake
     CONTENT "set(group ${group})\nset(program [[$<TARGET_FILE:${program}>]])\ninclude([[${PROJECT_SOURCE_DIR}/cmake/TestSuites.cmake]])\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/suites.cmake)
