@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits.
 #include "base/files.h"
-#include "inverse/assign/assignment.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-#include "inverse/pictures/target.h"
+#include "tests/inverse/searches.h"
 #include "tests/support/saved_jobs.h"
 #include "tests/support/test.h"
 
@@ -12,31 +11,9 @@ namespace nephroid::assignment_test {
 
 using namespace inverse;
 
-Layout small()
-{
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100, 200};
-  return layout;
-}
-
-std::vector<Target> ring_and_disc(const Layout& layout)
-{
-  Picture ring, disc;
-  ring.type = Picture::Type::ring;
-  const FileFinder finder;
-  return {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
-}
-
-void sweep(Assignment& a, int sweeps)
-{
-  while (a.steps() < sweeps) a.advance();
-}
-
 TEST(Assignment, NeverLosesAndSoonHasThePictures)
 {
-  const Layout layout = small();
+  const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(layout, targets, 1);
   double before = a.residual();
@@ -53,7 +30,7 @@ TEST(Assignment, NeverLosesAndSoonHasThePictures)
 // Every slope is below the limit, and the light on a receiver is what leaves the object less what is beside it.
 TEST(Assignment, KeepsTheLightAndTheLimit)
 {
-  Layout layout = small();
+  Layout layout = small_layout();
   layout.n = 1.1; // bends by a slope of 0.46 at most
   layout.distances = {90, 110};
   const std::vector<Target> targets = ring_and_disc(layout);
@@ -74,7 +51,7 @@ TEST(Assignment, KeepsTheLightAndTheLimit)
 
 TEST(Assignment, GoesOnWithTheSameBits)
 {
-  const Layout layout = small();
+  const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment whole(layout, targets, 5), first(layout, targets, 5), second(layout, targets, 5), other(layout, targets, 6);
   for (int i = 0; i < 70; ++i) first.advance(); // 64 batches a sweep: in the middle of the second one
@@ -90,7 +67,7 @@ TEST(Assignment, GoesOnWithTheSameBits)
 // All facets together find more than one after the other: as much as several further sweeps.
 TEST(Assignment, IsRefinedInItsLastSweep)
 {
-  Layout layout = small();
+  Layout layout = small_layout();
   layout.facets = {64, 64};
   layout.cells = {32, 32};
   const std::vector<Target> targets = ring_and_disc(layout);
@@ -116,7 +93,7 @@ TEST(Assignment, IsRefinedInItsLastSweep)
 // Cut before the refinement, after some steps of it, and at its end.
 TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
 {
-  const Layout layout = small();
+  const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment whole(layout, targets, 5);
   std::vector<std::vector<std::byte>> cuts;
