@@ -53,26 +53,16 @@ function(nephroid_library name)
   endif()
 endfunction()
 
-# nephroid_tests(LIB...): every *_test.cpp of the current folder, as the program GROUP_tests; GROUP is the folder's name. It links LIB and the folders
-# whose headers the tests include ("optics/..." links nephroid_optics), so adding a test is adding a file. nephroid_test_program: the program that
-# tests run, if it is not nephroid. ctest runs a suite of GoogleTest at a time, since starting OpenCL takes longer than many a test.
+# nephroid_tests(LIB...): every *_test.cpp of the current folder, as the program GROUP_tests; GROUP is the folder's name. It links LIB and all of
+# app/, so adding a test is adding a file. nephroid_test_program: the program that tests run, if it is not nephroid. ctest runs a suite of
+# GoogleTest at a time, since starting OpenCL takes longer than many a test.
 function(nephroid_tests)
   get_filename_component(group ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(program ${group}_tests)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
-  set(libs "")
-  foreach(source IN LISTS sources)
-    file(STRINGS ${source} includes REGEX "^#include \"(base|optics|preset|scene|plan|compute|job|image|measure|report|engine|tracing|spectral|environment|inverse|check|run|cli|ui)/")
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
-    foreach(line IN LISTS includes)
-      string(REGEX REPLACE "^#include \"([a-z]+)/.*" "nephroid_\\1" lib "${line}")
-      list(APPEND libs ${lib})
-    endforeach()
-  endforeach()
-  list(REMOVE_DUPLICATES libs)
   add_executable(${program} ${sources})
   nephroid_unity(${program} 8 ${sources})
-  target_link_libraries(${program} PRIVATE nephroid_settings ${libs} ${ARGN} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${program} PRIVATE nephroid_settings nephroid_cli ${ARGN} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE
     NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:$<IF:$<BOOL:${nephroid_test_program}>,${nephroid_test_program},nephroid>>" $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
   target_compile_options(${program} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>) # tests compute little themselves and take long to compile

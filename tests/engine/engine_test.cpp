@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an engine gets by being registered: the program of this folder has the engine of gradient.cpp, which nothing else knows of.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"

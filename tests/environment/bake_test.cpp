@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Baked spheres against closed forms and against rays in double precision: a ball of glass, of nothing, a mirror; energy; a turned object;
 // colours.
-#include "environment/bake/baker.h"
 #include "environment/bake/directions.h"
 #include "environment/ball_map.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"
 #include "optics/primary_spectra.h"
-#include "preset/read.h"
-#include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/temporary_folder.h"
 

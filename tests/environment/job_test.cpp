@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of engine 2: the plan, the file that a second start reads and what is wrong with such a file, a run that goes on with the same bits,
 // bad input.
-#include "base/bytes.h"
-#include "base/files.h"
 #include "environment/bake/bake_file.h"
-#include "plan/plan.h"
-#include "preset/read.h"
 #include "tests/environment/jobs.h"
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 2 leaves out changes nothing that is to be seen: each case beside one in which it is not left out.
-#include "environment/segment/segment.h"
-#include "environment/settings.h"
 #include "tests/environment/maps.h"
 #include "tests/environment/views.h"
-#include "tests/support/test.h"
 
 namespace nephroid::leaving_out_test {
 

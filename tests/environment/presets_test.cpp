@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shipped presets of engine 2 through the program, small: their files, a second start, a run that is resumed.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
 

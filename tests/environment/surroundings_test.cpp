@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene without the object whose caustics are shown, against the scene that a preset without it makes.
 #include "environment/occlusion/surroundings.h"
-#include "scene/corners.h"
 #include "tests/support/loaded_scenes.h"
 
 namespace nephroid::surroundings_test {

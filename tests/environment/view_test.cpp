@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 2 shows, through a job: a white furnace about a ball, receivers and what hides caustics from them, the light of lamps behind
 // a ball lens.
-#include "environment/light/distant_lights.h"
 #include "optics/fresnel.h"
 #include "scene/ray.h"
 #include "tests/environment/views.h"
-#include "tests/support/test.h"
 
 namespace nephroid::view_test {
 

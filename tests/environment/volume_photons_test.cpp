@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Caustics in the air about glass against photons in the same medium (medium_photons.h), as pictures.
-#include "environment/bake/baker.h"
 #include "environment/bake/directions.h"
 #include "environment/light/turned_sets.h"
 #include "environment/view/renderer.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Animations as the program renders them: each frame has the bits of a run of its own, killed ones go on at the missing frame, the video is
 // asked for as ffmpeg wants it, and what cannot be is a clear line.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/json_lines.h"
 #include "tests/support/plate_runs.h"

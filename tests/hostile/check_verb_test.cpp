@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid check` as a script sees it: its JSON, its exit codes, a wrong kernel, Ctrl-C.
-#include "base/files.h"
 #include "tests/support/program_test.h"
 
 #include <nlohmann/json.hpp>

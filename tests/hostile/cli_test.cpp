@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad command lines: each is answered by one line on standard error that says what is wrong, the exit code of the contract, nothing
 // on standard output and no file.
-#include "base/files.h"
 #include "tests/support/program_test.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid compare` as scripts use it: JSON as the contract has it, masks, difference pictures, and one line for whatever is wrong.
-#include "base/files.h"
 #include "image/image.h"
-#include "measure/metrics.h"
 #include "tests/support/pictures.h"
 #include "tests/support/program_test.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verbs load what they need and no more: pictures, windows and devices each cost time to start. The dynamic loader itself says what was
 // loaded (LD_DEBUG, see ld.so(8)).
-#include "base/files.h"
 #include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mesh files that are broken on purpose: each is refused with one line that names the file and says why, quickly, and nothing
 // crashes, hangs or takes all memory, whatever the reader underneath does.
-#include "base/error.h"
-#include "base/files.h"
 #include "scene/mesh.h"
 #include "tests/support/temporary_folder.h"
 

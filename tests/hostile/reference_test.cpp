@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that are measured while they work: against a file, against a recipe that is rendered once, without either; until an error.
 // What cannot be measured is one clear line before anything is rendered.
-#include "base/files.h"
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "tests/support/plate_runs.h"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid report` over real runs, and over what is no run, not finished, cut, damaged or too much: one clear line, exit code 2, and
 // no page. Where Chromium is installed, the page is looked at in it.
-#include "base/files.h"
-#include "image/image.h"
-#include "measure/history_file.h"
 #include "tests/support/made_runs.h"
 #include "tests/support/program_test.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or a clear line.
-#include "base/files.h"
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "preset/read.h"

@@ -4,10 +4,7 @@
 #include "measure/measured_job.h"
 #include "tests/support/test.h"
 
-#include "compute/compute.h"
 #include "preset/read.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/render.h"
 
 #include <tuple>

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every shipped preset makes a picture: finite, lit, its layers adding up, its energy accounted for, and noise falling as it should.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "preset/read.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/shipped_presets.h"
 

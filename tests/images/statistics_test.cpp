@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Five small scenes against stored means and variances of the same rendering with other seeds: who changes a kernel sees whether a
 // picture changed by more than its noise, or its noise did. README.md beside this file: how the stored pictures are made.
-#include "compute/compute.h"
-#include "image/image.h"
-#include "optics/colour.h"
 #include "preset/read.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/stored_statistics.h"
 #include "tests/support/test.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits.
-#include "base/files.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "tests/inverse/searches.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/test.h"
 
 namespace nephroid::assignment_test {
 

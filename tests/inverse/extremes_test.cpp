@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme objects, lights and receivers of engine 3. docs/extremes.md has the table.
 #include "inverse/engine.h"
-#include "job/job.h"
 #include "tests/support/extremes.h"
 
 #include <nlohmann/json.hpp>

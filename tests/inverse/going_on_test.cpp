@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run takes on other distances, weights and pictures and goes on from the slopes that it has.
-#include "base/error.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/engine.h"
 #include "preset/read.h"
 #include "tests/inverse/searches.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/test.h"
 
 namespace nephroid::going_on_test {
 

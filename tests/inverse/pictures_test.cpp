@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words, QR codes, grey levels and tones as light a cell.
-#include "base/files.h"
 #include "image/image.h"
 #include "inverse/pictures/grey.h"
 #include "inverse/pictures/target.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs of engine 3 through the program: its files, its figures, and that a run that was cut goes on with the same bits.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
 

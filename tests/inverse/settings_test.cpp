@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad input of engine 3: each a line that says what would work.
-#include "base/files.h"
 #include "image/image.h"
 #include "inverse/bending.h"
 #include "inverse/engine.h"

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in
 // closed form.
-#include "spectral/engine.h"
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test.h"
-#include "tracing/stretch.h"
 #include "tracing/world.h"
 
 namespace nephroid::differential_test {

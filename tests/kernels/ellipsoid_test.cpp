@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spheres and ellipsoids of kernels/tracing/bvh.h, and of the host's rays, against the plain quadratic in long double.
 #include "check/tracer.h"
-#include "compute/compute.h"
 #include "scene/bvh.h"
 #include "scene/ray.h"
 #include "tests/support/ellipsoids.h"

@@ -2,7 +2,6 @@
 // kernels/tracing/emission.h: photons of every type of light towards several overlapping targets. Their density is what the sampler is
 // meant to have, by chi-square, and the power that they carry is what the light sends towards the targets, everywhere, whatever the
 // density. Both truths are integrals over cells, of formulas that are written here anew, in double precision.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test.h"

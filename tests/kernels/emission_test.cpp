@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/emission.h in extreme places: a far and small target, and a light inside of one. emission_samplers_test.cpp tests the
 // rest.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/test.h"
 #include "tests/support/test_kernels.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/test.h"
 #include "tests/support/test_kernels.h"

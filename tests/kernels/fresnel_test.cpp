@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/fresnel.h in single precision against optics/fresnel.h in double precision.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/test.h"

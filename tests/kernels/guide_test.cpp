@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/spectral/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they
 // count less.
-#include "compute/compute.h"
 #include "spectral/effort/emission_guide.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test.h"

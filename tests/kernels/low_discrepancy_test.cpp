@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/low_discrepancy.h and what kernels/spectral/photon_path.h makes of it: what Owen's scrambling keeps of a Sobol sequence
 // is exact and is tested so; that other keys give independent sequences is tested by chi-square.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "spectral/effort/emitters.h"
 #include "tests/support/statistics.h"

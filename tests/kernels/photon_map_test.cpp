@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/spectral/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the photons came in.
-#include "compute/compute.h"
 #include "spectral/maps/photon_map.h"
 #include "tests/support/test.h"
 #include "tests/support/test_kernels.h"

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/spectral/photons.cl against an independent tracer on Embree, pixel by pixel within the noise of both.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
-#include "spectral/tables/run_tables.h"
 #include "tests/support/reference_photons.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
-#include "compute/compute.h"
 #include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 

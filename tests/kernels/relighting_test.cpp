@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers weighed by a light are the picture under that light: against runs without layers, in a scene with dispersion, several reflectors,
 // an edge in most pixels' reach, glass before the camera and a dark lamp.
-#include "base/error.h"
-#include "compute/compute.h"
-#include "job/job.h"
-#include "plan/plan.h"
-#include "preset/preset.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/clusters/scene_clusters.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/sky.h: directions are drawn by the flux of texels, evenly by solid angle inside of one, and a direction is of the texel
 // that is seen there. The truth is the map's definition (scene/environment.h), written here anew in double precision.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test.h"

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/bvh.h against Embree on real meshes at several scales and places; every ray on which they differ is judged by a test of
 // all triangles in double precision. NEPHROID_TRACE_RAYS sets the number of rays a case (default 20000; a million for the table).
-#include "base/error.h"
-#include "check/tracer.h"
-#include "compute/compute.h"
-#include "scene/bvh.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
 #include "tests/support/test_kernels.h"

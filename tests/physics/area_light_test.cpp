@@ -2,10 +2,6 @@
 // Photons of a large area light leave every place in every direction: where place and direction had random numbers in common, a floor close
 // to the light would show it, and a far one would not. So with plain random numbers, against direct light, and with low-discrepancy ones,
 // against the closed form of a rectangle's irradiance.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glass ball as a lens: its focus, and what it makes of parallel light on a screen.
-#include "compute/compute.h"
 #include "optics/ball.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
 #include <fmt/format.h>

@@ -2,10 +2,7 @@
 // `nephroid check` on every device there is: every check passes, with other seeds, too; and a wrong kernel makes the right check fail.
 // The faults are those of tests/faults/faults.json that name a check: edits of one place in a copy of kernels/, as a slip of the hand or a
 // wrong compiler would make them.
-#include "base/error.h"
-#include "base/files.h"
 #include "check/check.h"
-#include "compute/compute.h"
 #include "engine/engine.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"

@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which clusters photons are dealt to changes the noise of a picture and not what it shows.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "preset/preset.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // No light is made and none disappears: every photon of every shipped preset ends somewhere, and what ends nowhere is little.
-#include "compute/compute.h"
-#include "preset/read.h"
-#include "scene/scene.h"
 #include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/shipped_presets.h"
 

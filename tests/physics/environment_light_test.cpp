@@ -3,7 +3,6 @@
 // same irradiance, the balance of energy, and runs that go on with the same bits. White furnaces under a sky: white_furnace_test.cpp.
 #include "image/image.h"
 #include "optics/primary_spectra.h"
-#include "spectral/energy.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme materials: indices of refraction at and around 1 and far from it, curves with steps and poles, absorption without end, nested and
 // total reflection. docs/extremes.md has the table.
-#include "compute/compute.h"
-#include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
-#include "preset/read.h"
-#include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/extremes.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme lights and mirrors: powers from 1e-30 W, beams of 0.01 degrees, lights in glass and on it, rectangles of every size, reflectances
 // of 0 and 1. docs/extremes.md has the table.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/extremes.h"
 
 namespace nephroid::extreme_lights_test {

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme settings of photon maps: radii from a millionth of a pixel to 10^9 scenes, alpha next to 0 and to 1, single photons, single
 // pixels. docs/extremes.md has the table.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "plan/plan.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
-#include "tests/support/test.h"
 
 namespace nephroid::extreme_maps_test {
 

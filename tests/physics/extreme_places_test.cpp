@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme places and shapes: scenes of any size, far from the origin, tiny objects beside large ones, thin plates, needles, meshes that are
 // open, doubled, inside out or inside each other. docs/extremes.md has the table.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/extremes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"

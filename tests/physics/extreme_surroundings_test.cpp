@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme surroundings: backgrounds from 1e-30 to 1e9 and with one bright texel, bad texels, walls that reflect nothing, nearly all and
 // all, glass that absorbs all, single pixels and photons. docs/extremes.md has the table.
-#include "compute/compute.h"
 #include "image/image.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
 #include "tests/support/temporary_folder.h"
 

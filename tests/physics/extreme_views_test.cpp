@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes, cameras in glass, in a
 // mirror, in a surface and close to it, any white. docs/extremes.md has the table.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/extremes.h"
 
 namespace nephroid::extreme_views_test {

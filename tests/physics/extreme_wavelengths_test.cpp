@@ -2,16 +2,8 @@
 // Extreme ways to deal with wavelengths: one cluster and 401, efforts that have nothing to choose from, curves that jump at every
 // nanometre, photons one at a time and lights by the thousand, streaks at grazing incidence and beside total reflection, layers for any
 // light. docs/extremes.md has the table.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "plan/plan.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/clusters/scene_clusters.h"
-#include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
-#include "tests/support/test.h"
 
 namespace nephroid::extreme_wavelengths_test {
 

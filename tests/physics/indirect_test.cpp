@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect" against closed forms: a furnace, one bounce between two patches by quadrature, a lit patch against a lamp in its
 // place, and where the power goes.
-#include "compute/compute.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"

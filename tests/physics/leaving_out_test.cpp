@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Leaving out what a scene does not need changes no picture: each omission against the same run with it turned back on; and it is not
 // made in scenes that come close to not needing it.
-#include "compute/compute.h"
-#include "plan/plan.h"
-#include "preset/preset.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"

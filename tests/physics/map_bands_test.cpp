@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which wavelengths meet in a photon map. A photon and the path from the eye that gathers it have to be of one wavelength, or a prism
 // before the camera shows one line's light where another line's image is.
-#include "compute/compute.h"
-#include "optics/colour.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with photon maps: the same bits however they are cut or resumed, iterations by importance, energy, and what the plan says.
-#include "compute/compute.h"
-#include "plan/plan.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/saved_jobs.h"
 

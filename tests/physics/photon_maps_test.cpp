@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Caustics gathered from photon maps: seen through glass and in mirrors by the estimator `automatic`, everywhere by `sppm`. Radiance in
 // closed form, and pictures against those of splats, which have no radius and no bias.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "plan/plan.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 

@@ -2,8 +2,6 @@
 // The spectrum of a pixel that layers keep: against the closed form of a point light over a diffuse plane, and against the picture's own
 // colours.
 #include "job/spectrum.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::pixel_spectrum_test {

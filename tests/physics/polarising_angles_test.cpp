@@ -2,11 +2,7 @@
 // Two angles at which Fresnel's equations do something exact: the critical angle, beyond which nothing goes through, and Brewster's, at
 // which light polarised in the plane of incidence is not reflected. Photons meet a single interface here (max_surfaces 1): what is
 // deposited on a catcher came straight from it.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/test_kernels.h"
 

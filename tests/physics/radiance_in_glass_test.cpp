@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance changes at an interface: what a path keeps is L / n^2 (Nicodemus 1963, "Radiance"). Paths that enter glass and leave it again
 // say nothing of that, because n cancels; so here the lit surface is inside the glass and the eye outside.
-#include "compute/compute.h"
-#include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"
 

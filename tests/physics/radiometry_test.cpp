@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Absolute radiometry: what each light sends, what reaches a surface and what the camera makes of it, against closed forms.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::radiometry_test {

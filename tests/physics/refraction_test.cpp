@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons through plates and prisms, against Snell's and Fresnel's closed forms.
-#include "compute/compute.h"
 #include "optics/dispersion.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
 #include "spectral/checks/closed_forms.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::refraction_test {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plate with parallel faces: light leaves it in the direction it came from, moved aside and weaker, and otherwise as it was.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
 #include <fmt/format.h>

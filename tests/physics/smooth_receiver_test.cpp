@@ -2,10 +2,7 @@
 // Surfaces with smooth normals are lit by these in every layer: light that came through a wide plate (layer "caustic") makes the picture
 // that it makes without the plate (layer "direct"), but for what the plate lets through, (1 - R) / (1 + R) (slab_test.cpp). A photon on its
 // own knows how many of its kind meet a facet, not the normal that the facet is meant to have.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/temporary_folder.h"

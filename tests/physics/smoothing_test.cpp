@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with smoothed caustics beside the same runs without: the same power, less error.
-#include "compute/compute.h"
-#include "plan/plan.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "spectral/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/render.h"

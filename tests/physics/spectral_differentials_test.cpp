@@ -3,7 +3,6 @@
 // where Snell puts it, and no light is made or lost at the receiver's edge.
 #include "optics/fresnel.h"
 #include "spectral/checks/closed_forms.h"
-#include "spectral/tables/run_tables.h"
 #include "tests/support/closed_form.h"
 
 #include <fmt/format.h>

@@ -2,11 +2,6 @@
 // One path for a whole cluster is biased; one wavelength of the cluster for each path is not, however coarse the clusters are. The truth is
 // brute force, a path for every wavelength. Low-discrepancy numbers and photons dealt by variance have to keep the expectation too. The
 // two halves of a film, from which a run tells its own error, have to be independent whatever the paths follow.
-#include "compute/compute.h"
-#include "preset/preset.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/test.h"

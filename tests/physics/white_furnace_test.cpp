@@ -7,10 +7,6 @@
 // layer): the sum stays rho L. One thing is missing: a way from the receiver through the glass and back to it should end at the receiver's
 // own radiance, which neither layer has (that is interreflection). Its share r is measured apart: an area light in the receiver's place,
 // and what comes back to it. So direct + caustic = rho L (1 - r).
-#include "compute/compute.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
 #include "inverse_runs.h"
-#include "preset/settings_type.h"
-#include "tests/support/test.h"
 #include "ui/annealing/panel.h"
 
 namespace nephroid::ui::annealing_panel_test {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Holding runs against each other in the window: pinned runs, flip and difference in the View.
 #include "measure/history_file.h"
-#include "tests/support/test.h"
-#include "ui/error/panel.h"
-#include "ui/view/shown_picture.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::compare_test {

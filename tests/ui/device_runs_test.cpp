@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window's runs on a real device with kernels from a folder: a changed kernel is built and shown, a broken one is a message.
-#include "base/files.h"
 #include "fake_job.h"
 #include "ui/state/device_runs.h"
 

@@ -2,11 +2,6 @@
 // The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, files are loaded, what is
 // wrong becomes a message.
 #include "dispersion_fixture.h"
-#include "optics/dispersion.h"
-#include "preset/read.h"
-#include "spectral/clusters/clusters.h"
-#include "tests/support/test.h"
-#include "ui/widgets/action.h"
 
 namespace nephroid::ui::dispersion_panel_test {
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes that are dropped on the window: what becomes of them, and that nothing does of what is none.
-#include "ui/state/dropped_meshes.h"
 
-#include "base/files.h"
-#include "preset/read.h"
-#include "scene/scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "workbench_fixture.h"

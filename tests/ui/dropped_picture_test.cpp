@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture that is dropped on a preset of the engine inverse is what the object casts; elsewhere a message says what can be done with it.
 #include "inverse/settings.h"
-#include "preset/read.h"
 #include "workbench_fixture.h"
 
 namespace nephroid::ui::dropped_picture_test {

@@ -5,7 +5,6 @@
 #include "environment/settings.h"
 #include "image/image.h"
 #include "preset/read.h"
-#include "scene/environment.h"
 #include "tests/environment/maps.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"

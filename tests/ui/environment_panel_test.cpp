@@ -3,11 +3,8 @@
 // lights; presets without an environment, or without one that can be read.
 #include "environment/settings.h"
 #include "image/image.h"
-#include "preset/read.h"
 #include "tests/environment/maps.h"
-#include "tests/support/test.h"
 #include "ui/environment/panel.h"
-#include "ui/view/panel.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::environment_panel_test {

@@ -2,10 +2,7 @@
 // A recorded session with the engine "environment", in a real window: a preset is found on the start page and opened, its sky is turned and
 // cut into fewer lights, preset and picture are saved. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
 #include "environment/settings.h"
-#include "image/image.h"
-#include "preset/read.h"
 #include "recorded_session.h"
-#include "tests/support/test.h"
 #include "ui/environment/panel.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,6 @@
 // xdotool or no ImageMagick.
 #include "environment/settings.h"
 #include "places.h"
-#include "preset/read.h"
 #include "real_window.h"
 #include "tests/support/process_state.h"
 #include "ui/environment/panel.h"

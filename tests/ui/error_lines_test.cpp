@@ -6,7 +6,6 @@
 #include "measure/run_curves.h"
 #include "tests/support/errors.h"
 #include "ui/error/lines.h"
-#include "ui/state/pinned_runs.h"
 
 namespace nephroid::ui::error_lines_test {
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Error": what it plots of any history, how its axes follow, how long a frame takes, what it copies.
 #include "measure/history_file.h"
-#include "tests/support/test.h"
-#include "ui/error/panel.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::error_panel_test {

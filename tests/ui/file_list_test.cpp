@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of files in the dialogs, under an injected mouse and keys: folders and files are gone through, picked and opened; folders that
 // vanish, names of no file, files that are there already.
-#include "base/files.h"
-#include "preset/read.h"
 #include "tests/support/process_state.h"
-#include "tests/support/test.h"
 #include "window_fixture.h"
 
 #include <imgui_internal.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that other programs change while the window is open: the preset's own, and those that it names. Where a device was lost, it is
 // opened again.
-#include "preset/read.h"
 #include "ui/state/file_watch.h"
 #include "workbench_fixture.h"
 

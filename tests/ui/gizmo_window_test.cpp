@@ -3,7 +3,6 @@
 // dragged to. With the folder docs in NEPHROID_PICTURES the picture of docs/window.md is written there. Skipped where there is no Xvfb, no
 // xdotool or no ImageMagick.
 #include "places.h"
-#include "preset/read.h"
 #include "real_window.h"
 #include "seen_scene.h"
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies.
 #include "layered_runs.h"
-#include "spectral/settings.h"
-#include "tests/support/test.h"
 #include "ui/inspector/panel.h"
 #include "ui/inspector/pixel.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::inspector_test {

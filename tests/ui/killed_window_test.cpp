@@ -3,7 +3,6 @@
 // real X events, real kills. NEPHROID_KILLS=20 for twenty.
 #include "real_window.h"
 
-#include "base/files.h"
 #include "ui/state/session.h"
 
 namespace nephroid::test::killed_window_test {

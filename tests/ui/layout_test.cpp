@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layouts of panels by engine: kept, restored, reset; panels closed and shown; the command palette.
-#include "tests/support/test.h"
 #include "ui/shell/layout.h"
 #include "window_fixture.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opening files in the window: what it asks before unsaved changes go, and what it says about files that are no preset.
 #include "headless.h"
-#include "preset/read.h"
-#include "ui/state/files.h"
 #include "workbench_fixture.h"
 
 namespace nephroid::ui::opening_test {

@@ -2,14 +2,10 @@
 // The pictures of docs/window.md: the panels "Dispersion" and "Spectra" beside a picture that follows them, while real X
 // events drag a control point and choose another light. With the folder docs in NEPHROID_PICTURES they are written there. What they
 // are to show is tested all the same. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
-#include "image/image.h"
 #include "optics/dispersion.h"
 #include "places.h"
-#include "preset/read.h"
 #include "real_window.h"
 #include "spectra_scene.h"
-#include "ui/dispersion/panel.h"
-#include "ui/spectra/panel.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole window without a display: the mouse and the keys are injected, the preset and the commands are looked at.
-#include "tests/support/test.h"
 #include "ui/shell/status_line.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::panels_test {

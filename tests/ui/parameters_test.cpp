@@ -2,7 +2,6 @@
 // The panel "Parameters": what is impossible is said at its field while the run goes on, a gesture is one entry, lists take and lose items,
 // the search finds. parameters_schema_test.cpp reaches every field.
 #include "parameters_fixture.h"
-#include "tests/support/test.h"
 
 namespace nephroid::ui::parameters_test {
 

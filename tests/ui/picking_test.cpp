@@ -2,7 +2,6 @@
 // Which object is under the mouse, by hand and against the scene that is loaded anew after objects were moved.
 #include "ui/view/picking.h"
 
-#include "preset/preset.h"
 #include "seen_scene.h"
 #include "tests/support/loaded_scenes.h"
 

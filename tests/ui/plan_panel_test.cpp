@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Plan": what is left out can be computed all the same by a click, which is an edit of the preset.
-#include "plan/plan.h"
-#include "preset/read.h"
-#include "tests/support/test.h"
-#include "ui/plan/panel.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::plan_panel_test {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Presets" under an injected mouse and keys: search, filters, what a click says, opening by double click and by Enter; the list
 // of recent files, also when its file is damaged; small pictures, also broken ones.
-#include "base/files.h"
 #include "image/image.h"
-#include "tests/support/test.h"
 #include "ui/presets/panel.h"
-#include "ui/shell/workspace.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::presets_panel_test {

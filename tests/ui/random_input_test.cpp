@@ -2,9 +2,7 @@
 // Whatever a hand does to mouse and keyboard, the window stays: random clicks, drags, keys, values out of range and dropped files, in
 // presets of all engines, on fake jobs. NEPHROID_RANDOM_SECONDS=600 plays for ten minutes what was not played before; under ./test.sh asan
 // it looks for what nobody sees.
-#include "preset/read.h"
 #include "tests/support/process_state.h"
-#include "tests/support/test.h"
 #include "window_fixture.h"
 
 #include <fmt/format.h>

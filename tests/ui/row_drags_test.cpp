@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows that come or go while one is dragged: the drag ends, and no other row goes where the mouse goes.
 #include "dispersion_fixture.h"
-#include "tests/support/test.h"
 
 namespace nephroid::ui::row_drags_test {
 

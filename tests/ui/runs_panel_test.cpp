@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Runs": the table of the run in hand and of pinned runs, its buttons, and the report over them.
-#include "base/files.h"
 #include "measure/history_file.h"
-#include "preset/read.h"
-#include "tests/support/test.h"
 #include "ui/runs/panel.h"
 #include "ui/state/run_record.h"
 #include "ui/state/run_report.h"
 #include "ui/state/session_keeper.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::runs_panel_test {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What leaves the window and what comes in from nothing: the command line on the clipboard, saving with the parent kept, new scenes, a glTF
 // file that is dropped.
-#include "base/files.h"
 #include "preset/differences.h"
-#include "preset/read.h"
-#include "tests/support/test.h"
-#include "ui/state/files.h"
-#include "ui/state/new_scenes.h"
 #include "window_fixture.h"
 
 #include <nlohmann/json.hpp>

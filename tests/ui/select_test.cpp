@@ -3,8 +3,6 @@
 // keys. What a person gets is looked at in the preset.
 #include "inverse_runs.h"
 #include "seen_scene.h"
-#include "tests/support/test.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::select_test {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sessions: what is kept is what was there; a window that was killed is opened again with it; what cannot be read loses nothing.
-#include "base/files.h"
-#include "preset/read.h"
 #include "ui/state/session_keeper.h"
 #include "workbench_fixture.h"
 

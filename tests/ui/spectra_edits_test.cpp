@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits of a light's spectrum, and what the panel "Spectra" makes of a preset: without a window.
-#include "base/error.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "preset/read.h"
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/clusters/scene_clusters.h"
-#include "tests/support/test.h"
 #include "ui/spectra/light_edits.h"
 
 namespace nephroid::ui::spectra_edits_test {

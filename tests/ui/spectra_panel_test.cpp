@@ -4,9 +4,6 @@
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/tables/run_tables.h"
-#include "tests/support/test.h"
-#include "ui/spectra/light_edits.h"
-#include "ui/spectra/panel.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::spectra_panel_test {

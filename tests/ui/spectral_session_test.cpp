@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recorded session with the engine "spectral", in a real window: a preset is opened from the start page, its glass and its camera are
 // changed, a run is pinned, preset and picture are saved. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
-#include "image/image.h"
-#include "preset/read.h"
 #include "recorded_session.h"
-#include "tests/support/test.h"
-#include "ui/dispersion/edits.h"
 
 namespace nephroid::ui::spectral_session_test {
 

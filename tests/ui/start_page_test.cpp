@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The start page under an injected mouse and keys: each card and each button opens what it says, and the keyboard alone does so too.
-#include "tests/support/test.h"
 #include "ui/presets/panel.h"
 #include "ui/shell/start_page.h"
 #include "window_fixture.h"

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sweep of a preset in the window: opened, edited, saved, undone; its runs in a queue, each pinned; the report over them.
-#include "base/files.h"
-#include "preset/read.h"
 #include "tests/support/errors.h"
 #include "ui/runs/panel.h"
 #include "ui/runs/sweep_values.h"
 #include "ui/state/run_record.h"
 #include "ui/state/session_keeper.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::sweep_test {

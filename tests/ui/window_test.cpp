@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real program in a real window on a virtual display: what it shows against what `nephroid run` writes, real X events, and
 // what it says where there is no display. Skipped where there is no Xvfb (or, for events, no xdotool).
-#include "base/files.h"
 #include "fake_job.h"
-#include "image/image.h"
 #include "places.h"
-#include "preset/read.h"
 #include "real_window.h"
-#include "ui/view/placement.h"
-#include "ui/view/sight.h"
 
 #include <fmt/format.h>
 

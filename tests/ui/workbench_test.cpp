@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The workbench with a job of the test's own and the program's real worker thread: commands in, preset, picture and messages out.
-#include "base/files.h"
-#include "preset/read.h"
 #include "workbench_fixture.h"
 
 namespace nephroid::ui::workbench_test {

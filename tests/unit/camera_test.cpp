@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera's frame and pixel rays against values worked out by hand, and what it refuses.
-#include "preset/preset.h"
-#include "scene/scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 

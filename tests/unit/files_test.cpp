@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files are read whole, written whole or not at all, and found where a preset's reader says they are; nearest names.
 #include "base/bytes.h"
-#include "base/error.h"
 #include "base/files.h"
 #include "base/interrupts.h"
 #include "base/nearest.h"

@@ -2,7 +2,6 @@
 // No path from the eye may meet glass or a mirror first in a pixel that is not on the list; and the list is not the whole picture.
 #include "scene/bvh.h"
 #include "scene/ray.h"
-#include "scene/scene.h"
 #include "spectral/glass_pixels.h"
 #include "tests/support/loaded_scenes.h"
 

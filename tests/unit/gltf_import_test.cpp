@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Importing glTF: small files written here, and what becomes of them against values worked out in comments; and files that are cut, missing
 // their data, or lie about it.
-#include "base/error.h"
-#include "base/files.h"
 #include "optics/dispersion.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"

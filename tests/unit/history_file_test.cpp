@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // history.csv: what is written is read back with the same bits, and what is no whole history is refused at its line.
-#include "base/files.h"
 #include "measure/history_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"

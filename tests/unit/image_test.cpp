@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures survive writing and reading bit for bit, the same picture gives the same bytes, and failures leave nothing behind.
-#include "base/error.h"
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What differs from a file, as a command line and as a file with a parent: read back, it is the preset, over random edits of every shipped
 // preset.
-#include "base/error.h"
-#include "base/files.h"
 #include "preset/differences.h"
 #include "tests/support/child.h"
 #include "tests/support/errors.h"

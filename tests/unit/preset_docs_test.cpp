@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // docs/presets.md tells the truth: its presets are read, its commands mean something, its counts are right.
-#include "base/files.h"
 #include "preset/read.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading presets: defaults, shorthands, parents, overrides, sweeps, the names of shipped presets.
-#include "base/error.h"
-#include "base/files.h"
 #include "preset/read.h"
 #include "spectral/settings.h"
 #include "tests/support/temporary_folder.h"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The schema is the committed one, is a valid schema, and agrees with the reader: checked by python3-jsonschema, an independent
 // validator; without it those tests are skipped.
-#include "base/error.h"
-#include "base/files.h"
-#include "preset/read.h"
 #include "tests/support/random_preset.h"
 #include "tests/support/temporary_folder.h"
 

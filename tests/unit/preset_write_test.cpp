@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is written reads back equal: shipped presets, random presets, every number to its last bit, file names from any folder.
-#include "base/files.h"
-#include "preset/read.h"
 #include "tests/support/random_preset.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files as comparisons take them: what is decoded and what is linear already, which channels, which way up; and masks.
-#include "base/files.h"
 #include "image/image.h"
 #include "measure/read_picture.h"
 #include "tests/support/errors.h"

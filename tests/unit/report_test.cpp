@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report over runs whose slopes, speed-ups and floors are known: its data, and the page that holds them. tests/hostile/report_test.cpp
 // looks at it in a browser.
-#include "base/files.h"
-#include "image/image.h"
 #include "report/data.h"
 #include "report/report.h"
 #include "tests/support/made_runs.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the files in a run's folder say about it, before anything is rendered.
-#include "base/files.h"
 #include "preset/read.h"
 #include "run/run.h"
 #include "tests/support/presets.h"

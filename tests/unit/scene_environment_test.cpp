@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Environments as the scene loads them: which pictures are taken, which are refused and with what line.
-#include "base/files.h"
 #include "image/image.h"
-#include "scene/environment.h"
-#include "scene/scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/temporary_folder.h"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loading a scene whose meshes and glasses are in files.
-#include "base/files.h"
-#include "preset/preset.h"
 #include "scene/materials.h"
-#include "scene/scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/temporary_folder.h"

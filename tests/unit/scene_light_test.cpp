@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a loaded scene has on the 401 wavelengths: lights with their figures and spectra, materials of every kind.
-#include "base/files.h"
-#include "optics/wavelength.h"
-#include "preset/preset.h"
 #include "scene/materials.h"
-#include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
 namespace nephroid::scene::scene_light_test {

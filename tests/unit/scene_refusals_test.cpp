@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scene refuses, and that it points at the right place: contradictions that a preset made by a program may hold, too.
-#include "preset/preset.h"
-#include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
 namespace nephroid::scene::scene_refusals_test {

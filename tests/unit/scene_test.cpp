@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loading a scene: places and orientation of objects, what contains what, warnings about them.
-#include "preset/preset.h"
-#include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 

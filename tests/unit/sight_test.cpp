@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a look through a pixel ends, against Snell's law by hand.
 #include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"
