@@ -4,7 +4,6 @@
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace nephroid::engine_test {

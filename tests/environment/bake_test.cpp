@@ -9,8 +9,6 @@
 #include "tests/environment/bakes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::bake_test {
 
 using environment::Bake;

@@ -9,8 +9,6 @@
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::caustics_test {
 
 using namespace nephroid::environment;

@@ -7,8 +7,6 @@
 #include "tests/environment/maps.h"
 #include "tests/support/test.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::drawn_lights_test {
 
 using namespace nephroid::environment;

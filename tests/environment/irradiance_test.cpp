@@ -8,8 +8,6 @@
 #include "scene/rotation.h"
 #include "tests/environment/maps.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::irradiance_test {
 
 using namespace nephroid::environment;

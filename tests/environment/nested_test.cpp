@@ -7,8 +7,6 @@
 #include "tests/environment/bakes.h"
 #include "tests/support/errors.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::nested_test {
 
 using namespace environment;

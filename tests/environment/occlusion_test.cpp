@@ -6,8 +6,6 @@
 #include "tests/environment/maps.h"
 #include "tests/support/test.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::occlusion_test {
 
 using namespace nephroid::environment;

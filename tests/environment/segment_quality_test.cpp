@@ -4,8 +4,6 @@
 #include "tests/environment/maps.h"
 #include "tests/support/test.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 
 namespace nephroid::segment_quality_test {

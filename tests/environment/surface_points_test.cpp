@@ -8,8 +8,6 @@
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::surface_points_test {
 
 using namespace nephroid::environment;

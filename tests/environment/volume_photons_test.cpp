@@ -8,8 +8,6 @@
 #include "tests/environment/medium_photons.h"
 #include "tests/support/test.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::volume_photons_test {
 
 using environment::Bake;

@@ -6,8 +6,6 @@
 #include "tests/environment/bakes.h"
 #include "tests/support/test.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::volume_test {
 
 using environment::Bake;

@@ -6,8 +6,6 @@
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::animation_test {
 
 using nephroid::read_file;

@@ -3,8 +3,6 @@
 // on standard output and no file.
 #include "tests/support/program_test.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::cli_test {
 
 class CommandLine : public ProgramTest {};

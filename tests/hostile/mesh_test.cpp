@@ -4,8 +4,6 @@
 #include "scene/mesh.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::scene::mesh_test {
 
 constexpr const char* corners = "0 0 0\n1 0 0\n0 1 0\n";

@@ -5,8 +5,6 @@
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::preset_test {
 
 struct Case {

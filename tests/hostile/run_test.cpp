@@ -8,7 +8,6 @@
 #include "tests/support/plate_runs.h"
 #include "tests/support/test_kernels.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <sys/mount.h>

@@ -9,8 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <fmt/format.h>
-
 namespace nephroid::spectral_input_test {
 
 using nlohmann::json;

@@ -9,7 +9,6 @@
 #include "tests/inverse/sound.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <regex>

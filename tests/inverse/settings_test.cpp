@@ -7,8 +7,6 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::settings_test {
 
 using inverse::Layout;

@@ -8,7 +8,6 @@
 #include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace nephroid::ellipsoid_test {

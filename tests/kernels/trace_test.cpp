@@ -6,8 +6,6 @@
 #include "tests/support/test_kernels.h"
 #include "tests/support/tracer.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::trace_test {
 
 using check::Verdict;

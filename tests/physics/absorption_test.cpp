@@ -9,8 +9,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::absorption_test {
 
 constexpr double radius = 0.05; // m

@@ -3,8 +3,6 @@
 #include "optics/ball.h"
 #include "tests/support/closed_form.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::ball_lens_test {
 
 constexpr double n = 1.5;

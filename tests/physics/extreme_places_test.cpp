@@ -6,8 +6,6 @@
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::extreme_places_test {
 
 constexpr int photons = 1 << 17;

@@ -5,8 +5,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::map_bands_test {
 
 struct Line {

@@ -15,8 +15,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::nephroid_test {
 
 constexpr double slope = 0.5;          // down per unit along

@@ -5,8 +5,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::photon_maps_test {
 
 using Estimator = spectral::Settings::Estimator;

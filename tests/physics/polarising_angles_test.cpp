@@ -6,8 +6,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/test_kernels.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::polarising_angles_test {
 
 constexpr int photons = 1 << 19;

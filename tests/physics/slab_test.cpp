@@ -3,8 +3,6 @@
 #include "optics/fresnel.h"
 #include "tests/support/closed_form.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::slab_test {
 
 constexpr double n = 1.5;

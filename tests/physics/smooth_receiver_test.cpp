@@ -7,8 +7,6 @@
 #include "tests/support/passes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::smooth_receiver_test {
 
 constexpr double n = 1.5;

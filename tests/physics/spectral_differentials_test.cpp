@@ -5,8 +5,6 @@
 #include "spectral/checks/closed_forms.h"
 #include "tests/support/closed_form.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::spectral_differentials_test {
 
 using Columns = std::vector<std::array<double, 3>>; // XYZ

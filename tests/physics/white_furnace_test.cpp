@@ -10,8 +10,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::white_furnace_test {
 
 constexpr double cube = 3, receiver_side = 0.4, reflectance = 0.7, radiance = 1;

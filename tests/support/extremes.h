@@ -13,8 +13,6 @@
 #include "tests/support/render.h"
 #include "tests/support/test.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::test {
 
 /// What a case gave, what would have been right, and whether it was.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every test uses: GoogleTest and the names of its matchers, the standard library, and the names of tests/support without `test::`.
+// What every test uses: GoogleTest and the names of its matchers, fmt, the standard library, and the names of tests/support without
+// `test::`.
 #pragma once
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -4,8 +4,6 @@
 #include "action_desk.h"
 #include "action_effects.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::ui::actions_test {
 
 /// While it is there, the one action of the table that is possible is `only`, and what is run is noted instead.

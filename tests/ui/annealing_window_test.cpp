@@ -7,8 +7,6 @@
 #include "real_window.h"
 #include "ui/annealing/panel.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::ui::annealing_window_test {
 
 constexpr std::array<int, 2> size{1200, 960};

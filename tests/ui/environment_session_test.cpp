@@ -5,8 +5,6 @@
 #include "recorded_session.h"
 #include "ui/environment/panel.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::ui::environment_session_test {
 
 class EnvironmentSession : public test::RealWindow {

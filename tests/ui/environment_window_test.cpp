@@ -8,8 +8,6 @@
 #include "tests/support/process_state.h"
 #include "ui/environment/panel.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::ui::environment_window_test {
 
 constexpr std::array<int, 2> size{1200, 900};

@@ -6,8 +6,6 @@
 #include "real_window.h"
 #include "seen_scene.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::ui::gizmo_window_test {
 
 constexpr std::array<int, 2> size{1200, 900};

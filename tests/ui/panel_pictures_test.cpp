@@ -7,8 +7,6 @@
 #include "real_window.h"
 #include "spectra_scene.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::ui::panel_pictures_test {
 
 constexpr std::array<int, 2> size{1200, 720};

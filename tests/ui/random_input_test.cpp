@@ -5,7 +5,6 @@
 #include "tests/support/process_state.h"
 #include "window_fixture.h"
 
-#include <fmt/format.h>
 #include <imgui_internal.h>
 
 namespace nephroid::ui::random_input_test {

@@ -6,8 +6,6 @@
 #include "tests/support/test.h"
 #include "tests/support/x_display.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::test {
 
 using Pixel = std::array<int, 2>;

@@ -5,8 +5,6 @@
 #include "places.h"
 #include "real_window.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::ui::window_test {
 
 /// Where a window of this size draws the picture of a preset.

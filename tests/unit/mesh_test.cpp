@@ -3,8 +3,6 @@
 #include "scene/mesh.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 namespace nephroid::scene::mesh_test {
 
 /// Six quadrilaterals about the cube [0, 2]^3, outwards.

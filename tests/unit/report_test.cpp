@@ -6,8 +6,6 @@
 #include "tests/support/made_runs.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
 #include <regex>
 
 namespace nephroid::report_test {
