@@ -8,8 +8,6 @@
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
-#include <ctime>
-
 namespace nephroid::relighting_test {
 
 preset::LightSpectrum illuminant(const std::string& name)
@@ -213,7 +211,6 @@ TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter)
     for (const auto& picture : pictures) sum += picture[k], squares += double(picture[k]) * picture[k];
     scatter += (squares - sum * sum / runs) / (runs - 1);
   }
-  RecordProperty("draws_over_scatter", std::to_string(draws / scatter));
   EXPECT_NEAR(std::log2(draws / scatter), 0, 1);
 }
 
@@ -279,43 +276,6 @@ TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
   const std::size_t saved = test::saved(*job).size();
   EXPECT_LE(saved, films + 65536);
   EXPECT_GE(saved, films / 3) << "what is promised is not far above what is taken";
-}
-
-/// The least of several: by the clock, and by the processors of all threads, which other programs disturb less.
-template <class Work>
-std::string milliseconds(const Work& work)
-{
-  double elapsed = INFINITY, processor = INFINITY;
-  for (int i = 0; i < 5; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    const std::clock_t processor_begin = std::clock();
-    work();
-    elapsed = std::min(elapsed, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-    processor = std::min(processor, 1e3 * static_cast<double>(std::clock() - processor_begin) / CLOCKS_PER_SEC);
-  }
-  return std::to_string(elapsed) + " elapsed, " + std::to_string(processor) + " of processors";
-}
-
-// Figures for the docs; nothing is asserted about them.
-TEST(Relighting, TakesMilliseconds)
-{
-  preset::Preset p = tiled_scene();
-  p.scene.camera.resolution = {512, 512};
-  p.scene.lights.pop_back();
-  spectral::settings(p).threshold_deg = 0.032; // 32 clusters
-  const auto plain = job_of(p);
-  spectral::settings(p).relight = true;
-  const auto layers = job_of(p);
-  for (int i = 0; i < 8; ++i) layers->step(), plain->step();
-  const std::string relit = milliseconds([&] {
-    p.scene.lights[0].power_w += 1;
-    ASSERT_TRUE(layers->adopt(p));
-    layers->snapshot();
-  });
-  const std::string snapshot = milliseconds([&] { plain->snapshot(); });
-  RecordProperty("phases", std::to_string(test::saved(*layers).size() / 1048576) + " MiB saved");
-  RecordProperty("relit_snapshot_ms", relit);
-  RecordProperty("plain_snapshot_ms", snapshot);
 }
 
 } // namespace nephroid::relighting_test
