@@ -25,6 +25,12 @@ const Engine& engine_of(const preset::Preset& preset)
   throw std::logic_error("settings of an engine that is not in app/engines.cpp");
 }
 
+bool adoptable(const preset::Preset& before, const preset::Preset& now)
+{
+  const Engine& engine = engine_of(before);
+  return engine.adoptable && &engine == &engine_of(now) && engine.adoptable(before, now);
+}
+
 } // namespace nephroid::engine
 
 const std::vector<const nephroid::preset::SettingsType*>& nephroid::preset::settings_types()

@@ -10,6 +10,7 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 
+#include <cstdint>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,12 @@
 namespace nephroid::engine {
 
 struct Engine {
-  /// Their name is the word in a preset's "engine", and the folder in kernels/ that has the engine's own kernels.
+  /// Their name is the word in a preset's "engine", and the folder in kernels/ that has the engine's own kernels. What their description
+  /// calls a file (preset::Text::file) is read: a run is bound to what it held (run/content.h).
   const preset::SettingsType& (*settings)();
+
+  /// Of what its jobs save: another number where they save it in another way. Only a state of this version is loaded again.
+  std::uint32_t state_version;
 
   /// What runs, what is left out and why. The engine may add what it worked out on the way, for its job. Throws bad_input for what it
   /// cannot render.
@@ -36,7 +41,7 @@ struct Engine {
   /// The engine's closed forms through its real kernels, for `nephroid check`.
   std::vector<check::Check> (*checks)();
 
-  /// Whether a job of `before`, a preset of this engine, may take on `now`, one of any engine (job::Job::adopt). Null: never.
+  /// Whether a job of `before` may take on `now` (job::Job::adopt); both are of this engine. Null: never.
   bool (*adoptable)(const preset::Preset& before, const preset::Preset& now) = nullptr;
 };
 
@@ -48,5 +53,8 @@ const std::vector<check::Check>& checks();
 
 /// Of a preset.
 const Engine& engine_of(const preset::Preset& preset);
+
+/// Whether a job of `before` may take on `now`, whatever engines they are of.
+bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::engine
