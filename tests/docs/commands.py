@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs every command of README.md, docs/*.md, docs/tours/*.md and the program's help, cut short, and demands that it works.
+"""Runs every command of README.md, the pages below docs/ and the program's help, cut short, and demands that it works.
 
     tests/docs/commands.py PROGRAM [PAGE...]      PAGE: a part of a page's name; `help` is the examples of `--help`
 
@@ -230,7 +230,7 @@ class Runner:
 
 
 def pages_of(runner):
-    files = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *sorted((ROOT / "docs" / "tours").glob("*.md"))]
+    files = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
     return [help_page(runner.help_of, runner.verbs, ROOT), *(Page(file, ROOT) for file in files)]
 
 

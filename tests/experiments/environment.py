@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures engine 2 against engine 1 and prints the tables of docs/environment.md: the caustic layer where the camera sees a receiver, as the thesis compares.
+"""Measures engine 2 against engine 1 and prints the tables of docs/notebook/environment.md: the caustic layer where the camera sees a receiver, as the thesis compares.
 
     tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--size N] [--reference-seconds S] [TABLE...]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures what engine 2's caustics do from frame to frame against engine 1, and prints the tables of docs/environment.md.
+"""Measures what engine 2's caustics do from frame to frame against engine 1, and prints the tables of docs/notebook/environment.md.
 
     tests/experiments/environment_films.py PROGRAM OUT [turning] [card]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs engine 3's presets and prints the tables of docs/inverse.md.
+"""Runs engine 3's presets and prints the tables of docs/notebook/inverse.md.
 
     tests/experiments/inverse.py PROGRAM OUT [EXPERIMENT...]
 

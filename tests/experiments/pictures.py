@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the pictures of docs/README.md, docs/thesis.md and docs/spectral.md again; ImageMagick puts them side by side.
+"""Makes the pictures of docs/README.md, docs/thesis.md and docs/notebook/smoothing.md again; ImageMagick puts them side by side.
 
     tests/experiments/pictures.py PROGRAM OUT     writes OUT/gallery.jpg, OUT/thesis-scenes.jpg and OUT/smoothing.jpg
 """

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Cuts maps into lights and prints how far the lights' irradiance is from the map's, over all normals, in percent, as tables of docs/environment.md.
+"""Cuts maps into lights and prints how far the lights' irradiance is from the map's, over all normals, in percent, as tables of docs/notebook/environment.md.
 
     tests/experiments/segment.py PROGRAM MAP... [--q N...]
 
-docs/environment.md has the eight maps of Debian's package blender-data (usr/share/blender/datafiles/studiolights/world/*.exr).
+docs/notebook/environment.md has the eight maps of Debian's package blender-data (usr/share/blender/datafiles/studiolights/world/*.exr).
 """
 import argparse
 import json

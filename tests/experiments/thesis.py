@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the thesis' experiments at a size that two cores manage in minutes and prints the tables of docs/thesis.md and docs/spectral.md.
+"""Runs the thesis' experiments at a size that two cores manage in minutes and prints the tables of docs/notebook.
 
     tests/experiments/thesis.py PROGRAM OUT [EXPERIMENT...]
 

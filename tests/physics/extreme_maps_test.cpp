@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme settings of photon maps: radii from a millionth of a pixel to 10^9 scenes, alpha next to 0 and to 1, single photons, single
-// pixels. docs/extremes.md has the table.
+// pixels. docs/notebook/extremes.md has the table.
 #include "tests/support/extreme_waves.h"
 
 namespace nephroid::extreme_maps_test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes, cameras in glass, in a
-// mirror, in a surface and close to it, any white. docs/extremes.md has the table.
+// mirror, in a surface and close to it, any white. docs/notebook/extremes.md has the table.
 #include "tests/support/extremes.h"
 
 namespace nephroid::extreme_views_test {

@@ -101,7 +101,7 @@ TEST(Actions, EachIsReachedInEveryWay)
   }
   EXPECT_EQ(on_toolbar, 5);
   fmt::print("{} actions in the palette and in a menu, {} with keys, {} on the toolbar\n", actions().size(), with_keys,
-             on_toolbar); // window.md
+             on_toolbar); // docs/notebook/window.md
 }
 
 } // namespace nephroid::ui::actions_test

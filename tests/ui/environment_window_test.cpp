@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Environment" in the real window: the map is turned and the number of lights slid by real X events, and the saved preset has
-// both. With the folder docs in NEPHROID_PICTURES the picture of docs/window.md is written there. Skipped where there is no Xvfb, no
+// both. With the folder docs in NEPHROID_PICTURES the picture of docs/window-panels.md is written there. Skipped where there is no Xvfb, no
 // xdotool or no ImageMagick.
 #include "environment/settings.h"
 #include "places.h"

@@ -4,6 +4,7 @@
 #include "environment/settings.h"
 #include "fake_job.h"
 #include "inverse_runs.h"
+#include "tests/support/process_state.h"
 #include "ui/state/device_runs.h"
 
 #include <dlfcn.h>
@@ -57,12 +58,6 @@ const std::string environment_text = R"({
 
 class FailingMemory : public ::testing::Test {
 protected:
-  /// OpenCL looks once for a cache of its own; the bakes' is the test's.
-  FailingMemory()
-  {
-    compute::Context::open();
-    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
-  }
   ~FailingMemory() override { allocations_left = launches_left = -1; }
 
   void open(const std::string& text, const preset::Overrides& overrides = {})
@@ -113,6 +108,7 @@ protected:
   }
 
   test::TemporaryFolder folder;
+  test::CacheHome cache{folder.path()}; // the bakes go with the test
   DeviceRuns runs{{}};
   Workbench workbench{runs};
 };

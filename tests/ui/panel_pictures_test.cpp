@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/window.md: the panels "Dispersion" and "Spectra" beside a picture that follows them, while real X
+// The pictures of docs/window-panels.md: the panels "Dispersion" and "Spectra" beside a picture that follows them, while real X
 // events drag a control point and choose another light. With the folder docs in NEPHROID_PICTURES they are written there. What they
 // are to show is tested all the same. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
 #include "optics/dispersion.h"

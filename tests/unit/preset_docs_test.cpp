@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/presets.md tells the truth: its presets are read, its commands mean something, its counts are right.
+// docs/presets.md and docs/sweeps.md tell the truth: their presets are read, their commands mean something, their counts are right.
 #include "preset/read.h"
 #include "tests/support/temporary_folder.h"
 
@@ -38,7 +38,9 @@ std::vector<std::string> words(const std::string& line)
 class PresetDocs : public testing::Test {
 protected:
   test::TemporaryFolder folder;
-  std::string page = read_file(fs::path(NEPHROID_SOURCE_DIR) / "docs/presets.md");
+  std::string page = of_docs("presets.md") + of_docs("sweeps.md");
+
+  static std::string of_docs(const char* name) { return read_file(fs::path(NEPHROID_SOURCE_DIR) / "docs" / name); }
 
   void SetUp() override
   {

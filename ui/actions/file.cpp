@@ -35,7 +35,7 @@ std::vector<Action> file_actions()
       {menu, "Open...", ctrl | ImGuiKey_O, false, "A preset file, or one of the shipped presets", always, ask<Question::open>},
       {menu, "Open history...", ctrl | shift | ImGuiKey_O, false, "Pin an earlier run by its folder or its history.csv", always,
        ask<Question::open_history>},
-      {menu, "Reopen the last session", 0, false, "What the window was at that was closed, or killed, last",
+      {menu, "Reopen the last session", 0, false, "The session of the window that was closed or killed last",
        [](const Context& c) { return c.has_earlier_session; }, push<command::ReopenSession>,
        [](const Context&) { return std::string("there is no earlier session"); }},
       {menu, "Save preset", ctrl | ImGuiKey_S, false, "Write the preset as it is now to its file", has_preset, save},

@@ -43,7 +43,7 @@ std::vector<Action> run_actions()
       {menu, "Start again", ImGuiKey_F5, false, "Start the run from its beginning", can_restart, push<command::Restart>, why_no_restart},
       {menu, "Pause", ImGuiKey_Space, false, "Hold the run, or let it go on", works, pause},
       {menu, "Cancel", ImGuiKey_Escape, false, "End the run; its picture stays", works, push<command::Cancel>},
-      {menu, "Pin this run", ImGuiKey_P, false, "Keep its history and its picture to hold later runs against", has_picture,
+      {menu, "Pin this run", ImGuiKey_P, false, "Keep its history and its picture, to compare later runs with", has_picture,
        push<command::PinRun>},
       {menu, "Start the sweep", 0, false, "Run the preset with each combination of the values that are swept; each result is pinned",
        can_sweep, push<command::StartSweep>, why_no_sweep},

@@ -124,7 +124,7 @@ void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
   if (show) context.push(command::Flip{row.pin != 0 && !shown});
   ImGui::SameLine();
   if (row.pin == 0) {
-    if (button("Pin", "pin", row.has_picture, "Keep its history and its picture to hold later runs against"))
+    if (button("Pin", "pin", row.has_picture, "Keep its history and its picture, to compare later runs with"))
       context.push(command::PinRun{});
     return;
   }

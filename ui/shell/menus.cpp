@@ -11,25 +11,6 @@
 namespace nephroid::ui {
 namespace {
 
-struct MouseHabit {
-  const char* how;
-  const char* what;
-};
-
-const MouseHabit mouse_habits[] = {
-    {"Click", "Select the object or light that is there, or nothing"},
-    {"Left drag on a handle", "Move, turn or scale what is selected; Ctrl: in steps, or freely with Snap"},
-    {"Left drag", "Orbit: the scene turns with the mouse"},
-    {"Middle or Shift+left drag", "Pan: move the camera sideways and up"},
-    {"Wheel, or right drag", "Distance of the camera"},
-    {"Ctrl+wheel", "Zoom the picture about the cursor"},
-    {"Ctrl+drag", "Move the picture in the panel"},
-    {"Alt+click, Alt+drag", "Inspect a pixel; statistics of a rectangle"},
-    {"Hover", "Linear values and luminance of the pixel"},
-    {"Drop a file", "Open that preset; pin a run's folder or history.csv; add a mesh to the scene"},
-    {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},
-};
-
 void row(const char* how, const char* what)
 {
   ImGui::TableNextRow();
@@ -43,6 +24,29 @@ void row(const char* how, const char* what)
 ImGuiKey key_of(int shortcut) { return static_cast<ImGuiKey>(shortcut & ~ImGuiMod_Mask_); }
 
 } // namespace
+
+std::span<const MouseHabit> mouse_habits()
+{
+  static const MouseHabit habits[] = {
+      {"Click", "Select the object or light that is there, or nothing"},
+      {"Left drag on a handle", "Move, turn or scale what is selected; Ctrl: in steps, or freely with Snap"},
+      {"Left drag", "Orbit: the scene turns with the mouse"},
+      {"Middle or Shift+left drag", "Pan: move the camera sideways and up"},
+      {"Wheel, or right drag", "Distance of the camera"},
+      {"Ctrl+wheel", "Zoom the picture about the cursor"},
+      {"Ctrl+drag", "Move the picture in the panel"},
+      {"Alt+click, Alt+drag", "Inspect a pixel; statistics of a rectangle"},
+      {"Hover", "Linear values and luminance of the pixel"},
+      {"Drop a preset or a glTF file", "Open it; a glTF file becomes a preset first"},
+      {"Drop a run's folder or a history.csv", "Pin that run"},
+      {"Drop a mesh (.obj, .ply, .stl)", "Make it an object of the scene"},
+      {"Drop a map (.hdr, .exr)", "Put it in place of the environment"},
+      {"Drop a picture (.png, .jpg, .tif)", "Engine inverse: the object casts it, in place of the first drawing"},
+      {"Drop a dispersion file (.yml)", "Load it into the glass of the panel Dispersion"},
+      {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},
+  };
+  return habits;
+}
 
 void draw_menus(const Context& context, WidgetPlaces& places)
 {
@@ -113,7 +117,7 @@ void draw_help(const Context& context)
   constexpr ImGuiWindowFlags flags =
       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings;
   if (ImGui::Begin("Mouse and keys", &open, flags) && ImGui::BeginTable("help", 2, ImGuiTableFlags_RowBg)) {
-    for (const MouseHabit& habit : mouse_habits) row(habit.how, habit.what);
+    for (const MouseHabit& habit : mouse_habits()) row(habit.how, habit.what);
     for (const Action& action : actions())
       if (action.shortcut) row(keys_of(action), action.help.c_str());
     ImGui::EndTable();

@@ -4,6 +4,8 @@
 #include "ui/state/context.h"
 #include "ui/widgets/widgets.h"
 
+#include <span>
+
 namespace nephroid::ui {
 
 /// The menus of the main menu bar, in the table's order. places, for tests: "menu:NAME", and of those that are open "menu:NAME/ACTION".
@@ -14,5 +16,12 @@ void draw_toolbar(const Context& context, WidgetPlaces& places);
 /// it, and all of them where there is a dialog. help: it is shown, and Escape closes it.
 void run_shortcuts(const Context& context, bool dialog, bool help);
 void draw_help(const Context& context);
+
+/// What the mouse does, for the help and for docs/keys.md.
+struct MouseHabit {
+  const char* how;
+  const char* what;
+};
+std::span<const MouseHabit> mouse_habits();
 
 } // namespace nephroid::ui

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The View panel: the picture as it converges, or what it is compared with. The mouse moves the camera (edits of the preset) or the picture
-// in the panel (its look); docs/window.md says which does what.
+// in the panel (its look); docs/keys.md says which does what.
 #pragma once
 #include "ui/state/tone.h"
 #include "ui/view/placement.h"

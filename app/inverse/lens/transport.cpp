@@ -67,7 +67,6 @@ void deposit(Grid& into, const glm::dvec2& p, double light)
 }
 
 std::span<double> values(Grid& grid) { return {grid.data(), static_cast<std::size_t>(grid.size())}; }
-std::span<const double> values(const Grid& grid) { return {grid.data(), static_cast<std::size_t>(grid.size())}; }
 
 /// Samples along a side of a cell: two for each cell that it is stretched over.
 constexpr int most_samples = 16;
