@@ -2,6 +2,7 @@
 # Read by ctest before it starts: every suite of the GoogleTest program `program` is a test GROUP.SUITE, labelled `group`.
 if(NOT EXISTS ${program})
   add_test(${group}.not_built ${program})
+  set_tests_properties(${group}.not_built PROPERTIES LABELS ${group})
   return()
 endif()
 execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
