@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # ./test.sh [PRESET] [CTEST ARGS...] installs what is missing (Debian 12 or 13), builds and runs every test.
-# PRESET is one of CMakePresets.json: release (the default), debug, ci, asan, tsan, clang, headless. ./test.sh asan -R optics
-# runs the optics tests under AddressSanitizer and UndefinedBehaviorSanitizer.
+# PRESET is one of CMakePresets.json: release (the default), debug, ci, asan, tsan, clang, headless. ./test.sh asan -R Dispersion
+# runs the suites with that in their name under AddressSanitizer and UndefinedBehaviorSanitizer.
 set -euo pipefail
 root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 # shellcheck source=cmake/build.sh
@@ -35,10 +35,15 @@ run_tests() {
   export LSAN_OPTIONS="suppressions=$root/tests/sanitizers/leak.supp:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}"
   export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/thread.supp${TSAN_OPTIONS:+:$TSAN_OPTIONS}"
   export UBSAN_OPTIONS="print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}"
-  ctest --test-dir "$root/build/$preset" --output-on-failure --parallel 2 --no-tests=error "$@"
+  local status=0
+  ctest --test-dir "$root/build/$preset" --output-on-failure --parallel 2 --no-tests=error "$@" || status=$?
+  awk '/^\[=+\] Running [0-9]+ tests? from/ { ++suites; tests += $3 } /^\[  SKIPPED \] [0-9]+ test/ { skipped += $4 }
+       END { printf "%d of ctest'"'"'s tests are suites, of %d tests in all; %d were skipped\n", suites, tests, skipped }' \
+    "$root/build/$preset/Testing/Temporary/LastTest.log" || true # there is none where ctest only listed
+  return "$status"
 }
 
 phase install install_packages "${packages[@]}"
 phase build prepare_build
 say_phases
-run_tests "$@" # last, so that ctest's closing lines are the last ones
+run_tests "$@"

@@ -59,29 +59,22 @@ function(nephroid_library name)
   endif()
 endfunction()
 
-# nephroid_tests(): every *_test.cpp of the current folder becomes one test program. It links the folders whose
-# headers it includes ("optics/..." links nephroid_optics), so adding a test is adding a file. nephroid_test_program: the program that
-# tests run, if it is not nephroid.
+# nephroid_tests(LIB...): every *_test.cpp of the current folder, as the program GROUP_tests; GROUP is the folder's name. It links LIB and all of
+# app/, so adding a test is adding a file. nephroid_test_program: the program that tests run, if it is not nephroid. ctest runs a suite of
+# GoogleTest at a time, since starting OpenCL takes longer than many a test.
 function(nephroid_tests)
   get_filename_component(group ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(program ${group}_tests)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
-  foreach(source IN LISTS sources)
-    get_filename_component(stem ${source} NAME_WE)
-    add_executable(${group}_${stem} ${source})
-    file(STRINGS ${source} includes REGEX "^#include \"(base|optics|preset|scene|plan|compute|job|image|measure|report|engine|tracing|spectral|environment|inverse|check|run|cli|ui)/")
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
-    set(libs "")
-    foreach(line IN LISTS includes)
-      string(REGEX REPLACE "^#include \"([a-z]+)/.*" "nephroid_\\1" lib "${line}")
-      list(APPEND libs ${lib})
-    endforeach()
-    list(REMOVE_DUPLICATES libs)
-    target_link_libraries(${group}_${stem} PRIVATE nephroid_settings ${libs} ${ARGN} GTest::gmock GTest::gtest_main)
-    target_compile_definitions(${group}_${stem} PRIVATE
-      NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:$<IF:$<BOOL:${nephroid_test_program}>,${nephroid_test_program},nephroid>>" $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
-    gtest_discover_tests(${group}_${stem} TEST_PREFIX ${group}. DISCOVERY_MODE PRE_TEST
-      PROPERTIES TIMEOUT 600 LABELS ${group})
-  endforeach()
+  add_executable(${program} ${sources})
+  nephroid_unity(${program} 8 ${sources})
+  target_link_libraries(${program} PRIVATE nephroid_settings nephroid_cli ${ARGN} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${program} PRIVATE
+    NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:$<IF:$<BOOL:${nephroid_test_program}>,${nephroid_test_program},nephroid>>" $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
+  target_compile_options(${program} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>) # tests compute little themselves and take long to compile
+  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/suites.cmake
+    CONTENT "set(group ${group})\nset(program [[$<TARGET_FILE:${program}>]])\ninclude([[${PROJECT_SOURCE_DIR}/cmake/TestSuites.cmake]])\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/suites.cmake)
 endfunction()
 
 # nephroid_embed(OUTPUT HEADER SPACE TYPE FUNCTION NAME_PART file...): a .cpp that holds the files as strings (EmbedFiles.cmake).

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an engine gets by being registered: the program of this folder has the engine of gradient.cpp, which nothing else knows of.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
+namespace nephroid::engine_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
-
-namespace {
 
 class GradientEngine : public ProgramTest {
 protected:
@@ -161,4 +154,4 @@ TEST_F(GradientEngine, ACheckpointOfAnotherEngineIsRefused)
               HasSubstr("out/checkpoint.bin: is of the engine 'gradient', and the preset's is 'spectral'; run without --resume"));
 }
 
-} // namespace
+} // namespace nephroid::engine_test

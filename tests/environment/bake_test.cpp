@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Baked spheres against closed forms and against rays in double precision: a ball of glass, of nothing, a mirror; energy; a turned object;
 // colours.
-#include "environment/bake/baker.h"
 #include "environment/bake/directions.h"
 #include "environment/ball_map.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"
 #include "optics/primary_spectra.h"
-#include "preset/read.h"
-#include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::bake_test {
 
-#include <cmath>
-#include <fmt/format.h>
-#include <numbers>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
 using environment::Bake;
 using std::numbers::pi;
 
@@ -271,4 +260,4 @@ TEST(Bake, IsOfTheObjectWhereverItStands)
   EXPECT_NE(bake.halves, scaled.halves);
 }
 
-} // namespace
+} // namespace nephroid::bake_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Baked spheres under lights, on a device: bakes made by formula, looked up where the formula says what is there.
 #include "environment/light/caustics.h"
+#include "tests/support/test.h"
 
 #include "environment/bake/directions.h"
 #include "scene/ray.h"
@@ -8,17 +9,8 @@
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+namespace nephroid::caustics_test {
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
 using scene::even_direction;
 
@@ -363,4 +355,4 @@ TEST(Caustics, OneChannelIsThreeAlike)
   for (std::size_t t = 0; t < a.size(); ++t) EXPECT_LT(glm::distance(a[t], b[t]), 1e-5 * glm::length(a[t]));
 }
 
-} // namespace
+} // namespace nephroid::caustics_test

@@ -2,14 +2,9 @@
 // The directions of a bake and the map of a sphere.
 #include "environment/bake/directions.h"
 #include "environment/bake/sphere_map.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-
-namespace {
+namespace nephroid::directions_test {
 
 using namespace nephroid::environment;
 
@@ -74,4 +69,4 @@ TEST(SphereMap, HasTexelsOfEqualSolidAngle)
   for (const int n : filled) EXPECT_NEAR(n, 1000, 30);
 }
 
-} // namespace
+} // namespace nephroid::directions_test

@@ -5,20 +5,11 @@
 #include "scene/ray.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+namespace nephroid::drawn_lights_test {
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
-using test::pi;
 
 /// A map as few lights, and the mean of what passes draw of them.
 struct Sky {
@@ -115,4 +106,4 @@ TEST(DrawnLights, FindTheFewThatAreSeen)
       0);
 }
 
-} // namespace
+} // namespace nephroid::drawn_lights_test

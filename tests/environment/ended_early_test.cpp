@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run whose time is over before it has a picture: it says so and where its time went, leaves no other picture in its place, and goes on.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
 
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::ended_early_test {
 
-using namespace nephroid;
 using nlohmann::json;
 using test::Ended;
 using testing::ContainsRegex;
-using testing::HasSubstr;
 
 class EndedEarly : public test::ProgramTest {
 protected:
@@ -73,4 +70,4 @@ TEST_F(EndedEarly, InTheFirstPassItIsANote)
   EXPECT_TRUE(has("plate/image.png"));
 }
 
-} // namespace
+} // namespace nephroid::ended_early_test

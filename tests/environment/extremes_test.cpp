@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme skies, lamps, objects and receivers of engine 2. docs/notebook/extremes.md has the table.
 #include "tests/support/extremes.h"
+#include "tests/support/process_state.h"
 
 #include "environment/ball_map.h"
 #include "image/image.h"
@@ -8,10 +9,7 @@
 #include "tests/environment/picture_files.h"
 #include "tests/environment/views.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extremes_test {
 
 /// One for all cases: most have the same ball.
 const TemporaryFolder& cache()
@@ -127,8 +125,8 @@ preset::Preset over_nothing(bool ball)
 /// The caustic's power over that of the light that meets the ball.
 double through_nothing()
 {
-  const double lit = mean(layer(shown(over_nothing(false)), std::string("direct"))).y, side = 2 * (6 + floor_at) * std::tan(pi / 9);
-  return mean(layer(shown(over_nothing(true)), std::string("caustic"))).y / lit * side * side / pi;
+  const double lit = mean(layer_rgb(shown(over_nothing(false)), "direct")).y, side = 2 * (6 + floor_at) * std::tan(pi / 9);
+  return mean(layer_rgb(shown(over_nothing(true)), "caustic")).y / lit * side * side / pi;
 }
 /// Of a ball that stands this high above the floor.
 double caustic_above(double gap)
@@ -136,7 +134,7 @@ double caustic_above(double gap)
   preset::Preset p = floor_scene(facing_quad("floor", {0, -1 - gap, 0}, {0, 1, 0}, 40));
   p.scene.lights = {lamp({0.3, -1, 0.2})};
   look(p, {2.5, 1, 3}, {0.3, -1, 0.2}, 30);
-  return mean(layer(shown(p), std::string("caustic"))).y;
+  return mean(layer_rgb(shown(p), "caustic")).y;
 }
 
 /// The part that a ball of this glass sends on of what meets it.
@@ -169,7 +167,7 @@ Outcome inside_the_ball()
   even_light(p);
   look(p, {0.3, 0.1, 0.2}, {0, 1, -3}, 90);
   const job::Snapshot made = shown(p);
-  const auto [low, high] = std::ranges::minmax(layer(made, std::string("background")));
+  const auto [low, high] = std::ranges::minmax(layer_rgb(made, "background"));
   return both(near(low, 2.25, 1e-3), near(high, 2.25, 1e-3));
 }
 
@@ -180,7 +178,7 @@ double on_square(double below)
   p.scene.lights = {lamp({0, -1, 0})};
   const double eye = std::min(below, 0.5); // in the glass: radiance there is n^2 of that outside
   look(p, {0, eye, 0.3 * eye}, {0, -below, 0}, 1);
-  return pi * mean(layer(shown(p), std::string("caustic"))).y;
+  return pi * mean(layer_rgb(shown(p), "caustic")).y;
 }
 
 /// The medium's light, the sum of a picture's.
@@ -189,7 +187,7 @@ double in_the_air(const std::string& setting)
   preset::Preset p = under_lamp();
   preset::Preset q = floor_scene(floor_below, {"environment." + setting});
   q.scene.lights = p.scene.lights;
-  return mean(layer(shown(q), std::string("volume"))).y;
+  return mean(layer_rgb(shown(q), "volume")).y;
 }
 
 image::Image grey(int width, int height, std::vector<std::string> channels, std::vector<float> texel)
@@ -339,14 +337,9 @@ const Extreme cases[] = {
 };
 
 class EnvironmentExtremes : public testing::TestWithParam<Extreme> {
-protected:
-  EnvironmentExtremes()
-  {
-    bake_context(); // OpenCL has caches of its own in that folder, which it looks for once
-    setenv("XDG_CACHE_HOME", cache().path().c_str(), 1);
-  }
+  CacheHome home_{cache().path()};
 };
 TEST_P(EnvironmentExtremes, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(All, EnvironmentExtremes, testing::ValuesIn(cases), [](const auto& test) { return test.param.name; });
 
-} // namespace
+} // namespace nephroid::extremes_test

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smooth part of an environment's irradiance: closed forms of maps of the first three degrees, all light of made maps, turned maps.
 #include "environment/light/irradiance.h"
+#include "tests/support/test.h"
 
 #include "environment/segment/quality.h"
 #include "scene/ray.h"
 #include "scene/rotation.h"
 #include "tests/environment/maps.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+namespace nephroid::irradiance_test {
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
-using test::pi;
 
 constexpr int some = 64; ///< normals, even on the sphere
 
@@ -123,4 +115,4 @@ TEST(Irradiance, TurnsToTheLeft)
   EXPECT_GT(irradiance(polynomial, {0, 0, -1}).y, 2 * irradiance(polynomial, {1, 0, 0}).y);
 }
 
-} // namespace
+} // namespace nephroid::irradiance_test

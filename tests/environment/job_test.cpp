@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of engine 2: the plan, the file that a second start reads and what is wrong with such a file, a run that goes on with the same bits,
 // bad input.
-#include "base/bytes.h"
-#include "base/files.h"
 #include "environment/bake/bake_file.h"
-#include "plan/plan.h"
-#include "preset/read.h"
 #include "tests/environment/jobs.h"
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+namespace nephroid::job_test {
 
-#include <algorithm>
-#include <map>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
 using environment::EnvironmentPlan;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class EnvironmentJob : public EnvironmentJobs {
 protected:
@@ -158,7 +142,7 @@ TEST_F(EnvironmentJob, AnotherObjectsFileIsNotUsed)
 TEST_F(EnvironmentJob, ABakeThatCannotBeKeptIsSaid)
 {
   write_file_whole(cache.path() / "file", "x");
-  setenv("XDG_CACHE_HOME", (cache.path() / "file").c_str(), 1);
+  const test::Variable no_folder("XDG_CACHE_HOME", (cache.path() / "file").string());
   const job::Snapshot made = run(small());
   EXPECT_THAT(made.warnings, ElementsAre(AllOf(HasSubstr("cannot be made"), HasSubstr("the next start bakes again"))));
 }
@@ -341,4 +325,4 @@ TEST_F(EnvironmentInput, OddObjects)
               AllOf(HasSubstr("outside of it"), testing::Not(HasSubstr("open")))); // a mirror may well be
 }
 
-} // namespace
+} // namespace nephroid::job_test

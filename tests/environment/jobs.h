@@ -5,24 +5,14 @@
 #include "job/job.h"
 #include "scene/scene.h"
 #include "tests/environment/bakes.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
-
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <memory>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 
 class EnvironmentJobs : public testing::Test {
 protected:
-  /// OpenCL has caches of its own in that folder, which it looks for once.
-  EnvironmentJobs()
-  {
-    bake_context();
-    setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
-  }
-
   static environment::EnvironmentPlan plan_of(const preset::Preset& p)
   {
     const scene::Scene scene = scene::load_scene(p);
@@ -41,6 +31,7 @@ protected:
   static job::Snapshot run(const preset::Preset& p) { return run(*job_of(p)); }
 
   TemporaryFolder cache;
+  CacheHome home{cache.path()};
 };
 
 } // namespace nephroid::test

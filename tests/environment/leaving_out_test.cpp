@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 2 leaves out changes nothing that is to be seen: each case beside one in which it is not left out.
-#include "environment/segment/segment.h"
-#include "environment/settings.h"
 #include "tests/environment/maps.h"
 #include "tests/environment/views.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::leaving_out_test {
 
 class EnvironmentLeavesOut : public EnvironmentJobs {
 protected:
@@ -26,7 +17,7 @@ protected:
   /// Those of `b` that `a` has too.
   static void expect_same_layers(const job::Snapshot& a, const job::Snapshot& b)
   {
-    for (const job::Layer& of : a.picture->layers) EXPECT_EQ(of.rgb, layer(b, of.name)) << of.name;
+    for (const job::Layer& of : a.picture->layers) EXPECT_EQ(of.rgb, layer_rgb(b, of.name)) << of.name;
   }
   static preset::Preset over_floor(const preset::Overrides& more = {})
   {
@@ -48,7 +39,7 @@ TEST_F(EnvironmentLeavesOut, TheVolumeWithoutAMedium)
   EXPECT_EQ(plan_of(over_floor({"environment.extinction=10"})).notes.size(), 1u) << "too thick";
   const job::Snapshot without = run(none), with = run(thin);
   expect_same_layers(without, with);
-  EXPECT_LT(mean(layer(with, "volume")).y, 1e-8);
+  EXPECT_LT(mean(layer_rgb(with, "volume")).y, 1e-8);
 }
 
 TEST_F(EnvironmentLeavesOut, CausticsThatAreSwitchedOff)
@@ -58,9 +49,9 @@ TEST_F(EnvironmentLeavesOut, CausticsThatAreSwitchedOff)
   EXPECT_FALSE(pass(none, "cast").runs);
   EXPECT_EQ(pass(none, "cast").reason, "environment.cast is false");
   const job::Snapshot with = run(all), without = run(none);
-  for (const char* name : {"background", "direct", "volume"}) EXPECT_EQ(layer(with, name), layer(without, name)) << name;
-  EXPECT_GT(mean(layer(with, "caustic")).y, 0.001);
-  EXPECT_EQ(mean(layer(without, "caustic")), glm::dvec3(0));
+  for (const char* name : {"background", "direct", "volume"}) EXPECT_EQ(layer_rgb(with, name), layer_rgb(without, name)) << name;
+  EXPECT_GT(mean(layer_rgb(with, "caustic")).y, 0.001);
+  EXPECT_EQ(mean(layer_rgb(without, "caustic")), glm::dvec3(0));
   // And on again in the same job.
   const auto job = job_of(none);
   run(*job);
@@ -133,4 +124,4 @@ TEST_F(EnvironmentLeavesOut, CutsOfOneColour)
   EXPECT_EQ(environment::even_segments(cube, 25).lights.size(), 54u);
 }
 
-} // namespace
+} // namespace nephroid::leaving_out_test

@@ -7,24 +7,9 @@
 #include "tests/environment/bakes.h"
 #include "tests/support/errors.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+namespace nephroid::nested_test {
 
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <tuple>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
-using environment::Bake;
-using environment::Caster;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using namespace environment;
 
 const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
 
@@ -240,4 +225,4 @@ TEST(Nested, WhatMovesAgainstTheOthersHasAnotherBake)
   EXPECT_EQ(key_of(together({10, 20, 30}, {1, 2, 3}, {R"(environment.objects=["third", "second", "first"])"})), key);
 }
 
-} // namespace
+} // namespace nephroid::nested_test

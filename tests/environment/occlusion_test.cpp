@@ -4,24 +4,11 @@
 #include "environment/occlusion/surroundings.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
+namespace nephroid::occlusion_test {
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
-using test::pi;
 
 /// The glass ball at the origin, and these objects beside it. The middle of all that is not diffuse is the scene's (0, 0, 0), so that the
 /// ball's is too where the others are diffuse.
@@ -314,4 +301,4 @@ TEST(Occlusion, IsOfThePointThatLooks)
   EXPECT_NEAR(4 * pi - sum_y(sky.seen_past(scene, 0, {4, 3, 0})), cap_sr(std::asin(0.25)), 0.003);
 }
 
-} // namespace
+} // namespace nephroid::occlusion_test

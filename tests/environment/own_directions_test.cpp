@@ -6,14 +6,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::own_directions_test {
 
 void finish(environment::OwnDirections& own)
 {
@@ -65,7 +58,7 @@ TEST_F(EnvironmentOwnDirections, ALampBetweenBakedDirectionsHasSharpCaustics)
     // Of the 386 points of a cube's surface (1, 4, 1) of 4.
     p.scene.lights = {lamp(glm::normalize(glm::dvec3(1, -4, 1)), 3)};
     look(p, {0, 4, 0.1}, {0, -1.2, 0}, 60);
-    return layer(run(p), "caustic");
+    return layer_rgb(run(p), "caustic");
   };
   const auto distance = [](const std::vector<float>& a, const std::vector<float>& b) {
     double off = 0, length = 0;
@@ -80,4 +73,4 @@ TEST_F(EnvironmentOwnDirections, ALampBetweenBakedDirectionsHasSharpCaustics)
   EXPECT_LT(distance(own, reference), 0.5 * distance(blended, reference));
 }
 
-} // namespace
+} // namespace nephroid::own_directions_test

@@ -5,14 +5,7 @@
 #include "tests/environment/bakes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
+namespace nephroid::placement_test {
 
 /// The largest distance between the caster's vertices in the scene and where the placement has them.
 double largest_distance(const preset::Preset& preset)
@@ -52,4 +45,4 @@ TEST(Placement, TakesTheBakesVerticesToTheScenes)
   }
 }
 
-} // namespace
+} // namespace nephroid::placement_test

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shipped presets of engine 2 through the program, small: their files, a second start, a run that is resumed.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cstdlib>
+namespace nephroid::presets_test {
 
-namespace {
-
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
 
 class EnvironmentRun : public ProgramTest {
 protected:
@@ -67,4 +60,4 @@ TEST_F(EnvironmentRun, GoesOnWhereItStopped)
   EXPECT_EQ(nephroid::image::read_image(folder / "part/image.exr").data, nephroid::image::read_image(folder / "whole/image.exr").data);
 }
 
-} // namespace
+} // namespace nephroid::presets_test

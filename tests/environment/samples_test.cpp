@@ -4,18 +4,10 @@
 #include "environment/occlusion/samples.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::samples_test {
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <span>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
 
 Segmentation cut(const CubeMap& cube, int lights) { return segment(cube, {.lights = lights}); }
@@ -232,4 +224,4 @@ TEST(Samples, FindWhatABallHides)
   EXPECT_LT(of_lights.largest, even_of_lights.largest);
 }
 
-} // namespace
+} // namespace nephroid::samples_test

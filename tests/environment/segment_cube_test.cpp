@@ -4,14 +4,10 @@
 #include "scene/ray.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::segment_cube_test {
 
-#include <random>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
 
 TEST(SegmentCube, FacesLieAsInCubeMapsOfOpenGl)
@@ -166,4 +162,4 @@ TEST(SegmentCube, DirectionsTurnAsTheMapDoes)
   EXPECT_LT(glm::distance(turned({0, 1, 0}, 33), glm::dvec3(0, 1, 0)), 1e-15);
 }
 
-} // namespace
+} // namespace nephroid::segment_cube_test

@@ -2,17 +2,12 @@
 // How far the lights' irradiance is from the map's, over all normals, on six made maps: the default method against the thesis'.
 #include "environment/segment/quality.h"
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <cstdio>
 
-namespace {
+namespace nephroid::segment_quality_test {
 
-using namespace nephroid;
 using namespace nephroid::environment;
 
 double median(std::vector<double> values)
@@ -74,4 +69,4 @@ TEST(SegmentQuality, VarianceIsBetterThanHalving)
   EXPECT_GE(better, 24);
 }
 
-} // namespace
+} // namespace nephroid::segment_quality_test

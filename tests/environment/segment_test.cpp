@@ -7,19 +7,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/pictures.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::segment_test {
 
-#include <algorithm>
-#include <limits>
-#include <tuple>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
 
 const std::vector<SegmentMethod> methods{SegmentMethod::variance, SegmentMethod::thesis};
 const std::vector<SegmentWeights> all_weights{SegmentWeights::solid_angle, SegmentWeights::texel};
@@ -389,4 +379,4 @@ TEST(Segment, FewerThanSixAreRefused)
               "q: is " + std::to_string(lights) + "; expected 6 or more, as a cube has 6 faces");
 }
 
-} // namespace
+} // namespace nephroid::segment_test

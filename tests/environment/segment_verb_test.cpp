@@ -6,18 +6,11 @@
 #include "tests/environment/picture_files.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <limits>
+namespace nephroid::segment_verb_test {
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
 
 class SegmentVerb : public test::ProgramTest {
 protected:
@@ -221,4 +214,4 @@ TEST_F(SegmentVerb, BadInputIsAnsweredInOneLine)
   for (const test::Wrong& wrong : cases) test::expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace
+} // namespace nephroid::segment_verb_test

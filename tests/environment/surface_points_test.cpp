@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points all over an object, and what they see past a card that goes by: against closed forms of a ball.
 #include "environment/occlusion/surface_points.h"
+#include "tests/support/test.h"
 
 #include "environment/occlusion/occlusion.h"
 #include "environment/occlusion/surroundings.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
+namespace nephroid::surface_points_test {
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
 
 glm::dvec3 mean(const std::vector<glm::dvec3>& points)
@@ -82,4 +74,4 @@ TEST(SurfacePoints, SeeACardHideTheSunLittleByLittle)
   }
 }
 
-} // namespace
+} // namespace nephroid::surface_points_test

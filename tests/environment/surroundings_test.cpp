@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene without the object whose caustics are shown, against the scene that a preset without it makes.
 #include "environment/occlusion/surroundings.h"
-#include "scene/corners.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::surroundings_test {
 
-#include <cstddef>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using environment::without_caster;
 using preset::Shape;
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 /// Box, balls, cylinder and quad; the camera is in the box and in one of the balls.
 preset::Preset crowd()
@@ -91,4 +82,4 @@ TEST(WithoutCaster, OfOneObjectNothingIsLeft)
   EXPECT_THAT(rest.geometry.ellipsoids, IsEmpty());
 }
 
-} // namespace
+} // namespace nephroid::surroundings_test

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which baked directions stand for a light, and how their spheres are turned.
 #include "environment/light/turned_sets.h"
+#include "tests/support/test.h"
 
 #include "environment/bake/directions.h"
 #include "scene/ray.h"
 #include "scene/rotation.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::turned_sets_test {
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::environment;
 
 constexpr int some = 300; ///< directions, even on the sphere
@@ -252,4 +246,4 @@ TEST(StrongDirections, AreOfNarrowLightsThatHaveAPartOfAll)
   EXPECT_TRUE(strong_directions({}, rotation, 26, 4).empty());
 }
 
-} // namespace
+} // namespace nephroid::turned_sets_test

@@ -8,20 +8,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <map>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
-using testing::HasSubstr;
-using testing::IsEmpty;
+namespace nephroid::view_job_test {
 
 class EnvironmentViewJob : public EnvironmentJobs {
 protected:
@@ -63,9 +50,9 @@ TEST_F(EnvironmentViewJob, ShowsItsLayers)
   EXPECT_THAT(made.warnings, IsEmpty());
   ASSERT_EQ(made.pictures.front().name, "spheres");
   for (const char* name : {"background", "direct", "caustic"}) {
-    EXPECT_GT(mean(layer(made, name)).y, 0.01) << name;
+    EXPECT_GT(mean(layer_rgb(made, name)).y, 0.01) << name;
     // The first picture has one path for 4 x 4 pixels and no shadows of the map, but it is the same scene.
-    EXPECT_NEAR(mean(layer(coarse, name)).y, mean(layer(made, name)).y, 0.25 * mean(layer(made, name)).y) << name;
+    EXPECT_NEAR(mean(layer_rgb(coarse, name)).y, mean(layer_rgb(made, name)).y, 0.25 * mean(layer_rgb(made, name)).y) << name;
   }
   const auto found = std::ranges::find(made.curves, "lights", &job::Curve::name);
   ASSERT_NE(found, made.curves.end());
@@ -82,8 +69,8 @@ TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise)
     p.seed = seed;
     const auto job = job_of(p);
     while (job->progress().work == 0) job->step(); // the bake
-    const std::vector<float> before = std::exchange(first, layer(job->snapshot(), "background")),
-                             after = std::exchange(last, layer(run(*job), "background"));
+    const std::vector<float> before = std::exchange(first, layer_rgb(job->snapshot(), "background")),
+                             after = std::exchange(last, layer_rgb(run(*job), "background"));
     if (seed == 1) continue;
     EXPECT_EQ(first, before);
     EXPECT_NE(last, after) << "paths do take different ways";
@@ -284,7 +271,7 @@ TEST_F(EnvironmentViewJob, GoesOnAfterAChange)
   preset::Preset now = before;
   look(now, {-3, 1, 2}, {0, -1, 0}, 40);
   const job::Snapshot whole = run(now);
-  EXPECT_GT(mean(layer(whole, "volume")).y, 0.001);
+  EXPECT_GT(mean(layer_rgb(whole, "volume")).y, 0.001);
   const auto job = job_of(before);
   for (const int steps : {4, 6, 7}) {
     ASSERT_TRUE(job->adopt(before));
@@ -384,4 +371,4 @@ TEST_F(EnvironmentViewJob, RefusesLightOfNoOneDirection)
   }
 }
 
-} // namespace
+} // namespace nephroid::view_job_test

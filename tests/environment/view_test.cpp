@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 2 shows, through a job: a white furnace about a ball, receivers and what hides caustics from them, the light of lamps behind
 // a ball lens.
-#include "environment/light/distant_lights.h"
 #include "optics/fresnel.h"
 #include "scene/ray.h"
 #include "tests/environment/views.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::view_test {
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
 using std::numbers::pi;
 
 class EnvironmentView : public EnvironmentJobs {
@@ -63,9 +53,9 @@ Furnace furnace(job::Job& job, preset::Preset& p)
     EXPECT_TRUE(job.adopt(p));
     while (!job.finished()) job.step();
     const job::Snapshot shown = job.snapshot();
-    made.direct.push_back(mean(layer(shown, "direct")).y);
-    made.caustic.push_back(mean(layer(shown, "caustic")).y);
-    EXPECT_EQ(mean(layer(shown, "background")), glm::dvec3(0));
+    made.direct.push_back(mean(layer_rgb(shown, "direct")).y);
+    made.caustic.push_back(mean(layer_rgb(shown, "caustic")).y);
+    EXPECT_EQ(mean(layer_rgb(shown, "background")), glm::dvec3(0));
     made.sum += mean(shown.picture->rgb) / double(around);
   }
   return made;
@@ -125,12 +115,12 @@ TEST_F(EnvironmentView, ThroughTheBallTheBackgroundIsAsBright)
     even_light(p, 3);
     look(p, {0, 1, 4}, {0, 0, 0}, 40);
     const job::Snapshot made = run(p);
-    const auto [low, high] = std::ranges::minmax(layer(made, "background"));
+    const auto [low, high] = std::ranges::minmax(layer_rgb(made, "background"));
     fmt::print("{}: {:.5f} to {:.5f} of 3\n", material, low, high);
     EXPECT_NEAR(low, 3, 0.003);
     EXPECT_NEAR(high, 3, 0.003);
-    EXPECT_EQ(mean(layer(made, "direct")), glm::dvec3(0)); // there are no receivers
-    EXPECT_EQ(mean(layer(made, "caustic")), glm::dvec3(0));
+    EXPECT_EQ(mean(layer_rgb(made, "direct")), glm::dvec3(0)); // there are no receivers
+    EXPECT_EQ(mean(layer_rgb(made, "caustic")), glm::dvec3(0));
   }
 }
 
@@ -145,7 +135,7 @@ TEST_F(EnvironmentView, WhatIsHiddenFromTheObjectHasNoCaustic)
     look(p, from, at, 0.2);
     go_on(*job, p);
     const job::Snapshot made = run(*job);
-    return mean(layer(made, "caustic")).y;
+    return mean(layer_rgb(made, "caustic")).y;
   };
   const double behind_screen = 0.25 / 1.75 * 2.5;
   const double hidden_floor = caustic({3, -1.9, 1.5}, {behind_screen, -2.5, 0}),
@@ -166,7 +156,7 @@ TEST_F(EnvironmentView, ALampThatIsHiddenFromTheObjectThrowsNoCaustic)
     preset::Preset p = ball_and(facing_quad("floor", {0, -2, 0}, {0, 1, 0}, 8) + ", " + facing_quad("board", {board, 3, 0}, {0, 1, 0}, 2));
     p.scene.lights = lights;
     look(p, {3, -1.5, 0}, {0, -2, 0}, 20);
-    return mean(layer(run(p), "caustic")).y;
+    return mean(layer_rgb(run(p), "caustic")).y;
   };
   const preset::Light above = lamp({0, -1, 0}), side = lamp({1, -1, 0});
   const double free = caustic(1.5, {above}), both = caustic(1.5, {above, side});
@@ -212,7 +202,7 @@ TEST_F(EnvironmentView, ABallLensHasItsFocusWhereRaysMeet)
     const glm::dvec3 way = scene::even_direction(i, count), across = glm::normalize(glm::cross(way, glm::dvec3(0.3, 0.5, 0.8)));
     look(p, (distance - 0.15) * way + 0.1 * across, distance * way, 2);
     go_on(*job, p);
-    found.push_back(pi * mean(layer(run(*job), "caustic")).y);
+    found.push_back(pi * mean(layer_rgb(run(*job), "caustic")).y);
     // A texel and straight lines to its neighbours spread light as a disc does that is two texels across.
     const double disc = distance * std::sqrt(4 * pi) / 96;
     expected.push_back(y * power_in_disc(1.5, distance, disc) / (pi * disc * disc));
@@ -254,7 +244,7 @@ TEST_F(EnvironmentView, AFloorGetsThePowerThatLeavesTheBallTowardsIt)
     p.scene.lights = {lamp({0, -1, 0}, 2)};
     look(p, {0, -1.1, 0}, {0, -3, 0}, 120);
     const double half = (depth - 1.1) * std::tan(pi / 3); // of the square of the floor that is seen, whose pixels are equally large
-    const double power = 4 * half * half * pi * mean(layer(run(p), "caustic")).y,
+    const double power = 4 * half * half * pi * mean(layer_rgb(run(p), "caustic")).y,
                  expected = y_of_lamp(p) * power_on_floor(1.5, depth, half);
     fmt::print("floor at {}: {:.4f} W, by rays {:.4f}, of {:.4f} W that meet the ball\n", depth, power, expected, y_of_lamp(p) * pi);
     EXPECT_NEAR(power, expected, 0.02 * expected);
@@ -262,4 +252,4 @@ TEST_F(EnvironmentView, AFloorGetsThePowerThatLeavesTheBallTowardsIt)
   }
 }
 
-} // namespace
+} // namespace nephroid::view_test

@@ -57,7 +57,7 @@ inline void look(preset::Preset& p, const glm::dvec3& from, const glm::dvec3& at
   p.scene.camera.fov_deg = fov_deg;
 }
 
-inline const std::vector<float>& layer(const job::Snapshot& made, const std::string& name)
+inline const std::vector<float>& layer_rgb(const job::Snapshot& made, const std::string& name)
 {
   for (const job::Layer& of : made.picture->layers)
     if (of.name == name) return of.rgb;

@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Caustics in the air about glass against photons in the same medium (medium_photons.h), as pictures.
-#include "environment/bake/baker.h"
 #include "environment/bake/directions.h"
 #include "environment/light/turned_sets.h"
 #include "environment/view/renderer.h"
 #include "image/image.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/medium_photons.h"
+#include "tests/support/test.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+namespace nephroid::volume_photons_test {
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <map>
-#include <numbers>
-#include <string>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
 using environment::Bake;
 using Picture = std::vector<double>;
 constexpr double pi = std::numbers::pi;
@@ -188,4 +175,4 @@ TEST(VolumePhotons, AnEllipsoid)
 // It stands in the beam. What it hides from the middle is dark, though some light goes by aslant.
 TEST(VolumePhotons, AScreenInTheBeam) { expect_near(compare("screen", {.screen_y = -2, .screen_half = 0.5}, isotropic), 0.19, 0.09); }
 
-} // namespace
+} // namespace nephroid::volume_photons_test

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light in a medium around an object that sends it evenly to all sides: then what a path from the eye collects is an integral with a closed
 // form.
-#include "environment/bake/baker.h"
 #include "environment/bake/directions.h"
 #include "environment/view/renderer.h"
 #include "tests/environment/bakes.h"
+#include "tests/support/test.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+namespace nephroid::volume_test {
 
-#include <cmath>
-#include <numbers>
-
-namespace {
-
-using namespace nephroid;
-using namespace nephroid::test;
 using environment::Bake;
 
 constexpr double largest = 4, impact = 2; ///< radius of the largest sphere; how near the path comes to the middle
@@ -113,4 +105,4 @@ TEST(Volume, WhatStandsBeforeThePlaceHidesIt)
   EXPECT_NEAR(seen(R"("extinction": 0.1)", screen), wanted, 0.02 * wanted);
 }
 
-} // namespace
+} // namespace nephroid::volume_test

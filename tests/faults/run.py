@@ -25,27 +25,29 @@ class Fault(NamedTuple):
 
 FAULTS_FILE = Path(__file__).with_name("faults.json")
 KERNELS = Path(__file__).resolve().parents[2] / "kernels"
-# Programs whose tests take their kernels from NEPHROID_TEST_KERNELS, the quick ones first.
-PROGRAMS = [
-    "kernels_fresnel_test", "kernels_film_test", "kernels_random_test", "kernels_emission_test", "kernels_samplers_test",
-    "kernels_emission_samplers_test", "kernels_low_discrepancy_test", "kernels_guide_test", "kernels_photon_map_test",
-    "kernels_differential_test", "images_statistics_test", "physics_radiance_in_glass_test", "physics_area_light_test",
-    "physics_refraction_test", "physics_radiometry_test", "kernels_trace_test", "images_error_estimate_test", "kernels_photons_test",
-    "physics_background_test", "physics_indirect_test", "physics_wavelength_jitter_test", "physics_photon_maps_test",
-    "physics_map_bands_test", "physics_smooth_receiver_test", "physics_spectral_differentials_test", "kernels_relighting_test",
-    "physics_environment_light_test", "environment_bake_test",
+# Suites whose tests take their kernels from NEPHROID_TEST_KERNELS, as GROUP.SUITE[:SUITE...], the quick ones first.
+SUITES = [
+    "kernels.FresnelKernel", "kernels.Film", "kernels.Random", "kernels.Emission",
+    "kernels.AreaPoint:CameraJitter:ReflectOrRefract:Uniforms:ClusterChoice", "kernels.EmissionSamplers", "kernels.LowDiscrepancy",
+    "kernels.Guide", "kernels.PhotonMapTest", "kernels.Differential:PrismDifferential", "images.StoredPicture", "physics.RadianceInGlass",
+    "physics.AreaLight", "physics.AbsorbingPlate:Contact:Nested:Prism:TotalReflection:Plate", "physics.Radiometry:Photons",
+    "kernels.Trace:AgainstEmbree", "images.ErrorEstimate", "kernels.Photons:PhotonKernel", "physics.Background:BackgroundFurnace",
+    "physics.Indirect:DiffuseFurnace", "physics.HalvesOfTheFilm:LowDiscrepancy:WholeClusters:WavelengthJitter",
+    "physics.PhotonMaps:MapEstimators", "physics.MapBands", "physics.SmoothReceiver", "physics.SpectralDifferentials",
+    "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake",
 ]
 
 
-def find_programs(build: Path, names: list[str]) -> list[Path]:
-    """Test programs of a build folder by name or pattern, in the order given."""
-    programs = []
-    for name in names:
-        found = sorted(p for p in build.glob(f"tests/*/{name}") if p.is_file() and os.access(p, os.X_OK))
-        if not found:
-            sys.exit(f"run.py: {build}: there is no test program {name}; build the tests first")
-        programs += [p for p in found if p not in programs]
-    return programs
+def command_of(build: Path, suites: str) -> list[str]:
+    """What runs GROUP.SUITE[:SUITE...] of a build folder."""
+    group, _, names = suites.partition(".")
+    command = [str(build / f"tests/{group}/{group}_tests"), "--gtest_filter=" + ":".join(f"{name}.*:*/{name}.*" for name in names.split(":"))]
+    try:
+        if "\n  " in subprocess.run([*command, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout:
+            return command
+    except FileNotFoundError:
+        pass
+    sys.exit(f"run.py: {build}: there is no test {suites}; build the tests first")
 
 
 def places(fault: Fault, folder: Path) -> int:
@@ -71,9 +73,9 @@ def put_in(fault: Fault, folder: Path) -> None:
 
 
 def failed_tests(command: list[str], kernels: Path, timeout_s: int) -> list[str]:
-    """Names of the tests of a program that fail with these kernels. A crash or a hang counts, by the program's name."""
+    """Names of the tests of a program that fail with these kernels. A crash or a hang counts, by the command."""
     environment = dict(os.environ, NEPHROID_TEST_KERNELS=str(kernels), POCL_CACHE_DIR=str(kernels.parent / "cache"))
-    name = Path(command[0]).name
+    name = " ".join([Path(command[0]).name, *command[1:]])
     try:
         ended = subprocess.run(command, env=environment, cwd=kernels.parent, capture_output=True, text=True, errors="replace", timeout=timeout_s)
     except subprocess.TimeoutExpired:
@@ -107,9 +109,9 @@ def main() -> int:
     what.add_argument("--check-texts", action="store_true", help="only see that every fault still finds its place in the kernels")
     parser.add_argument("--kernels", type=Path, default=KERNELS, help="the right kernels (default: kernels/)")
     parser.add_argument("--only", metavar="TEXT", action="append", help="faults whose name contains this; may be given again")
-    parser.add_argument("--programs", metavar="NAME", nargs="+", default=PROGRAMS, help="test programs, by name or pattern")
+    parser.add_argument("--suites", metavar="GROUP.SUITE", nargs="+", default=SUITES, help="suites of tests, by name or pattern")
     parser.add_argument("--all", action="store_true", help="run every test for every fault, rather than until one fails")
-    parser.add_argument("--timeout", type=int, default=600, help="seconds after which a test program hangs (default: %(default)s)")
+    parser.add_argument("--timeout", type=int, default=600, help="seconds after which a suite hangs (default: %(default)s)")
     arguments = parser.parse_args()
 
     all_faults = [Fault(**f) for group in json.loads(FAULTS_FILE.read_text()).values() for f in group]
@@ -120,8 +122,8 @@ def main() -> int:
         return check_texts(faults, arguments.kernels)
 
     arguments.build = arguments.build.resolve()
-    commands = [[str(program)] for program in find_programs(arguments.build, arguments.programs)]
-    if arguments.programs == PROGRAMS:
+    commands = [command_of(arguments.build, suites) for suites in arguments.suites]
+    if arguments.suites == SUITES:
         commands.append([str(arguments.build / "bin/nephroid"), "check", "--kernels", "{kernels}"])
     # One state of the kernels for all faults, whatever happens to the folder meanwhile.
     with tempfile.TemporaryDirectory(prefix="nephroid-right-") as folder:

@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Animations as the program renders them: each frame has the bits of a run of its own, killed ones go on at the missing frame, the video is
 // asked for as ffmpeg wants it, and what cannot be is a clear line.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/json_lines.h"
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
+namespace nephroid::animation_test {
 
-#include <algorithm>
-#include <cstdlib>
-
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nephroid::write_file_whole;
 using nlohmann::json;
-using testing::HasSubstr;
 
 class Animations : public PlateRuns {
 protected:
@@ -178,4 +168,4 @@ TEST_F(Animations, AreRefusedBeforeTheFirstFrame)
       "has no length; expected a direction; in frame 1");
 }
 
-} // namespace
+} // namespace nephroid::animation_test

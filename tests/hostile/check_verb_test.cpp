@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid check` as a script sees it: its JSON, its exit codes, a wrong kernel, Ctrl-C.
-#include "base/files.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
+namespace nephroid::check_verb_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
-namespace fs = std::filesystem;
-
-namespace {
 
 class CheckVerb : public ProgramTest {
 protected:
@@ -80,4 +73,4 @@ TEST_F(CheckVerb, CtrlCEndsInOrder)
   EXPECT_THAT(ended.err, HasSubstr("interrupted after "));
 }
 
-} // namespace
+} // namespace nephroid::check_verb_test

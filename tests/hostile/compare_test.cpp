@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid compare` as scripts use it: JSON as the contract has it, masks, difference pictures, and one line for whatever is wrong.
-#include "base/files.h"
 #include "image/image.h"
-#include "measure/metrics.h"
 #include "tests/support/pictures.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <limits>
+namespace nephroid::compare_test {
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
-using namespace nephroid::test;
 using json = nlohmann::ordered_json;
-using testing::HasSubstr;
 
 class Compare : public ProgramTest {
 protected:
@@ -204,4 +194,4 @@ TEST_F(Compare, WhatIsWrongIsSaidInOneLine)
   for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace
+} // namespace nephroid::compare_test

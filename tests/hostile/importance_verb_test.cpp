@@ -3,18 +3,11 @@
 #include "tests/support/json_lines.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
+namespace nephroid::importance_verb_test {
 
-namespace {
-
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
 
 class ImportanceVerb : public ProgramTest {
 protected:
@@ -121,4 +114,4 @@ TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine)
   for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace
+} // namespace nephroid::importance_verb_test

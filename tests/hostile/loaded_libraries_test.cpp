@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verbs load what they need and no more: pictures, windows and devices each cost time to start. The dynamic loader itself says what was
 // loaded (LD_DEBUG, see ld.so(8)).
-#include "base/files.h"
 #include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <fstream>
-#include <map>
-#include <string>
-
-using namespace nephroid::test;
-using testing::AnyOf;
-using testing::HasSubstr;
-using testing::Not;
-using testing::SizeIs;
-
-namespace {
+namespace nephroid::loaded_libraries_test {
 
 /// By the file name of each program that a run of nephroid started, itself among them: every library that it initialised, one a line.
 std::map<std::string, std::string> programs_of(const std::vector<std::string>& arguments)
@@ -83,4 +70,4 @@ TEST(LoadedLibraries, ARunLoadsPicturesAndTheDriver)
   EXPECT_THAT(loaded, HasSubstr("libpocl"));
 }
 
-} // namespace
+} // namespace nephroid::loaded_libraries_test

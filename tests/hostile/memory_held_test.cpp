@@ -8,9 +8,7 @@
 
 #include <sys/resource.h>
 
-namespace {
-
-using namespace nephroid::test;
+namespace nephroid::memory_held_test {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool keeps_shadows = true; // of every byte, and freed memory for a while
@@ -64,4 +62,4 @@ TEST_F(MemoryHeld, LayersForAnotherLightTakeWhatThePlanSays)
   EXPECT_LE(large - small, planned + margin_mib);
 }
 
-} // namespace
+} // namespace nephroid::memory_held_test

@@ -2,20 +2,11 @@
 // The program that reads mesh files for nephroid: whatever happens to it, nephroid says so in one line; and it ends within its limits.
 #include "tests/support/program_test.h"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <bit>
-#include <cmath>
 #include <csignal>
-#include <cstdint>
 #include <sys/stat.h>
 
-using namespace nephroid::test;
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-
-namespace {
+namespace nephroid::mesh_reader_test {
 
 const fs::path real_reader = fs::path(NEPHROID_PROGRAM).parent_path().parent_path() / "lib/nephroid/nephroid_mesh_reader";
 
@@ -164,4 +155,4 @@ TEST_F(MeshReaderLimits, Patience)
   EXPECT_EQ(read("waits.obj").signal, SIGALRM);
 }
 
-} // namespace
+} // namespace nephroid::mesh_reader_test

@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mesh files that are broken on purpose: each is refused with one line that names the file and says why, quickly, and nothing
 // crashes, hangs or takes all memory, whatever the reader underneath does.
-#include "base/error.h"
-#include "base/files.h"
 #include "scene/mesh.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <fmt/format.h>
-#include <random>
-#include <string>
-
-namespace nephroid::scene {
-namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::StartsWith;
+namespace nephroid::scene::mesh_test {
 
 constexpr const char* corners = "0 0 0\n1 0 0\n0 1 0\n";
 
@@ -188,5 +170,4 @@ TEST_F(HostileMesh, CutAndChangedFilesDoNotBringTheProgramDown)
   }
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::mesh_test

@@ -5,11 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::origins_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
 
 /// A refractiveindex.info file of one n everywhere.
 std::string glass_file(const char* n)
@@ -113,4 +111,4 @@ TEST_F(Origins, FilesOfOverridesAreLookedForInTheCurrentFolderFirst)
   EXPECT_EQ(json::parse(again.out)["clusters"][0]["n_mean"], 1.75) << "the run's preset means the same file";
 }
 
-} // namespace
+} // namespace nephroid::origins_test

@@ -2,18 +2,10 @@
 // Bad presets: each is refused with exactly one line that says where, what is wrong, what is expected and what to do.
 #include "preset/read.h"
 #include "tests/support/errors.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <fstream>
-
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
-using test::refusal_of;
+namespace nephroid::preset_test {
 
 struct Case {
   std::string what, text, line;
@@ -48,9 +40,7 @@ void write(const fs::path& file, const std::string& text) { std::ofstream(file, 
 class BadPresets : public testing::Test {
 protected:
   test::TemporaryFolder folder;
-  fs::path before = fs::current_path();
-  void SetUp() override { fs::current_path(folder.path()); } // so that lines show short names
-  void TearDown() override { fs::current_path(before); }
+  test::CurrentFolder here{folder.path()}; // so that lines show short names
 };
 
 TEST_F(BadPresets, AreRefusedInOneLine)
@@ -363,4 +353,4 @@ TEST_F(BadPresets, ASweepIsNotOnePreset)
             "--set scene.camera.fov_deg=30: the preset sweeps 'scene.camera', which would overwrite it; set scene.camera as a whole");
 }
 
-} // namespace
+} // namespace nephroid::preset_test

@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that are measured while they work: against a file, against a recipe that is rendered once, without either; until an error.
 // What cannot be measured is one clear line before anything is rendered.
-#include "base/files.h"
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "tests/support/plate_runs.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <cstdlib>
-#include <limits>
+namespace nephroid::reference_test {
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nephroid::write_file_whole;
 using nlohmann::json;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr int width = 48, height = 40;
 
@@ -210,4 +199,4 @@ TEST_F(Measured, ACacheThatCannotBeWrittenToIsSaidBeforeTheWork)
   EXPECT_FALSE(fs::exists(file("a")));
 }
 
-} // namespace
+} // namespace nephroid::reference_test

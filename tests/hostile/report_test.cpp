@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid report` over real runs, and over what is no run, not finished, cut, damaged or too much: one clear line, exit code 2, and
 // no page. Where Chromium is installed, the page is looked at in it.
-#include "base/files.h"
-#include "image/image.h"
-#include "measure/history_file.h"
 #include "tests/support/made_runs.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::report_test {
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nephroid::write_file_whole;
-using testing::AllOf;
-using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
 class Reports : public ProgramTest {
@@ -220,4 +211,4 @@ TEST_F(ReportInBrowser, shows_what_files_say_as_text)
   for (const char* element : {"><img src=x", "><b>", "><i>", "><!--", ": <b>cost</b"}) EXPECT_THAT(html, testing::Not(HasSubstr(element)));
 }
 
-} // namespace
+} // namespace nephroid::report_test

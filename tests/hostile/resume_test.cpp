@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of every engine that are resumed onto other files, or from a checkpoint of another state: refused with a line that says which.
-#include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cstring>
+namespace nephroid::resume_test {
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
 
 std::string tetrahedron(double top)
 {
@@ -213,4 +204,4 @@ TEST_F(Resumed, CheckpointsOfAnotherStateSayWhich)
   }
 }
 
-} // namespace
+} // namespace nephroid::resume_test

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or a clear line.
-#include "base/files.h"
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "preset/read.h"
@@ -9,23 +8,15 @@
 #include "tests/support/plate_runs.h"
 #include "tests/support/test_kernels.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <sys/mount.h>
 
-namespace {
+namespace nephroid::run_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid::test;
 using nephroid::read_file;
 using nephroid::write_file_whole;
 using nlohmann::json;
-using testing::HasSubstr;
 
 class Runs : public PlateRuns {
 protected:
@@ -395,4 +386,4 @@ TEST(Prepare, LendsTheTreeWhereTheTrianglesAreTheSame)
   EXPECT_NE(prepare(turned, &first).loaded->bvh, first.loaded->bvh);
 }
 
-} // namespace
+} // namespace nephroid::run_test

@@ -7,29 +7,11 @@
 #include "tests/support/errors.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <fmt/format.h>
-#include <set>
-#include <string>
-#include <vector>
+namespace nephroid::spectral_input_test {
 
-namespace {
-
-using namespace nephroid;
 using nlohmann::json;
-using test::refusal_of;
-using testing::AllOf;
-using testing::Contains;
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
 
 class SpectralInput : public test::ProgramTest {
 protected:
@@ -315,4 +297,4 @@ TEST_F(DamagedMeshes, TheProgramRefusesWithOneLine)
               HasSubstr("object 'die': dielectric, but not closed: 4 edges with one triangle; light that enters may never leave"));
 }
 
-} // namespace
+} // namespace nephroid::spectral_input_test

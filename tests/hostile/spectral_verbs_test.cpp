@@ -4,17 +4,11 @@
 #include "tests/support/json_lines.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <set>
+namespace nephroid::spectral_verbs_test {
 
-namespace {
-
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::StartsWith;
 
 class SpectralVerbs : public ProgramTest {};
 
@@ -148,4 +142,4 @@ TEST_F(SpectralVerbs, WhatIsWrongIsSaidInOneLine)
   for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace
+} // namespace nephroid::spectral_verbs_test

@@ -2,22 +2,14 @@
 // A run's own estimate of its error (measure/measured_job.h) against its true error, for every shipped preset and with few and many
 // photons: eight independent runs of each, every one judged by the mean of the other seven.
 #include "measure/measured_job.h"
+#include "tests/support/test.h"
 
-#include "compute/compute.h"
 #include "preset/read.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/render.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <tuple>
 
-namespace {
-
-using namespace nephroid;
+namespace nephroid::error_estimate_test {
 
 constexpr int runs = 8;
 
@@ -104,4 +96,4 @@ INSTANTIATE_TEST_SUITE_P(Presets, ErrorEstimate,
                            return name;
                          });
 
-} // namespace
+} // namespace nephroid::error_estimate_test

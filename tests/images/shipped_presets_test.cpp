@@ -1,24 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every shipped preset makes a picture: finite, lit, its layers adding up, its energy accounted for, and noise falling as it should.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "preset/read.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/shipped_presets.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::shipped_presets_test {
 
 /// The preset small and short, so that all of them take seconds; of a sweep its first run.
 preset::Preset small(const std::string& name)
@@ -42,7 +27,8 @@ class ShippedPreset : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShippedPreset, MakesASoundPicture)
 {
-  const job::Snapshot snapshot = render(small(GetParam()));
+  const preset::Preset p = small(GetParam());
+  const job::Snapshot snapshot = render(p);
   const job::Picture& picture = *snapshot.picture;
   ASSERT_EQ(picture.rgb.size(), 3u * 64 * 64);
   EXPECT_TRUE(std::all_of(picture.rgb.begin(), picture.rgb.end(), [](float v) { return std::isfinite(v); }));
@@ -54,8 +40,11 @@ TEST_P(ShippedPreset, MakesASoundPicture)
   }
   const spectral::EnergyBalance& e = spectral::energy_of(snapshot);
   EXPECT_GT(e.emitted_w, 0);
-  EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
-  EXPECT_LT(e.lost_w, 0.01 * e.emitted_w);
+  for (const double part : {e.deposited_w, e.missed_w, e.absorbed_w, e.escaped_w, e.lost_w}) EXPECT_GE(part, 0);
+  // A photon is counted as it starts and as it ends, in quanta of power: the balance is exact but for the rounding of the sums to watts.
+  EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-12 * e.emitted_w);
+  // Lost is what met 32 interfaces, as one photon of two thousand does in a bunny of flint; six standard deviations above twice that.
+  EXPECT_LT(e.lost_w, (1e-3 + 6 * std::sqrt(1e-3 / spectral::settings(p).photons_per_pass)) * e.emitted_w);
   EXPECT_EQ(e.refused_contributions, 0u);
 }
 
@@ -111,4 +100,4 @@ TEST(Prism, ColoursComeInTheOrderOfTheirWavelengths)
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names("spectral")), shipped_test_name);
 
-} // namespace
+} // namespace nephroid::shipped_presets_test

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Five small scenes against stored means and variances of the same rendering with other seeds: who changes a kernel sees whether a
 // picture changed by more than its noise, or its noise did. README.md beside this file: how the stored pictures are made.
-#include "compute/compute.h"
-#include "image/image.h"
-#include "optics/colour.h"
 #include "preset/read.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/stored_statistics.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::statistics_test {
 
 constexpr int stored_renders = 64;
 constexpr std::uint64_t first_stored_seed = 1'000'001, fresh_seed = 7;
@@ -294,4 +281,4 @@ TEST_P(StoredPicture, DISABLED_PassesWithTwentySeeds)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StoredPicture, testing::ValuesIn(cases), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::statistics_test

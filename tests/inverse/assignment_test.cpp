@@ -1,52 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits.
-#include "base/files.h"
-#include "inverse/assign/assignment.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-#include "inverse/pictures/target.h"
+#include "tests/inverse/searches.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::assignment_test {
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Assignment;
-using inverse::Cost;
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Target;
-
-Layout small()
-{
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100, 200};
-  return layout;
-}
-
-std::vector<Target> ring_and_disc(const Layout& layout)
-{
-  Picture ring, disc;
-  ring.type = Picture::Type::ring;
-  const FileFinder finder;
-  return {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
-}
-
-void sweep(Assignment& a, int sweeps)
-{
-  while (a.steps() < sweeps) a.advance();
-}
+using namespace inverse;
 
 TEST(Assignment, NeverLosesAndSoonHasThePictures)
 {
-  const Layout layout = small();
+  const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(layout, targets, 1);
   double before = a.residual();
@@ -63,7 +28,7 @@ TEST(Assignment, NeverLosesAndSoonHasThePictures)
 // Every slope is below the limit, and the light on a receiver is what leaves the object less what is beside it.
 TEST(Assignment, KeepsTheLightAndTheLimit)
 {
-  Layout layout = small();
+  Layout layout = small_layout();
   layout.n = 1.1; // bends by a slope of 0.46 at most
   layout.distances = {90, 110};
   const std::vector<Target> targets = ring_and_disc(layout);
@@ -84,7 +49,7 @@ TEST(Assignment, KeepsTheLightAndTheLimit)
 
 TEST(Assignment, GoesOnWithTheSameBits)
 {
-  const Layout layout = small();
+  const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment whole(layout, targets, 5), first(layout, targets, 5), second(layout, targets, 5), other(layout, targets, 6);
   for (int i = 0; i < 70; ++i) first.advance(); // 64 batches a sweep: in the middle of the second one
@@ -100,7 +65,7 @@ TEST(Assignment, GoesOnWithTheSameBits)
 // All facets together find more than one after the other: as much as several further sweeps.
 TEST(Assignment, IsRefinedInItsLastSweep)
 {
-  Layout layout = small();
+  Layout layout = small_layout();
   layout.facets = {64, 64};
   layout.cells = {32, 32};
   const std::vector<Target> targets = ring_and_disc(layout);
@@ -126,7 +91,7 @@ TEST(Assignment, IsRefinedInItsLastSweep)
 // Cut before the refinement, after some steps of it, and at its end.
 TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
 {
-  const Layout layout = small();
+  const Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment whole(layout, targets, 5);
   std::vector<std::vector<std::byte>> cuts;
@@ -176,4 +141,4 @@ TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
   EXPECT_NEAR(inverse::cost_of(t, std::vector<double>{4, 2, 2, 0.01}, 10).cost, c.cost, 1e-9);
 }
 
-} // namespace
+} // namespace nephroid::assignment_test

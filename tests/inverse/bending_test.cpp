@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The vector form of a facet's normal against the thesis' quadratic, Snell's law and the limit of what a facet can bend.
 #include "inverse/bending.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
-namespace {
-
-using namespace nephroid;
+namespace nephroid::bending_test {
 
 glm::dvec3 random_direction(std::mt19937_64& random)
 {
@@ -74,4 +68,4 @@ TEST(Bending, SlopesEndWhereLightRunsAlongTheFacet)
   EXPECT_NEAR(inverse::transmitted({0, 0}, 1.5), 0.96, 1e-12); // ((n - 1) / (n + 1))^2 is reflected
 }
 
-} // namespace
+} // namespace nephroid::bending_test

@@ -4,11 +4,7 @@
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"
 
-#include <gmock/gmock.h>
-
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::codes_test {
 
 class Codes : public ProgramTest {
 protected:
@@ -55,4 +51,4 @@ TEST_F(Codes, AreReadAtTheirOwnDistance)
   for (const char* picture : {"target_2.png", "receiver_2.png"}) EXPECT_EQ(read(picture), "CAUSTICS") << picture;
 }
 
-} // namespace
+} // namespace nephroid::codes_test

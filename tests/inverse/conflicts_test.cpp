@@ -3,20 +3,11 @@
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
 #include "inverse/assign/footprint.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::conflicts_test {
 
-#include <algorithm>
-#include <numeric>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Assignment;
-using inverse::Conflicts;
-using inverse::ConflictSearch;
-using inverse::Layout;
-using inverse::Target;
+using namespace inverse;
 
 /// Cells of these columns and rows, half open, of 16 x 16.
 Target box(int left, int right, int top = 0, int bottom = 16)
@@ -109,4 +100,4 @@ TEST(Conflicts, BlameNoThird)
   EXPECT_LT(fight(c, 1, 2), 0.1 * fight(c, 0, 2));
 }
 
-} // namespace
+} // namespace nephroid::conflicts_test

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme objects, lights and receivers of engine 3. docs/notebook/extremes.md has the table.
 #include "inverse/engine.h"
-#include "job/job.h"
 #include "tests/support/extremes.h"
 
 #include <nlohmann/json.hpp>
 
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extremes_test {
 
 using Json = nlohmann::json;
 
@@ -174,4 +170,4 @@ INSTANTIATE_TEST_SUITE_P(ExtremesOfObjects, Inverse, testing::ValuesIn(objects),
 INSTANTIATE_TEST_SUITE_P(ExtremesOfScreens, Inverse, testing::ValuesIn(screens), name_of);
 INSTANTIATE_TEST_SUITE_P(ExtremesOfLights, Inverse, testing::ValuesIn(lights), name_of);
 
-} // namespace
+} // namespace nephroid::extremes_test

@@ -9,20 +9,13 @@
 #include "tests/inverse/sound.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <cstdlib>
 #include <regex>
 
-namespace {
+namespace nephroid::files_test {
 
-using namespace nephroid;
-using inverse::Layout;
-using inverse::Solid;
-using testing::HasSubstr;
+using namespace inverse;
 
 std::string text_of(const std::function<void(ByteSink&)>& write)
 {
@@ -155,4 +148,4 @@ TEST_F(InverseFiles, AWallHasTwoPartsWhereEdgesCross)
   EXPECT_NEAR(solid.highest_wall, 5 * g, 1e-12);
 }
 
-} // namespace
+} // namespace nephroid::files_test

@@ -2,16 +2,10 @@
 // A facet's footprint against points drawn on it.
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::footprint_test {
 
-#include <cmath>
-#include <numeric>
-#include <random>
-
-namespace {
-
-using namespace nephroid;
 using inverse::Layout;
 
 Layout coarse()
@@ -132,4 +126,4 @@ TEST(Footprint, IsBlurredByTheSunAndByRoughness)
   for (std::size_t i = 0; i < is.size(); ++i) EXPECT_NEAR(is[i], truth[i], 0.01) << i;
 }
 
-} // namespace
+} // namespace nephroid::footprint_test

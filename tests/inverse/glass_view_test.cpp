@@ -6,14 +6,9 @@
 
 #include <glm/glm.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
+namespace nephroid::glass_view_test {
 
-using namespace nephroid::test;
 using nephroid::preset::Camera;
-
-namespace {
 
 glm::dvec3 vec(const nephroid::preset::Vec3& v) { return {v[0], v[1], v[2]}; }
 
@@ -73,4 +68,4 @@ TEST_F(GlassView, ShowsThePicturesAsAPersonSeesThem)
   }
 }
 
-} // namespace
+} // namespace nephroid::glass_view_test

@@ -1,49 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run takes on other distances, weights and pictures and goes on from the slopes that it has.
-#include "base/error.h"
-#include "inverse/assign/assignment.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/engine.h"
-#include "inverse/pictures/target.h"
 #include "preset/read.h"
+#include "tests/inverse/searches.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::going_on_test {
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Assignment;
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Target;
-
-Layout small()
-{
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100, 200};
-  return layout;
-}
-
-std::vector<Target> ring_and_disc(const Layout& layout)
-{
-  Picture ring, disc;
-  ring.type = Picture::Type::ring;
-  const FileFinder finder;
-  return {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
-}
-
-void sweep(Assignment& a, int sweeps)
-{
-  while (a.steps() < sweeps) a.advance();
-}
+using namespace inverse;
 
 /// The light of all facets, added up beside the search.
 std::vector<double> light_of(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t receiver)
@@ -63,7 +28,7 @@ std::vector<double> light_of(const Layout& layout, const std::vector<glm::dvec2>
 // with the same bits.
 TEST(GoingOn, IsAsBeginningFromThoseSlopes)
 {
-  Layout layout = small();
+  Layout layout = small_layout();
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(layout, targets, 1);
   sweep(a, 2);
@@ -94,7 +59,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
 
 TEST(GoingOn, AWeightBringsItsPictureForward)
 {
-  Layout layout = small(), heavy = small();
+  Layout layout = small_layout(), heavy = small_layout();
   heavy.weights = {20, 1};
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(layout, targets, 1), b(heavy, targets, 1);
@@ -143,16 +108,10 @@ TEST(GoingOn, ADraggedDistanceComesNearAFreshRunInFewerSweeps)
   EXPECT_EQ(run->progress().step, sweeps);
   EXPECT_TRUE(std::isnan(cost(*run, "judged"))) << "what was judged was of the other distance";
   EXPECT_TRUE(run->snapshot().files.empty());
-  const double at_once = cost(*run, "believed");
   finish(*run);
   finish(*fresh);
   const double last = cost(*fresh, "believed");
   const std::int64_t more = steps_until(*run, sweeps, 1.05 * last), afresh = steps_until(*fresh, 0, 1.05 * last);
-  RecordProperty("sweeps_more", static_cast<int>(more));
-  RecordProperty("sweeps_afresh", static_cast<int>(afresh));
-  RecordProperty("cost_at_once", std::to_string(at_once));
-  RecordProperty("judged_gone_on", std::to_string(cost(*run, "judged")));
-  RecordProperty("judged_afresh", std::to_string(cost(*fresh, "judged")));
   EXPECT_LT(more, afresh);
   EXPECT_LT(cost(*run, "judged"), 1.05 * cost(*fresh, "judged"));
 }
@@ -199,4 +158,4 @@ TEST(GoingOn, IsRefusedWhereFacetsOrReceiversAreOthers)
   EXPECT_TRUE(run->finished()) << "nothing has changed";
 }
 
-} // namespace
+} // namespace nephroid::going_on_test

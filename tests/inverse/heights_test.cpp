@@ -4,16 +4,9 @@
 #include "inverse/facets/heights.h"
 #include "tests/inverse/sound.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::heights_test {
 
-#include <cmath>
-#include <random>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Layout;
-using inverse::Solid;
+using namespace inverse;
 
 /// The slope that has this gradient: the tilt's own, against the direction in which z rises.
 glm::dvec2 slope_with(const glm::dvec2& gradient, double n)
@@ -179,4 +172,4 @@ TEST(Heights, FlatOnesAreZero)
   EXPECT_EQ(inverse::heights_of(layout, slopes), std::vector<double>(slopes.size()));
 }
 
-} // namespace
+} // namespace nephroid::heights_test

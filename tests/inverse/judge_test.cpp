@@ -4,20 +4,11 @@
 #include "inverse/judge.h"
 #include "optics/fresnel.h"
 #include "scene/bvh.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::judge_test {
 
-#include <cmath>
-#include <numeric>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Fates;
-using inverse::Judge;
-using inverse::Layout;
-using inverse::Solid;
-using inverse::WayOut;
+using namespace inverse;
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
@@ -148,4 +139,4 @@ TEST(Judge, BlursAsTheFootprintDoes)
   EXPECT_NEAR(variance, 1 / 12.0 + 0.25 / 12 + sun * sun / 4 + 1, 0.1);
 }
 
-} // namespace
+} // namespace nephroid::judge_test

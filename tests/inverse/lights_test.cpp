@@ -8,24 +8,9 @@
 #include "scene/bvh.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::lights_test {
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <random>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Incoming;
-using inverse::Judge;
-using inverse::Layout;
-using inverse::Light;
-using inverse::Solid;
-using inverse::WayOut;
-using testing::AllOf;
-using testing::HasSubstr;
+using namespace inverse;
 
 Light tilted(double tilt_deg, double turn_deg)
 {
@@ -273,4 +258,4 @@ TEST(Lights, ThatCannotBeAreRefused)
   EXPECT_NO_THROW(with(layout, lamp(offered(near, "expected at least ") + 0.1)));
 }
 
-} // namespace
+} // namespace nephroid::lights_test

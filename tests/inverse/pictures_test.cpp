@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words, QR codes, grey levels and tones as light a cell.
-#include "base/files.h"
 #include "image/image.h"
 #include "inverse/pictures/grey.h"
 #include "inverse/pictures/target.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::pictures_test {
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <numeric>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Target;
-using testing::AllOf;
-using testing::HasSubstr;
+using namespace inverse;
 
 Layout cells(int across, int down)
 {
@@ -183,4 +170,4 @@ TEST_F(PictureFiles, AreRefusedWhereTheyAreHuge)
               AllOf(HasSubstr("p.hdr"), HasSubstr("60000 x 60000 pixels of 3 channels, and at most 2^29 values are read")));
 }
 
-} // namespace
+} // namespace nephroid::pictures_test

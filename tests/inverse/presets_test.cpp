@@ -2,14 +2,9 @@
 // Every shipped preset of engine 3, with few facets: it plans, runs and is judged, and its light is accounted for.
 #include "inverse/engine.h"
 #include "preset/read.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-namespace {
-
-using namespace nephroid;
+namespace nephroid::presets_test {
 
 TEST(InversePresets, AreDesignedAndJudged)
 {
@@ -34,4 +29,4 @@ TEST(InversePresets, AreDesignedAndJudged)
   EXPECT_GE(count, 13);
 }
 
-} // namespace
+} // namespace nephroid::presets_test

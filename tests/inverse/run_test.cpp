@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole runs of engine 3 through the program: its files, its figures, and that a run that was cut goes on with the same bits.
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/program_test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+namespace nephroid::run_test {
 
-using namespace nephroid::test;
 using nlohmann::json;
-using testing::HasSubstr;
-
-namespace {
 
 class InverseRun : public ProgramTest {
 protected:
@@ -183,4 +177,4 @@ TEST_F(InverseRun, IsPlannedWithItsReasons)
   EXPECT_EQ(thesis.at("notes").at(0), "the thesis' pipeline takes up to 251 trials and stops after 12: a 'stop.passes' of 251 lets it end");
 }
 
-} // namespace
+} // namespace nephroid::run_test

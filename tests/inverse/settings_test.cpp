@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad input of engine 3: each a line that says what would work.
-#include "base/files.h"
 #include "image/image.h"
 #include "inverse/bending.h"
 #include "inverse/engine.h"
@@ -8,18 +7,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
+namespace nephroid::settings_test {
 
-#include <algorithm>
-#include <cmath>
-
-namespace {
-
-using namespace nephroid;
 using inverse::Layout;
-using testing::AllOf;
-using testing::HasSubstr;
 
 class InverseSettings : public testing::Test {
 protected:
@@ -227,4 +217,4 @@ TEST_F(InverseSettings, DrawingsCoverWhatTheyShould)
   EXPECT_NEAR(lit(R"({"type": "disc", "radius": 0.25, "background": 0.5})"), 0.5 + 0.5 * 3.14159 / 16, 1e-3);
 }
 
-} // namespace
+} // namespace nephroid::settings_test

@@ -7,17 +7,9 @@
 #include "inverse/pictures/target.h"
 #include "tests/inverse/sound.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::smoothing_test {
 
-#include <cmath>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Assignment;
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Target;
+using namespace inverse;
 
 // Two rows of three; one facet in the middle of the upper row tilted by theta against all others, which lie flat. It has 3 neighbours, each
 // unlike it alone: 1 - cos theta for itself; of its neighbours, two have 2 of their own and one has 3.
@@ -82,4 +74,4 @@ TEST(Smoothing, CostsErrorAndMakesSmoother)
 // A weight so small that it turns no choice gives the same slopes as none, which has no term.
 TEST(Smoothing, NoneIsTheSameAsATermOfNoWeight) { EXPECT_EQ(made(0).slopes, made(1e-300).slopes); }
 
-} // namespace
+} // namespace nephroid::smoothing_test

@@ -4,19 +4,9 @@
 #include "inverse/facets/solid.h"
 #include "tests/inverse/sound.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::solid_test {
 
-#include <cmath>
-#include <random>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Layout;
-using inverse::Part;
-using inverse::Solid;
-
-using test::expect_sound, test::random_slopes, test::small;
+using namespace inverse;
 
 TEST(Solid, IsClosedWithAnySlopes)
 {
@@ -83,4 +73,4 @@ TEST(Solid, FacetsHaveTheirNormals)
   EXPECT_GE(facets, 4u * 63);
 }
 
-} // namespace
+} // namespace nephroid::solid_test

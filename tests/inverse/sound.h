@@ -3,15 +3,7 @@
 #pragma once
 #include "inverse/facets/solid.h"
 #include "scene/mesh.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <map>
-#include <numeric>
-#include <random>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

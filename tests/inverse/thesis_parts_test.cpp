@@ -5,25 +5,11 @@
 #include "inverse/thesis/sampler.h"
 #include "inverse/uniform.h"
 #include "tests/support/saved_jobs.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::thesis_parts_test {
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Aim;
-using inverse::Annealer;
-using inverse::Draws;
-using inverse::Knob;
-using inverse::Layout;
-using inverse::Margin;
-using inverse::Need;
-using inverse::Sampler;
-using inverse::Thesis;
+using namespace inverse;
 
 constexpr Thesis::Sampling both[] = {Thesis::Sampling::exact, Thesis::Sampling::rejection};
 
@@ -227,4 +213,4 @@ TEST(ThesisAnnealer, TakesRisesAsTheTemperatureSays)
   }
 }
 
-} // namespace
+} // namespace nephroid::thesis_parts_test

@@ -4,19 +4,11 @@
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
 #include "tests/support/saved_jobs.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::thesis_test {
 
-#include <cmath>
-
-namespace {
-
-using namespace nephroid;
-using inverse::Layout;
-using inverse::Picture;
-using inverse::Pipeline;
-using inverse::Target;
-using inverse::Thesis;
+using namespace inverse;
 
 class ThesisPipeline : public testing::Test {
 protected:
@@ -134,4 +126,4 @@ TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
   EXPECT_GT(job::scalar(s, "thesis", "gain_annealing_2"), 0.05);
 }
 
-} // namespace
+} // namespace nephroid::thesis_test

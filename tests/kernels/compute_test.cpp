@@ -1,49 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // compute/: devices, buffers, programs from embedded and from edited sources, and what each failure says.
-#include "base/error.h"
 #include "compute/compute.h"
 #include "compute/embedded.h"
 #include "tests/support/child.h"
-#include "tests/support/eventually.h"
+#include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <atomic>
 #include <cctype>
-#include <filesystem>
-#include <fstream>
-#include <numeric>
-#include <string>
-#include <thread>
-#include <vector>
 
-namespace {
+namespace nephroid::compute_test {
 
-using namespace nephroid;
 using compute::Buffer;
 using compute::Context;
 using compute::Program;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
-namespace fs = std::filesystem;
 
 /// The line of the Error that f throws.
 template <class F>
 std::string error_line(const F& f, ErrorKind kind = ErrorKind::failed)
 {
-  try {
-    f();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind) << error.line();
-    EXPECT_THAT(error.line(), Not(HasSubstr("\n")));
-    return error.line();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
+  const Error error = error_of(f);
+  EXPECT_EQ(error.kind(), kind) << error.line();
+  EXPECT_THAT(error.line(), Not(HasSubstr("\n")));
+  return error.line();
 }
 
 /// A folder of kernels that a test writes, and a context that takes its programs from there.
@@ -268,4 +246,4 @@ TEST(Environment, WithoutHomeOrAWritableCacheThereIsANoteAndAWayOn)
   }
 }
 
-} // namespace
+} // namespace nephroid::compute_test

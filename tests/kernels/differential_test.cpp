@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in
 // closed form.
-#include "spectral/engine.h"
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-#include "tracing/stretch.h"
+#include "tests/support/test.h"
 #include "tracing/world.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::differential_test {
 
-#include <cmath>
-#include <numbers>
-#include <random>
-
-using namespace nephroid;
-using namespace nephroid::test;
 using check::ball;
-
-namespace {
 
 constexpr int steps = 24; // surfaces of a path
 
@@ -362,4 +353,4 @@ TEST(PrismDifferential, IsTheAngularDispersionAtMinimumDeviation)
   RecordProperty("worst relative error", std::to_string(1e6 * worst) + "e-6");
 }
 
-} // namespace
+} // namespace nephroid::differential_test

@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spheres and ellipsoids of kernels/tracing/bvh.h, and of the host's rays, against the plain quadratic in long double.
 #include "check/tracer.h"
-#include "compute/compute.h"
 #include "scene/bvh.h"
 #include "scene/ray.h"
 #include "tests/support/ellipsoids.h"
 #include "tests/support/meshes.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
+namespace nephroid::ellipsoid_test {
 
-using namespace nephroid;
-using namespace nephroid::test;
-using check::Hit;
-using check::KernelTracer;
-using check::no_primitive;
-using check::Ray;
-
-namespace {
+using namespace check;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -190,4 +177,4 @@ TEST(Ellipsoid, ATreeOfManyFindsTheClosest)
   EXPECT_GT(spheres, rays.size() / 8);
 }
 
-} // namespace
+} // namespace nephroid::ellipsoid_test

@@ -2,24 +2,16 @@
 // kernels/tracing/emission.h: photons of every type of light towards several overlapping targets. Their density is what the sampler is
 // meant to have, by chi-square, and the power that they carry is what the light sends towards the targets, everywhere, whatever the
 // density. Both truths are integrals over cells, of formulas that are written here anew, in double precision.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-
-#include <gtest/gtest.h>
 
 #include <glm/glm.hpp>
 
-#include <functional>
+namespace nephroid::emission_samplers_test {
 
-using namespace nephroid;
-using namespace nephroid::test;
-using shared::DeviceLight;
-using shared::DeviceTarget;
-using shared::float4;
-
-namespace {
+using namespace shared;
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
@@ -314,4 +306,4 @@ TEST(EmissionSamplers, DirectionalLight)
   expect_emission(sent, cell, density, watts);
 }
 
-} // namespace
+} // namespace nephroid::emission_samplers_test

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/emission.h in extreme places: a far and small target, and a light inside of one. emission_samplers_test.cpp tests the
 // rest.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::emission_test {
 
-#include <array>
-#include <cmath>
-
-using namespace nephroid;
-using shared::DeviceTarget;
-using shared::float4;
-
-namespace {
+using namespace shared;
 
 constexpr const char* source = R"(
 #include "kernels/tracing/shared_types.h"
@@ -77,4 +70,4 @@ TEST(Emission, FromInsideATargetItIsTheWholeSphere)
   }
 }
 
-} // namespace
+} // namespace nephroid::emission_test

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
-using namespace nephroid;
-
-namespace {
+namespace nephroid::film_test {
 
 using Float4 = shared::float4;
 
@@ -62,4 +54,4 @@ TEST(Film, RefusesWhatDoesNotFit)
   EXPECT_EQ(std::vector<std::int64_t>(sums.begin() + 18, sums.begin() + 21), (std::vector<std::int64_t>{0, 0, 2})); // ties to even
 }
 
-} // namespace
+} // namespace nephroid::film_test

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/fresnel.h in single precision against optics/fresnel.h in double precision.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-using namespace nephroid;
-
-namespace {
+namespace nephroid::fresnel_test {
 
 using Float4 = shared::float4;
 
@@ -98,4 +91,4 @@ TEST(FresnelKernel, DirectionsKeepTheTangentialPartTimesTheIndex)
   }
 }
 
-} // namespace
+} // namespace nephroid::fresnel_test

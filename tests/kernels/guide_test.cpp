@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/spectral/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they
 // count less.
-#include "compute/compute.h"
 #include "spectral/effort/emission_guide.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::guide_test {
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using Point = std::array<float, 4>;
 
 constexpr std::size_t cells = GUIDE_CELLS;
@@ -193,4 +184,4 @@ TEST(Guide, StaysBelowOne)
   }
 }
 
-} // namespace
+} // namespace nephroid::guide_test

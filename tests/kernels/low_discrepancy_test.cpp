@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/low_discrepancy.h and what kernels/spectral/photon_path.h makes of it: what Owen's scrambling keeps of a Sobol sequence
 // is exact and is tested so; that other keys give independent sequences is tested by chi-square.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "spectral/effort/emitters.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tracing/scene_buffers.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::low_discrepancy_test {
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <numeric>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using Point = std::array<float, 4>;
 
 const char* const source = R"(
@@ -157,4 +148,4 @@ TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
   }
 }
 
-} // namespace
+} // namespace nephroid::low_discrepancy_test

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/spectral/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the photons came in.
-#include "compute/compute.h"
 #include "spectral/maps/photon_map.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::photon_map_test {
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-#include <span>
-#include <vector>
-
-using namespace nephroid;
-using shared::StoredPhoton;
-using shared::VisiblePoint;
-
-namespace {
+using namespace shared;
 
 const char* const source = R"(
 #include "kernels/spectral/photon_map.h"
@@ -159,4 +148,4 @@ TEST_F(PhotonMapTest, PlacesBeyondEveryCellAndEmptyMapsAreHarmless)
   EXPECT_EQ(gather(photons, points, 1e-3)[0].count, 0);
 }
 
-} // namespace
+} // namespace nephroid::photon_map_test

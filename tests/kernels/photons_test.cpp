@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/spectral/photons.cl against an independent tracer on Embree, pixel by pixel within the noise of both.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
-#include "spectral/tables/run_tables.h"
 #include "tests/support/reference_photons.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::photons_test {
 
 /// A smooth ball, a diamond and a mirror above a coloured floor, of dispersive glass; a point light.
 preset::Preset glass_preset()
@@ -157,4 +145,4 @@ TEST(Photons, SameSeedSameBitsAnotherSeedNot)
   EXPECT_NE(first.picture->rgb, render(p).picture->rgb);
 }
 
-} // namespace
+} // namespace nephroid::photons_test

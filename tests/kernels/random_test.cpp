@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
-#include "compute/compute.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::random_test {
 
-#include <array>
-
-namespace {
-
-using namespace nephroid;
 using Block = std::array<std::uint32_t, 4>;
 
 TEST(Random, PhiloxGivesThePublishedVectors)
@@ -30,4 +25,4 @@ TEST(Random, PhiloxGivesThePublishedVectors)
   EXPECT_EQ(out.read(), published);
 }
 
-} // namespace
+} // namespace nephroid::random_test

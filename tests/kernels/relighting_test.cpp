@@ -1,33 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers weighed by a light are the picture under that light: against runs without layers, in a scene with dispersion, several reflectors,
 // an edge in most pixels' reach, glass before the camera and a dark lamp.
-#include "base/error.h"
-#include "compute/compute.h"
-#include "job/job.h"
-#include "plan/plan.h"
-#include "preset/preset.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/clusters/scene_clusters.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <chrono>
-#include <cmath>
-#include <ctime>
-#include <fstream>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::relighting_test {
 
 preset::LightSpectrum illuminant(const std::string& name)
 {
@@ -230,7 +211,6 @@ TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter)
     for (const auto& picture : pictures) sum += picture[k], squares += double(picture[k]) * picture[k];
     scatter += (squares - sum * sum / runs) / (runs - 1);
   }
-  RecordProperty("draws_over_scatter", std::to_string(draws / scatter));
   EXPECT_NEAR(std::log2(draws / scatter), 0, 1);
 }
 
@@ -298,41 +278,4 @@ TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
   EXPECT_GE(saved, films / 3) << "what is promised is not far above what is taken";
 }
 
-/// The least of several: by the clock, and by the processors of all threads, which other programs disturb less.
-template <class Work>
-std::string milliseconds(const Work& work)
-{
-  double elapsed = INFINITY, processor = INFINITY;
-  for (int i = 0; i < 5; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    const std::clock_t processor_begin = std::clock();
-    work();
-    elapsed = std::min(elapsed, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-    processor = std::min(processor, 1e3 * static_cast<double>(std::clock() - processor_begin) / CLOCKS_PER_SEC);
-  }
-  return std::to_string(elapsed) + " elapsed, " + std::to_string(processor) + " of processors";
-}
-
-// Figures for the docs; nothing is asserted about them.
-TEST(Relighting, TakesMilliseconds)
-{
-  preset::Preset p = tiled_scene();
-  p.scene.camera.resolution = {512, 512};
-  p.scene.lights.pop_back();
-  spectral::settings(p).threshold_deg = 0.032; // 32 clusters
-  const auto plain = job_of(p);
-  spectral::settings(p).relight = true;
-  const auto layers = job_of(p);
-  for (int i = 0; i < 8; ++i) layers->step(), plain->step();
-  const std::string relit = milliseconds([&] {
-    p.scene.lights[0].power_w += 1;
-    ASSERT_TRUE(layers->adopt(p));
-    layers->snapshot();
-  });
-  const std::string snapshot = milliseconds([&] { plain->snapshot(); });
-  RecordProperty("phases", std::to_string(test::saved(*layers).size() / 1048576) + " MiB saved");
-  RecordProperty("relit_snapshot_ms", relit);
-  RecordProperty("plain_snapshot_ms", snapshot);
-}
-
-} // namespace
+} // namespace nephroid::relighting_test

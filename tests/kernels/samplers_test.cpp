@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chi-square tests of what the kernels draw, but for emission (emission_samplers_test.cpp): uniforms, places on area lights, places in a
 // pixel, clusters of a camera path, reflection or refraction. Each also shows that it rejects a distribution a few per cent off.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::samplers_test {
 
-#include <array>
-#include <functional>
-
-using namespace nephroid;
-using namespace nephroid::test;
 using shared::float4;
-
-namespace {
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
@@ -333,4 +326,4 @@ TEST(ReflectOrRefract, HasFresnelsProbability)
   }
 }
 
-} // namespace
+} // namespace nephroid::samplers_test

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/sky.h: directions are drawn by the flux of texels, evenly by solid angle inside of one, and a direction is of the texel
 // that is seen there. The truth is the map's definition (scene/environment.h), written here anew in double precision.
-#include "compute/compute.h"
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tracing/sky_tables.h"
 
-#include <gtest/gtest.h>
-
 #include <glm/glm.hpp>
 
-#include <cmath>
+namespace nephroid::sky_test {
 
-using namespace nephroid;
-using namespace nephroid::test;
 using shared::float4;
-
-namespace {
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
@@ -106,4 +100,4 @@ INSTANTIATE_TEST_SUITE_P(Sizes, SkyKernel, testing::Values(std::array{16, 8}, st
                            return std::to_string(parameter.param[0]) + "x" + std::to_string(parameter.param[1]);
                          });
 
-} // namespace
+} // namespace nephroid::sky_test

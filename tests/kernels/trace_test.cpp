@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/bvh.h against Embree on real meshes at several scales and places; every ray on which they differ is judged by a test of
 // all triangles in double precision. NEPHROID_TRACE_RAYS sets the number of rays a case (default 20000; a million for the table).
-#include "base/error.h"
-#include "check/tracer.h"
-#include "compute/compute.h"
-#include "scene/bvh.h"
 #include "tests/support/meshes.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tests/support/tracer.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::trace_test {
 
-#include <array>
-#include <cstdlib>
-#include <fmt/format.h>
-
-namespace {
-
-using namespace nephroid;
 using check::Verdict;
-using test::Hit;
-using test::no_primitive;
-using test::Ray;
 
 std::size_t ray_count()
 {
@@ -258,4 +245,4 @@ TEST_F(Trace, PortableMasksGiveTheSameBits)
   }
 }
 
-} // namespace
+} // namespace nephroid::trace_test

@@ -2,22 +2,10 @@
 // Photons of a large area light leave every place in every direction: where place and direction had random numbers in common, a floor close
 // to the light would show it, and a far one would not. So with plain random numbers, against direct light, and with low-discrepancy ones,
 // against the closed form of a rectangle's irradiance.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::area_light_test {
 
 /// A floor below a panel of 1.6 m by 1.6 m at height 1, seen from half that height; with or without a sheet of n = 1 under the panel.
 preset::Preset floor_under_a_panel(bool sheet)
@@ -142,4 +130,4 @@ TEST(AreaLight, LowDiscrepancyPhotonsMakeThePanelsIrradiance)
   record("area light, low discrepancy: tolerance of a sixteenth of the floor", widest, 0, 0.3);
 }
 
-} // namespace
+} // namespace nephroid::area_light_test

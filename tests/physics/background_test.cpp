@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background" against closed forms: exact colours, which way up and round a map is, radiance that glass keeps, Beer's law in a
 // plate, and Snell's law in a prism that takes white light apart.
-#include "compute/compute.h"
 #include "image/image.h"
 #include "optics/fresnel.h"
 #include "optics/primary_spectra.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/temporary_folder.h"
 
 #include <glm/glm.hpp>
-#include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
-#include <functional>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::background_test {
 
 preset::Preset with_constant(const preset::Vec3& colour, int resolution, double radiance = 1)
 {
@@ -158,9 +147,9 @@ struct Thing {
   double lost; ///< the share of light that total reflection keeps for ever, at most
 };
 
-class WhiteFurnace : public testing::TestWithParam<Thing> {};
+class BackgroundFurnace : public testing::TestWithParam<Thing> {};
 
-TEST_P(WhiteFurnace, GlassCannotBeSeen)
+TEST_P(BackgroundFurnace, GlassCannotBeSeen)
 {
   constexpr int pixels = 12;
   preset::Preset p = with_constant({0.7, 0.4, 0.2}, pixels);
@@ -193,7 +182,7 @@ preset::Material shipped_glass(const std::string& file)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Things, WhiteFurnace,
+    Things, BackgroundFurnace,
     testing::Values(Thing{"glass_ball",
                           [](preset::Preset& p) {
                             p.scene.materials["glass"] = glass(1.5);
@@ -354,4 +343,4 @@ TEST(Background, IsLeftOutWhereThereIsNothingToSee)
   EXPECT_FALSE(pass(p).runs);
 }
 
-} // namespace
+} // namespace nephroid::background_test

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glass ball as a lens: its focus, and what it makes of parallel light on a screen.
-#include "compute/compute.h"
 #include "optics/ball.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::ball_lens_test {
 
 constexpr double n = 1.5;
 
@@ -133,4 +122,4 @@ TEST(BallLens, IrradianceOnAScreenIsTheIntegralOverHeights)
   }
 }
 
-} // namespace
+} // namespace nephroid::ball_lens_test

@@ -2,30 +2,16 @@
 // `nephroid check` on every device there is: every check passes, with other seeds, too; and a wrong kernel makes the right check fail.
 // The faults are those of tests/faults/faults.json that name a check: edits of one place in a copy of kernels/, as a slip of the hand or a
 // wrong compiler would make them.
-#include "base/error.h"
-#include "base/files.h"
 #include "check/check.h"
-#include "compute/compute.h"
 #include "engine/engine.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <fstream>
-#include <ostream>
-#include <set>
-#include <string>
-#include <vector>
 
-using namespace nephroid;
-namespace fs = std::filesystem;
-
-namespace {
+namespace nephroid::check_test {
 
 std::string line_of(const check::Result& r)
 {
@@ -167,4 +153,4 @@ TEST_P(CheckFault, IsSeen)
 
 INSTANTIATE_TEST_SUITE_P(Kernels, CheckFault, testing::ValuesIn(faults()), [](const auto& tested) { return test_name(tested.param.name); });
 
-} // namespace
+} // namespace nephroid::check_test

@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which clusters photons are dealt to changes the noise of a picture and not what it shows.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "preset/preset.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::effort_test {
 
 using Effort = spectral::Settings::Effort;
 
@@ -65,4 +53,4 @@ TEST_P(DealtEffort, LeavesThePictureAsItIs)
 
 INSTANTIATE_TEST_SUITE_P(Choices, DealtEffort, testing::Values(Effort::equal, Effort::importance, Effort::radziszewski));
 
-} // namespace
+} // namespace nephroid::effort_test

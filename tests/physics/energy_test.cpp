@@ -1,64 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// No light is made and none disappears: every photon of every shipped preset ends somewhere, and what ends nowhere is little.
-#include "compute/compute.h"
-#include "preset/read.h"
-#include "scene/scene.h"
+// No light is made and none disappears: where photons end. tests/images/shipped_presets_test.cpp looks at the balance of every preset.
 #include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
-#include "tests/support/shipped_presets.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
-
-/// Every run of a shipped preset, small and short: energy does not depend on the camera.
-std::vector<preset::Preset> small_runs(const std::string& name)
-{
-  std::vector<preset::Preset> runs = preset::read_presets(name);
-  for (preset::Preset& p : runs) {
-    p.scene.camera.resolution = {16, 16};
-    spectral::settings(p).direct = false;
-    send_few_photons(p, 1 << 16);
-    p.stop = {};
-    p.stop.passes = 1;
-    p.reference.reset();
-    p.measure = {};
-  }
-  return runs;
-}
-
-/// The share of the emitted power that may be lost: met 32 interfaces, which one photon of two thousand does in a bunny of flint.
-constexpr double largest_loss = 1e-3;
+namespace nephroid::energy_test {
 
 bool is_balanced(const spectral::EnergyBalance& e)
 {
   const double parts = e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w;
   return std::abs(parts - e.emitted_w) <= 1e-12 * e.emitted_w;
-}
-
-class ShippedPreset : public testing::TestWithParam<std::string> {};
-
-// A photon is counted as it starts and as it ends, in quanta of power, so the balance is exact but for the rounding of the sums to watts.
-TEST_P(ShippedPreset, AccountsForItsEnergy)
-{
-  for (const preset::Preset& p : small_runs(GetParam())) {
-    const spectral::EnergyBalance e = spectral::energy_of(render(p));
-    EXPECT_EQ(e.refused_contributions, 0u) << p.name;
-    for (const double part : {e.deposited_w, e.missed_w, e.absorbed_w, e.escaped_w, e.lost_w}) EXPECT_GE(part, 0) << p.name;
-    ASSERT_GT(e.emitted_w, 0) << p.name;
-    EXPECT_TRUE(is_balanced(e)) << p.name;
-    expect_truth("energy: accounted for / emitted, " + GetParam(),
-                 (e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1, 1e-12);
-    expect_truth("energy: lost / emitted, " + GetParam(), e.lost_w / e.emitted_w, 0,
-                 largest_loss + sigmas * std::sqrt(largest_loss / spectral::settings(p).photons_per_pass));
-  }
 }
 
 // The same photons (one seed) in the open and in a room: what escaped there lands on the room's walls here, and nothing else changes. A
@@ -95,6 +45,4 @@ TEST(Energy, WhatEscapesIsWhatARoomCatches)
   expect_truth("energy: passed by the glass, in a room / in the open", room.missed_w / open.missed_w, 1, few);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedPreset, testing::ValuesIn(shipped_names("spectral")), shipped_test_name);
-
-} // namespace
+} // namespace nephroid::energy_test

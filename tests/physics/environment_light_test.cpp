@@ -3,21 +3,12 @@
 // same irradiance, the balance of energy, and runs that go on with the same bits. White furnaces under a sky: white_furnace_test.cpp.
 #include "image/image.h"
 #include "optics/primary_spectra.h"
-#include "spectral/energy.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::environment_light_test {
 
 constexpr int pixels = 24, group = 4, groups = pixels / group;
 const Screen screen{{0, -1, 0}, 3, pixels};
@@ -290,4 +281,4 @@ TEST(EnvironmentLight, IsAskedFor)
   EXPECT_EQ(row(), "no row");
 }
 
-} // namespace
+} // namespace nephroid::environment_light_test

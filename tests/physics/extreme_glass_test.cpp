@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme materials: indices of refraction at and around 1 and far from it, curves with steps and poles, absorption without end, nested and
 // total reflection. docs/notebook/extremes.md has the table.
-#include "compute/compute.h"
-#include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
-#include "preset/read.h"
-#include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/extremes.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extreme_glass_test {
 
 constexpr int photons = 1 << 17;
 
@@ -251,4 +242,4 @@ class Glass : public testing::TestWithParam<Extreme> {};
 TEST_P(Glass, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Glass, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_glass_test

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme lights and mirrors: powers from 1e-30 W, beams of 0.01 degrees, lights in glass and on it, rectangles of every size, reflectances
 // of 0 and 1. docs/notebook/extremes.md has the table.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/extremes.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extreme_lights_test {
 
 constexpr int photons = 1 << 17;
 
@@ -261,4 +252,4 @@ class Lights : public testing::TestWithParam<Extreme> {};
 TEST_P(Lights, AreRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Lights, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_lights_test

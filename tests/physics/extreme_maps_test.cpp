@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme settings of photon maps: radii from a millionth of a pixel to 10^9 scenes, alpha next to 0 and to 1, single photons, single
 // pixels. docs/notebook/extremes.md has the table.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "plan/plan.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extreme_maps_test {
 
 using Estimator = spectral::Settings::Estimator;
 using Effort = spectral::Settings::Effort;
@@ -148,4 +138,4 @@ class Maps : public testing::TestWithParam<Extreme> {};
 TEST_P(Maps, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Maps, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_maps_test

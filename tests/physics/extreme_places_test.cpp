@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme places and shapes: scenes of any size, far from the origin, tiny objects beside large ones, thin plates, needles, meshes that are
 // open, doubled, inside out or inside each other. docs/notebook/extremes.md has the table.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/extremes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extreme_places_test {
 
 constexpr int photons = 1 << 17;
 
@@ -292,4 +280,4 @@ class Places : public testing::TestWithParam<Extreme> {};
 TEST_P(Places, AreRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Places, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_places_test

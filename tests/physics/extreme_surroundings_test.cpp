@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme surroundings: backgrounds from 1e-30 to 1e9 and with one bright texel, bad texels, walls that reflect nothing, nearly all and
 // all, glass that absorbs all, single pixels and photons. docs/notebook/extremes.md has the table.
-#include "compute/compute.h"
 #include "image/image.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
 #include "tests/support/temporary_folder.h"
 
-#include <limits>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extreme_surroundings_test {
 
 /// One colour behind a ball of glass, of which the camera sees both.
 preset::Preset ball_before_sky(double radiance, int pixels = 8)
@@ -213,4 +202,4 @@ class Surroundings : public testing::TestWithParam<Extreme> {};
 TEST_P(Surroundings, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Surroundings, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_surroundings_test

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes, cameras in glass, in a
 // mirror, in a surface and close to it, any white. docs/notebook/extremes.md has the table.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/extremes.h"
 
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extreme_views_test {
 
 /// Looking at a wall from far away through a telescope: the picture of a white square of 1 m on black, which fills half of it.
 Outcome telescope(double distance)
@@ -169,4 +161,4 @@ class Views : public testing::TestWithParam<Extreme> {};
 TEST_P(Views, AreRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Views, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_views_test

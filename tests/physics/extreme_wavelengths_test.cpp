@@ -2,22 +2,10 @@
 // Extreme ways to deal with wavelengths: one cluster and 401, efforts that have nothing to choose from, curves that jump at every
 // nanometre, photons one at a time and lights by the thousand, streaks at grazing incidence and beside total reflection, layers for any
 // light. docs/notebook/extremes.md has the table.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "plan/plan.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/clusters/scene_clusters.h"
-#include "spectral/engine.h"
 #include "tests/support/extreme_waves.h"
 
-#include <array>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::extreme_wavelengths_test {
 
 using Effort = spectral::Settings::Effort;
 using Method = spectral::Settings::Method;
@@ -251,4 +239,4 @@ class Wavelengths : public testing::TestWithParam<Extreme> {};
 TEST_P(Wavelengths, IsRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Wavelengths, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
-} // namespace
+} // namespace nephroid::extreme_wavelengths_test

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the camera sees through glass gets samples as long as a run goes on, and its share of the work by what that gains; other pixels end
 // at spectral.pixel_samples.
-#include "scene/scene.h"
 #include "spectral/glass_pixels.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/render.h"
 #include "tests/support/saved_jobs.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <vector>
-
-namespace nephroid {
-namespace {
-
-using test::layer;
+namespace nephroid::glass_goes_on_test {
 
 /// A ball of glass that dispersion pulls apart, before a sky of one colour; the floor under it, half of the picture, is seen directly.
 preset::Preset ball(int passes, std::uint64_t seed = 1)
@@ -113,5 +104,4 @@ TEST(ThroughGlass, SharesChangeNoLight)
   EXPECT_NEAR(by_gain / as_before, 1, 0.05);
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::glass_goes_on_test

@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect" against closed forms: a furnace, one bounce between two patches by quadrature, a lit patch against a lamp in its
 // place, and where the power goes.
-#include "compute/compute.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <functional>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::indirect_test {
 
 preset::Preset indirect_only(int resolution)
 {
@@ -286,4 +272,4 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   EXPECT_EQ(spectral::indirect_energy_of(resumed)->escaped_w, spectral::indirect_energy_of(whole)->escaped_w);
 }
 
-} // namespace
+} // namespace nephroid::indirect_test

@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Leaving out what a scene does not need changes no picture: each omission against the same run with it turned back on; and it is not
 // made in scenes that come close to not needing it.
-#include "compute/compute.h"
-#include "plan/plan.h"
-#include "preset/preset.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"
+#include "tests/support/test.h"
 #include "tracing/targets.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::leaving_out_test {
 
 plan::Pass pass_of(const preset::Preset& p, std::string name, const LeaveOut& leave_out = {})
 {
@@ -194,4 +182,4 @@ TEST(NotLeftOut, WhatAnAreaLightsPlaneCuts)
   EXPECT_TRUE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
 }
 
-} // namespace
+} // namespace nephroid::leaving_out_test

@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which wavelengths meet in a photon map. A photon and the path from the eye that gathers it have to be of one wavelength, or a prism
 // before the camera shows one line's light where another line's image is.
-#include "compute/compute.h"
-#include "optics/colour.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::map_bands_test {
 
 struct Line {
   double nm, n, share; ///< the prism's n; of the lamp's power
@@ -138,4 +125,4 @@ INSTANTIATE_TEST_SUITE_P(, MapBands,
                                              spectral::Settings::Method::brute_force}),
                          [](const auto& way) { return std::string(way.param.name); });
 
-} // namespace
+} // namespace nephroid::map_bands_test

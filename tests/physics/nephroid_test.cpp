@@ -12,24 +12,10 @@
 // from above, which does not change its pattern, because reflection at an upright wall keeps the slope. The strip dz of incoming light
 // spreads over the area |1 - 2 s / cos phi| dz ds of floor: E = E0 sin(elevation) / |1 - 2 s / cos phi|, summed over all rays through a
 // point.
-#include "compute/compute.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::nephroid_test {
 
 constexpr double slope = 0.5;          // down per unit along
 constexpr double s0 = 0.05, s1 = 0.95; // from the wall to the floor
@@ -205,4 +191,4 @@ TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
   expect_truth("nephroid: irradiance over its law nearest the edge", (excess[0] / pixels[0] - third_ray) / (law[0] / pixels[0]), 1, 0.04);
 }
 
-} // namespace
+} // namespace nephroid::nephroid_test

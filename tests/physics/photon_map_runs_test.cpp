@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with photon maps: the same bits however they are cut or resumed, iterations by importance, energy, and what the plan says.
-#include "compute/compute.h"
-#include "plan/plan.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::photon_map_runs_test {
 
-#include <algorithm>
-
-using namespace nephroid;
-using namespace nephroid::test;
 using Estimator = spectral::Settings::Estimator;
 using Effort = spectral::Settings::Effort;
-
-namespace {
 
 /// A ball of dispersive glass that absorbs, and a mirror behind it, in view; two lamps.
 preset::Preset glass_in_view(Estimator estimator, Effort effort = Effort::power)
@@ -185,4 +174,4 @@ TEST(MapPlan, SppmTakesTwentyBytesForEachPixelInEachCluster)
   EXPECT_EQ(bytes_of(plan_of(p), "statistics of pixels"), 400u * 20);
 }
 
-} // namespace
+} // namespace nephroid::photon_map_runs_test

@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Caustics gathered from photon maps: seen through glass and in mirrors by the estimator `automatic`, everywhere by `sppm`. Radiance in
 // closed form, and pictures against those of splats, which have no radius and no bias.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "plan/plan.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+namespace nephroid::photon_maps_test {
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-using namespace nephroid;
-using namespace nephroid::test;
 using Estimator = spectral::Settings::Estimator;
-
-namespace {
 
 /// Mean Y of the layer "caustic", of a light of 1 W.
 std::vector<double> mean_luminance(const job::Snapshot& snapshot)
@@ -267,4 +254,4 @@ TEST(PhotonMaps, AMirrorShowsWhatTheMirroredCameraSees)
   expect_same_picture("maps in a mirror", render_passes(maps, mirrored), render_passes(splat, block_sums), 0.4);
 }
 
-} // namespace
+} // namespace nephroid::photon_maps_test

@@ -2,20 +2,9 @@
 // The spectrum of a pixel that layers keep: against the closed form of a point light over a diffuse plane, and against the picture's own
 // colours.
 #include "job/spectrum.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
 #include "tests/support/closed_form.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
-
-using testing::HasSubstr;
+namespace nephroid::pixel_spectrum_test {
 
 constexpr int size = 16;
 constexpr double metres = 1; ///< of the floor, to a side of the picture
@@ -169,4 +158,4 @@ TEST(PixelSpectrum, WithoutLayersSaysWhatToSwitchOn)
   EXPECT_EQ(spectrum_of(*job, {-1, 5}), nullptr);
 }
 
-} // namespace
+} // namespace nephroid::pixel_spectrum_test

@@ -2,24 +2,11 @@
 // Two angles at which Fresnel's equations do something exact: the critical angle, beyond which nothing goes through, and Brewster's, at
 // which light polarised in the plane of incidence is not reflected. Photons meet a single interface here (max_surfaces 1): what is
 // deposited on a catcher came straight from it.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/test_kernels.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::polarising_angles_test {
 
 constexpr int photons = 1 << 19;
 
@@ -104,4 +91,4 @@ kernel void reflectances(global const float4* in, global float4* out, uint count
   expect_truth("Brewster's angle: kernel against optics/fresnel.h, n = 1 to 4", worst, 0, 2e-7);
 }
 
-} // namespace
+} // namespace nephroid::polarising_angles_test

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance changes at an interface: what a path keeps is L / n^2 (Nicodemus 1963, "Radiance"). Paths that enter glass and leave it again
 // say nothing of that, because n cancels; so here the lit surface is inside the glass and the eye outside.
-#include "compute/compute.h"
-#include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/render.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::radiance_in_glass_test {
 
 // A white sheet and a lamp of intensity I = P / (4 pi) inside a block of glass, seen from above along the normal. The sheet has the
 // radiance L = I cos(theta) / (pi d^2); of that the eye gets (1 - R) L / n^2 with R = ((n - 1) / (n + 1))^2 at normal incidence.
@@ -50,4 +40,4 @@ TEST(RadianceInGlass, IsDividedByTheSquareOfTheIndexOnTheWayOut)
   EXPECT_NEAR(mean / truth, 1, 0.01);
 }
 
-} // namespace
+} // namespace nephroid::radiance_in_glass_test

@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Absolute radiometry: what each light sends, what reaches a surface and what the camera makes of it, against closed forms.
-#include "compute/compute.h"
-#include "optics/colour.h"
-#include "optics/spectrum.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::radiometry_test {
 
 /// A floor seen from straight above, a light above it, and nothing or a sheet of "glass" with n = 1 between them.
 /// The floor is the plane y = 0, reflectance 1; the camera is at height 2 and sees 1 m x 1 m of it.
@@ -186,4 +173,4 @@ INSTANTIATE_TEST_SUITE_P(Lights, Photons,
                                          preset::Light::Type::area),
                          light_name);
 
-} // namespace
+} // namespace nephroid::radiometry_test

@@ -3,23 +3,11 @@
 // over all ways between them of n^2 dA cos(theta) d(omega) times what Fresnel and absorption leave; that quantity is the same at both ends
 // of a way and in both directions (Nicodemus 1963, "Radiance"). So swapping light and receiver gives the same power per
 // radiance, but for the n^2 of the media that they are in; and paths from the eye find the radiance that photons carry.
-#include "compute/compute.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numeric>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::reciprocity_test {
 
 /// A rectangle that shines or receives: u and v are its full edges' lengths, `up` runs along v.
 struct Patch {
@@ -173,4 +161,4 @@ TEST(Reciprocity, TheEyeSeesThroughGlassWhatPhotonsBring)
   }
 }
 
-} // namespace
+} // namespace nephroid::reciprocity_test

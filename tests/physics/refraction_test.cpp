@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons through plates and prisms, against Snell's and Fresnel's closed forms.
-#include "compute/compute.h"
 #include "optics/dispersion.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
 #include "spectral/checks/closed_forms.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::refraction_test {
 
 // ---- Plate -----------------------------------------------------------------------------------------------------------------
 // A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m that lies in y = 0; a floor below catches what goes through.
@@ -266,4 +254,4 @@ TEST(TotalReflection, ACubeKeepsWhatIsOutsideItsCones)
   EXPECT_NEAR(e.emitted_w, 1, 1e-6);
 }
 
-} // namespace
+} // namespace nephroid::refraction_test

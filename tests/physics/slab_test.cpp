@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plate with parallel faces: light leaves it in the direction it came from, moved aside and weaker, and otherwise as it was.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::slab_test {
 
 constexpr double n = 1.5;
 
@@ -81,4 +70,4 @@ TEST(Slab, LeavesIrradianceUniform)
   }
 }
 
-} // namespace
+} // namespace nephroid::slab_test

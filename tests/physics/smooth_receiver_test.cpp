@@ -2,24 +2,12 @@
 // Surfaces with smooth normals are lit by these in every layer: light that came through a wide plate (layer "caustic") makes the picture
 // that it makes without the plate (layer "direct"), but for what the plate lets through, (1 - R) / (1 + R) (slab_test.cpp). A photon on its
 // own knows how many of its kind meet a facet, not the normal that the facet is meant to have.
-#include "compute/compute.h"
 #include "optics/fresnel.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::smooth_receiver_test {
 
 constexpr double n = 1.5;
 const preset::Vec3 direction = {0.25, -1, 0.15};
@@ -163,4 +151,4 @@ TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals)
   EXPECT_LT(error, 0.15);
 }
 
-} // namespace
+} // namespace nephroid::smooth_receiver_test

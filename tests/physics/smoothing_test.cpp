@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with smoothed caustics beside the same runs without: the same power, less error.
-#include "compute/compute.h"
-#include "plan/plan.h"
-#include "scene/scene.h"
-#include "spectral/engine.h"
 #include "spectral/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/render.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <numeric>
-#include <stdexcept>
-#include <vector>
-
-namespace nephroid {
-namespace {
+namespace nephroid::smoothing_test {
 
 using Smooth = spectral::Settings::Smoothing;
 
@@ -136,5 +123,4 @@ TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
   EXPECT_EQ(smoothing_pass(sppm).field, "");
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::smoothing_test

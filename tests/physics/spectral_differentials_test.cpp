@@ -3,18 +3,9 @@
 // where Snell puts it, and no light is made or lost at the receiver's edge.
 #include "optics/fresnel.h"
 #include "spectral/checks/closed_forms.h"
-#include "spectral/tables/run_tables.h"
 #include "tests/support/closed_form.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::spectral_differentials_test {
 
 using Columns = std::vector<std::array<double, 3>>; // XYZ
 
@@ -306,4 +297,4 @@ TEST(SpectralDifferentials, AreLeftOutWhereNothingDisperses)
   EXPECT_EQ(plan_of(newton.preset()).defines.at("NEPHROID_DIFFERENTIALS"), "0");
 }
 
-} // namespace
+} // namespace nephroid::spectral_differentials_test

@@ -2,22 +2,11 @@
 // One path for a whole cluster is biased; one wavelength of the cluster for each path is not, however coarse the clusters are. The truth is
 // brute force, a path for every wavelength. Low-discrepancy numbers and photons dealt by variance have to keep the expectation too. The
 // two halves of a film, from which a run tells its own error, have to be independent whatever the paths follow.
-#include "compute/compute.h"
-#include "preset/preset.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::wavelength_jitter_test {
 
 /// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
 /// whole clusters, are independent, and are dealt by power: what a test is about it turns on.
@@ -181,4 +170,4 @@ TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters)
   EXPECT_LT(ratio, 2);
 }
 
-} // namespace
+} // namespace nephroid::wavelength_jitter_test

@@ -7,23 +7,10 @@
 // layer): the sum stays rho L. One thing is missing: a way from the receiver through the glass and back to it should end at the receiver's
 // own radiance, which neither layer has (that is interreflection). Its share r is measured apart: an area light in the receiver's place,
 // and what comes back to it. So direct + caustic = rho L (1 - r).
-#include "compute/compute.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/engine.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::white_furnace_test {
 
 constexpr double cube = 3, receiver_side = 0.4, reflectance = 0.7, radiance = 1;
 constexpr int groups = 6, group = 4; // pixels are looked at in squares of 4 x 4, of which there are 6 x 6
@@ -173,4 +160,4 @@ TEST_P(WhiteFurnace, NothingInItCanBeSeen)
 INSTANTIATE_TEST_SUITE_P(Things, WhiteFurnace, testing::ValuesIn(furnaces()),
                          [](const testing::TestParamInfo<Furnace>& parameter) { return std::string(parameter.param.name); });
 
-} // namespace
+} // namespace nephroid::white_furnace_test

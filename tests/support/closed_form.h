@@ -7,18 +7,10 @@
 #include "scene/scene.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
+#include "tests/support/test.h"
 #include "tracing/targets.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <numbers>
-#include <string>
-#include <vector>
 
 namespace nephroid::test {
 

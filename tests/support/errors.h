@@ -2,10 +2,7 @@
 // What a call refuses with.
 #pragma once
 #include "base/error.h"
-
-#include <gtest/gtest.h>
-
-#include <string>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

@@ -11,19 +11,7 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/presets.h"
 #include "tests/support/render.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <functional>
-#include <numeric>
-#include <ostream>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

@@ -6,11 +6,7 @@
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/support/errors.h"
-
-#include <gtest/gtest.h>
-
-#include <string>
-#include <utility>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

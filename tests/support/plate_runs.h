@@ -4,13 +4,9 @@
 #include "base/files.h"
 #include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include <filesystem>
-#include <string>
-#include <vector>
 
 namespace nephroid::test {
 

@@ -3,15 +3,7 @@
 #pragma once
 #include "tests/support/child.h"
 #include "tests/support/temporary_folder.h"
-
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

@@ -3,13 +3,9 @@
 #pragma once
 #include "preset/read.h"
 #include "preset/settings_type.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <string>
-#include <vector>
 
 namespace nephroid::test {
 

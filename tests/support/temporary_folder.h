@@ -2,12 +2,8 @@
 // A folder of a test's own, gone when the test ends.
 #pragma once
 #include "base/files.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <string_view>
 #include <unistd.h>
 
 namespace nephroid::test {

@@ -41,9 +41,8 @@ public:
   /// Another camera, as one edit.
   void edit(double z = 3)
   {
-    preset::Preset edited = preset();
-    edited.scene.camera.position = {0, 0, z};
-    apply(ui::command::Edit{"move the camera", edited});
+    WindowFixtureOf::edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; });
+    frames(4);
   }
   void look(ui::Look look) { apply(ui::command::SetLook{look}); }
   static std::string clipboard()
@@ -77,13 +76,10 @@ public:
     return holds;
   }
 
-  /// Ctrl+Shift+P, its name, Enter. False, and nothing is done, where the palette has another action first.
+  /// The palette, its name, Enter. False, and nothing is done, where the palette has another action first.
   bool by_palette(const ui::Action& action)
   {
-    hold(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_P);
-    frame();
-    lift(ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_P);
-    frames(2);
+    apply(ui::command::Ask{ui::Question::command});
     ImGui::GetIO().AddInputCharactersUTF8(action.name.c_str());
     frames(2);
     const auto& found = workspace.palette().found();

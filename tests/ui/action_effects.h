@@ -4,14 +4,10 @@
 #include "action_desk.h"
 #include "base/bytes.h"
 #include "preset/read.h"
+#include "tests/support/test.h"
 #include "ui/shell/panels.h"
 
-#include <gtest/gtest.h>
 #include <imgui_internal.h>
-
-#include <functional>
-#include <map>
-#include <string>
 
 namespace nephroid::test {
 

@@ -1,32 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
 #include "inverse_runs.h"
-#include "preset/settings_type.h"
 #include "ui/annealing/panel.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <numeric>
-
-namespace nephroid::ui {
-namespace {
-
-using ::testing::ElementsAre;
-using ::testing::SizeIs;
+namespace nephroid::ui::annealing_panel_test {
 
 class AnnealingPanelTest : public test::WindowFixtureOf<test::InverseRuns> {
 protected:
   AnnealingPanelTest() : WindowFixtureOf("annealing") { ImGui::GetIO().DisplaySize = {1200, 1000}; }
   const AnnealingPanel& panel() const { return workspace.panel<AnnealingPanel>(); }
-  void click_widget(const std::string& widget)
-  {
-    const auto at = panel().place_of(widget);
-    ASSERT_TRUE(at) << widget;
-    click({(*at)[0], (*at)[1]});
-  }
+  void click_widget(const std::string& widget) { click_in(panel(), widget, 0); }
   /// On a facet of the map "slopes".
   void click_facet(int x, int y, int facets)
   {
@@ -218,5 +201,4 @@ TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)
   EXPECT_FALSE(facet_beam(slopes, layout, {0, 0})) << "of another run";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::annealing_panel_test

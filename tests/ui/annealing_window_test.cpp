@@ -7,13 +7,7 @@
 #include "real_window.h"
 #include "ui/annealing/panel.h"
 
-#include <fmt/format.h>
-
-#include <cstdlib>
-#include <filesystem>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::annealing_window_test {
 
 constexpr std::array<int, 2> size{1200, 960};
 
@@ -60,5 +54,4 @@ TEST_F(AnnealingWindowTest, AClickedFacetShowsItsBeam)
                                std::filesystem::copy_options::overwrite_existing);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::annealing_window_test

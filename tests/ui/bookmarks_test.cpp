@@ -4,8 +4,7 @@
 
 #include "window_fixture.h"
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::bookmarks_test {
 
 class Bookmarks : public test::WindowFixture {
 protected:
@@ -67,9 +66,7 @@ TEST_F(Bookmarks, AreInAList)
   show_list();
   click(*view().place_of("name 0"));
   frames(2);
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8("from the front");
-  frames(2);
+  retype("from the front");
   press(ImGuiKey_Enter);
   EXPECT_EQ(all()[0].name, "from the front");
   click(*view().place_of("go 0"));
@@ -91,5 +88,4 @@ TEST_F(Bookmarks, StayWhenAnotherPresetIsOpened)
   EXPECT_NE(all()[1].name, all()[0].name);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::bookmarks_test

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mouse's camera moves against where a pinhole camera must then be, and see, by hand.
+#include "tests/support/test.h"
 #include "ui/view/camera_moves.h"
 
 #include <glm/glm.hpp>
-#include <gtest/gtest.h>
 
-#include <cmath>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::camera_moves_test {
 
 constexpr double tolerance = 1e-9;
 
@@ -103,5 +100,4 @@ TEST(CameraMoves, OrbitToTheLeftTurnsTheSceneToTheRight)
   EXPECT_GT(seen(orbit(at(0, 0, 4), 0, 10), {0, 0, 1})[1], 0);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::camera_moves_test

@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Holding runs against each other in the window: pinned runs, flip and difference in the View.
 #include "measure/history_file.h"
-#include "ui/error/panel.h"
-#include "ui/view/shown_picture.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <limits>
-
-namespace nephroid::ui {
-namespace {
-
-using test::eventually;
-using test::falling_history;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
-using ::testing::StartsWith;
+namespace nephroid::ui::compare_test {
 
 class CompareTest : public test::WindowFixture {
 protected:
@@ -33,9 +19,7 @@ protected:
   }
   void change_camera(double z)
   {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.camera.position[2] = z;
-    workbench.apply({command::Edit{"camera", edited}});
+    edit([&](preset::Preset& p) { p.scene.camera.position[2] = z; }, "camera");
   }
   std::array<int, 3> first_texel() const
   {
@@ -111,23 +95,6 @@ TEST_F(CompareTest, PinsStandInTheOrderInWhichTheyWereNamed)
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return pins.all().size() == 2; }));
   EXPECT_EQ(pins.all()[0].name, "longer");
   EXPECT_EQ(pins.all()[1].name, "shorter");
-}
-
-TEST_F(CompareTest, ADialogOpensAHistory)
-{
-  open();
-  const std::string file = folder.write("old.csv", measure::to_csv(*falling_history(3)));
-  imgui.key(ImGuiMod_Shift, true);
-  press(ImGuiKey_O, ImGuiMod_Ctrl);
-  imgui.key(ImGuiMod_Shift, false);
-  frames(3);
-  ASSERT_EQ(workbench.question(), Question::open_history);
-  ImGui::GetIO().AddInputCharactersUTF8(file.c_str());
-  frames(2);
-  press(ImGuiKey_Enter);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().pinned().all().size() == 1; }));
-  EXPECT_EQ(workbench.comparing().pinned().all()[0].name, "old");
-  EXPECT_EQ(workbench.question(), Question::none);
 }
 
 TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
@@ -293,5 +260,4 @@ TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::compare_test

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window's runs on a real device with kernels from a folder: a changed kernel is built and shown, a broken one is a message.
-#include "base/files.h"
 #include "fake_job.h"
 #include "ui/state/device_runs.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
-
-using ::testing::StartsWith;
+namespace nephroid::ui::device_runs_test {
 
 class EngineTest : public ::testing::Test {
 protected:
@@ -111,5 +105,4 @@ TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
   EXPECT_EQ(workbench.run().status().generation, run);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::device_runs_test

@@ -9,18 +9,9 @@
 #include "ui/dispersion/model.h"
 #include "ui/state/dielectrics.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dispersion_edits_test {
 
 using spectral::ClusterMethod;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 std::string shipped(const std::string& name) { return std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"; }
 
@@ -148,5 +139,4 @@ TEST(DispersionFigures, BandsCoverEveryWavelengthOnceAndKeepTheirCluster)
   EXPECT_EQ(next, optics::wavelength_count);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dispersion_edits_test

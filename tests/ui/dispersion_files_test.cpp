@@ -2,20 +2,10 @@
 // The panel "Dispersion" and files: they are loaded into the glass that is shown, become control points, and what is wrong with them is
 // a message.
 #include "dispersion_fixture.h"
-#include "optics/dispersion.h"
-#include "preset/read.h"
-#include "spectral/clusters/clusters.h"
-#include "ui/dispersion/panel.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dispersion_files_test {
 
 using spectral::ClusterMethod;
-using test::five, test::from_file, test::from_points, test::shipped;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
 
 class DispersionFilesTest : public test::DispersionFixture {};
 
@@ -90,9 +80,7 @@ TEST_F(DispersionFilesTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
   refused.outside = preset::Outside::refuse;
   const preset::Dispersion missing = from_file("nowhere.yml");
   for (const preset::Dispersion& bad : {refused, missing, nowhere}) {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.materials.at("glass").dispersion = bad;
-    workbench.apply({command::Edit{"bad", edited}});
+    edit([&](preset::Preset& p) { p.scene.materials.at("glass").dispersion = bad; });
     frames(3);
     EXPECT_NE(panel().model().error(), "");
     move(panel().plot().to_screen({500, 1.5}));
@@ -105,5 +93,4 @@ TEST_F(DispersionFilesTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
   EXPECT_EQ(panel().model().error(), "");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dispersion_files_test

@@ -2,22 +2,10 @@
 // The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, files are loaded, what is
 // wrong becomes a message.
 #include "dispersion_fixture.h"
-#include "optics/dispersion.h"
-#include "preset/read.h"
-#include "spectral/clusters/clusters.h"
-#include "ui/widgets/action.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dispersion_panel_test {
 
 using spectral::ClusterMethod;
-using test::five, test::from_file, test::from_points, test::shipped;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
 
 class DispersionPanelTest : public test::DispersionFixture {};
 
@@ -123,9 +111,7 @@ TEST_F(DispersionPanelTest, CountsOfAShippedGlass)
   EXPECT_EQ(shown_count(ClusterMethod::brute_force), 401u);
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 32.0);
   EXPECT_THAT(panel().model().curve().note, HasSubstr("extrapolated below 390 nm"));
-  preset::Preset edited = *workbench.preset();
-  spectral::settings(edited).method = ClusterMethod::thesis;
-  workbench.apply({command::Edit{"method", edited}});
+  edit([&](preset::Preset& p) { spectral::settings(p).method = ClusterMethod::thesis; });
   frames(2);
   EXPECT_DOUBLE_EQ(panel().model().chosen().saving, 401 / 41.0);
   click("Sorted");
@@ -251,5 +237,4 @@ TEST_F(DispersionPanelTest, AStepOfADragTakesLessThanAFrame)
   }
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dispersion_panel_test

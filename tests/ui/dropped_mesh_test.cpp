@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes that are dropped on the window: what becomes of them, and that nothing does of what is none.
-#include "ui/state/dropped_meshes.h"
 
-#include "base/files.h"
-#include "preset/read.h"
-#include "scene/scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <filesystem>
-
-namespace nephroid::ui {
-namespace {
-
-using testing::HasSubstr;
+namespace nephroid::ui::dropped_mesh_test {
 
 /// A closed tetrahedron with edges of 10 along the axes, its corner at (100, 0, 0).
 constexpr const char* tetrahedron = "v 100 0 0\nv 110 0 0\nv 100 10 0\nv 100 0 10\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
@@ -148,5 +136,4 @@ TEST_F(DroppedMeshTest, ForAPresetThatIsGoneIsForgotten)
   EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dropped_mesh_test

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture that is dropped on a preset of the engine inverse is what the object casts; elsewhere a message says what can be done with it.
 #include "inverse/settings.h"
-#include "preset/read.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::dropped_picture_test {
 
 class DroppedPicture : public test::WorkbenchFixture {
 protected:
@@ -52,5 +48,4 @@ TEST_F(DroppedPicture, SaysWhatToDoWithItElsewhere)
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::dropped_picture_test

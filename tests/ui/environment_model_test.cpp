@@ -5,25 +5,14 @@
 #include "environment/settings.h"
 #include "image/image.h"
 #include "preset/read.h"
-#include "scene/environment.h"
 #include "tests/environment/maps.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/environment/model.h"
 
-#include <gmock/gmock.h>
-
-#include <functional>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::environment_model_test {
 
 using environment::SegmentMethod;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
-using ::testing::SizeIs;
 
 class EnvironmentModelTest : public ::testing::Test {
 protected:
@@ -179,5 +168,4 @@ TEST_F(EnvironmentModelTest, ABlackMapHasNoLights)
   EXPECT_EQ(shown.cut_error, 0);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_model_test

@@ -3,23 +3,11 @@
 // lights; presets without an environment, or without one that can be read.
 #include "environment/settings.h"
 #include "image/image.h"
-#include "preset/read.h"
 #include "tests/environment/maps.h"
 #include "ui/environment/panel.h"
-#include "ui/view/panel.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <atomic>
-
-namespace nephroid::ui {
-namespace {
-
-using test::direction_of;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
+namespace nephroid::ui::environment_panel_test {
 
 /// Fake jobs of which every other light is hidden by a quarter. A picture of a bake has no layers.
 class LitJob : public test::FakeJob {
@@ -295,9 +283,7 @@ TEST_F(EnvironmentPanelTest, RadianceAndThresholdAreEdited)
   EXPECT_NEAR(panel().figures().front().flux, radiance * flux, 1e-9 * flux);
   EXPECT_EQ(panel().model().cuts_made(), 1);
   click(place("threshold"));
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8("7");
-  frame();
+  retype("7");
   press(ImGuiKey_Enter);
   EXPECT_EQ(settings().threshold, 1) << "no more than all";
   rest();
@@ -334,11 +320,7 @@ TEST_F(EnvironmentPanelTest, WhatIsHiddenComesFromTheRun)
   ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return panel().figures().at(0).occluded.has_value(); }));
   EXPECT_EQ(panel().figures().at(0).occluded, 0);
   EXPECT_EQ(panel().figures().at(1).occluded, 0.25);
-  workbench.apply({command::Edit{"lights", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   environment::settings(p).lights = 12;
-                                   return p;
-                                 }()}});
+  edit([&](preset::Preset& p) { environment::settings(p).lights = 12; });
   rest();
   ASSERT_THAT(panel().shown().cut->segmentation.lights, SizeIs(12));
   EXPECT_FALSE(panel().figures().at(0).occluded) << "the run's are of 24 lights";
@@ -352,11 +334,7 @@ TEST_F(EnvironmentPanelTest, AMissingMapIsOneLineAndCanBeMended)
   EXPECT_FALSE(panel().shown().cut);
   const auto& [x, y, width, height] = panel().map().area();
   drag_between({x + width / 2, y + height / 2}, {x + width / 4, y + height / 2}); // nothing to see, and nothing goes wrong
-  workbench.apply({command::Edit{"map", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   p.scene.environment->file = "room.exr";
-                                   return p;
-                                 }()}});
+  edit([&](preset::Preset& p) { p.scene.environment->file = "room.exr"; });
   rest();
   EXPECT_EQ(panel().shown().error, "");
   EXPECT_TRUE(panel().shown().cut);
@@ -379,40 +357,4 @@ TEST_F(EnvironmentPanelTest, QualityFallsAndIsPlotted)
   EXPECT_EQ(error_range({}), (std::array<double, 2>{1, 10}));
 }
 
-TEST_F(EnvironmentPanelTest, AFrameAndAStepOfADragAreTimed)
-{
-  open_map();
-  constexpr int steps = 200;
-  const auto timed = [&](const std::string& name, auto before) {
-    std::vector<double> milliseconds;
-    for (int i = 0; i < steps; ++i) {
-      before(i);
-      const double begin = test::thread_ms();
-      frame();
-      milliseconds.push_back(test::thread_ms() - begin);
-    }
-    std::sort(milliseconds.begin(), milliseconds.end());
-    RecordProperty(name + "_median_us", static_cast<int>(1000 * milliseconds[steps / 2]));
-    RecordProperty(name + "_worst_us", static_cast<int>(1000 * milliseconds.back()));
-  };
-  timed("rest", [](int) {});
-  const Point from = seen(direction_of(20, 0));
-  press_at(from);
-  timed("turn", [&](int i) { imgui.move(from[0] + 37 * i % 211 - 100, from[1]); });
-  let_go();
-  const Point slider = place("lights");
-  press_at(slider);
-  timed("lights", [&](int i) { imgui.move(slider[0] - 10 - 37 * i % 61, slider[1]); });
-  let_go();
-  rest();
-  workbench.apply({command::Edit{"many", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   environment::settings(p).lights = 4096;
-                                   return p;
-                                 }()}});
-  rest();
-  timed("4096_lights", [](int) {});
-}
-
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_panel_test

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment as a flat picture, and what is read of its lights: places of directions, lines between regions, figures, drags.
 #include "tests/environment/maps.h"
+#include "tests/support/test.h"
 #include "ui/environment/lights.h"
 #include "ui/environment/picture.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::environment_picture_test {
 
 using environment::SegmentMethod;
-using test::direction_of;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 constexpr MapLayout layouts[] = {MapLayout::latitude_longitude, MapLayout::cube};
 
@@ -206,5 +196,4 @@ TEST(MapDrags, TurnTheWayOfTheMouse)
   EXPECT_EQ(dragged_rotation(0, 1.0 / 3000, flat), -0.1);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_picture_test

@@ -2,15 +2,10 @@
 // A recorded session with the engine "environment", in a real window: a preset is found on the start page and opened, its sky is turned and
 // cut into fewer lights, preset and picture are saved. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
 #include "environment/settings.h"
-#include "image/image.h"
-#include "preset/read.h"
 #include "recorded_session.h"
 #include "ui/environment/panel.h"
 
-#include <fmt/format.h>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::environment_session_test {
 
 class EnvironmentSession : public test::RealWindow {
 protected:
@@ -78,5 +73,4 @@ TEST_F(EnvironmentSession, FromTheStartPageToASavedPicture)
   EXPECT_EQ(left.edits->saved, left.edits->index);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_session_test

@@ -4,31 +4,17 @@
 // xdotool or no ImageMagick.
 #include "environment/settings.h"
 #include "places.h"
-#include "preset/read.h"
 #include "real_window.h"
+#include "tests/support/process_state.h"
 #include "ui/environment/panel.h"
 
-#include <fmt/format.h>
-
-#include <cstdlib>
-#include <tuple>
-
-namespace nephroid::ui {
-namespace {
-
-using test::Pixel, test::pixel;
+namespace nephroid::ui::environment_window_test {
 
 constexpr std::array<int, 2> size{1200, 900};
 
 class EnvironmentWindowTest : public test::RealWindow {
 protected:
-  EnvironmentWindowTest() : RealWindow({"Xvfb", "xdotool", "import", "convert"})
-  {
-    // Bakes go with the test; compiled kernels stay.
-    const char* const home = std::getenv("HOME");
-    setenv("POCL_CACHE_DIR", (std::string(home ? home : "/tmp") + "/.cache/pocl/kcache").c_str(), 0);
-    setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
-  }
+  EnvironmentWindowTest() : RealWindow({"Xvfb", "xdotool", "import", "convert"}) {}
   /// A glass ball on a floor under a shipped sky of three lamps; a bake of a second or two.
   std::string written() const
   {
@@ -45,6 +31,8 @@ protected:
 }})",
                                                   NEPHROID_SOURCE_DIR));
   }
+
+  test::CacheHome cache{folder.path() / "cache"}; // bakes go with the test
 };
 
 /// Pixels in the colour of lines between regions.
@@ -98,5 +86,4 @@ TEST_F(EnvironmentWindowTest, TheMapIsTurnedAndCut)
   EXPECT_EQ(window.quit().exit_code, 0);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::environment_window_test

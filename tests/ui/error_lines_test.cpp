@@ -4,22 +4,10 @@
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
+#include "tests/support/errors.h"
 #include "ui/error/lines.h"
-#include "ui/state/pinned_runs.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
-
-namespace nephroid::ui {
-namespace {
-
-using test::falling_history;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
+namespace nephroid::ui::error_lines_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -209,15 +197,7 @@ TEST(PinnedRuns, TheNoiseFloorOfARunsFolderIsRead)
 TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
 {
   test::TemporaryFolder folder;
-  const auto refusal = [](const std::filesystem::path& path) {
-    try {
-      read_pin(path);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
-      return error.line();
-    }
-    return std::string();
-  };
+  const auto refusal = [](const std::filesystem::path& path) { return refusal_of([&] { read_pin(path); }); };
   EXPECT_THAT(refusal(folder.path()), HasSubstr("history.csv"));
   EXPECT_THAT(refusal(folder.path() / "none"), HasSubstr("none: there is no such run; expected the folder of a run"));
   EXPECT_THAT(refusal(folder.write("a.png", "no picture")), HasSubstr("a.png: is no run's history; expected the folder of a run"));
@@ -227,5 +207,4 @@ TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
   EXPECT_THAT(refusal(folder.path() / "none.csv"), HasSubstr("none.csv"));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::error_lines_test

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A device whose memory runs out in the middle of an edit: one line that names a buffer, the picture from before stays, the next edit
 // works. The OpenCL calls that fail are defined here, where the linker finds them before the real ones.
-#include "compute/compute.h"
 #include "environment/settings.h"
 #include "fake_job.h"
 #include "inverse_runs.h"
+#include "tests/support/process_state.h"
 #include "ui/state/device_runs.h"
 
-#include <gmock/gmock.h>
-
-#include <atomic>
-#include <cstdlib>
 #include <dlfcn.h>
-#include <functional>
-#include <string>
 
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 
-namespace {
+namespace nephroid::ui::failing_memory_test {
 
 /// Calls that go well before one fails; negative: all do.
 std::atomic<int> allocations_left{-1}, launches_left{-1};
@@ -30,8 +24,6 @@ Function* real(const char* name)
 {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
-
-} // namespace
 
 extern "C" cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, std::size_t bytes, void* host, cl_int* error)
 {
@@ -50,12 +42,6 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
   return enqueue(queue, kernel, dimensions, offset, global, local, waits, wait_for, event);
 }
 
-namespace nephroid::ui {
-namespace {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
-
 using Edit = std::function<void(preset::Preset&)>;
 
 const std::string environment_text = R"({
@@ -72,12 +58,6 @@ const std::string environment_text = R"({
 
 class FailingMemory : public ::testing::Test {
 protected:
-  /// OpenCL looks once for a cache of its own; the bakes' is the test's.
-  FailingMemory()
-  {
-    compute::Context::open();
-    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
-  }
   ~FailingMemory() override { allocations_left = launches_left = -1; }
 
   void open(const std::string& text, const preset::Overrides& overrides = {})
@@ -128,6 +108,7 @@ protected:
   }
 
   test::TemporaryFolder folder;
+  test::CacheHome cache{folder.path()}; // the bakes go with the test
   DeviceRuns runs{{}};
   Workbench workbench{runs};
 };
@@ -170,5 +151,4 @@ TEST_F(FailingMemory, InverseRunsUseNone)
   EXPECT_EQ(fail_in_the_middle(allocations_left, [](preset::Preset& p) { inverse::settings(p).receivers[0].distance_mm += 10; }), 0);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::failing_memory_test

@@ -11,19 +11,8 @@
 #include "spectral/energy.h"
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "ui/state/workbench.h"
-
-#include <gtest/gtest.h>
-
-#include <atomic>
-#include <chrono>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <thread>
 
 namespace nephroid::test {
 

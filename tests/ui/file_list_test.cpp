@@ -1,32 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of files in the dialogs, under an injected mouse and keys: folders and files are gone through, picked and opened; folders that
 // vanish, names of no file, files that are there already.
-#include "base/files.h"
-#include "preset/read.h"
+#include "tests/support/process_state.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
 #include <imgui_internal.h>
 
-#include <filesystem>
-
-namespace nephroid::ui {
-namespace {
-
-namespace fs = std::filesystem;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-
-/// The current folder, for a while.
-class Inside {
-public:
-  explicit Inside(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) { std::filesystem::current_path(folder); }
-  ~Inside() { std::filesystem::current_path(before_); }
-  Inside(const Inside&) = delete;
-
-private:
-  std::filesystem::path before_;
-};
+namespace nephroid::ui::file_list_test {
 
 class FileListTest : public test::WindowFixture {
 protected:
@@ -57,18 +37,7 @@ protected:
     for (const FileList::Entry& entry : files().entries()) all.push_back(entry.path.filename().string());
     return all;
   }
-  void click_on(const std::string& widget)
-  {
-    const auto place = files().place_of(widget);
-    ASSERT_TRUE(place) << widget << " is not drawn";
-    click(*place);
-    frames(2);
-  }
-  void type(const std::string& text)
-  {
-    ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
-    frames(2);
-  }
+  void click_on(const std::string& widget) { click_in(files(), widget, 2); }
   void make_folders()
   {
     fs::create_directories(folder.path() / "runs" / "deep");
@@ -83,7 +52,7 @@ protected:
 // A preset that is named without a folder lies in the present one.
 TEST_F(FileListTest, BeginsInThePresentFolderWhereThePresetHasNone)
 {
-  const Inside here(folder.path());
+  const test::CurrentFolder here(folder.path());
   folder.write("near.json", test::preset_text);
   ASSERT_TRUE(workbench.open("near.json"));
   workbench.apply({command::Ask{Question::save_preset}});
@@ -230,5 +199,4 @@ TEST_F(FileListTest, EnterReplacesAFileTheSecondTimeOnly)
   EXPECT_EQ(preset::read_preset(kept.string()).name, "Test");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::file_list_test

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that other programs change while the window is open: the preset's own, and those that it names. Where a device was lost, it is
 // opened again.
-#include "preset/read.h"
 #include "ui/state/file_watch.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::file_watch_test {
 
 class FileWatchTest : public test::WorkbenchFixture {
 protected:
@@ -151,5 +147,4 @@ TEST_F(FileWatchTest, ADeviceThatWasLostIsOpenedAgain)
   EXPECT_TRUE(until(job::State::finished));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::file_watch_test

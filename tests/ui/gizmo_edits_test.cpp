@@ -3,22 +3,14 @@
 // object before, turned.
 #include "ui/view/gizmo_edits.h"
 
-#include "preset/preset.h"
 #include "scene/rotation.h"
-#include "scene/scene.h"
 #include "seen_scene.h"
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/gizmo.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-#include <random>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::gizmo_edits_test {
 
 using Kind = Selection::Kind;
 constexpr Selection first_object{Kind::object, 0}, first_light{Kind::light, 0};
@@ -252,5 +244,4 @@ TEST(GizmoMatrices, ProjectAsTheCameraDoes)
   }
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::gizmo_edits_test

@@ -3,22 +3,10 @@
 // dragged to. With the folder docs in NEPHROID_PICTURES the picture of docs/window.md is written there. Skipped where there is no Xvfb, no
 // xdotool or no ImageMagick.
 #include "places.h"
-#include "preset/read.h"
 #include "real_window.h"
 #include "seen_scene.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <thread>
-
-namespace nephroid::ui {
-namespace {
-
-using test::Pixel, test::pixel;
+namespace nephroid::ui::gizmo_window_test {
 
 constexpr std::array<int, 2> size{1200, 900};
 constexpr double right_by = 0.8; ///< metres
@@ -37,28 +25,9 @@ constexpr const char* scene_text = R"({
   "stop": {"passes": 1000000}
 })";
 
-/// The same ball for the engine that takes moves on; a bake of a second or two.
-constexpr const char* environment_text = R"({
-  "name": "Handles", "engine": "environment", "unit": "m", "white": 3, "stop": {"passes": 4},
-  "scene": {
-    "camera": {"position": [1.5, 2.2, 5], "target": [0, 0.4, 0], "fov_deg": 40, "resolution": [256, 192]},
-    "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "floor": {"type": "diffuse", "reflectance": 0.8}},
-    "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.5}, "material": "glass", "transform": {"translate": [-0.7, 0.6, 0]}},
-                {"name": "floor", "shape": {"type": "quad", "size": [6, 1, 6]}, "material": "floor"}],
-    "lights": [{"type": "directional", "irradiance_w_m2": 10, "direction": [0.3, -1, -0.2]}]
-  },
-  "environment": {"photons": 8192, "spheres": 4, "resolution": 64}
-})";
-
 class GizmoWindowTest : public test::RealWindow {
 protected:
-  GizmoWindowTest() : RealWindow({"Xvfb", "xdotool", "import"})
-  {
-    // Bakes go with the test; compiled kernels stay.
-    const char* const home = std::getenv("HOME");
-    setenv("POCL_CACHE_DIR", (std::string(home ? home : "/tmp") + "/.cache/pocl/kcache").c_str(), 0);
-    setenv("XDG_CACHE_HOME", (folder.path() / "cache").c_str(), 1);
-  }
+  GizmoWindowTest() : RealWindow({"Xvfb", "xdotool", "import"}) {}
 };
 
 struct Places {
@@ -126,26 +95,4 @@ TEST_F(GizmoWindowTest, AnArrowMovesABall)
   EXPECT_EQ(after.scene.camera, before.scene.camera) << "nothing orbited";
 }
 
-TEST_F(GizmoWindowTest, TheEnvironmentsRunGoesOnWithAMovedBall)
-{
-  const std::string file = folder.write("handles.json", environment_text);
-  const preset::Vec3 from = preset::read_preset(file).scene.objects[0].transform.translate;
-  const Places places = places_in(file);
-  test::PlayedWindow window(file, {"--size", fmt::format("{}x{}", size[0], size[1])}, folder.path());
-  const auto preparing = [&] {
-    const auto states = window.states();
-    return std::ranges::count_if(states, [](const auto& state) { return state.name == "preparing"; });
-  };
-  const auto before = preparing();
-  window.click(places.ball);
-  window.drag(places.tip, places.end);
-  window.until("the run is over", [&] { return window.states().back().name == "finished"; });
-  window.save();
-  EXPECT_EQ(preparing(), before) << "it was not started again";
-  const test::Ended ended = window.quit();
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NEAR(preset::read_preset(file).scene.objects[0].transform.translate[0] - from[0], right_by, 0.02 * right_by);
-}
-
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::gizmo_window_test

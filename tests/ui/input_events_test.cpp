@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys and clicks with modifiers that all arrive between two frames.
 #include "headless.h"
+#include "tests/support/test.h"
 #include "ui/shell/input_events.h"
 
-#include <gtest/gtest.h>
-
-#include <functional>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::input_events_test {
 
 class InputEventsTest : public ::testing::Test {
 protected:
@@ -79,5 +75,4 @@ TEST_F(InputEventsTest, AClickHasTheModifierThatWasHeld)
   EXPECT_EQ(frames_with([] { return ImGui::IsMouseClicked(0) && ImGui::GetIO().KeyCtrl; }), 1);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::input_events_test

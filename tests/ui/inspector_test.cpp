@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies.
 #include "layered_runs.h"
-#include "spectral/settings.h"
 #include "ui/inspector/panel.h"
 #include "ui/inspector/pixel.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::ui::inspector_test {
 
-namespace nephroid::ui {
-namespace {
-
-using test::eventually;
-using ::testing::Each;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Optional;
-using ::testing::SizeIs;
-using ::testing::StartsWith;
 using Pixel = std::array<int, 2>;
 
 class InspectorTest : public test::WindowFixtureOf<test::LayeredRuns> {
@@ -45,9 +33,7 @@ protected:
   }
   void click_on(const std::string& widget)
   {
-    const auto at = inspector().places().of(widget);
-    ASSERT_TRUE(at) << widget;
-    click(*at);
+    click(inspector().places().of(widget).value());
     frames(2);
   }
   PixelRow row(const std::string& name)
@@ -234,5 +220,4 @@ TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm)
   EXPECT_TRUE(workbench.messages().empty());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::inspector_test

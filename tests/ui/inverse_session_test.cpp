@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recorded session with the engine "inverse", in a real window: a preset is opened from the start page, a receiver is moved, the search
 // comes to its end, and the object is saved as meshes and shown as glass. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
-#include "inverse/engine.h"
 #include "inverse_runs.h"
-#include "preset/read.h"
 #include "recorded_session.h"
-#include "scene/mesh.h"
 #include "ui/annealing/panel.h"
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::inverse_session_test {
 
 class InverseSession : public test::RealWindow {
 protected:
@@ -66,5 +62,4 @@ TEST_F(InverseSession, FromTheStartPageToASavedMesh)
   EXPECT_NEAR(object(view, "receiver 3").transform.translate[2], -after[2].distance_mm, 1e-6);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::inverse_session_test

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // docs/keys.md is what the table of actions says. With the folder docs in NEPHROID_PICTURES the page is written there.
 #include "base/files.h"
+#include "tests/support/test.h"
 #include "ui/shell/menus.h"
 #include "ui/widgets/action.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <imgui.h>
 
-#include <cstdlib>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::keys_page_test {
 
 std::string keys_page()
 {
@@ -43,8 +39,7 @@ TEST(KeysPage, IsTheTableOfActions)
   ImGui::DestroyContext();
   if (const char* docs = std::getenv("NEPHROID_PICTURES")) write_file_whole(std::filesystem::path(docs) / "keys.md", page);
   EXPECT_EQ(read_file(std::filesystem::path(NEPHROID_SOURCE_DIR) / "docs/keys.md"), page)
-      << "write it again: NEPHROID_PICTURES=$PWD/docs build/release/tests/ui/ui_keys_page_test";
+      << "write it again: NEPHROID_PICTURES=$PWD/docs build/release/tests/ui/ui_tests --gtest_filter=KeysPage.*";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::keys_page_test

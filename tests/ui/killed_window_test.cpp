@@ -3,19 +3,9 @@
 // real X events, real kills. NEPHROID_KILLS=20 for twenty.
 #include "real_window.h"
 
-#include "base/files.h"
 #include "ui/state/session.h"
 
-#include <chrono>
-#include <csignal>
-#include <cstdlib>
-#include <random>
-#include <thread>
-
-namespace nephroid::test {
-namespace {
-
-namespace fs = std::filesystem;
+namespace nephroid::test::killed_window_test {
 
 constexpr const char* preset_text = R"({
   "name": "Killed", "engine": "spectral", "unit": "m",
@@ -118,5 +108,4 @@ TEST_F(KilledWindow, ComesBackWithItsEdits)
   EXPECT_GT(kept, 0);
 }
 
-} // namespace
-} // namespace nephroid::test
+} // namespace nephroid::test::killed_window_test

@@ -4,8 +4,7 @@
 #include "ui/state/device_runs.h"
 #include "ui/state/new_scenes.h"
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::new_scenes_test {
 
 TEST(NewScenesTest, EachIsDrawn)
 {
@@ -24,5 +23,4 @@ TEST(NewScenesTest, EachIsDrawn)
   }
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::new_scenes_test

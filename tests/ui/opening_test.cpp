@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opening files in the window: what it asks before unsaved changes go, and what it says about files that are no preset.
 #include "headless.h"
-#include "preset/read.h"
-#include "ui/state/files.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
-
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
+namespace nephroid::ui::opening_test {
 
 class OpeningTest : public test::WorkbenchFixture {
 protected:
@@ -194,5 +186,4 @@ TEST_F(OpeningTest, LeavesPresetsToTheReader)
   EXPECT_EQ(refusal(folder.write("empty", "")), "");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::opening_test

@@ -2,27 +2,12 @@
 // The pictures of docs/window-panels.md: the panels "Dispersion" and "Spectra" beside a picture that follows them, while real X
 // events drag a control point and choose another light. With the folder docs in NEPHROID_PICTURES they are written there. What they
 // are to show is tested all the same. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
-#include "image/image.h"
 #include "optics/dispersion.h"
 #include "places.h"
-#include "preset/read.h"
 #include "real_window.h"
 #include "spectra_scene.h"
-#include "ui/dispersion/panel.h"
-#include "ui/spectra/panel.h"
 
-#include <fmt/format.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <set>
-#include <thread>
-#include <utility>
-
-namespace nephroid::ui {
-namespace {
-
-using test::in_window_like, test::pixel;
+namespace nephroid::ui::panel_pictures_test {
 
 constexpr std::array<int, 2> size{1200, 720};
 
@@ -254,5 +239,4 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
   EXPECT_EQ(preset::read_preset(file).scene.camera.fov_deg, 34);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::panel_pictures_test

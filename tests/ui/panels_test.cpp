@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole window without a display: the mouse and the keys are injected, the preset and the commands are looked at.
 #include "ui/shell/status_line.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <set>
-#include <stdexcept>
-#include <thread>
-
-namespace nephroid::ui {
-namespace {
-
-using test::eventually;
+namespace nephroid::ui::panels_test {
 
 class PanelsTest : public test::WindowFixture {};
 
@@ -138,18 +127,6 @@ TEST_F(PanelsTest, TheStatusLineSaysWhatTheRunDoes)
   EXPECT_STREQ(state_word(workbench.run()), "compiling");
 }
 
-TEST_F(PanelsTest, EscapeCancelsAndF5StartsAgain)
-{
-  runs.steps = 100000;
-  open();
-  press(ImGuiKey_Escape);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::cancelled; }));
-  press(ImGuiKey_F5);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::running; }));
-  press(ImGuiKey_Space);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::paused; }));
-}
-
 TEST_F(PanelsTest, EscapeClosesTheHelpFirst)
 {
   runs.steps = 100000;
@@ -263,28 +240,11 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
   EXPECT_NE(workbench.run().status().state, job::State::cancelled);
 }
 
-TEST_F(PanelsTest, ADialogOpensTheNameThatIsTyped)
-{
-  const std::string file = folder.write("typed.json", test::preset_text);
-  press(ImGuiKey_O, ImGuiMod_Ctrl);
-  frames(3);
-  ASSERT_EQ(workbench.question(), Question::open);
-  ImGui::GetIO().AddInputCharactersUTF8(file.c_str());
-  frames(2);
-  press(ImGuiKey_Enter);
-  frames(2);
-  ASSERT_NE(workbench.preset(), nullptr);
-  EXPECT_EQ(workbench.preset()->source, file);
-  EXPECT_EQ(workbench.question(), Question::none);
-}
-
 TEST_F(PanelsTest, AnotherResolutionGetsAnotherTexture)
 {
   open();
   for (int size : {32, 80, 16}) {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.camera.resolution = {size, size};
-    workbench.apply({command::Edit{"resolution", edited}});
+    edit([&](preset::Preset& p) { p.scene.camera.resolution = {size, size}; });
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
     frames(3);
     EXPECT_EQ(workspace.panel<ui::ViewPanel>().texture().pixels().size(), 4u * static_cast<unsigned>(size * size));
@@ -315,29 +275,6 @@ TEST_F(PanelsTest, APictureBeyondTheRenderersTexturesIsSaidNotDrawn)
   EXPECT_EQ(drawn_pictures(), 1);
 }
 
-TEST_F(PanelsTest, TheHelpListsEveryShortcutAndCloses)
-{
-  press(ImGuiKey_F1);
-  EXPECT_TRUE(workbench.help_shown());
-  frames(3);
-  press(ImGuiKey_F1);
-  EXPECT_FALSE(workbench.help_shown());
-}
-
-TEST(Actions, HaveNamesOfTheirOwnAndShortcutsOfTheirOwn)
-{
-  std::set<std::string> names;
-  // What is selected goes first, and only then they mean something else (run_shortcuts).
-  const std::set<int> shared{ImGuiKey_Escape, ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow};
-  std::set<int> shortcuts;
-  for (const Action& a : actions()) {
-    EXPECT_TRUE(names.insert(a.name).second) << a.name;
-    const bool own = a.shortcut == 0 || shared.contains(a.shortcut) || shortcuts.insert(a.shortcut).second;
-    EXPECT_TRUE(own) << a.name;
-  }
-  EXPECT_THROW(action("Fly"), Error);
-}
-
 TEST(StatusLine, SaysRatesAndTimesAsAPersonWould)
 {
   EXPECT_EQ(duration_text(9.6), "10 s");
@@ -345,5 +282,4 @@ TEST(StatusLine, SaysRatesAndTimesAsAPersonWould)
   EXPECT_EQ(duration_text(7800), "2 h 10 min");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::panels_test

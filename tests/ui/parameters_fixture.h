@@ -27,24 +27,11 @@ protected:
   Json at(const std::string& pointer) const { return Json::parse(text()).at(Json::json_pointer(pointer)); }
 
   using WindowFixture::click;
-  void click(const std::string& widget, int button = 0)
-  {
-    const auto place = panel().place_of(widget);
-    ASSERT_TRUE(place) << widget << " is not drawn";
-    click(*place, button);
-    frame();
-  }
-  void type(const std::string& typed)
-  {
-    press(ImGuiKey_A, ImGuiMod_Ctrl);
-    if (typed.empty()) press(ImGuiKey_Delete);
-    ImGui::GetIO().AddInputCharactersUTF8(typed.c_str());
-    frames(2);
-  }
+  void click(const std::string& widget, int button = 0) { click_in(panel(), widget, 1, button); }
   void search(const std::string& words)
   {
     click("search");
-    type(words);
+    retype(words);
     press(ImGuiKey_Enter);
     frames(2);
   }
@@ -54,7 +41,7 @@ protected:
     search(ui::dotted(pointer));
     click(pointer);
     frames(2);
-    type(typed);
+    retype(typed);
   }
   void enter(const std::string& pointer, const std::string& typed)
   {

@@ -3,15 +3,7 @@
 // each choice. An edit changes its own field and nothing else; undo gives the same bytes.
 #include "parameters_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <set>
-
-namespace nephroid::ui {
-namespace {
-
-using test::Json;
+namespace nephroid::ui::parameters_schema_test {
 
 const std::map<std::string, std::vector<std::string>> names{
     {"material", {"glass", "wall"}}, {"illuminant", {"A", "F7"}}, {"patch", {"red", "blue"}}};
@@ -279,5 +271,4 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
   RecordProperty("fields", static_cast<int>(edited.size()));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::parameters_schema_test

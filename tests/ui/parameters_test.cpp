@@ -3,17 +3,7 @@
 // the search finds. parameters_schema_test.cpp reaches every field.
 #include "parameters_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-
-namespace nephroid::ui {
-namespace {
-
-using test::Json;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
+namespace nephroid::ui::parameters_test {
 
 const std::string fov = "/scene/camera/fov_deg", white = "/white";
 
@@ -89,7 +79,7 @@ TEST_F(ParametersTest, WhileItIsTypedItIsSaidAlready)
   begin_typing(fov, "0");
   EXPECT_TRUE(panel().place_of(fov + ":problem"));
   EXPECT_THAT(problems(), IsEmpty()) << "not entered";
-  type("60");
+  retype("60");
   EXPECT_FALSE(panel().place_of(fov + ":problem"));
   EXPECT_EQ(text(), before) << "no run for every letter";
   press(ImGuiKey_Escape);
@@ -258,7 +248,7 @@ TEST_F(ParametersTest, AMaterialIsRenamedWithItsUses)
   const auto rename = [&](const std::string& name, const std::string& to) {
     search("scene.materials." + name);
     click(materials + "/" + name + ":name");
-    type(to);
+    retype(to);
     press(ImGuiKey_Enter);
     frames(2);
   };
@@ -328,15 +318,9 @@ TEST_F(ParametersTest, ATableOfManyRowsIsDrawnInAFrame)
   for (int i = 0; i < 100000; ++i) table["table"].push_back({300 + 0.005 * i, 1});
   open(preset.dump());
   search("scene.lights.0.spectrum.table");
-  std::vector<double> milliseconds;
-  for (int i = 0; i < 20; ++i) {
-    const double begin = test::thread_ms();
-    frame();
-    milliseconds.push_back(test::thread_ms() - begin);
-  }
-  std::sort(milliseconds.begin(), milliseconds.end());
-  RecordProperty("median_us", static_cast<int>(1000 * milliseconds[10]));
+  const double begin = test::thread_ms();
+  frames(20);
+  EXPECT_LT(test::thread_ms() - begin, 2000) << "rows that are not in sight cost nothing";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::parameters_test

@@ -2,16 +2,10 @@
 // Which object is under the mouse, by hand and against the scene that is loaded anew after objects were moved.
 #include "ui/view/picking.h"
 
-#include "preset/preset.h"
 #include "seen_scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::picking_test {
 
 preset::Preset scene()
 {
@@ -104,5 +98,4 @@ TEST(Picking, KnowsTheBoxAboutAnObject)
   EXPECT_FALSE(local_box(nullptr, preset, 0));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::picking_test

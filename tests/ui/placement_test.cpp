@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/support/test.h"
 #include "ui/view/placement.h"
 
-#include <gtest/gtest.h>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::placement_test {
 
 const Canvas canvas{{100, 50}, {800, 600}};
 const std::array<int, 2> picture{400, 200};
@@ -59,5 +57,4 @@ TEST(Placement, PixelsAreFoundByTheirSquares)
   EXPECT_EQ(pixel_at(p, picture, {900, 150}), std::nullopt);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::placement_test

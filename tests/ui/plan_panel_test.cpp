@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Plan": what is left out can be computed all the same by a click, which is an edit of the preset.
-#include "plan/plan.h"
-#include "preset/read.h"
-#include "ui/plan/panel.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
-
-using test::eventually;
+namespace nephroid::ui::plan_panel_test {
 
 class PlanPanelTest : public test::WindowFixture {
 protected:
@@ -101,5 +92,4 @@ TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
   EXPECT_TRUE(workspace.panel<ui::PlanPanel>().box_of("mirrors"));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::plan_panel_test

@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Presets" under an injected mouse and keys: search, filters, what a click says, opening by double click and by Enter; the list
 // of recent files, also when its file is damaged; small pictures, also broken ones.
-#include "base/files.h"
 #include "image/image.h"
 #include "ui/presets/panel.h"
-#include "ui/shell/workspace.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
-
-namespace fs = std::filesystem;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::SizeIs;
+namespace nephroid::ui::presets_panel_test {
 
 class PresetsPanelTest : public test::WindowFixture {
 protected:
@@ -37,18 +25,7 @@ protected:
     frames(2);
   }
   using test::WindowFixture::click;
-  void click(const std::string& widget)
-  {
-    const auto place = panel().place_of(widget);
-    ASSERT_TRUE(place) << widget << " is not drawn";
-    click(*place);
-    frame();
-  }
-  void type(const std::string& typed)
-  {
-    ImGui::GetIO().AddInputCharactersUTF8(typed.c_str());
-    frames(2);
-  }
+  void click(const std::string& widget) { click_in(panel(), widget); }
   const CatalogueEntry& entry(const std::string& name) const
   {
     for (const CatalogueEntry& e : panel().catalogue().entries())
@@ -137,11 +114,7 @@ TEST_F(PresetsPanelTest, UnsavedChangesAreAskedAbout)
 {
   open();
   rest();
-  workbench.apply({command::Edit{"white", [&] {
-                                   preset::Preset p = *workbench.preset();
-                                   p.white = 3;
-                                   return p;
-                                 }()}});
+  edit([&](preset::Preset& p) { p.white = 3; });
   click("environment/ball");
   click("open");
   EXPECT_EQ(workbench.question(), Question::unsaved);
@@ -258,5 +231,4 @@ TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
   EXPECT_EQ(good->pixels()[4 * (128 * 50 + 5)], 255);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::presets_panel_test

@@ -2,20 +2,12 @@
 // Whatever a hand does to mouse and keyboard, the window stays: random clicks, drags, keys, values out of range and dropped files, in
 // presets of all engines, on fake jobs. NEPHROID_RANDOM_SECONDS=600 plays for ten minutes what was not played before; under ./test.sh asan
 // it looks for what nobody sees.
-#include "preset/read.h"
+#include "tests/support/process_state.h"
 #include "window_fixture.h"
 
-#include <fmt/format.h>
 #include <imgui_internal.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <random>
-
-namespace nephroid::ui {
-namespace {
-
-namespace fs = std::filesystem;
+namespace nephroid::ui::random_input_test {
 
 class RandomInput : public test::WindowFixture {
 protected:
@@ -30,9 +22,7 @@ protected:
     files_.push_back(folder.write("scene.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"children": [0]}]})"));
     files_.push_back(folder.write("glass.yml", "DATA:\n  - type: formula 1\n    coefficients: 0 1 0.1\n"));
     files_.push_back((folder.path() / "gone.json").string());
-    fs::current_path(folder.path()); // where a name without a folder is saved
   }
-  ~RandomInput() override { fs::current_path("/"); }
 
   /// A shipped preset, beside the materials that it names, to be saved over.
   void copy_preset(const std::string& name)
@@ -156,6 +146,7 @@ protected:
   std::vector<std::string> files_;
   std::mt19937 random_;
   std::uint64_t events_ = 0;
+  test::CurrentFolder here_{folder.path()}; // where a name without a folder is saved
 };
 
 TEST_F(RandomInput, TheWindowStays)
@@ -184,5 +175,4 @@ TEST_F(RandomInput, TheWindowStays)
   fmt::print("{} events, {} seeds from {}, {} times a preset was there\n", events_, seeds, first, presets);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::random_input_test

@@ -3,20 +3,8 @@
 // event the window draws frames, and the file of --frame-times has a line of each as it is drawn.
 #pragma once
 #include "image/image.h"
+#include "tests/support/test.h"
 #include "tests/support/x_display.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::test {
 
@@ -204,15 +192,6 @@ protected:
       if (!there_is(tool)) GTEST_SKIP() << "no " << tool;
   }
   image::Image screen() const { return image::read_image(folder.path() / "screen.png"); }
-  /// Opens a preset, drags with the left button from one place of the window to another, saves and quits.
-  void drag_and_save(const std::string& preset, const std::vector<std::string>& options, const Pixel& from, const Pixel& to) const
-  {
-    PlayedWindow window(preset, options, folder.path());
-    window.drag(from, to);
-    window.save();
-    const Ended ended = window.quit();
-    ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  }
 
   TemporaryFolder folder;
 

@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "places.h"
 #include "real_window.h"
+#include "tests/support/process_state.h"
 #include "ui/presets/panel.h"
 #include "ui/state/session.h"
 
@@ -33,15 +34,12 @@ public:
   RecordedSession(std::string name, const std::filesystem::path& folder, const std::string& opened_lately = {})
       : name_(std::move(name)), folder_(folder), aside_(made(folder / "aside")), window_(size, folder, prepared(opened_lately))
   {
-    std::filesystem::current_path(aside_); // the window without a display saves, too
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(size[0]), static_cast<float>(size[1])};
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     if (!opened_lately.empty()) workbench_.remember({folder_ / "state/nephroid/recent.json", {}});
     draw(5);
   }
-  ~RecordedSession() { std::filesystem::current_path(before_); }
-  RecordedSession(const RecordedSession&) = delete;
 
   // What the person does, in both windows.
 
@@ -240,7 +238,8 @@ private:
   }
 
   std::string name_;
-  std::filesystem::path folder_, aside_, before_ = std::filesystem::current_path();
+  std::filesystem::path folder_, aside_;
+  CurrentFolder here_{aside_}; // the window without a display saves, too
   Headless imgui_;
   Runs runs_;
   ui::Workbench workbench_{runs_};

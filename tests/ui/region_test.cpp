@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statistics of rectangles against closed forms.
 #include "tests/support/eventually.h"
+#include "tests/support/test.h"
 #include "ui/inspector/region_maker.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numeric>
-
-namespace nephroid::ui {
-namespace {
-
-using ::testing::Each;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
+namespace nephroid::ui::region_test {
 
 constexpr float float_nan = std::numeric_limits<float>::quiet_NaN(), float_infinity = std::numeric_limits<float>::infinity();
 
@@ -129,5 +117,4 @@ TEST(RegionMaker, MakesWhatIsWantedOnce)
   EXPECT_EQ(maker.newest(), nullptr);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::region_test

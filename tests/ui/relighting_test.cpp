@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // An edit of a light in a preset that keeps layers goes to the run in hand; every other edit starts a new run.
-#include "spectral/energy.h"
 #include "spectral/settings.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::relighting_test {
 
 using namespace std::chrono_literals;
-using ::testing::HasSubstr;
 
 class RelightingTest : public test::WorkbenchFixture {
 protected:
@@ -153,5 +148,4 @@ TEST_F(RelightingTest, ALightThatIsDraggedIsShownWhileTheMouseMoves)
   EXPECT_EQ(runs.made, made);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::relighting_test

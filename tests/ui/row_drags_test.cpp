@@ -2,13 +2,7 @@
 // Rows that come or go while one is dragged: the drag ends, and no other row goes where the mouse goes.
 #include "dispersion_fixture.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
-
-using test::five, test::from_points;
-using ::testing::IsEmpty;
+namespace nephroid::ui::row_drags_test {
 
 class RowDragsTest : public test::DispersionFixture {
 protected:
@@ -113,5 +107,4 @@ TEST_F(RowDragsTest, UndoOfAnAdditionEndsTheDrag)
   EXPECT_EQ(points().size(), 6u) << "what was undone can be redone: nothing was edited since";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::row_drags_test

@@ -2,20 +2,13 @@
 // Rows by rising wavelength under edits: they keep apart and inside what a preset may have, drags are one entry, what cannot be is said.
 #include "optics/dispersion.h"
 #include "preset/field.h"
+#include "tests/support/test.h"
 #include "ui/dispersion/edits.h"
 #include "ui/spectra/light_edits.h"
 #include "ui/widgets/rows.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::ui::rows_test {
 
-#include <limits>
-
-namespace nephroid::ui {
-namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
 using Kind = RowGesture::Kind;
 
 const std::vector<Row> three{{400, 1.6}, {500, 1.55}, {700, 1.5}};
@@ -178,5 +171,4 @@ TEST_F(RowEditorTest, WhatIsRemovedIsNotMovedInTheSameFrame)
   EXPECT_TRUE(follow({Kind::move, 1, {510, 1.55}}));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::rows_test

@@ -1,43 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Runs": the table of the run in hand and of pinned runs, its buttons, and the report over them.
-#include "base/files.h"
 #include "measure/history_file.h"
-#include "preset/read.h"
 #include "ui/runs/panel.h"
 #include "ui/state/run_record.h"
 #include "ui/state/run_report.h"
 #include "ui/state/session_keeper.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-namespace nephroid::ui {
-namespace {
-
-using test::eventually;
-using test::falling_history;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::SizeIs;
+namespace nephroid::ui::runs_panel_test {
 
 class RunsPanelTest : public test::WindowFixtureOf<test::FakeRuns> {
 protected:
   RunsPanelTest() : WindowFixtureOf("runs") { runs.plan.engine = "spectral"; }
 
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
-  void click_on(const std::string& widget)
-  {
-    const auto place = panel().place_of(widget);
-    ASSERT_TRUE(place) << widget;
-    click(*place);
-    frame();
-  }
+  void click_on(const std::string& widget) { click_in(panel(), widget); }
   void edit(const std::function<void(preset::Preset&)>& change)
   {
-    preset::Preset edited = *workbench.preset();
-    change(edited);
-    workbench.apply({command::Edit{"edit", edited}});
+    WindowFixtureOf::edit(change);
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
     finish();
   }
@@ -191,9 +171,7 @@ TEST_F(RunsPanelTest, ADialogAsksForTheReportsName)
   click_on("report");
   ASSERT_EQ(workbench.question(), Question::save_report);
   frames(3);
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8((folder.path() / "asked.html").c_str());
-  frames(2);
+  retype(folder.path() / "asked.html");
   press(ImGuiKey_Enter);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_TRUE(eventually([&] { frame(); }, [&] { return is_there(folder.path() / "asked.html"); }));
@@ -311,5 +289,4 @@ TEST_F(RunsPanelTest, ADamagedFolderIsSaidOnce)
   EXPECT_THAT(workbench.messages(), SizeIs(0));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::runs_panel_test

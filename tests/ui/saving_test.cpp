@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What leaves the window and what comes in from nothing: the command line on the clipboard, saving with the parent kept, new scenes, a glTF
 // file that is dropped.
-#include "base/files.h"
 #include "preset/differences.h"
-#include "preset/read.h"
-#include "ui/state/files.h"
-#include "ui/state/new_scenes.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::saving_test {
 
-namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 class SavingTest : public test::WindowFixture {
@@ -82,9 +74,7 @@ TEST_F(SavingTest, SaveAsOffersTheParentAndNamesItFromTheNewFolder)
   press_with_shift(ImGuiKey_S);
   frames(3);
   ASSERT_TRUE(workspace.dialogs().place_of("keep the parent"));
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8((folder.path() / "deep/saved.json").c_str());
-  frames(2);
+  retype(folder.path() / "deep/saved.json");
   press(ImGuiKey_Enter);
   frames(2);
   EXPECT_EQ(read(folder.path() / "deep/saved.json"), Json::parse(R"({"parent":"../parent.json","name":"child","seed":5})"));
@@ -96,9 +86,7 @@ TEST_F(SavingTest, WithoutTheCheckTheParentIsNotKept)
   open_file(child);
   press_with_shift(ImGuiKey_S);
   frames(3);
-  press(ImGuiKey_A, ImGuiMod_Ctrl);
-  ImGui::GetIO().AddInputCharactersUTF8((folder.path() / "saved.json").c_str());
-  frames(2);
+  retype(folder.path() / "saved.json");
   click(*workspace.dialogs().place_of("keep the parent"));
   click(*workspace.dialogs().place_of("save"));
   frames(2);
@@ -170,17 +158,6 @@ TEST_F(SavingTest, NewScenesAreInNoFileAndAskBeforeChangesGo)
   }
 }
 
-TEST_F(SavingTest, EveryNewSceneHasAnAction)
-{
-  for (const auto& [name, engine] :
-       {std::pair{"New scene", "spectral"}, {"New scene: environment", "environment"}, {"New scene: inverse", "inverse"}}) {
-    Commands commands;
-    action(name).run(workbench.context(commands));
-    workbench.apply(commands);
-    EXPECT_EQ(workbench.preset()->settings.type().name, engine);
-  }
-}
-
 TEST_F(SavingTest, ADroppedSceneBecomesAPresetInAFolderOfItsOwn)
 {
   // A triangle with corners (0, 0, 0), (1, 0, 0), (0, 1, 0), without indices.
@@ -203,5 +180,4 @@ TEST_F(SavingTest, ADroppedSceneBecomesAPresetInAFolderOfItsOwn)
   EXPECT_EQ(workbench.preset()->source, folder.path() / "tri-scene-2/tri.json");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::saving_test

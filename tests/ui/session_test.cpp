@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sessions: what is kept is what was there; a window that was killed is opened again with it; what cannot be read loses nothing.
-#include "base/files.h"
-#include "preset/read.h"
 #include "ui/state/session_keeper.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <random>
-
-namespace nephroid::ui {
-namespace {
-
-using test::FakeRuns;
-using test::TemporaryFolder;
+namespace nephroid::ui::session_test {
 
 /// A window without a display: a workbench with its keeper.
 struct Window {
@@ -371,5 +361,4 @@ TEST(Settings, WhatCannotBeIsRefused)
   EXPECT_THROW(parse_settings(deep, ""), Error);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::session_test

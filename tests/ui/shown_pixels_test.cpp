@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window's fast bytes against image::shown, which files are written with.
 #include "image/image.h"
+#include "tests/support/test.h"
 #include "ui/state/shown_pixels.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::shown_pixels_test {
 
 TEST(ShownPixels, AreTheBytesOfImageShown)
 {
@@ -61,5 +54,4 @@ TEST(ShownPixels, ExposureIsInStops)
   EXPECT_EQ(bytes[7], 255);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::shown_pixels_test

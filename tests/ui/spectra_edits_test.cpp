@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits of a light's spectrum, and what the panel "Spectra" makes of a preset: without a window.
-#include "base/error.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "preset/read.h"
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/clusters/scene_clusters.h"
 #include "ui/spectra/light_edits.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <limits>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::spectra_edits_test {
 
 using preset::LightSpectrum;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
-using ::testing::StartsWith;
 using Type = LightSpectrum::Type;
 
 LightSpectrum table(std::vector<PowerRow> rows) { return {Type::table, "", 0, std::move(rows)}; }
@@ -194,5 +182,4 @@ TEST(WavelengthColour, IsBlueThenGreenThenRed)
     }
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::spectra_edits_test

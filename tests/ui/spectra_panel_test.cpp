@@ -4,24 +4,10 @@
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/tables/run_tables.h"
-#include "ui/spectra/light_edits.h"
-#include "ui/spectra/panel.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::ui::spectra_panel_test {
 
-#include <algorithm>
-#include <vector>
-
-namespace nephroid::ui {
-namespace {
-
-using test::eventually;
-using test::room_text;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 using Type = preset::LightSpectrum::Type;
 using Effort = spectral::Settings::Effort;
 
@@ -42,12 +28,7 @@ protected:
   const Spectra& spectra() const { return panel().maker().spectra(); }
   const preset::LightSpectrum& light() const { return workbench.preset()->scene.lights[0].spectrum; }
   using WindowFixtureOf::click;
-  void click(const std::string& widget)
-  {
-    const auto place = panel().place_of(widget);
-    ASSERT_TRUE(place) << widget;
-    click(*place);
-  }
+  void click(const std::string& widget) { click_in(panel(), widget, 0); }
 };
 
 TEST_F(SpectraPanelTest, AnIlluminantBecomesRowsToDrag)
@@ -190,9 +171,7 @@ TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsFollowed)
 {
   open_room(R"("D65")");
   const std::int64_t before = spectra().iterations();
-  preset::Preset edited = *workbench.preset();
-  spectral::settings(edited).importance.cluster = spectral::Importance::Cluster::mean;
-  workbench.apply({command::Edit{"mean", edited}});
+  edit([&](preset::Preset& p) { spectral::settings(p).importance.cluster = spectral::Importance::Cluster::mean; });
   frame();
   EXPECT_LT(spectra().iterations(), before) << "without waiting for a run";
 }
@@ -260,29 +239,4 @@ TEST_F(SpectraPanelTest, NothingThatMattersIsASentence)
   EXPECT_THAT(spectra().clusters, IsEmpty());
 }
 
-TEST_F(SpectraPanelTest, AStepOfADragIsTimed)
-{
-  open_room(table);
-  move(panel().plot().place(600, 0.5));
-  imgui.button(0, true);
-  frame();
-  std::vector<double> steps_ms;
-  const std::uint64_t before = panel().maker().made();
-  for (int i = 1; i <= 200; ++i) {
-    const auto to = panel().plot().place(510 + 11 * i % 167, 0.2 + 0.003 * (37 * i % 211));
-    imgui.move(to[0], to[1]);
-    const double begin = test::thread_ms();
-    frame(); // pushes the edit
-    frame(); // shows it
-    steps_ms.push_back(test::thread_ms() - begin);
-  }
-  imgui.button(0, false);
-  frame();
-  EXPECT_GE(panel().maker().made(), before + 190) << "every step changed the curve";
-  std::sort(steps_ms.begin(), steps_ms.end());
-  RecordProperty("drag_step_ms_median", std::to_string(steps_ms[100]));
-  RecordProperty("drag_step_ms_worst", std::to_string(steps_ms.back()));
-}
-
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::spectra_panel_test

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recorded session with the engine "spectral", in a real window: a preset is opened from the start page, its glass and its camera are
 // changed, a run is pinned, preset and picture are saved. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
-#include "image/image.h"
-#include "preset/read.h"
 #include "recorded_session.h"
-#include "ui/dispersion/edits.h"
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::spectral_session_test {
 
 class SpectralSession : public test::RealWindow {
 protected:
@@ -82,5 +78,4 @@ TEST_F(SpectralSession, FromTheStartPageToASavedPicture)
   EXPECT_EQ(left.edits->saved, left.edits->index);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::spectral_session_test

@@ -6,11 +6,7 @@
 
 #include <imgui_internal.h>
 
-#include <array>
-#include <string>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::start_page_test {
 
 class StartPageTest : public test::WindowFixture {
 protected:
@@ -22,13 +18,7 @@ protected:
     frames(5);
   }
   const PresetsPanel& presets() const { return workspace.panel<PresetsPanel>(); }
-  void click(const std::string& widget)
-  {
-    const auto place = workspace.start_page().place_of(widget);
-    ASSERT_TRUE(place) << widget << " is not drawn";
-    WindowFixtureOf::click(*place);
-    frames(3);
-  }
+  void click(const std::string& widget) { click_in(workspace.start_page(), widget, 3); }
   std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.type().name) : ""; }
   void listed()
   {
@@ -81,25 +71,10 @@ TEST_F(StartPageTest, AnEarlierSessionIsOfferedWhereThereIsOne)
   EXPECT_TRUE(workbench.take_reopen());
 }
 
-TEST_F(StartPageTest, TheListOpensWhatIsClickedTwice)
-{
-  ImGui::GetIO().DisplaySize = {1300, 1200};
-  listed();
-  const auto place = presets().place_of("environment/ball");
-  ASSERT_TRUE(place);
-  WindowFixtureOf::click(*place);
-  EXPECT_EQ(workbench.preset(), nullptr);
-  WindowFixtureOf::click(*place);
-  frames(3);
-  ASSERT_TRUE(workbench.preset());
-  EXPECT_EQ(workbench.preset()->name, "ball");
-}
-
 TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
 {
   listed();
-  ImGui::GetIO().AddInputCharactersUTF8("environment/ball"); // the field has the keyboard from the start
-  frames(3);
+  type("environment/ball"); // the field has the keyboard from the start
   ASSERT_EQ(presets().listed().size(), 1u);
   press(ImGuiKey_Enter);
   frames(3);
@@ -110,12 +85,10 @@ TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
 TEST_F(StartPageTest, AMessageThatComesTakesTheKeyboardFromNobody)
 {
   listed();
-  ImGui::GetIO().AddInputCharactersUTF8("environment/");
-  frames(3);
+  type("environment/");
   workbench.apply({command::Report{"something went wrong"}});
   frames(3);
-  ImGui::GetIO().AddInputCharactersUTF8("ball");
-  frames(3);
+  type("ball");
   EXPECT_EQ(presets().listed().size(), 1u);
 }
 
@@ -139,5 +112,4 @@ TEST_F(StartPageTest, TabAndSpaceOpenAnExample)
   EXPECT_EQ(workbench.preset()->name, "shapes");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::start_page_test

@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sweep of a preset in the window: opened, edited, saved, undone; its runs in a queue, each pinned; the report over them.
-#include "base/files.h"
-#include "preset/read.h"
+#include "tests/support/errors.h"
 #include "ui/runs/panel.h"
 #include "ui/runs/sweep_values.h"
 #include "ui/state/run_record.h"
 #include "ui/state/session_keeper.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-
-namespace nephroid::ui {
-namespace {
-
-using test::eventually;
-using test::falling_history;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::SizeIs;
+namespace nephroid::ui::sweep_test {
 
 using Queue = SweepQueue::State;
 
@@ -34,25 +21,12 @@ protected:
     return text.insert(text.rfind('}'), ", \"sweep\": " + sweep);
   }
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
-  void click_on(const std::string& widget)
-  {
-    const auto place = panel().place_of(widget);
-    ASSERT_TRUE(place) << widget;
-    click(*place);
-    frame();
-  }
-  /// Into the field that has the keyboard, in place of what is there.
-  void type(const std::string& text)
-  {
-    press(ImGuiKey_A, ImGuiMod_Ctrl);
-    ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
-    frame();
-  }
+  void click_on(const std::string& widget) { click_in(panel(), widget); }
   void choose(const std::string& key)
   {
     click_on("sweep field");
     frames(2);
-    type(key);
+    retype(key);
     press(ImGuiKey_Enter);
     frames(2);
   }
@@ -83,22 +57,12 @@ const NumberField passes{"stop.passes", true, preset::within(1, 1000), "", "a wh
 
 std::string refused_range(const NumberField& field, const SweepRange& range)
 {
-  try {
-    range_values(field, range);
-  } catch (const Error& error) {
-    return error.line();
-  }
-  return "taken";
+  return refusal_of([&] { range_values(field, range); });
 }
 
 std::string refused_list(const NumberField& field, const std::string& text)
 {
-  try {
-    typed_values(field, text);
-  } catch (const Error& error) {
-    return error.line();
-  }
-  return "taken";
+  return refusal_of([&] { typed_values(field, text); });
 }
 
 TEST(SweepValues, ARangeHasItsEndsAndEqualSteps)
@@ -212,11 +176,11 @@ TEST_F(SweepTest, AFieldIsSweptByARangeAndUndone)
   choose("scene.lights.0.power_w");
   frames(2);
   click_on("sweep from");
-  type("5");
+  retype("5");
   click_on("sweep to");
-  type("15");
+  retype("15");
   click_on("sweep count");
-  type("3");
+  retype("3");
   click_on("sweep set");
   ASSERT_THAT(sweep(), SizeIs(1)) << panel().sweep().problem();
   EXPECT_EQ(sweep()[0], (preset::SweptField{"scene.lights.0.power_w", {"5.0", "10.0", "15.0"}}));
@@ -242,17 +206,17 @@ TEST_F(SweepTest, AListIsTypedAndEdited)
   choose("seed");
   click_on("sweep list");
   click_on("sweep values");
-  type("3, 4");
+  retype("3, 4");
   press(ImGuiKey_Enter);
   ASSERT_THAT(sweep(), SizeIs(1)) << panel().sweep().problem();
   EXPECT_THAT(sweep()[0].values, ElementsAre("3", "4"));
   click_on("edit seed");
   click_on("sweep values");
-  type("3, 4, 5");
+  retype("3, 4, 5");
   press(ImGuiKey_Enter);
   EXPECT_THAT(sweep()[0].values, ElementsAre("3", "4", "5"));
   click_on("sweep values");
-  type("3, four");
+  retype("3, four");
   click_on("sweep set");
   EXPECT_THAT(panel().sweep().problem(), HasSubstr("seed: a value is no number"));
   EXPECT_THAT(sweep()[0].values, SizeIs(3)) << "nothing changes";
@@ -438,5 +402,4 @@ TEST_F(SweepTest, TheActionsSayWhyNot)
   EXPECT_TRUE(action("Stop the sweep").enabled(context()));
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::sweep_test

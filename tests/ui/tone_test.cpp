@@ -2,21 +2,13 @@
 // Tone curves and false colour against closed forms.
 #include "image/image.h"
 #include "measure/difference.h"
+#include "tests/support/test.h"
 #include "ui/state/shown_pixels.h"
 #include "ui/state/tone.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <ctime>
-#include <limits>
-#include <random>
-#include <vector>
 
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::tone_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr float float_nan = std::numeric_limits<float>::quiet_NaN(), float_infinity = std::numeric_limits<float>::infinity();
@@ -155,36 +147,4 @@ TEST(ValidRange, IsMadeOfWhatIsTyped)
   EXPECT_LT(tiny->low, tiny->high);
 }
 
-/// What a picture of 1024 x 1024 costs, as properties of the test; asserts no time.
-TEST(Tones, Timed)
-{
-  std::vector<float> rgb(3 << 20);
-  std::mt19937 random(4);
-  std::lognormal_distribution<float> value(-2, 2);
-  for (float& v : rgb) v = value(random);
-  std::vector<float> smooth(3 << 20); // pictures lie between: neighbours of one value, and values without any order
-  for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i] = 0.5f + 0.5f * std::sin(static_cast<float>(i % 3072) / 500);
-  std::vector<unsigned char> bytes(4 << 20);
-  const auto ms = [&](auto what) {
-    double best = 1e9;
-    for (int i = 0; i < 5; ++i) {
-      timespec before{}, after{};
-      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &before);
-      what();
-      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &after);
-      best = std::min(best,
-                      1e3 * static_cast<double>(after.tv_sec - before.tv_sec) + 1e-6 * static_cast<double>(after.tv_nsec - before.tv_nsec));
-    }
-    return std::to_string(best);
-  };
-  RecordProperty("standard_ms", ms([&] { toned_pixels(rgb, {ToneCurve::standard, 0, {}, 1}, bytes); }));
-  RecordProperty("filmic_ms", ms([&] { toned_pixels(rgb, {ToneCurve::filmic, 0, {}, 1}, bytes); }));
-  RecordProperty("false_colour_ms", ms([&] { toned_pixels(rgb, {ToneCurve::false_colour, 0, {0.001, 100}, 1}, bytes); }));
-  RecordProperty("smooth_standard_ms", ms([&] { toned_pixels(smooth, {ToneCurve::standard, 0, {}, 1}, bytes); }));
-  RecordProperty("smooth_filmic_ms", ms([&] { toned_pixels(smooth, {ToneCurve::filmic, 0, {}, 1}, bytes); }));
-  RecordProperty("automatic_range_ms", ms([&] { automatic_range(rgb, 1); }));
-  EXPECT_EQ(bytes[3], 255);
-}
-
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::tone_test

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/support/test.h"
 #include "ui/state/undo.h"
 
-#include <gtest/gtest.h>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::undo_test {
 
 preset::Preset with_seed(std::uint64_t seed)
 {
@@ -105,5 +103,4 @@ TEST(UndoStack, IsBounded)
   EXPECT_TRUE(history.modified());
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::undo_test

@@ -33,6 +33,13 @@ protected:
     ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.panel<ui::ViewPanel>().texture().empty(); }));
     frames(3); // strips and docks take their final places
   }
+  /// As a panel does.
+  void edit(const std::function<void(preset::Preset&)>& change, const std::string& name = "edit")
+  {
+    preset::Preset edited = *workbench.preset();
+    change(edited);
+    workbench.apply({ui::command::Edit{name, edited}});
+  }
   /// Until the run is over and drawn.
   void finish()
   {
@@ -71,6 +78,28 @@ protected:
     press_at(at, button);
     let_go(button);
     frame();
+  }
+  /// A widget of a panel, by its name; panel: what has place_of(name). Then so many frames more.
+  template <class Panel>
+  void click_in(const Panel& panel, const std::string& widget, int more = 1, int button = 0)
+  {
+    const auto place = panel.place_of(widget);
+    ASSERT_TRUE(place) << widget << " is not drawn";
+    click(*place, button);
+    frames(more);
+  }
+  /// Into the field that has the keyboard.
+  void type(const std::string& text)
+  {
+    ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
+    frames(2);
+  }
+  /// In place of what is there.
+  void retype(const std::string& text)
+  {
+    press(ImGuiKey_A, ImGuiMod_Ctrl);
+    if (text.empty()) press(ImGuiKey_Delete);
+    type(text);
   }
   /// In `steps` moves of the mouse, each a frame.
   void drag_between(const ui::Point& from, const ui::Point& to, int steps = 10, int button = 0)

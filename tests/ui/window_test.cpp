@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real program in a real window on a virtual display: what it shows against what `nephroid run` writes, real X events, and
 // what it says where there is no display. Skipped where there is no Xvfb (or, for events, no xdotool).
-#include "base/files.h"
 #include "fake_job.h"
-#include "image/image.h"
 #include "places.h"
-#include "preset/read.h"
 #include "real_window.h"
-#include "ui/view/placement.h"
-#include "ui/view/sight.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <optional>
-
-namespace nephroid::ui {
-namespace {
-
-using ::testing::EndsWith;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
-
-using test::bytes_at;
+namespace nephroid::ui::window_test {
 
 /// Where a window of this size draws the picture of a preset.
 Placement placement_in_window(int width, int height, const std::string& preset, const std::array<int, 2>& picture)
@@ -187,5 +169,4 @@ TEST_F(WindowEvents, AreFollowed)
   EXPECT_EQ(screen().height, 800);
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::window_test

@@ -2,12 +2,8 @@
 // The workbench on fake jobs and the program's real worker thread, without a window.
 #pragma once
 #include "fake_job.h"
+#include "tests/support/test.h"
 #include "ui/state/workbench.h"
-
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <functional>
 
 namespace nephroid::test {
 

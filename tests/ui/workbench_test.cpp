@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The workbench with a job of the test's own and the program's real worker thread: commands in, preset, picture and messages out.
-#include "base/files.h"
-#include "preset/read.h"
 #include "workbench_fixture.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-
-namespace nephroid::ui {
-namespace {
+namespace nephroid::ui::workbench_test {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class WorkbenchTest : public test::WorkbenchFixture {
 protected:
@@ -277,5 +268,4 @@ TEST_F(WorkbenchTest, WhatWaitsForAnAnswerGoesWithItsQuestion)
   EXPECT_FALSE(workbench.quitting()) << "nobody answered that the window may close";
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::workbench_test

@@ -2,11 +2,9 @@
 #include "engine/engine.h"
 #include "preset/preset.h"
 #include "preset/settings_type.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-namespace nephroid {
-namespace {
+namespace nephroid::adoptable_test {
 
 // A preset is edited into one of another engine while its run goes on: Parameters do so.
 TEST(Adoptable, NoEngineTakesOnAnothersPreset)
@@ -23,5 +21,4 @@ TEST(Adoptable, NoEngineTakesOnAnothersPreset)
   }
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::adoptable_test

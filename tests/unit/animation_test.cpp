@@ -5,17 +5,9 @@
 #include "preset/read.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::animation_test {
 
-#include <string>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using preset::Preset;
-using test::refusal_of;
-using testing::ElementsAre;
 
 constexpr const char* scene = R"("scene": {
   "camera": {"position": [0, 1, 4], "fov_deg": 40},
@@ -183,4 +175,4 @@ TEST(Animation, SaysWhichFrameCannotBe)
   EXPECT_EQ(refusal_of([&] { preset::at_frame(p, 5); }), "a.json#/animation/tracks/0: has no length; expected a direction; in frame 5");
 }
 
-} // namespace
+} // namespace nephroid::animation_test

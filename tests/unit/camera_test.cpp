@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera's frame and pixel rays against values worked out by hand, and what it refuses.
-#include "base/error.h"
-#include "preset/preset.h"
-#include "scene/scene.h"
+#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-namespace nephroid::scene {
-namespace {
-
-using test::expect_near;
+namespace nephroid::scene::camera_test {
 
 Scene empty_scene(const glm::dvec3& origin = {0, 0, 0})
 {
@@ -74,13 +64,7 @@ TEST(Camera, KeepsItsPlaceFarAway)
 
 void expect_refused(const preset::Camera& camera, const char* field)
 {
-  try {
-    make_camera(camera, empty_scene());
-    FAIL() << field << " was accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::bad_input);
-    EXPECT_EQ(error.place().text(), std::string("p.json#/scene/camera/") + field) << error.line();
-  }
+  EXPECT_THAT(refusal_of([&] { make_camera(camera, empty_scene()); }), StartsWith(std::string("p.json#/scene/camera/") + field + ": "));
 }
 
 TEST(Camera, RefusesWhatIsNoView)
@@ -110,5 +94,4 @@ TEST(Camera, RefusesWhatIsNoView)
   expect_refused(bad, "target");
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::camera_test

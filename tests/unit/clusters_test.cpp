@@ -4,19 +4,8 @@
 #include "spectral/clusters/clusters.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+namespace nephroid::clusters_test {
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <numeric>
-#include <random>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::spectral;
 using optics::Spectrum;
 
@@ -303,4 +292,4 @@ TEST(Clusters, CommonRefinementOfNothingOneAndItself)
   EXPECT_EQ(common_refinement(std::vector{one, one}), common_refinement(std::vector{one}));
 }
 
-} // namespace
+} // namespace nephroid::clusters_test

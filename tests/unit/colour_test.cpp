@@ -2,12 +2,9 @@
 // Colour against published figures: CIE 015, IEC 61966-2-1, CIELAB.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-namespace {
+namespace nephroid::colour_test {
 
 using namespace nephroid::optics;
 
@@ -84,4 +81,4 @@ TEST(Colour, LightnessOfKnownLuminances)
   EXPECT_NEAR(lightness(0), 0, 1e-12);
 }
 
-} // namespace
+} // namespace nephroid::colour_test

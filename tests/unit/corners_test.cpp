@@ -5,18 +5,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::corners_test {
 
-#include <cstdint>
-#include <utility>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::scene;
-using test::error_of;
-using testing::HasSubstr;
 
 /// A box about the origin and a quad beside it.
 Scene box_and_quad()
@@ -73,4 +64,4 @@ TEST(Corners, TrianglesThatTheSceneDoesNotHoldAreRefused)
   EXPECT_EQ(error_of([&] { spectral::split_by_losses({{0, 1}}, outline, 8, 0.1); }).kind(), ErrorKind::failed);
 }
 
-} // namespace
+} // namespace nephroid::corners_test

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One pass, two passes.
 #include "base/counted.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdint>
-
-namespace {
+namespace nephroid::counted_test {
 
 using nephroid::counted;
 
@@ -21,4 +18,4 @@ TEST(Counted, OneAndMany)
   EXPECT_EQ(counted(std::int64_t{-1}, "photon"), "-1 photons");
 }
 
-} // namespace
+} // namespace nephroid::counted_test

@@ -3,20 +3,10 @@
 // in the thesis (section 4.1.1: 202 and 204 clusters sorted, 247 not sorted). Not here: clustering as such (clusters_test.cpp).
 #include "optics/dispersion.h"
 #include "spectral/clusters/clusters.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::designed_curves_test {
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <iterator>
-#include <string>
-#include <vector>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::spectral;
 using optics::Spectrum;
 
@@ -94,4 +84,4 @@ TEST(DesignedCurves, SortedTheyNeedTheThesisNumbersOfClusters)
   EXPECT_EQ(clusters_without_sorting(material("arbitrary-2"), 0.05), 247u);
 }
 
-} // namespace
+} // namespace nephroid::designed_curves_test

@@ -13,16 +13,7 @@
 #include "tests/support/presets.h"
 #include "tracing/targets.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::device_scene_test {
 
 preset::Preset scene_with(const preset::Shape& shape, const preset::Material& material)
 {
@@ -245,4 +236,4 @@ TEST(SpectralPlan, SaysThatStepsDoNothingWithoutBruteForce)
   EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
 }
 
-} // namespace
+} // namespace nephroid::device_scene_test

@@ -5,18 +5,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/pictures.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::difference_test {
 
-#include <limits>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::measure;
-using test::flat;
-using test::Picture;
-using testing::ElementsAre;
-using testing::HasSubstr;
 using Bytes = std::array<unsigned char, 3>;
 
 /// The value of a metric between two pictures of one pixel.
@@ -195,4 +186,4 @@ TEST(Difference, RefusesAsComparisonsDo)
               HasSubstr("b: pixel (1, 0) has NaN in B"));
 }
 
-} // namespace
+} // namespace nephroid::difference_test

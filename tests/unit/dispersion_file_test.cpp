@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Malformed dispersion files: each answers with one line that names the file, the line where it can, and what is expected.
-#include "base/error.h"
 #include "optics/dispersion.h"
+#include "tests/support/errors.h"
 
-#include <gtest/gtest.h>
-
-#include <ostream>
-
-namespace {
+namespace nephroid::dispersion_file_test {
 
 using nephroid::Error;
 using nephroid::optics::parse_dispersion;
@@ -24,13 +20,7 @@ class MalformedFile : public testing::TestWithParam<Malformed> {};
 
 TEST_P(MalformedFile, IsRefusedWithOneLine)
 {
-  try {
-    parse_dispersion(GetParam().yaml, "f.yml");
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.line(), GetParam().line);
-    EXPECT_EQ(error.exit_code(), 2);
-  }
+  EXPECT_EQ(refusal_of([] { parse_dispersion(GetParam().yaml, "f.yml"); }), GetParam().line);
 }
 
 constexpr const char* no_map = "f.yml: this is no refractiveindex.info file; expected a YAML map with a DATA list";
@@ -108,4 +98,4 @@ const Malformed cases[] = {
 INSTANTIATE_TEST_SUITE_P(Dispersion, MalformedFile, testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(test.param.name); });
 
-} // namespace
+} // namespace nephroid::dispersion_file_test

@@ -5,18 +5,9 @@
 #include "optics/formulas.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <vector>
-
-namespace {
+namespace nephroid::dispersion_test {
 
 using namespace nephroid::optics;
-using nephroid::test::refusal_of;
 using Rows = std::vector<std::array<double, 2>>;
 
 const std::filesystem::path materials = std::filesystem::path(NEPHROID_SOURCE_DIR) / "presets/materials";
@@ -271,4 +262,4 @@ TEST(Dispersion, BadCurvesAreRefused)
   EXPECT_THAT(refusal_of([&] { constant_index(1.5).sample(NAN); }), HasSubstr("a number above 0"));
 }
 
-} // namespace
+} // namespace nephroid::dispersion_test

@@ -8,17 +8,10 @@
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::effort_test {
 
-#include <algorithm>
-#include <numeric>
-
-using namespace nephroid;
-using namespace nephroid::test;
 using spectral::RunTables;
 using Effort = spectral::Settings::Effort;
-
-namespace {
 
 constexpr unsigned photons = 1 << 16;
 
@@ -171,4 +164,4 @@ TEST(DealtEffort, IsInThePlan)
   EXPECT_THAT(reason_of(Effort::variance, false), testing::HasSubstr("variance that is measured"));
 }
 
-} // namespace
+} // namespace nephroid::effort_test

@@ -2,16 +2,10 @@
 // Learning where photons matter: even at the start, the optimum of cases worked out by hand, and what no moment can take away.
 #include "spectral/effort/emission_guide.h"
 #include "tests/support/saved_jobs.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::emission_guide_test {
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-namespace {
-
-using namespace nephroid;
 using spectral::EmissionGuide;
 
 constexpr std::size_t cells = GUIDE_CELLS;
@@ -163,4 +157,4 @@ TEST(EmissionGuide, MayBeOfNoLight)
   EXPECT_TRUE(guide.table().empty());
 }
 
-} // namespace
+} // namespace nephroid::emission_guide_test

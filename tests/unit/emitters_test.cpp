@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons dealt to pairs of a light and a cluster: as many as were asked for, in proportion, and numbered without gaps.
 #include "spectral/effort/emitters.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <numeric>
-
-namespace {
-
-using namespace nephroid;
-using testing::ElementsAre;
+namespace nephroid::emitters_test {
 
 TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
 {
@@ -66,4 +59,4 @@ TEST(Emitters, SequencesAreLongerThan32Bits)
   EXPECT_EQ(emitter.sequence_start_high, 6u);
 }
 
-} // namespace
+} // namespace nephroid::emitters_test

@@ -2,18 +2,11 @@
 // Slopes, times to an error and speed-ups on curves whose answers are known in closed form.
 #include "measure/error_curve.h"
 #include "measure/run_curves.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
+namespace nephroid::error_curve_test {
 
 using namespace nephroid::measure;
-using testing::DoubleNear;
-using testing::ElementsAre;
-
-namespace {
 
 /// error = factor t^exponent at times first * ratio^i.
 Curve power_curve(double factor, double exponent, double first, double ratio, int points)
@@ -145,4 +138,4 @@ TEST(RoundLevels, are_one_two_five)
   EXPECT_THAT(round_levels(std::nan(""), 1), ElementsAre());
 }
 
-} // namespace
+} // namespace nephroid::error_curve_test

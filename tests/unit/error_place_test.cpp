@@ -4,13 +4,9 @@
 #include "preset/read.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::error_place_test {
 
-namespace {
-
-using namespace nephroid;
 using preset::field_of;
-using test::error_of;
 
 preset::Preset parse(const std::string& fields, const preset::Overrides& overrides = {})
 {
@@ -55,4 +51,4 @@ TEST(ErrorPlace, OfAValueThatTurnsOutWrongLater)
   EXPECT_EQ(field_of(p, fail_at(Place(p.source) / "white").place()), "/white");
 }
 
-} // namespace
+} // namespace nephroid::error_place_test

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cdf in single precision whose differences are the chances to the bit.
+#include "tests/support/test.h"
 #include "tracing/exact_cdf.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-
-namespace {
+namespace nephroid::exact_cdf_test {
 
 using nephroid::tracing::exact_cdf;
 using nephroid::tracing::exact_cdf_from_zero;
-using testing::ElementsAre;
 
 TEST(ExactCdf, IsInProportion)
 {
@@ -53,4 +49,4 @@ TEST(ExactCdf, FromZeroHasOneMore)
   EXPECT_THAT(exact_cdf_from_zero({}), ElementsAre(0));
 }
 
-} // namespace
+} // namespace nephroid::exact_cdf_test

@@ -1,33 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files are read whole, written whole or not at all, and found where a preset's reader says they are; nearest names.
-#include "base/error.h"
+#include "base/bytes.h"
 #include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "base/interrupts.h"
 #include "base/nearest.h"
 #include "tests/support/errors.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <span>
 #include <sys/mount.h>
 #include <sys/stat.h>
-#include <thread>
 #include <unistd.h>
-#include <vector>
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
-using test::error_of;
-using testing::ElementsAre;
-using testing::HasSubstr;
+namespace nephroid::files_test {
 
 class Files : public testing::Test {
 protected:
@@ -199,14 +185,9 @@ protected:
   void SetUp() override
   {
     for (const char* name : {"beside", "presets", "data/glmark2/models"}) fs::create_directories(folder / name);
-    ::setenv("NEPHROID_PRESETS", (folder / "presets").c_str(), 1);
-    ::setenv("XDG_DATA_DIRS", (folder / "data").c_str(), 1);
   }
-  void TearDown() override
-  {
-    ::unsetenv("NEPHROID_PRESETS");
-    ::unsetenv("XDG_DATA_DIRS");
-  }
+
+  test::Variable presets{"NEPHROID_PRESETS", folder / "presets"}, data{"XDG_DATA_DIRS", folder / "data"};
 };
 
 TEST_F(Finder, LooksBesideThenInPresetsThenInTheSystemsModels)
@@ -241,13 +222,13 @@ TEST_F(Finder, FoldersAreSaidToBeFoldersUnlessAFileIsFoundLater)
 TEST_F(Finder, PresetsFolderOfTheEnvironmentMustBeThere)
 {
   EXPECT_EQ(presets_folder(), folder / "presets");
-  ::setenv("NEPHROID_PRESETS", "/no/such/folder", 1);
+  const test::Variable nowhere("NEPHROID_PRESETS", "/no/such/folder");
   EXPECT_THAT(error_of([] { presets_folder(); }).line(), HasSubstr("NEPHROID_PRESETS: '/no/such/folder' is no folder"));
 }
 
 TEST(Presets, AreFoundFromTheBuildFolder)
 {
-  ::unsetenv("NEPHROID_PRESETS");
+  const test::Variable unset("NEPHROID_PRESETS", std::nullopt);
   EXPECT_TRUE(fs::equivalent(presets_folder(), fs::path(NEPHROID_SOURCE_DIR) / "presets"));
 }
 
@@ -289,4 +270,4 @@ TEST(Interrupts, TheFirstSignalSetsTheTokenAndTheSecondKills)
   EXPECT_FALSE(sigismember(&blocked, SIGINT)) << "signals are as before";
 }
 
-} // namespace
+} // namespace nephroid::files_test

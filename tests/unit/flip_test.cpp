@@ -2,19 +2,11 @@
 // FLIP and HDR-FLIP against their authors' own program, and what that program leaves undefined.
 #include "measure/flip.h"
 #include "tests/support/pictures.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::flip_test {
 
-#include <limits>
-#include <map>
-#include <numeric>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::measure;
-using test::flat;
-using test::Picture;
 
 double mean(const std::vector<float>& map) { return std::accumulate(map.begin(), map.end(), 0.0) / static_cast<double>(map.size()); }
 double flip(const Picture& a, const Picture& b) { return mean(flip_map(a.pixels(), b.pixels())); }
@@ -129,4 +121,4 @@ TEST(Flip, HdrIsFiniteForEveryFiniteValue)
     }
 }
 
-} // namespace
+} // namespace nephroid::flip_test

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snell and Fresnel against closed forms.
 #include "optics/fresnel.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-namespace {
+namespace nephroid::fresnel_test {
 
 using namespace nephroid::optics;
 
@@ -77,4 +73,4 @@ TEST(Fresnel, StaysBetweenNothingAndEverything)
     }
 }
 
-} // namespace
+} // namespace nephroid::fresnel_test

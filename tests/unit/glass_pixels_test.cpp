@@ -2,17 +2,10 @@
 // No path from the eye may meet glass or a mirror first in a pixel that is not on the list; and the list is not the whole picture.
 #include "scene/bvh.h"
 #include "scene/ray.h"
-#include "scene/scene.h"
 #include "spectral/glass_pixels.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <vector>
-
-namespace nephroid {
-namespace {
+namespace nephroid::glass_pixels_test {
 
 constexpr int width = 60, height = 40;
 
@@ -76,5 +69,4 @@ TEST(GlassPixels, AreNoneWhereNoGlassIsInView)
   EXPECT_TRUE(spectral::glass_pixels(scene::load_scene(p)).empty());
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::glass_pixels_test

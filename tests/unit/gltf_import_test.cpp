@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Importing glTF: small files written here, and what becomes of them against values worked out in comments; and files that are cut, missing
 // their data, or lie about it.
-#include "base/error.h"
-#include "base/files.h"
 #include "optics/dispersion.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
@@ -15,22 +13,12 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <cstring>
-#include <numbers>
+namespace nephroid::gltf_import_test {
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
 using preset::Light;
 using preset::Material;
-using testing::DoubleNear;
-using testing::ElementsAre;
-using testing::HasSubstr;
 using Json = nlohmann::json;
 
 std::string base64(const std::string& bytes)
@@ -344,4 +332,4 @@ TEST_F(GltfImport, ACutFileIsOneError)
   EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
 }
 
-} // namespace
+} // namespace nephroid::gltf_import_test

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // history.csv: what is written is read back with the same bits, and what is no whole history is refused at its line.
-#include "base/files.h"
 #include "measure/history_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <random>
-
-using namespace nephroid;
-using ::testing::HasSubstr;
-
-namespace {
+namespace nephroid::history_file_test {
 
 job::History three_rows()
 {
@@ -157,4 +146,4 @@ TEST_F(HistoryFile, what_is_no_file_is_refused)
   EXPECT_THAT(test::refusal_of([&] { measure::read_history(folder / "huge.csv"); }), HasSubstr("has 1048576 MiB"));
 }
 
-} // namespace
+} // namespace nephroid::history_file_test

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The house rules that a machine can check: licence lines, file sizes, no trace of one machine, and that third_party/README.md
 // and the install list name the dependencies that the build looks for.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include "tests/support/test.h"
+
 #include <regex>
-#include <set>
-#include <sstream>
-#include <string>
-#include <vector>
 
-namespace {
-
-namespace fs = std::filesystem;
-using testing::IsEmpty;
+namespace nephroid::house_test {
 
 const fs::path root = NEPHROID_SOURCE_DIR;
 
@@ -197,4 +186,4 @@ TEST(House, checks_see_what_they_are_for)
             "");
 }
 
-} // namespace
+} // namespace nephroid::house_test

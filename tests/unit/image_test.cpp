@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures survive writing and reading bit for bit, the same picture gives the same bytes, and failures leave nothing behind.
-#include "base/error.h"
-#include "base/files.h"
 #include "image/image.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-#include <chrono>
-#include <cmath>
-#include <cstring>
-#include <limits>
 #include <sys/mount.h>
-#include <thread>
 #include <unistd.h>
 
-namespace {
+namespace nephroid::image_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid;
 using namespace nephroid::image;
-using test::error_of;
-using testing::HasSubstr;
 
 class Pictures : public testing::Test {
 protected:
@@ -174,4 +161,4 @@ TEST_F(Pictures, AFullDiskKeepsTheOldPictureAndNoOther)
   ::umount(folder.c_str());
 }
 
-} // namespace
+} // namespace nephroid::image_test

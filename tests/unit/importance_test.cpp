@@ -9,19 +9,10 @@
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::importance_test {
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-using namespace nephroid;
-using namespace nephroid::test;
 using spectral::WavelengthImportance;
 using Effort = spectral::Settings::Effort;
-
-namespace {
-
 using optics::Spectrum;
 using std::numbers::pi;
 
@@ -342,4 +333,4 @@ TEST(Iterations, GrowByAtMostOneAPass)
   }
 }
 
-} // namespace
+} // namespace nephroid::importance_test

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dependencies point one way: every #include of app/, ui/ and kernels/ is held against the folder table of ARCHITECTURE.md, and
-// every library's headers stay in the one folder that knows the library. A file that uses the standard library includes what it uses:
-// what one compiler's headers bring along, the next one's do not.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+// every library's headers stay in the one folder that knows the library.
 
-#include <filesystem>
-#include <fstream>
-#include <map>
+#include "tests/support/test.h"
+
 #include <regex>
-#include <set>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
-namespace {
+namespace nephroid::includes_test {
 
-namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
 using FolderTable = std::map<std::string, Folders>;
 
@@ -293,4 +283,4 @@ TEST(Includes, breaks_are_seen)
   EXPECT_THROW(allowed_folders("base, optcis", {"base", "optics"}), std::runtime_error);
 }
 
-} // namespace
+} // namespace nephroid::includes_test

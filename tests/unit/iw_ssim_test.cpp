@@ -2,17 +2,11 @@
 // IW-SSIM against its authors' program, and where that program has no answer.
 #include "measure/iw_ssim.h"
 #include "tests/support/pictures.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::iw_ssim_test {
 
-#include <map>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::measure;
-using test::flat;
-using test::Picture;
 
 double similarity(const Picture& a, const Picture& b, Mask mask = {})
 {
@@ -108,4 +102,4 @@ TEST(IwSsim, AMaskLeavesOutWhatIsFarFromIt)
   EXPECT_EQ(iw_ssim(a.pixels(), b.pixels(), corner), std::nullopt);
 }
 
-} // namespace
+} // namespace nephroid::iw_ssim_test

@@ -4,17 +4,11 @@
 #include "spectral/relight/layer_cells.h"
 #include "spectral/relight/layer_light.h"
 #include "tests/support/presets.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::layer_cells_test {
 
-#include <numeric>
-#include <set>
-
-using namespace nephroid;
 using namespace nephroid::spectral;
-using ::testing::ElementsAre;
-
-namespace {
 
 std::vector<int> reflectors_of(const LayerCells& cells, std::size_t pixel)
 {
@@ -126,4 +120,4 @@ TEST(LayerWeights, AddUpToTheColourOfTheReflectorUnderTheLight)
   }
 }
 
-} // namespace
+} // namespace nephroid::layer_cells_test

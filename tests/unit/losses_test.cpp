@@ -6,17 +6,9 @@
 #include "tests/support/temporary_folder.h"
 #include "tracing/wavelength_tables.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::losses_test {
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <numeric>
-
-using namespace nephroid;
 using namespace nephroid::spectral;
-
-namespace {
 
 double searched_difference(double a, double b, double longest)
 {
@@ -102,4 +94,4 @@ TEST(Losses, ClearGlassAndWhiteMirrorsSplitNothing)
   EXPECT_EQ(split_by_losses(clusters, scene::load_scene(p), 8, 0.01), clusters);
 }
 
-} // namespace
+} // namespace nephroid::losses_test

@@ -7,21 +7,7 @@
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-namespace {
-
-using namespace nephroid;
-using test::error_of;
-using testing::Contains;
-using testing::Each;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
+namespace nephroid::measured_job_test {
 
 constexpr int size = 64;
 constexpr double grey = 0.5, sigma = 0.2;
@@ -279,4 +265,4 @@ TEST(MeasuredJob, RefusesWhatCannotBeMeasured)
   EXPECT_EQ(noisy(preset, nullptr)->history()->error_column, "estimated_lab_mean");
 }
 
-} // namespace
+} // namespace nephroid::measured_job_test

@@ -3,13 +3,7 @@
 #include "run/memory.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-
-namespace {
-
-using namespace nephroid;
-using test::error_of;
-using testing::HasSubstr;
+namespace nephroid::memory_test {
 
 constexpr std::uint64_t gib = std::uint64_t{1} << 30;
 
@@ -82,4 +76,4 @@ TEST(Memory, ThisMachineSaysWhatItHas)
   EXPECT_LT(*available, std::uint64_t{1} << 50);
 }
 
-} // namespace
+} // namespace nephroid::memory_test

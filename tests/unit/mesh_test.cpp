@@ -3,23 +3,7 @@
 #include "scene/mesh.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <chrono>
-#include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fmt/format.h>
-#include <numbers>
-#include <string>
-
-namespace nephroid::scene {
-namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
+namespace nephroid::scene::mesh_test {
 
 /// Six quadrilaterals about the cube [0, 2]^3, outwards.
 constexpr std::array<std::array<int, 4>, 6> cube_faces{
@@ -298,5 +282,4 @@ TEST(WindingNumber, CountsNestedSurfaces)
   EXPECT_TRUE(inspect(mesh).closed());
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::mesh_test

@@ -6,19 +6,9 @@
 #include "tests/support/errors.h"
 #include "tests/support/pictures.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::metrics_test {
 
-#include <limits>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::measure;
-using test::flat;
-using test::Picture;
-using test::refusal_of;
-using testing::HasSubstr;
-using testing::Optional;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -312,4 +302,4 @@ TEST(Metrics, BadMasksAreRefused)
   EXPECT_EQ(refusal_of([&] { quick(picture, picture, small); }), "mask: has 23 pixels; expected 6 x 4, as the pictures");
 }
 
-} // namespace
+} // namespace nephroid::metrics_test

@@ -2,11 +2,11 @@
 // Places and how they read. Keys inside JSON pointers: RFC 6901's own examples, and what another library makes of the same keys.
 #include "base/error.h"
 #include "base/place.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::place_test {
 
 using nephroid::bad_input;
 using nephroid::Error;
@@ -50,4 +50,4 @@ TEST(Place, OfAnErrorIsDataWhateverItsNameHolds)
   EXPECT_EQ(error.at("--set seed=3").line(), "--set seed=3: is 3; expected 4");
 }
 
-} // namespace
+} // namespace nephroid::place_test

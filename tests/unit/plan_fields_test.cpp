@@ -7,22 +7,11 @@
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cctype>
-#include <optional>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::plan_fields_test {
 
 using nlohmann::json;
 using Estimator = spectral::Settings::Estimator;
@@ -146,4 +135,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PlanFields, testing::Values("ball", "lines", "d
                            return name;
                          });
 
-} // namespace
+} // namespace nephroid::plan_fields_test

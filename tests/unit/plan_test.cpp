@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plan as others read it: their JSON, and the text a person sees.
 #include "plan/plan.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::plan_test {
 
 using nephroid::plan::Plan;
-using testing::HasSubstr;
 
 Plan example()
 {
@@ -75,4 +74,4 @@ TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory)
   EXPECT_THAT(text, HasSubstr("bunny: 12 open edges"));
 }
 
-} // namespace
+} // namespace nephroid::plan_test

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What differs from a file, as a command line and as a file with a parent: read back, it is the preset, over random edits of every shipped
 // preset.
-#include "base/error.h"
-#include "base/files.h"
 #include "preset/differences.h"
 #include "tests/support/child.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <optional>
-#include <random>
+namespace nephroid::preset_differences_test {
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
 using preset::Preset;
-using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
 Json json_of(const Preset& preset) { return Json::parse(preset::to_json(preset)); }
@@ -311,4 +302,4 @@ TEST(PresetDifferences, AreListedByFieldWithBothValues)
   EXPECT_EQ(preset::differences(before, after).at(0).before, "none");
 }
 
-} // namespace
+} // namespace nephroid::preset_differences_test

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // docs/presets.md and docs/sweeps.md tell the truth: their presets are read, their commands mean something, their counts are right.
-#include "base/files.h"
 #include "preset/read.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
 #include <regex>
-#include <sstream>
 
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
+namespace nephroid::preset_docs_test {
 
 struct Block {
   std::string file, text; ///< file: the name that a comment before the block gives it
@@ -104,4 +97,4 @@ TEST_F(PresetDocs, InheritanceIsAsThePageSays)
   EXPECT_EQ(swept[1].name, "thresholds,threshold_deg=0.5,seed=2");
 }
 
-} // namespace
+} // namespace nephroid::preset_docs_test

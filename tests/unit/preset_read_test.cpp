@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading presets: defaults, shorthands, parents, overrides, sweeps, the names of shipped presets.
-#include "base/error.h"
-#include "base/files.h"
 #include "preset/read.h"
 #include "spectral/settings.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::preset_read_test {
 
-#include <algorithm>
-
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
 using preset::Preset;
-using testing::ElementsAre;
 
 Preset parse(const std::string& fields, const preset::Overrides& overrides = {})
 {
@@ -200,4 +191,4 @@ TEST(ShippedPresets, AreListedByNameWithALineEach)
               testing::IsSupersetOf({"first-light", "spectral/ball-lens", "spectral/brilliant", "spectral/plate", "spectral/prism"}));
 }
 
-} // namespace
+} // namespace nephroid::preset_read_test

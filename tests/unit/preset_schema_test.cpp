@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The schema is the committed one, is a valid schema, and agrees with the reader: checked by python3-jsonschema, an independent
 // validator; without it those tests are skipped.
-#include "base/error.h"
-#include "base/files.h"
-#include "preset/read.h"
 #include "tests/support/random_preset.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
-#include <sstream>
-
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
+namespace nephroid::preset_schema_test {
 
 /// Validates every file named on its command line against the first; prints those that do not conform.
 constexpr const char* validator = R"(
@@ -118,4 +108,4 @@ TEST_F(Schema, RefusesWhatTheReaderRefuses)
   EXPECT_EQ(refused().size(), fields.size() + 1) << testing::PrintToString(refused());
 }
 
-} // namespace
+} // namespace nephroid::preset_schema_test

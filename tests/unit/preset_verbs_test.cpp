@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid presets` and `nephroid schema`: the program prints what the library knows.
 #include "preset/read.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
 
-namespace {
-
-using namespace nephroid;
+namespace nephroid::preset_verbs_test {
 
 std::string output_of(const std::string& arguments)
 {
@@ -45,4 +43,4 @@ TEST(PresetVerbs, PresetsAsJson)
   }
 }
 
-} // namespace
+} // namespace nephroid::preset_verbs_test

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is written reads back equal: shipped presets, random presets, every number to its last bit, file names from any folder.
-#include "base/files.h"
-#include "preset/read.h"
 #include "tests/support/random_preset.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace {
+namespace nephroid::preset_write_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid;
 using preset::Preset;
 
 TEST(PresetWriting, EveryShippedPresetReadsBackEqual)
@@ -79,4 +74,4 @@ TEST(PresetWriting, AnotherFolderFindsTheSameFiles)
   EXPECT_EQ(here["own"]["dispersion"]["file"], "own.yml");
 }
 
-} // namespace
+} // namespace nephroid::preset_write_test

@@ -2,17 +2,11 @@
 // The spectra of the sRGB primaries: the right colour, and nothing smoother has it.
 #include "optics/colour.h"
 #include "optics/primary_spectra.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <vector>
+namespace nephroid::primary_spectra_test {
 
 using namespace nephroid::optics;
-
-namespace {
-
 using Second = std::array<double, wavelength_count - 2>;
 
 Second second_differences(const Spectrum& s)
@@ -109,4 +103,4 @@ TEST(PrimarySpectra, GreyHasPowerEverywhere)
   }
 }
 
-} // namespace
+} // namespace nephroid::primary_spectra_test

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run says about itself while it works: figures, widths, JSON.
 #include "cli/progress.h"
+#include "tests/support/process_state.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cstdlib>
-#include <thread>
+namespace nephroid::progress_test {
 
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::cli;
-using testing::HasSubstr;
-using testing::Not;
 
 job::Progress at(double fraction, std::int64_t step, std::uint64_t photons, double work_seconds)
 {
@@ -81,7 +75,7 @@ TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown)
 TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
 {
   EXPECT_EQ(progress_style(true), ProgressStyle::json);
-  ::setenv("TERM", "dumb", 1);
+  const test::Variable terminal("TERM", "dumb");
   EXPECT_EQ(progress_style(false), ProgressStyle::lines);
 }
 
@@ -111,4 +105,4 @@ TEST(ProgressDisplay, TheLiveLineIsTakenAway)
   EXPECT_THAT(shown, testing::EndsWith("\r\033[K"));
 }
 
-} // namespace
+} // namespace nephroid::progress_test

@@ -3,17 +3,9 @@
 #include "scene/bvh.h"
 #include "scene/ray.h"
 #include "tests/support/meshes.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-using namespace nephroid;
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::ray_test {
 
 using glm::dvec3;
 
@@ -118,4 +110,4 @@ TEST(EvenDirections, MeasureSolidAngles)
     }
 }
 
-} // namespace
+} // namespace nephroid::ray_test

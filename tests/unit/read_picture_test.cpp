@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files as comparisons take them: what is decoded and what is linear already, which channels, which way up; and masks.
-#include "base/files.h"
 #include "image/image.h"
 #include "measure/read_picture.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::read_picture_test {
 
-#include <cstring>
-#include <limits>
-
-namespace {
-
-namespace fs = std::filesystem;
-using namespace nephroid;
 using namespace nephroid::measure;
-using test::refusal_of;
-using testing::ElementsAre;
-using testing::FloatNear;
-using testing::HasSubstr;
 
 class ReadPicture : public testing::Test {
 protected:
@@ -127,4 +115,4 @@ TEST_F(ReadPicture, LayersComeWithThePicture)
   EXPECT_TRUE(layers.empty());
 }
 
-} // namespace
+} // namespace nephroid::read_picture_test

@@ -2,11 +2,9 @@
 // Which edits are another light on the same scene.
 #include "spectral/relight/layer_light.h"
 #include "tests/support/presets.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-namespace nephroid {
-namespace {
+namespace nephroid::relight_preset_test {
 
 preset::Preset layered()
 {
@@ -50,5 +48,4 @@ TEST(OnlyRelit, IsNothingElse)
   EXPECT_FALSE(spectral::only_relit(without, without)) << "a run without layers has nothing to weigh";
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::relight_preset_test

@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report over runs whose slopes, speed-ups and floors are known: its data, and the page that holds them. tests/hostile/report_test.cpp
 // looks at it in a browser.
-#include "base/files.h"
-#include "image/image.h"
 #include "report/data.h"
 #include "report/report.h"
 #include "tests/support/made_runs.h"
 #include "tests/support/temporary_folder.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
 #include <regex>
 
-namespace {
+namespace nephroid::report_test {
 
-namespace fs = std::filesystem;
-using namespace nephroid;
-using namespace nephroid::test;
 using report::Json;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
 
 class Report : public testing::Test {
 protected:
@@ -355,4 +343,4 @@ TEST_F(Report, embeds_pictures_as_shown)
   for (const float value : picture.data) EXPECT_NEAR(value, 188 / 255.0, 1e-6); // sRGB of 0.5 is 187.5
 }
 
-} // namespace
+} // namespace nephroid::report_test

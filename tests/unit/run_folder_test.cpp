@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the files in a run's folder say about it, before anything is rendered.
-#include "base/files.h"
 #include "preset/read.h"
 #include "run/run.h"
 #include "tests/support/presets.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-
-namespace {
-
-using namespace nephroid;
+namespace nephroid::run_folder_test {
 
 class RunFolder : public testing::Test {
 protected:
@@ -60,4 +55,4 @@ TEST_F(RunFolder, ADamagedRunJsonIsNoFinishedRun)
     EXPECT_FALSE(with_run_json(text)) << text;
 }
 
-} // namespace
+} // namespace nephroid::run_folder_test

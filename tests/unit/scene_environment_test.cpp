@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Environments as the scene loads them: which pictures are taken, which are refused and with what line.
-#include "base/files.h"
 #include "image/image.h"
-#include "scene/environment.h"
-#include "scene/scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
+namespace nephroid::scene_environment_test {
 
-#include <algorithm>
-#include <limits>
-
-namespace {
-
-using namespace nephroid;
 using namespace nephroid::scene;
-using test::refusal_of;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 class SceneEnvironment : public testing::Test {
 protected:
@@ -158,4 +143,4 @@ TEST_F(SceneEnvironment, TheSceneHasIt)
   EXPECT_EQ(scene.environment->width, 8);
 }
 
-} // namespace
+} // namespace nephroid::scene_environment_test

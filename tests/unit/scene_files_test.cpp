@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loading a scene whose meshes and glasses are in files.
-#include "base/files.h"
-#include "preset/preset.h"
 #include "scene/materials.h"
-#include "scene/scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/temporary_folder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
-namespace nephroid::scene {
-namespace {
-
-using test::ball_over_floor;
-using test::expect_near;
-using test::refusal;
-using test::volume;
-using test::world_bounds;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+namespace nephroid::scene::scene_files_test {
 
 class SceneFiles : public testing::Test {
 protected:
@@ -111,5 +93,4 @@ TEST_F(SceneFiles, TheBunnyIsClosedAndWhole)
   EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::scene_files_test

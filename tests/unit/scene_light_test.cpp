@@ -1,24 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a loaded scene has on the 401 wavelengths: lights with their figures and spectra, materials of every kind.
-#include "base/files.h"
-#include "optics/wavelength.h"
-#include "preset/preset.h"
 #include "scene/materials.h"
-#include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <numeric>
-
-namespace nephroid::scene {
-namespace {
-
-using test::ball_over_floor;
-using test::expect_near;
-using testing::ElementsAre;
-using testing::HasSubstr;
+namespace nephroid::scene::scene_light_test {
 
 TEST(SceneLight, AreaLightHasItsEdges)
 {
@@ -116,5 +101,4 @@ TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance)
   EXPECT_EQ(outside_policy(preset::Outside::refuse), optics::Outside::refuse);
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::scene_light_test

@@ -1,20 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scene refuses, and that it points at the right place: contradictions that a preset made by a program may hold, too.
-#include "preset/preset.h"
-#include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
-namespace nephroid::scene {
-namespace {
-
-using test::ball_over_floor;
-using test::refusal;
+namespace nephroid::scene::scene_refusals_test {
 
 struct Wrong {
   const char* says;
@@ -89,5 +77,4 @@ TEST(SceneRefusals, PointAtTheRightPlace)
   }
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::scene_refusals_test

@@ -1,28 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loading a scene: places and orientation of objects, what contains what, warnings about them.
-#include "preset/preset.h"
-#include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::scene_test {
 
 using preset::Shape;
-using test::ball_over_floor;
-using test::expect_near;
-using test::shape_object;
-using test::volume;
-using test::world_bounds;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(Scene, HoldsWhatThePresetSays)
 {
@@ -225,5 +208,4 @@ TEST(Scene, WarnsOfOpenDielectrics)
   EXPECT_THAT(load_scene(preset).warnings, ElementsAre(HasSubstr("object 'floor': dielectric, but not closed: 4 edges")));
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::scene_test

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes against their closed forms: volume, area, closedness, normals; the brilliant against the angles of its cut.
-#include "base/error.h"
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/shapes.h"
+#include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-#include <tuple>
-
-namespace nephroid::scene {
-namespace {
+namespace nephroid::scene::shapes_test {
 
 using Type = preset::Shape::Type;
 constexpr double pi = std::numbers::pi;
@@ -225,13 +214,8 @@ TEST(Shapes, InwardsTurnsEverythingRound)
 
 void expect_refused(const preset::Shape& bad, const char* pointer)
 {
-  try {
-    make_shape(bad, Place("p.json", "/scene/objects/0/shape"));
-    FAIL() << pointer << " was accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::bad_input);
-    EXPECT_EQ(error.place().text(), std::string("p.json#/scene/objects/0/shape/") + pointer) << error.line();
-  }
+  EXPECT_THAT(refusal_of([&] { make_shape(bad, Place("p.json", "/scene/objects/0/shape")); }),
+              StartsWith(std::string("p.json#/scene/objects/0/shape/") + pointer + ": "));
 }
 
 TEST(Shapes, RefusesWhatIsNoShape)
@@ -268,5 +252,4 @@ TEST(Shapes, CoarsestCylindersAreClosed)
   }
 }
 
-} // namespace
-} // namespace nephroid::scene
+} // namespace nephroid::scene::shapes_test

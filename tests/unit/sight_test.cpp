@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a look through a pixel ends, against Snell's law by hand.
 #include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-namespace nephroid {
-namespace {
+namespace nephroid::sight_test {
 
 constexpr double n = 1.5, degree = std::numbers::pi / 180;
 
@@ -146,5 +139,4 @@ TEST(Sight, a_ball_bends_about_its_normals)
   EXPECT_NEAR(seen.place.x, h / std::cos(turn) - 6 * std::tan(turn), 1e-5);
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::sight_test

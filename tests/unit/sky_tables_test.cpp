@@ -2,17 +2,10 @@
 // The environment as a light, on the host: its flux, its spectrum, and the tables that photons are drawn by.
 #include "optics/primary_spectra.h"
 #include "scene/environment_light.h"
+#include "tests/support/test.h"
 #include "tracing/sky_tables.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-namespace {
-
-using namespace nephroid;
+namespace nephroid::sky_tables_test {
 
 scene::Environment map_of(int width, std::vector<float> rgb)
 {
@@ -104,4 +97,4 @@ TEST(SkyTables, NothingIsLostBesideASun)
   }
 }
 
-} // namespace
+} // namespace nephroid::sky_tables_test

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smoothed caustics on a floor that fills the lower part of the picture and a wall that fills the upper, from made pictures.
 #include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/smoothing.h"
 #include "tests/support/loaded_scenes.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numeric>
-#include <random>
-#include <vector>
-
-namespace nephroid {
-namespace {
+namespace nephroid::smoothing_test {
 
 constexpr int size = 48;
 
@@ -358,5 +347,4 @@ TEST(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
   EXPECT_EQ(sum(dark.rgb), 0);
 }
 
-} // namespace
-} // namespace nephroid
+} // namespace nephroid::smoothing_test

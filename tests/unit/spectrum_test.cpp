@@ -4,18 +4,9 @@
 #include "optics/spectrum.h"
 #include "tests/support/errors.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numeric>
-
-namespace {
+namespace nephroid::spectrum_test {
 
 using namespace nephroid::optics;
-using nephroid::test::refusal_of;
 using Rows = std::vector<std::array<double, 2>>;
 
 double sum(const Spectrum& s) { return std::accumulate(s.begin(), s.end(), 0.0); }
@@ -153,4 +144,4 @@ TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
   EXPECT_EQ(constant_spectrum(0.5)[200], 0.5);
 }
 
-} // namespace
+} // namespace nephroid::spectrum_test

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The statistical tests of tests/support/statistics.h: published quantiles, their false-alarm rate, and that they find what they are for.
 #include "tests/support/statistics.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <boost/math/distributions/binomial.hpp>
 
-#include <random>
-
-using namespace nephroid::test;
-
-namespace {
+namespace nephroid::statistics_test {
 
 TEST(Statistics, SurvivalFunctionsGiveThePublishedQuantiles)
 {
@@ -102,4 +97,4 @@ TEST(Statistics, WeightsTestFindsABiasOfTheTotalAndOfACell)
   EXPECT_GT(weights_test(cells, expectation, samples, 0.1 / 64), false_alarm);
 }
 
-} // namespace
+} // namespace nephroid::statistics_test

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // spectral/stretch.h: what a splat is stretched along, without a device.
 #include "optics/wavelength.h"
+#include "tests/support/test.h"
 #include "tracing/stretch.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::stretch_test {
 
-#include <cmath>
-#include <numeric>
-
-using namespace nephroid;
 using tracing::make_stretch_tables;
 using tracing::StretchParameter;
-
-namespace {
 
 const std::vector<bool> all_lit(optics::wavelength_count, true);
 
@@ -119,4 +114,4 @@ TEST(Stretch, RunsAreOfNeighboursAndLoseNoWavelength)
   EXPECT_EQ(runs, expected);
 }
 
-} // namespace
+} // namespace nephroid::stretch_test

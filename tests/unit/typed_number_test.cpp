@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers of options as people type them.
 #include "cli/numbers.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-namespace {
+namespace nephroid::typed_number_test {
 
 using nephroid::cli::typed_number;
 
@@ -34,4 +33,4 @@ TEST(TypedNumber, OthersAreNone)
   EXPECT_FALSE(typed_number<std::uint64_t>("1e17")) << "a double does not say exactly which";
 }
 
-} // namespace
+} // namespace nephroid::typed_number_test

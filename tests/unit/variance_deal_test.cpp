@@ -3,14 +3,10 @@
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/variance_deal.h"
 #include "tests/support/saved_jobs.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
+namespace nephroid::variance_deal_test {
 
-#include <cmath>
-
-namespace {
-
-using namespace nephroid;
 using spectral::VarianceDeal;
 
 std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
@@ -119,4 +115,4 @@ TEST(VarianceDeal, IsSavedWhole)
   EXPECT_EQ(other.gain(), deal.gain());
 }
 
-} // namespace
+} // namespace nephroid::variance_deal_test

@@ -5,24 +5,12 @@
 #include "job/worker.h"
 #include "preset/preset.h"
 #include "tests/support/eventually.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <cstdint>
-#include <functional>
 #include <future>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
 
-namespace {
+namespace nephroid::worker_commands_test {
 
-using namespace nephroid;
 using namespace nephroid::job;
 using namespace std::chrono_literals;
 
@@ -176,4 +164,4 @@ TEST(WorkerCommands, EveryOrderWhileAnAdoptionIsInHand)
   }
 }
 
-} // namespace
+} // namespace nephroid::worker_commands_test

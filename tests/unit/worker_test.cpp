@@ -3,21 +3,14 @@
 #include "base/error.h"
 #include "job/worker.h"
 #include "tests/support/eventually.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <atomic>
 #include <future>
-#include <new>
-#include <thread>
 
-namespace {
+namespace nephroid::worker_test {
 
-using namespace nephroid;
 using namespace nephroid::job;
 using namespace std::chrono_literals;
-using nephroid::test::eventually;
 
 /// Counts to `steps`; can be held inside a step. Its picture is one pixel with the count.
 class CountingJob : public Job {
@@ -414,4 +407,4 @@ TEST(Worker, ASpectrumThatFailsIsTheState)
   EXPECT_TRUE(tells(worker, {1, 0}));
 }
 
-} // namespace
+} // namespace nephroid::worker_test

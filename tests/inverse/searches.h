@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A search that takes a moment: two receivers, a ring and a disc.
+#pragma once
+#include "inverse/assign/assignment.h"
+#include "inverse/pictures/target.h"
+#include "tests/support/test.h"
+
+namespace nephroid::test {
+
+using namespace inverse;
+
+inline Layout small_layout()
+{
+  Layout layout;
+  layout.facets = {32, 32};
+  layout.cells = {16, 16};
+  layout.distances = {100, 200};
+  return layout;
+}
+
+inline std::vector<Target> ring_and_disc(const Layout& layout)
+{
+  Picture ring, disc;
+  ring.type = Picture::Type::ring;
+  const FileFinder finder;
+  return {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
+}
+
+inline void sweep(Assignment& a, int sweeps)
+{
+  while (a.steps() < sweeps) a.advance();
+}
+
+} // namespace nephroid::test
