@@ -25,6 +25,8 @@ const Engine& engine_of(const preset::Preset& preset)
   throw std::logic_error("settings of an engine that is not in app/engines.cpp");
 }
 
+std::string_view name_of(const Engine& engine) { return engine.settings().name; }
+
 } // namespace nephroid::engine
 
 const std::vector<const nephroid::preset::SettingsType*>& nephroid::preset::settings_types()

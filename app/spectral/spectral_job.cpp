@@ -175,6 +175,7 @@ public:
     made->pixel = pixel;
     if (!relighting_) {
       made->why_not = "the film adds up colours, and a spectrum is not kept; spectral.relight true keeps a layer for each cluster";
+      made->remedy = "spectral.relight=true";
       return made;
     }
     for (std::size_t s = 0; s < stages_.size(); ++s)

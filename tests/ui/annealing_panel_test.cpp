@@ -2,7 +2,7 @@
 // The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
 #include "inverse_runs.h"
 #include "preset/settings_type.h"
-#include "ui/annealing/panel.h"
+#include "ui/inverse/annealing/panel.h"
 
 #include <gmock/gmock.h>
 

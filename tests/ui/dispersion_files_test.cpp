@@ -5,7 +5,7 @@
 #include "optics/dispersion.h"
 #include "preset/read.h"
 #include "spectral/clusters/clusters.h"
-#include "ui/dispersion/panel.h"
+#include "ui/spectral/dispersion/panel.h"
 
 #include <gmock/gmock.h>
 

@@ -5,7 +5,7 @@
 #include "places.h"
 #include "preset/read.h"
 #include "real_window.h"
-#include "ui/dispersion/panel.h"
+#include "ui/spectral/dispersion/panel.h"
 
 #include <fmt/format.h>
 

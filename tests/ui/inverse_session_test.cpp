@@ -6,7 +6,7 @@
 #include "preset/read.h"
 #include "recorded_session.h"
 #include "scene/mesh.h"
-#include "ui/annealing/panel.h"
+#include "ui/inverse/annealing/panel.h"
 
 namespace nephroid::ui {
 namespace {

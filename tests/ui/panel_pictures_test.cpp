@@ -8,8 +8,8 @@
 #include "preset/read.h"
 #include "real_window.h"
 #include "spectra_scene.h"
-#include "ui/dispersion/panel.h"
-#include "ui/spectra/panel.h"
+#include "ui/spectral/dispersion/panel.h"
+#include "ui/spectral/spectra/panel.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 // Rows by rising wavelength under edits: they keep apart and inside what a preset may have, drags are one entry, what cannot be is said.
 #include "optics/dispersion.h"
 #include "preset/field.h"
-#include "ui/dispersion/edits.h"
-#include "ui/spectra/light_edits.h"
+#include "ui/spectral/dispersion/edits.h"
+#include "ui/spectral/spectra/light_edits.h"
 #include "ui/widgets/rows.h"
 
 #include <gmock/gmock.h>

@@ -5,7 +5,7 @@
 #include "preset/read.h"
 #include "real_window.h"
 #include "spectra_scene.h"
-#include "ui/spectra/panel.h"
+#include "ui/spectral/spectra/panel.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "image/image.h"
 #include "preset/read.h"
 #include "recorded_session.h"
-#include "ui/dispersion/edits.h"
+#include "ui/spectral/dispersion/edits.h"
 
 namespace nephroid::ui {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/wavelength_runs.h"
+#include "cli/spectral/wavelength_runs.h"
 
 #include "optics/wavelength.h"
 

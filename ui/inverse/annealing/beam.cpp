@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annealing/beam.h"
+#include "ui/inverse/annealing/beam.h"
 
 #include <numeric>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annealing/history.h"
+#include "ui/inverse/annealing/history.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annealing/panel.h"
+#include "ui/inverse/annealing/panel.h"
 
 #include "base/error.h"
 #include "inverse/engine.h"

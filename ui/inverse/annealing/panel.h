@@ -4,9 +4,9 @@
 #pragma once
 #include "inverse/layout.h"
 #include "inverse/settings.h"
-#include "ui/annealing/beam.h"
-#include "ui/annealing/pictures.h"
-#include "ui/annealing/plot.h"
+#include "ui/inverse/annealing/beam.h"
+#include "ui/inverse/annealing/pictures.h"
+#include "ui/inverse/annealing/plot.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/widgets.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annealing/pictures.h"
+#include "ui/inverse/annealing/pictures.h"
 
 #include "ui/state/shown_pixels.h"
 #include "ui/widgets/theme.h"

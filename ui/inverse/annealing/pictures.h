@@ -2,7 +2,7 @@
 // A snapshot's further pictures (job::NamedPicture) as textures, and boxes of the panel that show them.
 #pragma once
 #include "job/job.h"
-#include "ui/annealing/beam.h"
+#include "ui/inverse/annealing/beam.h"
 #include "ui/widgets/picture_texture.h"
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/annealing/plot.h"
+#include "ui/inverse/annealing/plot.h"
 
 #include "measure/run_curves.h"
 #include "ui/widgets/theme.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plot of one curve of a run: its columns over sweeps, moves or seconds.
 #pragma once
-#include "ui/annealing/history.h"
+#include "ui/inverse/annealing/history.h"
 #include "ui/widgets/plots.h"
 
 namespace nephroid::ui {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/dispersion/edits.h"
+#include "ui/spectral/dispersion/edits.h"
 
 #include "optics/dispersion.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/dispersion/model.h"
+#include "ui/spectral/dispersion/model.h"
 
 #include "base/files.h"
 #include "optics/dispersion.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/dispersion/panel.h"
+#include "ui/spectral/dispersion/panel.h"
 
 #include "base/counted.h"
 #include "preset/choices.h"

@@ -2,8 +2,8 @@
 // The panel "Dispersion": a dielectric's n(lambda) with control points to drag, its wavelength clusters, how many each method needs and
 // how far they may bend light wrong. Everything follows the mouse.
 #pragma once
-#include "ui/dispersion/model.h"
-#include "ui/dispersion/plot.h"
+#include "ui/spectral/dispersion/model.h"
+#include "ui/spectral/dispersion/plot.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/widgets.h"
 

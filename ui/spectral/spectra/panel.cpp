@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/spectra/panel.h"
+#include "ui/spectral/spectra/panel.h"
 
 #include "base/counted.h"
 #include "preset/choices.h"

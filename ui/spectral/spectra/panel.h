@@ -3,8 +3,8 @@
 // of each cluster, on the wavelength axis that the panel "Dispersion" has too. The rows of a light's spectrum
 // are edited here.
 #pragma once
-#include "ui/spectra/curves.h"
-#include "ui/spectra/plot.h"
+#include "ui/spectral/spectra/curves.h"
+#include "ui/spectral/spectra/plot.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/widgets.h"
 

@@ -2,8 +2,8 @@
 // The plots of the panel "Spectra": curves between 0 and 1 and, below, the iterations of each cluster, over one wavelength
 // axis. The rows of the light that is edited are points that can be dragged.
 #pragma once
-#include "ui/spectra/curves.h"
-#include "ui/spectra/light_edits.h"
+#include "ui/spectral/spectra/curves.h"
+#include "ui/spectral/spectra/light_edits.h"
 #include "ui/widgets/plots.h"
 #include "ui/widgets/row_handles.h"
 #include "ui/widgets/theme.h"
