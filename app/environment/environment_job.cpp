@@ -97,7 +97,9 @@ public:
     job::Snapshot made;
     if (!renderer_ || passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
     made.picture = renderer_ ? renderer_->picture() : sheet_;
-    if (!renderer_) made.caption = "The object is baked first: its caustic spheres, as far as they are";
+    if (!renderer_)
+      made.caption = render_ ? "The object is baked first: its caustic spheres, as far as they are"
+                             : "There is no light: the object's caustic spheres, as far as they are baked";
     made.pictures = spheres_;
     if (renderer_ && sheet_) made.pictures.insert(made.pictures.begin(), {"spheres", sheet_});
     made.progress = progress();
