@@ -55,44 +55,28 @@ float4 products(std::mt19937_64& random)
 }
 double rounded(double x) { return static_cast<float>(x); }
 
+float4 argument(float x) { return {x, 0, 0, 0}; }
+
 const BuiltIn built_ins[] = {
-    {"exp", Function::exp, 3, "-87 to 88",
-     [](std::mt19937_64& r) {
-       return float4{uniform(r, -87, 88), 0, 0, 0};
-     },
+    {"exp", Function::exp, 3, "-87 to 88", [](auto& r) { return argument(uniform(r, -87, 88)); },
      [](const float4& a) { return std::exp(double(a.x)); }},
-    {"log", Function::log, 3, "2^-100 to 2^100",
-     [](std::mt19937_64& r) {
-       return float4{r() % 2 ? any_size(r, 100) : uniform(r, 0.5, 2), 0, 0, 0};
-     },
+    {"log", Function::log, 3, "2^-100 to 2^100", [](auto& r) { return argument(r() % 2 ? any_size(r, 100) : uniform(r, 0.5, 2)); },
      [](const float4& a) { return std::log(double(a.x)); }},
-    {"sqrt", Function::sqrt, 3, "2^-100 to 2^100",
-     [](std::mt19937_64& r) {
-       return float4{any_size(r, 100), 0, 0, 0};
-     },
+    {"sqrt", Function::sqrt, 3, "2^-100 to 2^100", [](auto& r) { return argument(any_size(r, 100)); },
      [](const float4& a) { return std::sqrt(double(a.x)); }},
-    {"rsqrt", Function::rsqrt, 2, "2^-100 to 2^100",
-     [](std::mt19937_64& r) {
-       return float4{any_size(r, 100), 0, 0, 0};
-     },
+    {"rsqrt", Function::rsqrt, 2, "2^-100 to 2^100", [](auto& r) { return argument(any_size(r, 100)); },
      [](const float4& a) { return 1 / std::sqrt(double(a.x)); }},
-    {"sine", Function::sin, 4, "-100 to 100",
-     [](std::mt19937_64& r) {
-       return float4{uniform(r, -100, 100), 0, 0, 0};
-     },
+    {"sine", Function::sin, 4, "-100 to 100", [](auto& r) { return argument(uniform(r, -100, 100)); },
      [](const float4& a) { return std::sin(double(a.x)); }},
-    {"cosine", Function::cos, 4, "-100 to 100",
-     [](std::mt19937_64& r) {
-       return float4{uniform(r, -100, 100), 0, 0, 0};
-     },
+    {"cosine", Function::cos, 4, "-100 to 100", [](auto& r) { return argument(uniform(r, -100, 100)); },
      [](const float4& a) { return std::cos(double(a.x)); }},
     {"division", Function::divide, 2.5, "2^-60 to 2^60, either sign",
-     [](std::mt19937_64& r) {
+     [](auto& r) {
        return float4{any_size(r, 60, true), any_size(r, 60, true), 0, 0};
      },
      [](const float4& a) { return double(a.x) / a.y; }},
     {"fma rounds once", Function::fma, 0, "2^-4 to 2^4, either sign",
-     [](std::mt19937_64& r) {
+     [](auto& r) {
        return float4{any_size(r, 4, true), any_size(r, 4, true), any_size(r, 4, true), 0};
      },
      [](const float4& a) { return double(std::fma(a.x, a.y, a.z)); }},
@@ -110,8 +94,8 @@ Check built_in_check(const BuiltIn& b)
             const std::vector<float> got = out.read();
             double worst = 0;
             for (std::size_t i = 0; i < in.size(); ++i) worst = std::max(worst, ulps(got[i], b.truth(in[i])));
-            return Result{
-                {}, worst, b.tolerance, "ulp", fmt::format("worst of {} arguments, {}, against double precision", in.size(), b.range)};
+            return judged(worst, b.tolerance, "ulp",
+                          fmt::format("worst of {} arguments, {}, against double precision", in.size(), b.range));
           }};
 }
 
@@ -131,8 +115,8 @@ Result products_round_apart(const compute::Context& context, std::uint64_t seed)
     const double truth = rounded(rounded(double(in[i].x) * in[i].y) - rounded(double(in[i].z) * in[i].w));
     fused += got[i] != truth;
   }
-  return {
-      {}, fused, 0, "results", fmt::format("of {} differences of two products, those that FP_CONTRACT OFF did not keep apart", in.size())};
+  return judged(fused, 0, "results",
+                fmt::format("of {} differences of two products, those that FP_CONTRACT OFF did not keep apart", in.size()));
 }
 
 Result quanta_round_to_even(const compute::Context& context, std::uint64_t seed)
@@ -145,8 +129,8 @@ Result quanta_round_to_even(const compute::Context& context, std::uint64_t seed)
   const std::vector<std::int64_t> got = out.read();
   double wrong = 0;
   for (std::size_t i = 0; i < in.size(); ++i) wrong += got[i] != std::llrint(in[i]);
-  return {
-      {}, wrong, 0, "results", fmt::format("of {} floats up to 2^42, those not rounded to the nearest, even, 64-bit integer", in.size())};
+  return judged(wrong, 0, "results",
+                fmt::format("of {} floats up to 2^42, those not rounded to the nearest, even, 64-bit integer", in.size()));
 }
 
 } // namespace

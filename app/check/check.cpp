@@ -9,10 +9,10 @@ namespace nephroid::check {
 
 std::vector<Check> checks()
 {
-  std::vector<Check> all;
+  std::vector<Check> list;
   for (const auto subject : {arithmetic_checks, exactness_checks, geometry_checks, interface_checks})
-    for (Check& check : subject()) all.push_back(std::move(check));
-  return all;
+    for (Check& check : subject()) list.push_back(std::move(check));
+  return list;
 }
 
 Result run_check(const Check& check, const compute::Context& context, std::uint64_t seed)

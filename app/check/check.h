@@ -7,19 +7,26 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nephroid::check {
 
 /// What one check gave: passed where |figure| <= tolerance.
 struct Result {
-  std::string name;  ///< "prism: 5 wavelengths where Snell says"
+  std::string name;  ///< Check::name
   double figure = 0; ///< a distance from the truth
   double tolerance = 0;
   std::string unit;                                                           ///< of both: "pixels", "sigma", "quanta", ""
   std::string detail;                                                         ///< a sentence: what was compared with what
   bool passed() const { return figure <= tolerance && figure >= -tolerance; } // NaN: failed
 };
+
+/// Of a check that does not know its name.
+inline Result judged(double figure, double tolerance, std::string unit, std::string detail)
+{
+  return {{}, figure, tolerance, std::move(unit), std::move(detail)};
+}
 
 /// One check by name; run() takes a second or two at most and throws where the device fails.
 struct Check {

@@ -5,6 +5,8 @@
 #include "kernels/tracing/shared_types.h"
 
 #include <array>
+#include <initializer_list>
+#include <span>
 #include <string>
 #include <vector>
 

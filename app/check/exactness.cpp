@@ -47,7 +47,7 @@ Result published_vectors(const compute::Context& context, std::uint64_t)
   double wrong = 0;
   for (std::size_t i = 0; i < got.size(); ++i)
     for (std::size_t word = 0; word < 4; ++word) wrong += got[i][word] != published[i][word];
-  return {{}, wrong, 0, "words", "of the 12 words of Random123's known answers for Philox4x32-10, those that differ"};
+  return judged(wrong, 0, "words", "of the 12 words of Random123's known answers for Philox4x32-10, those that differ");
 }
 
 Result uniforms(const compute::Context& context, std::uint64_t seed)
@@ -66,7 +66,7 @@ Result uniforms(const compute::Context& context, std::uint64_t seed)
       wrong += got[i][d] != truth || !(got[i][d] >= 0 && got[i][d] < 1);
     }
   }
-  return {{}, wrong, 0, "numbers", fmt::format("of {} uniforms, those outside [0, 1) or other than the host's", 4 * count)};
+  return judged(wrong, 0, "numbers", fmt::format("of {} uniforms, those outside [0, 1) or other than the host's", 4 * count));
 }
 
 /// Films are sums of integers, so every order of adding gives the same; halves: by two 32-bit atomics with carry.
@@ -96,7 +96,7 @@ Result sums(const compute::Context& context, std::uint64_t seed, bool halves)
   const char* by = halves                           ? "by two 32-bit halves"
                    : context.device().int64_atomics ? "by 64-bit atomics"
                                                     : "by two 32-bit halves, having no others";
-  return {{}, worst, 0, "quanta", fmt::format("{} integers of 44 bits added into {} sums {}, against the host's", count, places, by)};
+  return judged(worst, 0, "quanta", fmt::format("{} integers of 44 bits added into {} sums {}, against the host's", count, places, by));
 }
 
 Result film_limit(const compute::Context& context, std::uint64_t)
@@ -133,11 +133,8 @@ Result film_limit(const compute::Context& context, std::uint64_t)
     wrong += answers[i] != cases[i].accepted;
     for (std::size_t c = 0; c < 3; ++c) wrong += sums[3 * i + c] != cases[i].quanta[c];
   }
-  return {{},
-          wrong,
-          0,
-          "answers",
-          "contributions at, above and below the film's limit, infinite and NaN ones: what is taken and what is refused"};
+  return judged(wrong, 0, "answers",
+                "contributions at, above and below the film's limit, infinite and NaN ones: what is taken and what is refused");
 }
 
 } // namespace

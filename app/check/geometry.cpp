@@ -21,15 +21,8 @@ constexpr double reach = 5.5, rounding = 0x1p-24 * reach;
 /// A rod of radius 1 with a brilliant in it: thin triangles, about 600.
 scene::Mesh rod_and_brilliant()
 {
-  preset::Shape rod, brilliant;
-  rod.type = preset::Shape::Type::cylinder;
-  rod.radius = 1;
-  rod.height = 2;
-  rod.segments = 120;
-  brilliant.type = preset::Shape::Type::brilliant;
-  brilliant.radius = 0.7;
-  scene::Mesh mesh = scene::make_shape(rod);
-  const scene::Mesh inner = scene::make_shape(brilliant);
+  scene::Mesh mesh = scene::make_shape({.type = preset::Shape::Type::cylinder, .radius = 1, .height = 2, .segments = 120});
+  const scene::Mesh inner = scene::make_shape({.type = preset::Shape::Type::brilliant, .radius = 0.7});
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), inner.positions.begin(), inner.positions.end());
   for (const glm::uvec3& t : inner.triangles) mesh.triangles.push_back(t + first);
@@ -93,12 +86,9 @@ Result closest_hits(const compute::Context& context, std::uint64_t seed)
     hits += truth.primitive != no_primitive;
     differ += traced.hits[i].primitive != truth.primitive;
   }
-  return {{},
-          wrong,
-          0,
-          "rays",
-          fmt::format("{} rays at {} triangles, {} hits, {} decided otherwise than in double precision by rounding at an edge",
-                      traced.rays.size(), traced.mesh.triangles.size(), hits, differ - static_cast<std::size_t>(wrong))};
+  return judged(wrong, 0, "rays",
+                fmt::format("{} rays at {} triangles, {} hits, {} decided otherwise than in double precision by rounding at an edge",
+                            traced.rays.size(), traced.mesh.triangles.size(), hits, differ - static_cast<std::size_t>(wrong)));
 }
 
 /// t and the point (1 - u - v) a + u b + v c, against where the ray's line meets the triangle's plane. Barycentrics of a thin triangle
@@ -121,11 +111,8 @@ Result hit_places(const compute::Context& context, std::uint64_t seed)
     const glm::dvec3 truth = glm::dvec3(traced.rays[i].origin) + exact.t * glm::dvec3(traced.rays[i].direction);
     worst = std::max(worst, glm::distance(place, truth) * exact.tilt * height / longest);
   }
-  return {{},
-          worst / rounding,
-          16,
-          "roundings",
-          "distance and barycentric place of every hit, times the cosine there, in float spacings of the farthest coordinate"};
+  return judged(worst / rounding, 16, "roundings",
+                "distance and barycentric place of every hit, times the cosine there, in float spacings of the farthest coordinate");
 }
 
 Result any_hits(const compute::Context& context, std::uint64_t seed)
@@ -134,7 +121,8 @@ Result any_hits(const compute::Context& context, std::uint64_t seed)
   const std::vector<std::uint32_t> any = KernelTracer(context, traced.mesh).any(traced.rays);
   double differ = 0;
   for (std::size_t i = 0; i < any.size(); ++i) differ += (any[i] != 0) != (traced.hits[i].primitive != no_primitive);
-  return {{}, differ, 0, "rays", fmt::format("of {} rays, those where \"is anything hit\" and \"what is hit first\" disagree", any.size())};
+  return judged(differ, 0, "rays",
+                fmt::format("of {} rays, those where \"is anything hit\" and \"what is hit first\" disagree", any.size()));
 }
 
 /// From inside a closed mesh, aimed exactly at its vertices and at points of its edges, where a leak would be.
@@ -153,11 +141,8 @@ Result no_leaks(const compute::Context& context, std::uint64_t seed)
   }
   const std::vector<Hit> hits = KernelTracer(context, mesh).closest(rays);
   const auto escaped = std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return h.primitive == no_primitive; });
-  return {{},
-          static_cast<double>(escaped),
-          0,
-          "rays",
-          fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size())};
+  return judged(static_cast<double>(escaped), 0, "rays",
+                fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size()));
 }
 
 /// Spheres and ellipsoids, from outside and from inside: place by the plain quadratic in double, along the normal there.
@@ -186,11 +171,8 @@ Result ellipsoid_hits(const compute::Context& context, std::uint64_t seed)
     const bool hit = hits[i].primitive != no_primitive;
     worst = std::max(worst, hit != (steepness > 0) ? INFINITY : hit ? std::abs(hits[i].t - nearest) * steepness : 0.0);
   }
-  return {{},
-          worst / rounding,
-          16,
-          "roundings",
-          "distance of every hit of a sphere and an ellipsoid, times the cosine there, in float spacings of the farthest coordinate"};
+  return judged(worst / rounding, 16, "roundings",
+                "distance of every hit of a sphere and an ellipsoid, times the cosine there, in float spacings of the farthest coordinate");
 }
 
 } // namespace

@@ -54,12 +54,10 @@ Result reflectance(const compute::Context& context, std::uint64_t)
     worst = std::isfinite(error) ? std::max(worst, error / condition) : error;
     if (!std::isfinite(worst)) break;
   }
-  return {{},
-          worst,
-          4e-6,
-          "",
-          fmt::format("Fresnel's R at {} interfaces, n from 1 to 4, 0 to 89.9999 degrees, over its condition, against double precision",
-                      in.size())};
+  return judged(
+      worst, 4e-6, "",
+      fmt::format("Fresnel's R at {} interfaces, n from 1 to 4, 0 to 89.9999 degrees, over its condition, against double precision",
+                  in.size()));
 }
 
 /// n_i sin(theta_i) = n_t sin(theta_t) and unit length; the reflected direction with its normal part turned round.
@@ -85,11 +83,8 @@ Result refraction(const compute::Context& context, std::uint64_t)
     compare(double(t.x) * t.x + double(t.y) * t.y + double(t.z) * t.z - 1);
     if (t.z > 0) worst = 2;
   }
-  return {{},
-          worst,
-          2e-6,
-          "",
-          fmt::format("components of {} reflected and refracted directions, n from 1 to 4, against Snell's law", in.size())};
+  return judged(worst, 2e-6, "",
+                fmt::format("components of {} reflected and refracted directions, n from 1 to 4, against Snell's law", in.size()));
 }
 
 /// Cosines one float after the other about the critical angle: how far from it reflection is decided otherwise than by sin_t > 1.
@@ -107,12 +102,10 @@ Result critical_angle(const compute::Context& context, std::uint64_t)
     const double beyond = std::acos(double(in[i].x)) - std::asin(1 / double(in[i].y));
     if ((out[i].x < 0) != (beyond > 0)) worst = std::max(worst, std::abs(beyond));
   }
-  return {{},
-          worst,
-          2e-6,
-          "radians",
-          fmt::format("total reflection of {} cosines, float after float, about five critical angles: the farthest one decided wrongly",
-                      in.size())};
+  return judged(
+      worst, 2e-6, "radians",
+      fmt::format("total reflection of {} cosines, float after float, about five critical angles: the farthest one decided wrongly",
+                  in.size()));
 }
 
 /// tan(theta) = n: nothing that is polarised in the plane of incidence is reflected, and of the rest ((n^2 - 1) / (n^2 + 1))^2.
@@ -127,11 +120,8 @@ Result brewster(const compute::Context& context, std::uint64_t)
     const double n2 = double(in[i].z) * in[i].z, s = (n2 - 1) / (n2 + 1), error = std::abs(out[i].y - s * s / 2);
     worst = error <= worst ? worst : error;
   }
-  return {{},
-          worst,
-          2e-6,
-          "",
-          fmt::format("R at Brewster's angle of {} glasses, n from 1.01 to 4, against ((n^2 - 1) / (n^2 + 1))^2 / 2", in.size())};
+  return judged(worst, 2e-6, "",
+                fmt::format("R at Brewster's angle of {} glasses, n from 1.01 to 4, against ((n^2 - 1) / (n^2 + 1))^2 / 2", in.size()));
 }
 
 /// Which object is the medium, by the rule in words: of those entered and not left the one of highest priority, of equals the last.
@@ -178,12 +168,9 @@ Result nested_media(const compute::Context& context, std::uint64_t seed)
   const std::vector<int> got = out.read();
   double wrong = 0;
   for (std::size_t i = 0; i < got.size(); ++i) wrong += got[i] != truth[i];
-  return {{},
-          wrong,
-          0,
-          "steps",
-          fmt::format("of {} random steps into and out of {} nested objects, those after which the medium is another", steps.size(),
-                      object_count)};
+  return judged(wrong, 0, "steps",
+                fmt::format("of {} random steps into and out of {} nested objects, those after which the medium is another", steps.size(),
+                            object_count));
 }
 
 } // namespace

@@ -16,8 +16,7 @@ constexpr std::size_t rays_per_group = 64;
 KernelTracer::KernelTracer(const compute::Context& context, const scene::Bvh& bvh, compute::Defines defines)
     : bvh_(bvh), context_(context), nodes_(context, "nodes", std::span(bvh.nodes)), blocks_(context, "blocks", std::span(bvh.blocks))
 {
-  defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!bvh.ellipsoid_places.empty()));
-  defines["NEPHROID_BVH_STACK"] = std::to_string(bvh.stack);
+  defines.merge(scene::tree_defines(bvh));
   const compute::Program program(context, "tracing/trace.cl", defines);
   closest_ = program.kernel("closest_hits");
   any_ = program.kernel("any_hits");

@@ -67,8 +67,10 @@ void run_preset(const RunOptions& options)
     }
     if (!options.frames.empty()) throw bad_input("--frames", "the preset has no animation", "expected one with the section 'animation'");
     if (const auto done = options.resume ? run::finished_run(target.folder, target.preset) : std::nullopt) {
+      if (!done->changed.empty())
+        throw bad_input(target.folder, "this run is finished, but " + done->changed, {}, "run without --resume to start over");
       fmt::print(stderr, "{}: this run is finished\n", target.label);
-      report_result(options, target, *done, true);
+      report_result(options, target, done->progress, true);
       continue;
     }
     preset::at_origins(target.preset, [&] { render(options, target, interrupts.token(), shared); });

@@ -73,11 +73,14 @@ private:
   {
     const std::filesystem::path own = run::frame_folder(target_.folder, frame);
     const Target target{preset::at_frame(target_.preset, frame), own, fmt::format("{}/{:04}", target_.label, frame), target_.folder};
-    if (const auto done = options_.resume ? run::finished_frame(target_.folder, frame, target.preset) : std::nullopt) {
+    const auto done = options_.resume ? run::finished_frame(target_.folder, frame, target.preset) : std::nullopt;
+    if (done && done->changed.empty()) {
       run::show_frame(target_.folder, frame);
-      if (options_.json) report_result(options_, target, *done, true);
+      if (options_.json) report_result(options_, target, done->progress, true);
       return;
     }
+    if (done && shared_.notes.insert(done->changed).second)
+      fmt::print(stderr, "note: {}: {}: finished frames start anew\n", target_.label, done->changed);
     run::hide_frame(target_.folder, frame);
     preset::at_origins(target.preset, [&] { render(options_, target, interrupted_, shared_); });
     ++rendered_;

@@ -8,6 +8,7 @@
 #include "engine/engine.h"
 #include "measure/measured_job.h"
 #include "run/animation.h"
+#include "run/content.h"
 #include "run/picture.h"
 #include "run/reference.h"
 
@@ -28,11 +29,21 @@ namespace {
 constexpr const char* result_files[] = {"preset.json", "plan.json",     "run.json",      "history.csv",
                                         "report.html", "pictures.json", "checkpoint.bin"};
 
-/// Which is shown to people.
-fs::path picture_of(const Target& target)
+/// What is shown to people: the picture, or the folder where there is none yet.
+fs::path shown_of(const Target& target)
 {
-  return target.animation.empty() ? target.folder / "image.png"
-                                  : run::frame_picture(target.animation, target.preset.provenance.frame.value());
+  const fs::path picture =
+      target.animation.empty() ? target.folder / "image.png" : run::frame_picture(target.animation, target.preset.provenance.frame.value());
+  return fs::exists(picture) ? picture : target.folder;
+}
+
+/// "10.1 s of work: bake 9.8 s, render 0.3 s".
+std::string where_time_went(const job::Snapshot& snapshot)
+{
+  std::string phases;
+  for (const auto& [name, seconds] : snapshot.phases)
+    if (seconds >= 0.05) phases += fmt::format("{} {} {:.1f} s", phases.empty() ? ":" : ",", name, seconds);
+  return fmt::format("{:.1f} s of work{}", snapshot.progress.work_seconds, phases);
 }
 
 } // namespace
@@ -59,7 +70,7 @@ void report_result(const RunOptions& options, const Target& target, const job::P
     fmt::print("{}\n", json_text(all));
   } else {
     const job::Units& units = progress.units;
-    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", picture_of(target).string(),
+    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", shown_of(target).string(),
                counted(progress.step, std::string(units.step), std::string(units.steps)), static_cast<double>(progress.work) * 1e-6,
                units.works, progress.work_seconds);
   }
@@ -96,6 +107,7 @@ public:
       if (!job) {
         job = measure::measured(run::make_job(prepared, context), prepared.preset, reference_, began_, options_.pictures_at);
         shared.of_job = target_.preset;
+        shared.inputs_of_job = prepared.plan->inputs;
       }
       activity_.clear();
       compute::tell_of_compiling(context, [] {}); // the context outlives this
@@ -119,10 +131,10 @@ private:
   {
     std::unique_ptr<job::Job> before = std::move(shared.job);
     if (!before || target_.preset.reference) return nullptr; // a reference is of one frame
+    if (!run::what_changed(shared.inputs_of_job, shared.prepared->plan->inputs).empty()) return nullptr;
     preset::Preset now = target_.preset;
     now.name = shared.of_job.name; // the name is a frame's, and changes nothing
-    const auto adoptable = engine::engine_of(shared.of_job).adoptable;
-    if (!adoptable || !adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
+    if (!engine::adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;
     shared.of_job = std::move(now);
     const job::Progress progress = before->progress();
     if (progress.step != 0 || progress.work != 0 || progress.work_seconds != 0) return nullptr;
@@ -140,8 +152,9 @@ private:
     try {
       return run::load_checkpoint(target_.folder, prepared, context, job);
     } catch (const Error& error) {
-      if (!is_frame() || error.kind() != ErrorKind::bad_input) throw;
-      fmt::print(stderr, "note: {}: its checkpoint cannot be used, the frame starts anew\n", target_.label);
+      if (error.kind() != ErrorKind::bad_input) throw;
+      if (!is_frame()) throw error.noting("run without --resume to start over");
+      fmt::print(stderr, "note: {}; the frame starts anew\n", error.line());
       return false;
     }
   }
@@ -221,9 +234,13 @@ private:
       const auto history = job.history();
       if (history && !history->rows.empty() && history->rows.back().seconds < times[next_picture_]) return false;
       on_disk(display, [&] {
-        const auto made = run::write_picture_at(target_.folder, times[next_picture_], prepared, device, job.snapshot());
+        const job::Snapshot snapshot = job.snapshot();
         display.clear();
-        say_picture(made, history ? history->error_column : "");
+        if (snapshot.stands_in)
+          fmt::print(stderr, "note: {}: no picture at {} s: the first one is not there yet\n", target_.label, times[next_picture_]);
+        else
+          say_picture(run::write_picture_at(target_.folder, times[next_picture_], prepared, device, snapshot),
+                      history ? history->error_column : "");
       });
     }
     return true;
@@ -268,8 +285,8 @@ private:
   /// The picture first: where the disk has room for one of the two only, it is what the run was for.
   void save(const run::Prepared& prepared, const compute::Context& context, job::Job& job) const
   {
-    const bool finished = job.finished();
     job::Snapshot snapshot = job.snapshot();
+    const bool finished = job.finished() && !snapshot.stands_in;
     run::write_run(target_.folder, prepared, context.device(), snapshot, reference_.get(), finished);
     snapshot.picture.reset(); // the report reads the files
     if (!is_frame() || !finished)
@@ -281,10 +298,16 @@ private:
     if (finished && snapshot.history && !is_frame()) write_report();
     report_result(options_, target_, snapshot.progress, finished);
     for (const std::string& warning : snapshot.warnings) fmt::print(stderr, "note: {}: {}\n", target_.label, warning);
+    if (job.finished() && snapshot.stands_in)
+      throw failed(target_.folder.string(), "the run ended before its first picture, after " + where_time_went(snapshot),
+                   "a checkpoint is saved", "go on with --resume and a longer time: --seconds 60");
     if (!finished)
       throw Error(ErrorKind::interrupted, target_.folder.string(),
                   fmt::format("interrupted in {} {}", snapshot.progress.units.step, snapshot.progress.step + 1),
-                  "the image and a checkpoint are saved", "go on with --resume");
+                  snapshot.stands_in ? "a checkpoint is saved" : "the image and a checkpoint are saved", "go on with --resume");
+    if (snapshot.progress.step == 0)
+      fmt::print(stderr, "note: {}: the run ended before its first {} was whole, after {}\n", target_.label, snapshot.progress.units.step,
+                 where_time_went(snapshot));
   }
 
   /// The picture is what the run was for: where a report cannot be made there is one file less.

@@ -46,6 +46,7 @@ struct Shared {
   /// after a resume.
   std::unique_ptr<job::Job> job;
   preset::Preset of_job; ///< what it is of
+  std::vector<plan::Input> inputs_of_job;
 
   std::optional<compute::Context> context; ///< the device, opened by the first run that needs it
   std::optional<run::Prepared> prepared;   ///< the run before: its scene may do for the next one

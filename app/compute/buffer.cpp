@@ -14,8 +14,6 @@ struct Zeros {
   cl_ulong low = 0, high = 0;
 };
 
-std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6); }
-
 } // namespace
 
 RawBuffer::RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial)
@@ -23,20 +21,19 @@ RawBuffer::RawBuffer(const Context& context, std::string name, std::size_t bytes
 {
   const DeviceInfo& device = context.device();
   if (bytes > device.max_buffer_bytes)
-    throw failed("buffer " + name, fmt::format("{} do not fit on {}", megabytes(bytes), device.name),
-                 fmt::format("at most {} a buffer", megabytes(device.max_buffer_bytes)), "use a smaller image, mesh or number of photons");
+    throw failed("buffer " + name, fmt::format("{} do not fit on {}", detail::megabytes(bytes), device.name),
+                 fmt::format("at most {} a buffer", detail::megabytes(device.max_buffer_bytes)),
+                 "use a smaller image, mesh or number of photons");
   state->context = context.state;
   state->name = std::move(name);
   state->bytes = bytes;
   const std::size_t allocated = std::max<std::size_t>((bytes + sizeof(Zeros) - 1) / sizeof(Zeros), 1) * sizeof(Zeros);
   try {
     state->buffer = cl::Buffer(context.state->context, CL_MEM_READ_WRITE, allocated);
-    if (bytes > 0 && initial) write(initial, bytes, 0);
   } catch (const cl::Error& error) {
-    const Place where = fmt::format("buffer {} of {} on {}", state->name, megabytes(bytes), device.name);
-    throw failed(where, fmt::format("{} gave {}", error.what(), detail::error_name(error.err())),
-                 fmt::format("the device has {}", megabytes(device.memory_bytes)), "use a smaller image, mesh or number of photons");
+    throw detail::buffers_failed(error, "buffer " + state->name, device, {state.get()});
   }
+  if (bytes > 0 && initial) write(initial, bytes, 0);
 }
 
 void RawBuffer::write(const void* from, std::size_t bytes, std::size_t offset_bytes)
@@ -47,7 +44,7 @@ void RawBuffer::write(const void* from, std::size_t bytes, std::size_t offset_by
   try {
     state->context->queue.enqueueWriteBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, from);
   } catch (const cl::Error& error) {
-    throw detail::call_failed(error, "buffer " + state->name);
+    throw detail::buffers_failed(error, "buffer " + state->name, state->context->info, {state.get()});
   }
 }
 
@@ -59,7 +56,7 @@ void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset_bytes) cons
   try {
     state->context->queue.enqueueReadBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, to);
   } catch (const cl::Error& error) {
-    throw detail::call_failed(error, "buffer " + state->name);
+    throw detail::buffers_failed(error, "buffer " + state->name, state->context->info, {state.get()});
   }
 }
 
@@ -68,7 +65,7 @@ void RawBuffer::fill_zero()
   try {
     state->context->queue.enqueueFillBuffer(state->buffer, Zeros{}, 0, state->buffer.getInfo<CL_MEM_SIZE>());
   } catch (const cl::Error& error) {
-    throw detail::call_failed(error, "buffer " + state->name);
+    throw detail::buffers_failed(error, "buffer " + state->name, state->context->info, {state.get()});
   }
 }
 

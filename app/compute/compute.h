@@ -91,7 +91,8 @@ public:
 };
 
 /// count items of T on the device. An empty one is allocated with a few bytes, so that it can be passed to a kernel.
-/// Throws failed naming the buffer, its bytes and the device's limit where there is not enough memory.
+/// Throws failed naming the buffer, its bytes and the device's memory where that is not enough. Many devices allocate when a buffer is
+/// first used: then writing and filling say so, and Kernel::run.
 template <class T>
 class Buffer : public RawBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -157,7 +158,7 @@ class Kernel {
 public:
   /// Queues the kernel over `global` work items in groups of `local` (global is rounded up: kernels test their index). Every argument has
   /// to be given once, `shared` and `own` together, in any order. Throws failed for an argument that the kernel does not have, has with
-  /// another type, or lacks.
+  /// another type, or lacks; and where memory runs out, naming the largest of its buffers, their bytes and the device's memory.
   void run(std::size_t global, std::size_t local, std::span<const Argument> shared, std::initializer_list<Argument> own);
   void run(std::size_t global, std::size_t local, std::initializer_list<Argument> arguments) { run(global, local, {}, arguments); }
   std::shared_ptr<detail::KernelState> state;
@@ -168,7 +169,7 @@ private:
 
 /// One .cl file built for the context's device. The compiler's -D come from `defines` and from the device's own properties
 /// (compute/program.cpp owns them all): NEPHROID_CPU or NEPHROID_GPU, NEPHROID_FP64 and NEPHROID_INT64_ATOMICS where the device has them.
-/// Built programs are kept in the context and in the OpenCL implementation's own cache.
+/// Built programs are kept in the context, while their sources stay the same, and in the OpenCL implementation's own cache.
 class Program {
 public:
   /// file: its path in kernels/, e.g. "tracing/trace.cl". Throws BuildError; Error(failed) for a source or include that is missing.
@@ -178,12 +179,15 @@ public:
   std::shared_ptr<detail::ProgramState> state;
 };
 
-/// The text of every .cl file in the folder `folder` of kernels/ with all that they include, as this context would build it.
+/// The text of every .cl file in the folder `folder` of kernels/ with all that they include, as this context would build it; empty where
+/// there is no such folder: an engine may have no kernels. Throws failed where it cannot be read.
 std::string kernel_sources(const Context& context, std::string_view folder);
 /// The text of a kernel source ("spectral/photons.cl") with everything that it includes, as this context would build it.
 std::string kernel_source(const Context& context, const std::string& file);
-/// With DeviceOptions::kernels: true once after any file in that folder changed, so that the owner rebuilds.
-bool kernels_changed(const Context& context);
+/// When each file in a kernels folder was last written, so that somebody who watches it sees a change. Empty where it cannot be read. Knows
+/// no context: a thread may call it while another one builds programs.
+using KernelTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
+KernelTimes kernel_times(const std::filesystem::path& folder);
 
 /// Who waits for kernels to be compiled is told so: the first run with a new option takes seconds to begin.
 /// From here on tell() is called before the context compiles a kernel source, by the thread that uses it, and not for programs that it has

@@ -46,9 +46,9 @@ void refuse_without_kernel_cache(const DeviceInfo& device)
 
 } // namespace
 
-detail::FileTimes detail::file_times(const fs::path& folder)
+KernelTimes kernel_times(const fs::path& folder)
 {
-  FileTimes times;
+  KernelTimes times;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code gone; // a file that an editor replaces may vanish between the two calls
@@ -73,7 +73,6 @@ Context Context::open(const DeviceOptions& options)
   s.info = device.info;
   s.device = device.handle;
   s.kernels = options.kernels;
-  s.kernel_times = detail::file_times(options.kernels);
   try {
     s.context = cl::Context(device.handle);
     s.queue = cl::CommandQueue(s.context, device.handle);
@@ -104,17 +103,6 @@ void Context::flush()
   } catch (const cl::Error& error) {
     throw detail::call_failed(error, state->info.name);
   }
-}
-
-bool kernels_changed(const Context& context)
-{
-  detail::ContextState& s = *context.state;
-  if (s.kernels.empty()) return false;
-  detail::FileTimes times = detail::file_times(s.kernels);
-  if (times == s.kernel_times) return false;
-  s.kernel_times = std::move(times);
-  s.programs.clear();
-  return true;
 }
 
 } // namespace nephroid::compute

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+
 namespace nephroid::compute {
 namespace detail {
 
@@ -63,6 +66,25 @@ Error call_failed(const cl::Error& error, const Place& where)
   if (const std::string problem = kernel_cache_problem(); !problem.empty())
     return failed(where, what, problem, "free space there or set POCL_CACHE_DIR to a folder that can be written");
   return failed(where, what);
+}
+
+std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6); }
+
+Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device, std::vector<const BufferState*> buffers)
+{
+  const cl_int code = error.err();
+  if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES && code != CL_OUT_OF_HOST_MEMORY &&
+      code != CL_INVALID_BUFFER_SIZE)
+    return call_failed(error, where);
+  constexpr std::size_t named = 3;
+  std::ranges::stable_sort(buffers, std::greater(), &BufferState::bytes);
+  buffers.resize(std::min(buffers.size(), named));
+  std::string names;
+  for (const BufferState* buffer : buffers)
+    names += fmt::format("{}buffer {} of {}", names.empty() ? "" : ", ", buffer->name, megabytes(buffer->bytes));
+  return failed(fmt::format("{} on {}", names.empty() ? where.text() : names, device.name),
+                fmt::format("{} gave {}", error.what(), error_name(code)), fmt::format("the device has {}", megabytes(device.memory_bytes)),
+                "use a smaller image, mesh or number of photons");
 }
 
 } // namespace detail

@@ -5,6 +5,7 @@
 #include <cxxabi.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdlib>
 #include <map>
 #include <regex>
@@ -65,7 +66,12 @@ void Kernel::run(std::size_t global, std::size_t local, std::span<const Argument
   try {
     state->context->queue.enqueueNDRangeKernel(state->kernel, cl::NullRange, cl::NDRange(rounded), cl::NDRange(local));
   } catch (const cl::Error& error) {
-    throw detail::call_failed(error, fmt::format("{} over {} items in groups of {}", state->name, rounded, local));
+    std::vector<const detail::BufferState*> buffers;
+    for (const std::span<const Argument> arguments : {shared, std::span<const Argument>(own)})
+      for (const Argument& argument : arguments)
+        if (argument.buffer_) buffers.push_back(argument.buffer_->state.get());
+    throw detail::buffers_failed(error, fmt::format("{} over {} items in groups of {}", state->name, rounded, local), state->context->info,
+                                 std::move(buffers));
   }
 }
 

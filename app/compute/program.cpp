@@ -79,11 +79,10 @@ Program::Program(const Context& context, const std::string& file, const Defines&
   detail::ContextState& s = *context.state;
   const std::string source = detail::full_source(s.kernels, file);
   const std::string options = compiler_options(s.info, defines);
-  const std::string key = options + '\n' + source;
   try {
-    auto built = s.programs.find(key);
-    if (built == s.programs.end()) built = s.programs.emplace(key, build(s, file, source, options)).first;
-    state = std::make_shared<detail::ProgramState>(detail::ProgramState{context.state, file, built->second});
+    detail::BuiltProgram& built = s.programs[{file, options}];
+    if (built.source != source) built = {source, build(s, file, source, options)};
+    state = std::make_shared<detail::ProgramState>(detail::ProgramState{context.state, file, built.program});
   } catch (const cl::Error& error) {
     throw detail::call_failed(error, file);
   }

@@ -72,9 +72,13 @@ std::string kernel_sources(const Context& context, std::string_view folder)
   if (kernels.empty()) {
     for (const EmbeddedSource& source : embedded_sources())
       if (source.name.starts_with(prefix)) files.insert(source.name);
-  } else
-    for (const fs::directory_entry& entry : fs::directory_iterator(kernels / folder))
-      files.insert(prefix + entry.path().filename().string());
+  } else {
+    std::error_code error;
+    for (fs::directory_iterator entry(kernels / folder, error), end; !error && entry != end; entry.increment(error))
+      files.insert(prefix + entry->path().filename().string());
+    if (error && error != std::errc::no_such_file_or_directory)
+      throw failed((kernels / folder).string(), "cannot be read: " + error.message());
+  }
   std::string all;
   for (const std::string& file : files)
     if (file.ends_with(".cl")) all += kernel_source(context, file);

@@ -22,16 +22,20 @@ struct Device {
 /// Every device of every platform. Adds to `problems` a line for each platform that would not list its devices.
 std::vector<Device> enumerate_devices(std::vector<std::string>& problems);
 
-using FileTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
+/// A program and the text that it was built from.
+struct BuiltProgram {
+  std::string source;
+  cl::Program program;
+};
 
 struct ContextState {
   DeviceInfo info;
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
-  std::filesystem::path kernels;               ///< empty: the embedded sources
-  FileTimes kernel_times;                      ///< of the files in `kernels` when last looked at
-  std::map<std::string, cl::Program> programs; ///< by compiler options and full text
+  std::filesystem::path kernels; ///< empty: the embedded sources
+  /// By file and compiler options. One of an older text is replaced, so that hours of editing kernels do not fill the memory.
+  std::map<std::pair<std::string, std::string>, BuiltProgram> programs;
   std::function<void()> tell_of_compiling = [] {};
 };
 
@@ -66,12 +70,15 @@ std::string error_name(cl_int code);
 /// which PoCL itself reports as an unrelated code without a reason.
 Error call_failed(const cl::Error& error, const Place& where);
 
+/// The same for a call over buffers. Where memory ran out it names the largest of them instead, their bytes, the device's memory and what
+/// to do.
+Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInfo& device, std::vector<const BufferState*> buffers);
+
+std::string megabytes(std::uint64_t bytes);
+
 /// The whole text of `file` for the compiler, every #include "NAME" of another kernel source put in its place, once each.
 /// Sources come from `folder`, or from the program itself where that is empty.
 std::string full_source(const std::filesystem::path& folder, const std::string& file);
-
-/// Modification times of the files in a kernels folder; empty where it cannot be read.
-FileTimes file_times(const std::filesystem::path& folder);
 
 /// Why PoCL cannot keep its kernels in the folder that it will use; empty where it can.
 std::string kernel_cache_problem();

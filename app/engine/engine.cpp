@@ -27,6 +27,12 @@ const Engine& engine_of(const preset::Preset& preset)
 
 std::string_view name_of(const Engine& engine) { return engine.settings().name; }
 
+bool adoptable(const preset::Preset& before, const preset::Preset& now)
+{
+  const Engine& engine = engine_of(before);
+  return engine.adoptable && &engine == &engine_of(now) && engine.adoptable(before, now);
+}
+
 } // namespace nephroid::engine
 
 const std::vector<const nephroid::preset::SettingsType*>& nephroid::preset::settings_types()

@@ -11,6 +11,7 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -26,8 +27,12 @@ struct Taken {
 };
 
 struct Engine {
-  /// Their name is the word in a preset's "engine", and the folder in kernels/ that has the engine's own kernels.
+  /// Their name is the word in a preset's "engine", and the folder in kernels/ that has the engine's own kernels. What their description
+  /// calls a file (preset::Text::file) is read: a run is bound to what it held (run/content.h).
   const preset::SettingsType& (*settings)();
+
+  /// Of what its jobs save: another number where they save it in another way. Only a state of this version is loaded again.
+  std::uint32_t state_version;
 
   /// What runs, what is left out and why. The engine may add what it worked out on the way, for its job. Throws bad_input for what it
   /// cannot render.
@@ -45,7 +50,7 @@ struct Engine {
   /// The engine's closed forms through its real kernels, for `nephroid check`.
   std::vector<check::Check> (*checks)();
 
-  /// Whether a job of `before`, a preset of this engine, may take on `now`, one of any engine (job::Job::adopt). Null: never.
+  /// Whether a job of `before` may take on `now` (job::Job::adopt); both are of this engine. Null: never.
   bool (*adoptable)(const preset::Preset& before, const preset::Preset& now) = nullptr;
 
   /// Whether the scene of its presets has things to select and to move; false: a camera alone.
@@ -69,5 +74,8 @@ const Engine& engine_of(const preset::Preset& preset);
 
 /// The word in a preset's "engine".
 std::string_view name_of(const Engine& engine);
+
+/// Whether a job of `before` may take on `now`, whatever engines they are of.
+bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::engine

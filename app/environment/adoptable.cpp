@@ -9,35 +9,35 @@ namespace nephroid::environment {
 
 preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other)
 {
-  preset::Preset made = preset;
-  made.scene.camera = other.scene.camera;
-  if (made.scene.environment && other.scene.environment) made.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
-  made.white = other.white;
-  made.name = other.name;
-  made.description = other.description;
-  Settings& s = settings(made);
+  preset::Preset result = preset;
+  result.scene.camera = other.scene.camera;
+  if (result.scene.environment && other.scene.environment) result.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
+  result.white = other.white;
+  result.name = other.name;
+  result.description = other.description;
+  Settings& s = settings(result);
   const Settings& o = settings(other);
   s.lights = o.lights;
   s.segmentation = o.segmentation;
   s.threshold = o.threshold;
-  return made;
+  return result;
 }
 
 preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other)
 {
-  preset::Preset made = preset;
-  for (std::size_t i = 0; i < made.scene.objects.size(); ++i) {
-    made.scene.objects[i].transform.rotate_deg = other.scene.objects[i].transform.rotate_deg;
-    made.scene.objects[i].transform.translate = other.scene.objects[i].transform.translate;
+  preset::Preset result = preset;
+  for (std::size_t i = 0; i < result.scene.objects.size(); ++i) {
+    result.scene.objects[i].transform.rotate_deg = other.scene.objects[i].transform.rotate_deg;
+    result.scene.objects[i].transform.translate = other.scene.objects[i].transform.translate;
   }
-  return made;
+  return result;
 }
 
 bool adoptable(const preset::Preset& before, const preset::Preset& now)
 {
   const auto may_be_lit = [](const preset::Preset& preset) { return preset.scene.environment || !preset.scene.lights.empty(); };
-  if (&before.settings.type() != &now.settings.type() || before.scene.camera.resolution != now.scene.camera.resolution ||
-      before.scene.objects.size() != now.scene.objects.size() || may_be_lit(before) != may_be_lit(now))
+  if (before.scene.camera.resolution != now.scene.camera.resolution || before.scene.objects.size() != now.scene.objects.size() ||
+      may_be_lit(before) != may_be_lit(now))
     return false;
   // What is baked together may not move apart.
   const auto is_caster = [&](const preset::Object& object) {

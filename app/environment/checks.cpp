@@ -49,7 +49,7 @@ check::Result ball_in_parallel_light(const compute::Context& context, std::uint6
     }
     farthest = std::max(farthest, std::sqrt(difference / length));
   }
-  return {{}, 100 * farthest, 2, "%", "irradiance on spheres about a glass ball against the integral over rays by Snell and Fresnel"};
+  return judged(100 * farthest, 2, "%", "irradiance on spheres about a glass ball against the integral over rays by Snell and Fresnel");
 }
 
 } // namespace

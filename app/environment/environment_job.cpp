@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
 #include "base/error.h"
-#include "base/hash.h"
+#include "base/hashed_bytes.h"
 #include "environment/adoptable.h"
 #include "environment/bake/bake_file.h"
 #include "environment/bake/own_directions.h"
@@ -24,8 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 5;
-
 class EnvironmentJob final : public job::Job {
 public:
   EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
@@ -45,13 +43,11 @@ public:
   void step() override
   {
     const auto begin = Clock::now();
-    double& seconds = renderer_ && !bakes_own() ? render_seconds_ : bake_seconds_;
-    if (bakes_own())
-      bake_own();
+    double& seconds = renderer_ && !bakes_own_directions() ? render_seconds_ : bake_seconds_;
+    if (bakes_own_directions())
+      bake_own_directions();
     else if (renderer_)
       renderer_->step();
-    else if (bake_)
-      begin_rendering(); // a change of the preset failed and left no renderer
     else
       bake();
     seconds += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -94,97 +90,101 @@ public:
   job::Snapshot snapshot() override
   {
     const Bake& bake = bake_ ? *bake_ : baker_->bake();
-    job::Snapshot made;
+    job::Snapshot snapshot;
     if (!renderer_ || passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
-    made.picture = renderer_ ? renderer_->picture() : sheet_;
+    snapshot.picture = renderer_ ? renderer_->picture() : sheet_;
+    snapshot.stands_in = render_ && !renderer_;
     if (!renderer_)
-      made.caption = render_ ? "The object is baked first: its caustic spheres, as far as they are"
-                             : "There is no light: the object's caustic spheres, as far as they are baked";
-    made.pictures = spheres_;
-    if (renderer_ && sheet_) made.pictures.insert(made.pictures.begin(), {"spheres", sheet_});
-    made.progress = progress();
-    made.warnings = warnings_;
-    made.phases = {{"bake", bake_seconds_}};
-    if (render_) made.phases.emplace_back("render", render_seconds_);
-    if (renderer_) made.phases.emplace_back("caustics", caustics_->seconds() - caustics_seconds_before_);
-    add_figures(bake, made);
-    if (renderer_) add_lights(made);
-    return made;
+      snapshot.caption = render_ ? "The object is baked first: its caustic spheres, as far as they are"
+                                 : "There is no light: the object's caustic spheres, as far as they are baked";
+    snapshot.pictures = spheres_;
+    if (renderer_ && sheet_) snapshot.pictures.insert(snapshot.pictures.begin(), {"spheres", sheet_});
+    snapshot.progress = progress();
+    snapshot.warnings = warnings_;
+    snapshot.phases = {{"bake", bake_seconds_}};
+    if (render_) snapshot.phases.emplace_back("render", render_seconds_);
+    if (renderer_) snapshot.phases.emplace_back("caustics", caustics_->seconds() - caustics_seconds_before_);
+    add_figures(bake, snapshot);
+    if (renderer_) add_lights(snapshot);
+    return snapshot;
   }
 
   void save(ByteSink& sink) override
   {
-    tracing::StateWriter to(sink);
-    to.value(checkpoint_version);
-    to.value(bake_seconds_);
-    to.value(render_seconds_);
-    const std::uint8_t complete = bake_ ? 1 : 0;
-    to.value(complete);
-    if (baker_) baker_->save(to);
+    tracing::State state(sink);
+    bool complete = bake_.has_value();
+    state.value(bake_seconds_);
+    state.value(render_seconds_);
+    state.value(complete);
+    if (baker_) baker_->state(state);
     if (!renderer_) return;
-    to.value(caustics_->seconds() - caustics_seconds_before_);
-    to.value(static_cast<std::uint8_t>(own_->complete() || resumes_));
-    renderer_->save(to);
+    double caustics_seconds = caustics_->seconds() - caustics_seconds_before_;
+    bool had_own = own_->complete() || bakes_own_again_;
+    state.value(caustics_seconds);
+    state.value(had_own);
+    renderer_->state(state);
   }
 
   /// A bake that was complete is in its file, or is baked again. So are lights' own directions.
   void load(ByteSource& source) override
   {
-    tracing::StateReader from(source);
-    std::uint32_t version = 0;
-    std::uint8_t complete = 0;
-    from.value(version);
-    if (version != checkpoint_version)
-      throw bad_input("checkpoint", fmt::format("is of version {}", version),
-                      fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
+    tracing::State state(source);
     double bake_seconds = 0, render_seconds = 0;
-    from.value(bake_seconds);
-    from.value(render_seconds);
-    from.value(complete);
-    if (complete != 0 && !bake_) return;
-    if (complete == 0) {
+    bool complete = false;
+    state.value(bake_seconds);
+    state.value(render_seconds);
+    state.value(complete);
+    if (complete && !bake_) return read_to_end(source);
+    if (!complete) {
       bake_.reset();
       own_.reset();
       renderer_.reset();
       if (!baker_) baker_.emplace(*task_, context_);
-      baker_->load(from);
+      baker_->state(state);
     } else if (renderer_) {
-      std::uint8_t had_own = 0;
+      bool had_own = false;
       double caustics_seconds = 0;
-      from.value(caustics_seconds);
-      from.value(had_own);
-      renderer_->load(from);
+      state.value(caustics_seconds);
+      state.value(had_own);
+      renderer_->state(state);
       caustics_seconds_before_ = caustics_->seconds() - caustics_seconds;
-      resumes_ = had_own != 0 && !own_->complete();
+      bakes_own_again_ = had_own && !own_->complete();
     }
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
-    if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
   }
 
-  /// While the object is baked, the change waits until it is rendered.
+  /// While the object is baked, the change waits until it is rendered. After one that failed there is no renderer to go on with.
   bool adopt(const preset::Preset& preset) override
   {
-    if (!render_ || !adoptable(preset_, preset)) return false;
+    if (!render_ || (bake_ && !renderer_) || !engine::adoptable(preset_, preset)) return false;
     const preset::Preset turned = with_view_of(preset_, preset);
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
-    if (renderer_) {
-      const double caustics_seconds = caustics_->seconds();
-      if (go_on_with(preset)) { // another picture begins
-        resumes_ = false;
-        bake_seconds_ = render_seconds_ = 0;
-        caustics_seconds_before_ = caustics_seconds;
-        photons_before_ = photons();
-        throws_first_ = false;
-      }
-      want_own();
+    try {
+      if (renderer_) change_picture(preset);
+    } catch (...) {
+      renderer_.reset(); // it is neither as it was nor as it shall be
+      throw;
     }
     preset_ = preset;
     return true;
   }
 
 private:
+  void change_picture(const preset::Preset& preset)
+  {
+    const double caustics_seconds = caustics_->seconds();
+    if (go_on_with(preset)) { // another picture begins
+      bakes_own_again_ = false;
+      bake_seconds_ = render_seconds_ = 0;
+      caustics_seconds_before_ = caustics_seconds;
+      photons_before_ = photons();
+      first_pass_lacks_own_ = false;
+    }
+    ask_for_own_directions();
+  }
+
   double work_seconds() const { return bake_seconds_ + render_seconds_; }
 
   /// That were sent from the bake's directions and the lights' own.
@@ -204,8 +204,9 @@ private:
   /// 0..1 of all passes, with the one that is thrown away.
   double rendered_part() const
   {
-    const int thrown = throws_first_ && (own_->complete() || resumes_) ? 1 : 0;
-    return (static_cast<double>(renderer_->passes() + thrown) + renderer_->part()) / static_cast<double>(passes_ + (throws_first_ ? 1 : 0));
+    const int thrown = first_pass_lacks_own_ && (own_->complete() || bakes_own_again_) ? 1 : 0;
+    return (static_cast<double>(renderer_->passes() + thrown) + renderer_->part()) /
+           static_cast<double>(passes_ + (first_pass_lacks_own_ ? 1 : 0));
   }
 
   void bake()
@@ -219,26 +220,26 @@ private:
     begin_rendering();
   }
 
-  std::vector<glm::dvec3> strong() const { return renderer_->strong_directions(own_directions(settings(shown_))); }
+  std::vector<glm::dvec3> strong_directions() const { return renderer_->strong_directions(own_directions(settings(shown_))); }
 
   /// After a first pass, which is thrown away then; before the next one of a run that had them.
-  bool bakes_own() const { return renderer_ && (renderer_->passes() > 0 || resumes_) && !own_->complete(); }
+  bool bakes_own_directions() const { return renderer_ && (renderer_->passes() > 0 || bakes_own_again_) && !own_->complete(); }
 
-  void bake_own()
+  void bake_own_directions()
   {
     own_->step();
-    if (own_->complete()) take_own();
+    if (own_->complete()) take_own_directions();
   }
 
-  void take_own()
+  void take_own_directions()
   {
     caustics_->set_own(own_->bake());
-    renderer_->take_own_directions(resumes_);
-    resumes_ = false;
+    renderer_->take_own_directions(bakes_own_again_);
+    bakes_own_again_ = false;
   }
 
   /// With all directions baked that are to be.
-  std::int64_t passes() const { return own_->complete() || resumes_ ? renderer_->passes() : 0; }
+  std::int64_t passes() const { return own_->complete() || bakes_own_again_ ? renderer_->passes() : 0; }
 
   void begin_rendering()
   {
@@ -248,14 +249,14 @@ private:
     renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
     shown_ = loaded_;
     go_on_with(preset_);
-    want_own();
+    ask_for_own_directions();
   }
 
-  void want_own()
+  void ask_for_own_directions()
   {
-    own_->want(strong());
-    throws_first_ |= !own_->complete();
-    if (own_->complete() && caustics_->own_directions() != own_->bake().directions) take_own();
+    own_->want(strong_directions());
+    first_pass_lacks_own_ |= !own_->complete();
+    if (own_->complete() && caustics_->own_directions() != own_->bake().directions) take_own_directions();
   }
 
   bool render_anew(const preset::Preset& preset)
@@ -336,45 +337,45 @@ private:
   }
 
   /// As the panel Environment has them.
-  void add_lights(job::Snapshot& made) const
+  void add_lights(job::Snapshot& snapshot) const
   {
-    made.curves.push_back({"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}});
+    snapshot.curves.push_back({"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}});
     const double rotate_deg = shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0;
     const std::vector<Region>& lights = renderer_->segmentation().lights;
     for (std::size_t i = 0; i < lights.size(); ++i) {
       const glm::dvec3 from = turned(lights[i].direction, rotate_deg), all = lights[i].flux, left = renderer_->visible()[i].flux;
       const double sum = all.x + all.y + all.z;
-      made.curves.back().rows.push_back({static_cast<double>(i + 1), glm::degrees(std::atan2(from.x, -from.z)),
-                                         glm::degrees(std::asin(from.y)), all.x, all.y, all.z,
-                                         sum > 0 ? (left.x + left.y + left.z) / sum : 1});
+      snapshot.curves.back().rows.push_back({static_cast<double>(i + 1), glm::degrees(std::atan2(from.x, -from.z)),
+                                             glm::degrees(std::asin(from.y)), all.x, all.y, all.z,
+                                             sum > 0 ? (left.x + left.y + left.z) / sum : 1});
     }
-    made.scalars.push_back({"lights", "count", static_cast<double>(lights.size())});
+    snapshot.scalars.push_back({"lights", "count", static_cast<double>(lights.size())});
   }
 
-  void add_figures(const Bake& bake, job::Snapshot& made) const
+  void add_figures(const Bake& bake, job::Snapshot& snapshot) const
   {
-    made.curves.push_back({"directions", {"direction", "x", "y", "z", "met", "sent", "absorbed", "lost"}, {}});
+    snapshot.curves.push_back({"directions", {"direction", "x", "y", "z", "met", "sent", "absorbed", "lost"}, {}});
     BakedDirection sum;
     for (std::size_t i = 0; i < bake.baked.size(); ++i) {
       const BakedDirection& d = bake.baked[i];
       const glm::dvec3& way = bake.directions[i];
-      made.curves.back().rows.push_back({static_cast<double>(i + 1), way.x, way.y, way.z, d.met, d.sent, d.absorbed, d.lost});
+      snapshot.curves.back().rows.push_back({static_cast<double>(i + 1), way.x, way.y, way.z, d.met, d.sent, d.absorbed, d.lost});
       sum.met += d.met;
       sum.sent += d.sent;
       sum.absorbed += d.absorbed;
       sum.lost += d.lost;
     }
-    made.scalars = {{"bake", "from_file", from_file_ ? 1.0 : 0.0},
-                    {"bake", "size", bake.size},
-                    {"bake", "smallest_radius", bake.radii.front()},
-                    {"bake", "largest_radius", bake.radii.back()},
-                    {"bake", "channels", static_cast<double>(bake.channels)},
-                    {"bake", "bytes", static_cast<double>((bake.halves.size() + bake.ways.size()) * sizeof(std::uint16_t))}};
+    snapshot.scalars = {{"bake", "from_file", from_file_ ? 1.0 : 0.0},
+                        {"bake", "size", bake.size},
+                        {"bake", "smallest_radius", bake.radii.front()},
+                        {"bake", "largest_radius", bake.radii.back()},
+                        {"bake", "channels", static_cast<double>(bake.channels)},
+                        {"bake", "bytes", static_cast<double>((bake.halves.size() + bake.ways.size()) * sizeof(std::uint16_t))}};
     if (sum.met <= 0) return;
-    made.scalars.insert(made.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
-                                             {"energy", "sent", sum.sent / sum.met},
-                                             {"energy", "absorbed", sum.absorbed / sum.met},
-                                             {"energy", "lost", sum.lost / sum.met}});
+    snapshot.scalars.insert(snapshot.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
+                                                     {"energy", "sent", sum.sent / sum.met},
+                                                     {"energy", "absorbed", sum.absorbed / sum.met},
+                                                     {"energy", "lost", sum.lost / sum.met}});
   }
 
   preset::Preset preset_; ///< the newest
@@ -394,8 +395,8 @@ private:
   std::optional<Caustics> caustics_;
   double caustics_seconds_before_ = 0; ///< of Caustics::seconds(), what was before the newest preset
   std::optional<OwnDirections> own_;   ///< with the renderer
-  bool resumes_ = false;               ///< the passes that are done had own directions, which are baked again
-  bool throws_first_ = false;          ///< this picture's first pass is without its own directions, and is thrown away
+  bool bakes_own_again_ = false;       ///< the passes that are done had own directions, which are baked again
+  bool first_pass_lacks_own_ = false;  ///< this picture's first pass is without its own directions, and is thrown away
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
   std::uint64_t photons_ = 0;        ///< that the finished bake took here

@@ -9,6 +9,7 @@
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
 #include "tracing/omissions.h"
+#include "tracing/scene_buffers.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +39,8 @@ std::vector<plan::Pass> code_passes(const preset::Preset& preset, const BakeTask
 {
   static constexpr std::array<std::string_view, 4> names{"mirrors", "bending", "attenuation", "smooth normals"};
   std::vector<plan::Pass> passes =
-      tracing::code_omissions(tracing::leave_out_all(preset.leave_out), task.caster.scene, task.tables.wavelengths.attenuator_count).passes;
+      tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out}, task.caster.scene, task.tables.wavelengths.attenuator_count)
+          .passes;
   std::erase_if(passes, [](const plan::Pass& pass) { return !std::ranges::count(names, pass.name); });
   return passes;
 }
@@ -82,27 +84,22 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
 {
   const auto bytes_of = [](const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); };
   const scene::Scene& s = *render.scene;
-  const auto pixels = static_cast<std::uint64_t>(s.camera.width) * static_cast<std::uint64_t>(s.camera.height);
   const std::uint64_t sky = s.environment ? bytes_of(s.environment->rgb) : 0;
   return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), own_directions(settings), bake.own_radii, settings.technique)},
-          {"whole scene", bytes_of(render.bvh->nodes) + bytes_of(render.bvh->blocks) + bytes_of(s.geometry.triangles) +
-                              bytes_of(s.geometry.positions) + bytes_of(s.geometry.normals)},
+          {"whole scene", tracing::tree_bytes(*render.bvh) + bytes_of(s.geometry.triangles) + bytes_of(s.geometry.positions) +
+                              bytes_of(s.geometry.normals)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
           {"receivers", Renderer::receiver_bytes()},
-          {"paths of the view", Renderer::bytes_a_pixel(render) * pixels},
+          {"paths of the view", Renderer::bytes_a_pixel(render) * s.camera.pixels()},
           {"medium", render.has_medium ? Renderer::medium_bytes(bake.empty_bake()) : 0},
           {"environment (host)", 2 * sky + bytes_of(render.cube.flux), true}};
 }
 
 std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes)
 {
-  const auto bytes_of = [](const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); };
-  const auto mesh_bytes = [&](const scene::Scene& s) {
-    return bytes_of(s.geometry.triangles) + bytes_of(s.geometry.positions) + bytes_of(s.geometry.normals) + bytes_of(s.object_of_primitive);
-  };
-  const std::uint64_t tree = bytes_of(task.bvh.nodes) + bytes_of(task.bvh.blocks), object = mesh_bytes(task.caster.scene),
+  const std::uint64_t tree = tracing::tree_bytes(task.bvh), object = tracing::surface_bytes(task.caster.scene),
                       item_bytes = std::uint64_t{task.empty_bake().sphere_items()} * sizeof(std::int64_t);
-  std::vector<plan::PlannedBuffer> list{{"scene (host)", mesh_bytes(scene) + tree + object, true},
+  std::vector<plan::PlannedBuffer> list{{"scene (host)", tracing::surface_bytes(scene) + tree + object, true},
                                         {"caustic spheres (host)", task.bytes(), true},
                                         {"pictures of spheres (host)", picture_bytes(task), true}};
   if (!bakes) return list;

@@ -66,10 +66,10 @@ Shown choose_shown(const Bake& bake, int width, int height)
 
 std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, int width, int height, double white)
 {
-  auto made = std::make_shared<job::Picture>();
-  made->width = width;
-  made->height = height;
-  made->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), grey);
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = width;
+  picture->height = height;
+  picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), grey);
   const int across = static_cast<int>(shown.spheres.size()), down = static_cast<int>(shown.directions.size());
   const int w = std::max(1, std::min(width / across, 2 * (height / down)) - gap), h = std::max(1, w / 2);
   for (int row = 0; row < down; ++row)
@@ -81,26 +81,26 @@ std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, 
       for (int y = 0; y < h && top + y < height; ++y) {
         const int visible = std::min(w, width - left);
         std::copy_n(cell.begin() + static_cast<std::ptrdiff_t>(3) * y * w, 3 * visible,
-                    made->rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(top + y) * width + left));
+                    picture->rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(top + y) * width + left));
       }
     }
-  return made;
+  return picture;
 }
 
 std::shared_ptr<const job::Picture> spheres_picture(const Bake& bake, std::size_t direction, const std::vector<std::size_t>& spheres,
                                                     double white)
 {
-  auto made = std::make_shared<job::Picture>();
-  made->width = picture_width;
-  made->height = picture_height;
-  made->rgb.assign(std::size_t{3} * picture_width * picture_height, 0.0f);
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = picture_width;
+  picture->height = picture_height;
+  picture->rgb.assign(std::size_t{3} * picture_width * picture_height, 0.0f);
   for (const std::size_t sphere : spheres) {
-    made->layers.push_back(
+    picture->layers.push_back(
         {fmt::format("sphere_{:02}", sphere + 1), latitude_longitude(bake, direction, sphere, picture_width, picture_height, white)});
-    const std::vector<float>& layer = made->layers.back().rgb;
-    std::transform(layer.begin(), layer.end(), made->rgb.begin(), made->rgb.begin(), std::plus());
+    const std::vector<float>& layer = picture->layers.back().rgb;
+    std::transform(layer.begin(), layer.end(), picture->rgb.begin(), picture->rgb.begin(), std::plus());
   }
-  return made;
+  return picture;
 }
 
 std::uint64_t picture_bytes(const BakeTask& task)

@@ -30,7 +30,7 @@ check::Result one_facet(const compute::Context&, std::uint64_t seed)
     const glm::dvec2 spot = glm::dvec2(way.from) - glm::dvec2(way.direction) / way.direction.z * (distance + way.from.z);
     farthest = std::max(farthest, glm::length(spot - (at + slope * (distance + z))));
   }
-  return {{}, farthest, 0.01, "mm", "the spot of a facet over 100 mm against its slope"};
+  return judged(farthest, 0.01, "mm", "the spot of a facet over 100 mm against its slope");
 }
 
 } // namespace

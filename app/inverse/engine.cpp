@@ -116,7 +116,7 @@ InversePlan make_plan(const preset::Preset& preset)
 
 bool may_go_on(const preset::Preset& before, const preset::Preset& now)
 {
-  if (&before.settings.type() != &now.settings.type() || settings(before).receivers.size() != settings(now).receivers.size()) return false;
+  if (settings(before).receivers.size() != settings(now).receivers.size()) return false;
   preset::Preset same = now;
   same.name = before.name;
   same.description = before.description;
@@ -132,6 +132,7 @@ std::string receiver_group(std::size_t receiver) { return fmt::format("inverse/r
 
 constinit const engine::Engine engine{
     .settings = settings_type,
+    .state_version = 1,
     .plan = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&) -> std::unique_ptr<plan::Plan> {
       return std::make_unique<InversePlan>(make_plan(preset));
     },

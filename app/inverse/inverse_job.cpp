@@ -98,7 +98,7 @@ public:
   /// The stop counts from here.
   bool adopt(const preset::Preset& preset) override
   {
-    if (!may_go_on(preset_, preset)) return false;
+    if (!engine::adoptable(preset_, preset)) return false;
     if (settings(preset) != settings(preset_) || preset.stop != preset_.stop) {
       InversePlan plan = make_plan(preset);
       layout_ = std::move(plan.layout);
@@ -115,41 +115,35 @@ public:
 
   void save(ByteSink& to) override
   {
-    method_->save(to);
-    to.value(method_seconds_);
-    to.value(judge_seconds_);
-    to.value(began_);
-    to.value(std::uint64_t{history_.size()});
-    to.write(std::as_bytes(std::span(history_)));
-    to.value(judge_.has_value());
-    if (judge_) judge_->save(to);
+    State saved(to);
+    state(saved);
   }
-
-  /// A run that ended at its stop goes on where it is given more steps or time; what it had judged then counts no more.
   void load(ByteSource& from) override
   {
-    bool judged = false;
-    std::uint64_t rows = 0;
-    method_->load(from);
-    from.value(method_seconds_);
-    from.value(judge_seconds_);
-    from.value(began_);
-    from.value(rows);
-    if (rows > from.left() / sizeof(CostRow)) throw bad_input("checkpoint.bin", "is of another run");
-    history_.resize(rows);
-    from.read(std::as_writable_bytes(std::span(history_)));
-    from.value(judged);
-    if (!judged) return;
-    begin_judging();
-    judge_->load(from);
-    if (!found()) {
-      conflict_known_ = false;
-      judge_.reset();
-      solid_.reset();
-    }
+    State saved(from);
+    state(saved);
   }
 
 private:
+  /// A run that ended at its stop goes on where it is given more steps or time; what it had judged then counts no more.
+  void state(State& state)
+  {
+    method_->state(state);
+    state.value(method_seconds_);
+    state.value(judge_seconds_);
+    state.value(began_);
+    state.list(history_);
+    bool judged = judge_.has_value();
+    state.value(judged);
+    if (!judged) return;
+    if (state.is_read()) begin_judging();
+    judge_->state(state);
+    if (!state.is_read() || found()) return;
+    conflict_known_ = false;
+    judge_.reset();
+    solid_.reset();
+  }
+
   bool found() const
   {
     if (preset_.stop.seconds && method_seconds_ - began_.seconds >= *preset_.stop.seconds) return true;

@@ -16,7 +16,6 @@
 #include <limits>
 #include <optional>
 #include <random>
-#include <span>
 #include <thread>
 
 namespace nephroid::inverse {
@@ -193,18 +192,11 @@ Fates Judge::fates() const
 
 std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const { return costs_of(targets, light_, sum_.sent); }
 
-void Judge::save(ByteSink& to) const
+void Judge::state(State& state)
 {
-  to.value(row_);
-  to.value(sum_);
-  for (const auto& light : light_) to.write(std::as_bytes(std::span(light)));
-}
-
-void Judge::load(ByteSource& from)
-{
-  from.value(row_);
-  from.value(sum_);
-  for (auto& light : light_) from.read(std::as_writable_bytes(std::span(light)));
+  state.value(row_);
+  state.value(sum_);
+  for (auto& light : light_) state.items(light);
 }
 
 } // namespace nephroid::inverse

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law in double precision.
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"
@@ -46,8 +46,7 @@ public:
   Fates fates() const;
   std::vector<Cost> costs(const std::vector<Target>& targets) const; ///< of each receiver
 
-  void save(ByteSink& to) const;
-  void load(ByteSource& from);
+  void state(State& state);
 
 private:
   struct Row;

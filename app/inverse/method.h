@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A way to find the facets' slopes: what a run needs of it, whichever it is.
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"
@@ -41,8 +41,7 @@ public:
   virtual void show(job::Snapshot&) const {}
 
   /// All that it needs to go on with the same bits.
-  virtual void save(ByteSink& to) const = 0;
-  virtual void load(ByteSource& from) = 0;
+  virtual void state(State& state) = 0;
 };
 
 /// As the preset says. The layout and the targets outlive it.

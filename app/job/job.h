@@ -76,6 +76,7 @@ struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
   std::string caption;                    ///< a sentence on what it shows, where that is not what the preset asks for; else empty
   bool whole = true;                      ///< false: parts of the picture are black since nothing was computed for them yet
+  bool stands_in = false;                 ///< true: the picture shows the work before the first one of what was asked for, and is no result
   std::vector<NamedPicture> pictures;     ///< the others
   Progress progress;
   std::vector<Scalar> scalars;
@@ -109,13 +110,14 @@ public:
   virtual bool estimates_error() const { return true; }
   /// Of its error so far, without a snapshot; null where nothing is measured.
   virtual std::shared_ptr<const History> history() const { return nullptr; }
-  /// Writes everything needed to go on later with the same bits. Opaque; versioned by the engine.
+  /// Writes everything needed to go on later with the same bits. Opaque; of the engine's state_version.
   virtual void save(ByteSink& to) = 0;
-  /// Reads what save() wrote, to its end. Throws bad_input where that is of another version or preset, or is cut.
+  /// Reads what save() wrote of the same preset, to its end (run/checkpoint.cpp sees to both). Throws bad_input where that is cut.
   virtual void load(ByteSource& from) = 0;
   /// Takes on another preset without starting again, and keeps what was computed so far. True only where the engine can do so
-  /// (engine::Engine::adoptable): a relighting run can where only the light differs. Throws bad_input at FILE#/scene/lights/... for a
-  /// spectrum that cannot be used. Where it returns false or throws, nothing has changed.
+  /// (engine::adoptable): a relighting run can where only the light differs. Throws bad_input at FILE#/scene/lights/... for a
+  /// spectrum that cannot be used, failed where the device fails. Where it returns false, nothing has changed. Where it throws, the next
+  /// adopt() comes before any step() or snapshot(); where the job cannot go on from there, it returns false.
   virtual bool adopt(const preset::Preset&) { return false; }
 };
 

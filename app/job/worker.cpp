@@ -52,14 +52,17 @@ struct Worker::Impl {
   mutable std::mutex mutex;
   std::condition_variable changed; ///< a command came or the state changed
   // Commands
-  Make next; ///< the newest start() that the thread has not taken yet
+  Make next;                       ///< the newest start() that the thread has not taken yet
+  std::uint64_t next_adoption = 0; ///< the newest adopt() before that
   struct Adoption {
     std::shared_ptr<const preset::Preset> preset;
     Make otherwise;
+    std::uint64_t number = 0;
   };
   std::optional<Adoption> adoption; ///< the newest adopt() that the thread has not taken yet
-  std::uint64_t adoptions = 0;      ///< its number
+  std::uint64_t adoptions = 0;      ///< how many there were
   bool cancelled = false, paused = false, ending = false;
+  bool paused_since_adoption = false; ///< by a pause() after the newest adopt(): so begins what begins in its stead
   std::chrono::milliseconds interval{100};
   bool has_job = false;                      ///< one that could adopt: in hand, or to come from `next`
   std::optional<std::array<int, 2>> watched; ///< the pixel of watch_spectrum()
@@ -76,12 +79,13 @@ struct Worker::Impl {
 
   bool must_stop(std::uint64_t generation) const { return cancelled || ending || status.generation != generation; }
 
-  /// start() with the mutex held.
-  void begin(Make make)
+  /// start() with the mutex held; number: of the newest adoption that make() knows of.
+  void begin(Make make, std::uint64_t number)
   {
     next = std::move(make);
+    next_adoption = number;
     adoption.reset();
-    cancelled = paused = false;
+    cancelled = paused = paused_since_adoption = false;
     has_job = true;
     Status preparing;
     preparing.state = State::preparing;
@@ -89,6 +93,15 @@ struct Worker::Impl {
     preparing.failures = status.failures;
     status = preparing;
     changed.notify_all();
+  }
+
+  /// With the mutex held, where the job in hand does not adopt. What was commanded after the adoption still holds.
+  void begin_instead(const Adoption& refused)
+  {
+    if (cancelled || adoption) return; // a newer one is the job's to adopt
+    const bool pause = paused_since_adoption;
+    begin(refused.otherwise, refused.number);
+    paused = paused_since_adoption = pause;
   }
 
   /// Calls change() with the mutex held, unless the job in hand was replaced: then the status is no longer about it.
@@ -171,24 +184,28 @@ struct Worker::Impl {
     return adoption ? Move::adopt : watch_changed ? Move::tell : Move::stop;
   }
 
-  /// Lets the job take on the newest preset, or makes a new one begin where it cannot. False where it threw, which is the state then.
+  /// Lets the job take on the newest preset, or makes a new one begin where it cannot. False where that failed: the job has to wait for the
+  /// next adoption, and the state is failed unless that is there already.
   bool adopt_newest(std::uint64_t generation, Job& job)
   {
     std::unique_lock lock(mutex);
     const Adoption newest = *std::exchange(adoption, std::nullopt);
-    const std::uint64_t number = adoptions;
     lock.unlock();
     try {
       if (!job.adopt(*newest.preset)) {
-        update(generation, [&] { begin(newest.otherwise); });
+        update(generation, [&] { begin_instead(newest); });
         return true;
       }
-      adopted = number;
+      adopted = newest.number;
       publish(generation, job);
       update(generation, [&] { status.error.reset(); });
       return true;
     } catch (...) {
-      set_failed(generation, error_of(std::current_exception()));
+      const Error error = error_of(std::current_exception());
+      lock.lock();
+      const bool is_overtaken = adoption.has_value(); // then nobody wants that preset any more
+      lock.unlock();
+      if (!is_overtaken) set_failed(generation, error);
       return false;
     }
   }
@@ -264,7 +281,8 @@ struct Worker::Impl {
     }
     update(generation, [&] {
       has_job = false;
-      if (const auto left = std::exchange(adoption, std::nullopt)) begin(left->otherwise);
+      if (!is_over(status.state)) status.state = State::cancelled; // together with an adoption that had overtaken one that failed
+      if (const auto left = std::exchange(adoption, std::nullopt)) begin_instead(*left);
     });
   }
 
@@ -276,7 +294,7 @@ struct Worker::Impl {
       if (ending) return;
       const Make make = std::exchange(next, nullptr);
       const std::uint64_t generation = status.generation;
-      adopted = adoptions; // what is made now is made of the newest preset
+      adopted = next_adoption;
       lock.unlock();
       run_one(generation, make);
       lock.lock();
@@ -302,7 +320,7 @@ Worker::~Worker()
 std::shared_ptr<const Snapshot> Worker::start(std::function<std::unique_ptr<Job>()> make)
 {
   const std::lock_guard lock(impl_->mutex);
-  impl_->begin(std::move(make));
+  impl_->begin(std::move(make), impl_->adoptions);
   return impl_->snapshot;
 }
 
@@ -311,10 +329,11 @@ std::uint64_t Worker::adopt(std::shared_ptr<const preset::Preset> preset, std::f
   const std::lock_guard lock(impl_->mutex);
   const std::uint64_t number = ++impl_->adoptions;
   if (impl_->has_job && !impl_->cancelled) {
-    impl_->adoption = Impl::Adoption{std::move(preset), std::move(otherwise)};
+    impl_->adoption = Impl::Adoption{std::move(preset), std::move(otherwise), number};
+    impl_->paused_since_adoption = false;
     impl_->changed.notify_all();
   } else
-    impl_->begin(std::move(otherwise));
+    impl_->begin(std::move(otherwise), number);
   return number;
 }
 
@@ -328,7 +347,7 @@ void Worker::cancel()
 void Worker::pause(bool paused)
 {
   const std::lock_guard lock(impl_->mutex);
-  impl_->paused = paused;
+  impl_->paused = impl_->paused_since_adoption = paused;
   impl_->changed.notify_all();
 }
 

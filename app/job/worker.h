@@ -36,7 +36,9 @@ public:
   /// Lets the job in hand take on a preset (Job::adopt) and shows its picture at once. A paused or finished job does so too: a
   /// finished job stays until the next start() or cancel(). A job that is being made does so when it is ready. Where there is no job, or it
   /// cannot, this is start(otherwise). What Job::adopt throws becomes State::failed, but the job stays for the next adopt().
-  /// Returns at once, with this adoption's number (Snapshot::adoption). Where several wait, only the newest is taken on.
+  /// Returns at once, with this adoption's number (Snapshot::adoption). Where several wait, only the newest is taken on, and one that a
+  /// newer one overtakes while the job works at it starts and fails nothing. A cancel() or pause() that follows holds, whatever becomes of
+  /// it.
   std::uint64_t adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise);
   void cancel(); ///< after the step in hand, or after make() where that is still running
   void pause(bool paused);

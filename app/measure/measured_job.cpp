@@ -23,8 +23,6 @@
 namespace nephroid::measure {
 namespace {
 
-constexpr std::uint64_t record_version = 2;
-
 Error is_cut() { return bad_input("checkpoint", "is cut", "", "delete it and start again"); }
 
 /// A count of items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes all memory.
@@ -41,11 +39,10 @@ struct SavedHistory {
   double wall_seconds = 0;
 };
 
-/// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history: version, wall and measuring
-/// seconds, column names, rows.
+/// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history: wall and measuring seconds,
+/// column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp).
 void save_history(const job::History& history, double wall_seconds, ByteSink& to)
 {
-  to.value(record_version);
   to.value(wall_seconds);
   to.value(history.measuring_seconds);
   to.value(std::uint64_t{history.columns.size()});
@@ -63,13 +60,9 @@ void save_history(const job::History& history, double wall_seconds, ByteSink& to
   }
 }
 
-/// Throws bad_input where the checkpoint is cut or of another version.
+/// Throws bad_input where the checkpoint is cut.
 SavedHistory load_history(ByteSource& from)
 {
-  std::uint64_t version = 0;
-  from.value(version);
-  if (version != record_version)
-    throw bad_input("checkpoint", "was written by another version of the program", "", "delete it and start again");
   SavedHistory saved;
   from.value(saved.wall_seconds);
   from.value(saved.history.measuring_seconds);
@@ -270,6 +263,10 @@ private:
     const auto begin = Clock::now();
     const job::Snapshot snapshot = job_->snapshot();
     const job::Progress& progress = snapshot.progress;
+    if (snapshot.stands_in) { // a run that ends before its first picture has no error
+      last_seconds_ = progress.work_seconds;
+      return;
+    }
     job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, {}};
     for (const auto& [name, value] : errors_of(*snapshot.picture)) row.errors.push_back(value);
     row.wall_seconds = wall_seconds();

@@ -2,6 +2,8 @@
 // The wavelength grid of the whole program: 401 wavelengths, 380..780 nm in steps of 1 nm.
 #pragma once
 #include <array>
+#include <numeric>
+#include <vector>
 
 namespace nephroid::optics {
 
@@ -13,5 +15,13 @@ inline constexpr int wavelength_count = last_nm - first_nm + 1;
 using Spectrum = std::array<double, wavelength_count>;
 
 inline constexpr int wavelength_nm(int index) { return first_nm + index; }
+
+/// Every index in order: one cluster of all wavelengths, where a path has all of them, or any one.
+inline std::vector<int> all_wavelengths()
+{
+  std::vector<int> indices(wavelength_count);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
 
 } // namespace nephroid::optics

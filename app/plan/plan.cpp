@@ -42,7 +42,7 @@ std::string way_back(const Pass& pass)
 
 Json json_of(const Plan& plan)
 {
-  Json passes = Json::array(), buffers = Json::array(), defines = Json::object();
+  Json passes = Json::array(), buffers = Json::array(), defines = Json::object(), inputs = Json::array();
   for (const Pass& pass : plan.passes) {
     Json entry{{"name", pass.name}, {"runs", pass.runs}, {"reason", pass.reason}};
     if (!pass.field.empty()) {
@@ -53,12 +53,26 @@ Json json_of(const Plan& plan)
   }
   for (const PlannedBuffer& buffer : plan.buffers) buffers.push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
   for (const auto& [name, value] : plan.defines) defines[name] = value;
-  return {{"engine", plan.engine}, {"passes", passes}, {"buffers", buffers}, {"defines", defines}, {"notes", plan.notes}};
+  for (const Input& input : plan.inputs) inputs.push_back({{"file", input.file}, {"content", input.content}});
+  return {{"engine", plan.engine}, {"passes", passes}, {"buffers", buffers},
+          {"defines", defines},    {"inputs", inputs}, {"notes", plan.notes}};
 }
 
 } // namespace
 
 std::string to_json(const Plan& plan) { return json_text(json_of(plan), 2); }
+
+std::vector<Input> inputs_of(const std::string& plan_json)
+{
+  std::vector<Input> inputs;
+  try {
+    for (const Json& input : Json::parse(plan_json).at("inputs"))
+      inputs.push_back({input.at("file").get<std::string>(), input.at("content").get<std::string>()});
+  } catch (const Json::exception&) {
+    inputs.clear(); // written by something else
+  }
+  return inputs;
+}
 
 std::string to_json_line(const Plan& plan, const std::string& name)
 {

@@ -24,6 +24,12 @@ struct PlannedBuffer {
   bool on_host = false; ///< in the program's own memory, not on the device
 };
 
+/// A file that the preset names.
+struct Input {
+  std::string file;    ///< as the preset names it
+  std::string content; ///< a hash of what it held when the plan was made; empty where it could not be read
+};
+
 /// An engine may add to it what it worked out on the way, for its job.
 struct Plan {
   virtual ~Plan() = default;
@@ -37,6 +43,7 @@ struct Plan {
   std::vector<Pass> passes;
   std::vector<PlannedBuffer> buffers;
   std::map<std::string, std::string> defines;
+  std::vector<Input> inputs;               ///< what the run was made of
   std::vector<std::string> notes;          ///< what the run should say once: extrapolated data, open meshes
   int layers = 0;                          ///< pictures that the run makes and adds up
   std::uint64_t picture_bytes_a_pixel = 0; ///< on this machine, while a picture is made, beside it
@@ -44,9 +51,11 @@ struct Plan {
   bool estimates_error = false;            ///< films are kept in two halves, whose difference tells the error
 };
 
-/// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{}}, plus "notes";
-/// "field" and "run_value" only where a field decides. Over several lines, as plan.json has it.
+/// {"engine","passes":[{"name","runs","reason","field","run_value"}],"buffers":[{"name","bytes"}],"defines":{},"inputs":[{"file","content"}]},
+/// plus "notes"; "field" and "run_value" only where a field decides. Over several lines, as plan.json has it.
 std::string to_json(const Plan& plan);
+/// Of a plan.json; none where it is damaged.
+std::vector<Input> inputs_of(const std::string& plan_json);
 /// The same on one line, with the run's "name" before it: a sweep is a line a run.
 std::string to_json_line(const Plan& plan, const std::string& name);
 /// For a terminal.

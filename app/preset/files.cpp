@@ -49,13 +49,18 @@ std::string name_given(const Origin& main, const std::string& name, const Origin
   return name_from(main.folder, name, is_here ? fs::path() : origin.folder);
 }
 
-Preset moved_to(Preset preset, const fs::path& folder)
+Preset with_file_names(Preset preset, const std::function<std::string(const std::string& name)>& renamed)
 {
-  const fs::path from = fs::path(preset.source).parent_path();
-  const FileNames::Rename rename = [&](std::string& name) { name = name_from(folder, name, from); };
+  const FileNames::Rename rename = [&](std::string& name) { name = renamed(name); };
   FileNames names(rename);
   describe(names, preset);
   return preset;
+}
+
+Preset moved_to(Preset preset, const fs::path& folder)
+{
+  const fs::path from = fs::path(preset.source).parent_path();
+  return with_file_names(std::move(preset), [&](const std::string& name) { return name_from(folder, name, from); });
 }
 
 std::vector<fs::path> files_of(const Preset& preset)
@@ -63,12 +68,10 @@ std::vector<fs::path> files_of(const Preset& preset)
   std::vector<fs::path> files;
   if (!preset.source.empty()) files.emplace_back(preset.source);
   const fs::path folder = fs::path(preset.source).parent_path();
-  const FileNames::Rename note = [&](std::string& name) {
+  with_file_names(preset, [&](const std::string& name) {
     if (const auto found = found_from(folder, name)) files.push_back(*found);
-  };
-  FileNames names(note);
-  Preset looked_at = preset;
-  describe(names, looked_at);
+    return name;
+  });
   return files;
 }
 

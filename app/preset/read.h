@@ -34,6 +34,9 @@ std::string to_json(const Preset& preset, const std::filesystem::path& folder);
 /// JSON Schema (2020-12) of a preset file, from the same descriptions.
 std::string schema();
 
+/// The preset with each name of a file as `renamed` gives it, in the order of the file; so also a way to see all names.
+Preset with_file_names(Preset preset, const std::function<std::string(const std::string& name)>& renamed);
+
 /// The files that a preset names, as far as they are there, and its own.
 std::vector<std::filesystem::path> files_of(const Preset& preset);
 

@@ -6,7 +6,7 @@
 #include "image/image.h"
 #include "measure/run_files.h"
 #include "preset/animation.h"
-#include "run/run.h"
+#include "run/content.h"
 
 #include <fmt/format.h>
 
@@ -83,10 +83,10 @@ void hide_frame(const fs::path& folder, int frame)
   for (const char* name : of_all_frames) fs::remove(folder / name, ignored);
 }
 
-std::optional<job::Progress> finished_frame(const fs::path& folder, int frame, const preset::Preset& preset)
+std::optional<FinishedRun> finished_frame(const fs::path& folder, int frame, const preset::Preset& preset)
 {
   const fs::path own = frame_folder(folder, frame);
-  const auto done = finished_run(own, preset);
+  auto done = finished_run(own, preset);
   if (!done || !can_be_read(own / "image.exr") || !can_be_read(own / "image.png")) return std::nullopt;
   return done;
 }
@@ -94,8 +94,11 @@ std::optional<job::Progress> finished_frame(const fs::path& folder, int frame, c
 std::vector<int> finished_frames(const fs::path& folder, const preset::Preset& preset)
 {
   std::vector<int> finished;
-  for (int frame = 0; frame < preset.animation.value().frames; ++frame)
-    if (finished_run(frame_folder(folder, frame), preset::at_frame(preset, frame))) finished.push_back(frame);
+  const std::vector<plan::Input> inputs = read_inputs(preset); // all frames have the same
+  for (int frame = 0; frame < preset.animation.value().frames; ++frame) {
+    const auto done = finished_run(frame_folder(folder, frame), preset::at_frame(preset, frame), inputs);
+    if (done && done->changed.empty()) finished.push_back(frame);
+  }
   return finished;
 }
 

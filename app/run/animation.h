@@ -2,8 +2,8 @@
 // The files of an animation in its folder: frame_0003.png and frame_0003.exr of each frame, the run that made it in frames/0003, figures of
 // all frames in frames.csv, the video animation.mp4.
 #pragma once
-#include "job/job.h"
 #include "preset/preset.h"
+#include "run/run.h"
 
 #include <filesystem>
 #include <optional>
@@ -23,9 +23,9 @@ void show_frame(const std::filesystem::path& folder, int frame);
 /// Takes them away again, and animation.mp4 with them: before the frame is rendered another time.
 void hide_frame(const std::filesystem::path& folder, int frame);
 
-/// How far the frame's run came, if it is the finished run of exactly this preset and its pictures can be read.
-std::optional<job::Progress> finished_frame(const std::filesystem::path& folder, int frame, const preset::Preset& preset);
-/// The frames of the preset's animation whose runs are finished, in order.
+/// The frame's run, if it is the finished run of exactly this preset and its pictures can be read.
+std::optional<FinishedRun> finished_frame(const std::filesystem::path& folder, int frame, const preset::Preset& preset);
+/// The frames of the preset's animation whose runs are finished and of the files as they are, in order.
 std::vector<int> finished_frames(const std::filesystem::path& folder, const preset::Preset& preset);
 
 /// Removes frames from `first` on, each with its run, and then frames.csv and animation.mp4, which were of them too.

@@ -3,87 +3,80 @@
 // changed or made for another preset, mesh or spectrum, or on another device, is refused; because it is written whole, kill -9 leaves the
 // checkpoint before or the new one, never half of one.
 #include "base/build_info.h"
-#include "base/bytes.h"
 #include "base/files.h"
+#include "base/hashed_bytes.h"
+#include "engine/engine.h"
 #include "preset/settings_type.h"
-#include "run/content_hash.h"
+#include "run/content.h"
 #include "run/run.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
-#include <vector>
+#include <array>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
 
+using Word = std::array<char, 16>; ///< filled up with zeros
+
+Word word_of(std::string_view text)
+{
+  Word word{};
+  text.copy(word.data(), word.size() - 1);
+  return word;
+}
+
+std::string text_of(const Word& word) { return {word.begin(), std::ranges::find(word, '\0')}; }
+
 struct Header {
-  char magic[8] = {'N', 'E', 'P', 'H', 'C', 'K', 'P', 'T'};
-  std::uint64_t format = 3;
-  std::uint64_t program = 0, device = 0, kernels = 0, content = 0; ///< hashes: another one of these gives other bits
+  std::array<char, 8> magic{'N', 'E', 'P', 'H', 'C', 'K', 'P', 'T'};
+  std::uint32_t format = 4; ///< of this header and of the history before the engine's own bytes (measure/measured_job.cpp)
+  std::uint32_t state = 0;  ///< engine::Engine::state_version
+  Word engine{}, program{}; ///< the engine's name, the program's version
+  std::uint64_t device = 0, kernels = 0, content = 0; ///< hashes: another one of these gives other bits
 };
-static_assert(sizeof(Header) == 48, "the header has no padding: it is written as it is");
-
-std::uint64_t hash_more(std::span<const std::byte> bytes, std::uint64_t hash)
-{
-  return hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, hash);
-}
-
-class HashedSink final : public ByteSink {
-public:
-  explicit HashedSink(ByteSink& to) : to_(to) {}
-  void write(std::span<const std::byte> bytes) override
-  {
-    hash_ = hash_more(bytes, hash_);
-    to_.write(bytes);
-  }
-  std::uint64_t hash() const { return hash_; }
-
-private:
-  ByteSink& to_;
-  std::uint64_t hash_ = hash_of({});
-};
-
-/// The header and the job's bytes: what comes before the hash.
-class HashedPart final : public ByteSource {
-public:
-  explicit HashedPart(ByteSource& file) : file_(file) {}
-  void read(std::span<std::byte> into) override
-  {
-    if (into.size() > left()) throw bad_input("checkpoint", "is cut short", "expected one of this preset", "delete it and start again");
-    file_.read(into);
-  }
-  std::uint64_t left() const override { return file_.left() - sizeof(std::uint64_t); }
-
-private:
-  ByteSource& file_;
-};
-
-bool hash_is_right(ByteSource& file)
-{
-  HashedPart part(file);
-  std::vector<std::byte> piece(1 << 18);
-  std::uint64_t hash = hash_of({}), wanted = 0;
-  while (part.left() > 0) {
-    const auto next = std::span(piece).first(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), part.left())));
-    part.read(next);
-    hash = hash_more(next, hash);
-  }
-  file.value(wanted);
-  return hash == wanted;
-}
+static_assert(sizeof(Header) == 72, "the header has no padding: it is written as it is");
 
 Header header_of(const Prepared& prepared, const compute::Context& context)
 {
   const compute::DeviceInfo& device = context.device();
+  const std::string_view engine = prepared.preset.settings.type().name;
   Header header;
-  header.program = hash_of(version());
+  header.state = engine::engine_of(prepared.preset).state_version;
+  header.engine = word_of(engine);
+  header.program = word_of(version());
   header.device = hash_of(fmt::format("{}\n{}\n{}\n{}", device.name, device.platform, device.version, device.driver));
-  header.kernels = hash_of(compute::kernel_sources(context, prepared.preset.settings.type().name));
-  header.content = content_hash(prepared.preset, prepared.loaded->scene);
+  header.kernels = hash_of(compute::kernel_sources(context, engine));
+  header.content = content_hash(prepared.preset, prepared.plan->inputs);
   return header;
+}
+
+/// Why a file with the header `its` is none of a run with the header `ours`; empty where it is.
+std::string fault_of(const Header& its, const Header& ours, const std::string& changed)
+{
+  if (its.engine != ours.engine)
+    return fmt::format("is of the engine '{}', and the preset's is '{}'", text_of(its.engine), text_of(ours.engine));
+  if (its.state != ours.state)
+    return fmt::format("has a state of version {} of the engine '{}', and this program has version {}", its.state, text_of(ours.engine),
+                       ours.state);
+  if (its.program != ours.program)
+    return fmt::format("was written by version {} of the program, and this is {}", text_of(its.program), text_of(ours.program));
+  if (!changed.empty()) return "cannot go on: " + changed;
+  if (its.content != ours.content) return "belongs to another preset or seed, or to other files";
+  if (its.device != ours.device) return "was written on another device, which rounds in its own way";
+  if (its.kernels != ours.kernels) return "was written with other kernels";
+  return {};
+}
+
+bool hash_is_right(ByteSource& file, const fs::path& path)
+{
+  std::uint64_t wanted = 0;
+  HashedSource part(file, path, sizeof wanted);
+  read_to_end(part);
+  file.value(wanted);
+  return part.hash() == wanted;
 }
 
 fs::path file_in(const fs::path& folder) { return folder / "checkpoint.bin"; }
@@ -105,20 +98,19 @@ bool load_checkpoint(const fs::path& folder, const Prepared& prepared, const com
 {
   const fs::path path = file_in(folder);
   if (!is_there(path)) return false;
-  const auto refuse = [&](const char* what) { return bad_input(path.string(), what, {}, "run without --resume to start over"); };
+  const auto refuse = [&](const std::string& what) { return bad_input(path, what); };
   const std::unique_ptr<ByteSource> file = open_file(path);
   const Header ours = header_of(prepared, context);
   Header header;
-  if (file->left() < sizeof header + sizeof(std::uint64_t)) throw refuse("is no checkpoint");
-  HashedPart part(*file);
+  HashedSource part(*file, path, sizeof(std::uint64_t));
+  if (part.left() < sizeof header) throw refuse("is no checkpoint");
   part.value(header);
-  if (std::memcmp(header.magic, ours.magic, sizeof ours.magic) != 0) throw refuse("is no checkpoint");
-  if (header.format != ours.format || header.program != ours.program) throw refuse("was written by another version of the program");
-  if (!hash_is_right(*open_file(path))) throw refuse("is cut or damaged");
-  if (header.content != ours.content) throw refuse("belongs to another preset or seed, or a file that the preset names has changed");
-  if (header.device != ours.device) throw refuse("was written on another device, which rounds in its own way");
-  if (header.kernels != ours.kernels) throw refuse("was written with other kernels");
+  if (header.magic != ours.magic) throw refuse("is no checkpoint");
+  if (header.format != ours.format) throw refuse(fmt::format("has format {}, and this program has {}", header.format, ours.format));
+  if (!hash_is_right(*open_file(path), path)) throw refuse("is cut or damaged");
+  if (const std::string fault = fault_of(header, ours, what_changed(folder, prepared.plan->inputs)); !fault.empty()) throw refuse(fault);
   job.load(part);
+  if (part.left() != 0) throw refuse(fmt::format("has {} bytes more than the run's state", part.left()));
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include "plan/plan.h"
 #include "preset/read.h"
 #include "run/animation.h"
+#include "run/content.h"
 #include "run/picture.h"
 #include "run/run.h"
 
@@ -106,7 +107,7 @@ void write_settings(const fs::path& folder, const Prepared& prepared)
   write_file_whole(folder / "plan.json", plan::to_json(*prepared.plan) + "\n");
 }
 
-std::optional<job::Progress> finished_run(const fs::path& folder, const preset::Preset& preset)
+std::optional<FinishedRun> finished_run(const fs::path& folder, const preset::Preset& preset, const std::vector<plan::Input>& known)
 {
   for (const char* name : {"image.exr", "run.json", "preset.json"})
     if (!is_there(folder / name)) return std::nullopt;
@@ -120,7 +121,7 @@ std::optional<job::Progress> finished_run(const fs::path& folder, const preset::
     progress.step = progress.steps = run.at(units.at("steps")).get<std::int64_t>();
     progress.work = run.at(units.at("work")).get<std::uint64_t>();
     progress.work_seconds = run.at("work_seconds").get<double>();
-    return progress;
+    return FinishedRun{progress, what_changed(folder, read_inputs(preset, known))};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt; // written by something else: the run is done again
   }

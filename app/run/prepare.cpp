@@ -2,9 +2,12 @@
 #include "run/run.h"
 
 #include "engine/engine.h"
+#include "run/content.h"
 #include "run/memory.h"
 
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace nephroid::run {
 namespace {
@@ -28,9 +31,18 @@ bool same_triangles(const scene::Mesh& a, const scene::Mesh& b)
   return same_bytes(a.positions, b.positions) && same_bytes(a.triangles, b.triangles);
 }
 
-LoadedScene load(const preset::Preset& preset, const Prepared* previous)
+/// What the scene that `lender` lends was read from, at its time.
+std::vector<plan::Input> inputs_of_scene(const Prepared& lender)
 {
-  if (previous && same_but_camera(preset, previous->preset)) {
+  preset::Preset scene_only;
+  scene_only.source = lender.preset.source;
+  scene_only.scene = lender.preset.scene;
+  return read_inputs(scene_only, lender.plan->inputs);
+}
+
+LoadedScene load(const preset::Preset& preset, const Prepared* previous, bool lends_scene)
+{
+  if (lends_scene) {
     LoadedScene loaded = *previous->loaded;
     loaded.scene.camera = scene::make_camera(preset.scene.camera, loaded.scene);
     return loaded;
@@ -47,9 +59,13 @@ LoadedScene load(const preset::Preset& preset, const Prepared* previous)
 
 Prepared prepare(const preset::Preset& preset, const Prepared* previous)
 {
-  auto loaded = std::make_shared<const LoadedScene>(load(preset, previous));
+  const bool lends_scene = previous && same_but_camera(preset, previous->preset);
+  // Before the files are loaded: of one that is written meanwhile the run is bound to what it held before, and goes on nowhere.
+  std::vector<plan::Input> inputs = read_inputs(preset, lends_scene ? inputs_of_scene(*previous) : std::vector<plan::Input>());
+  auto loaded = std::make_shared<const LoadedScene>(load(preset, previous, lends_scene));
   std::unique_ptr<plan::Plan> plan = engine::engine_of(preset).plan(preset, loaded->scene, *loaded->bvh);
   plan->buffers.push_back(picture_and_files(*plan, loaded->scene.camera.width, loaded->scene.camera.height));
+  plan->inputs = std::move(inputs);
   return {preset, std::move(loaded), std::move(plan)};
 }
 

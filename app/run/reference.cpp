@@ -5,13 +5,14 @@
 
 #include "base/build_info.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "engine/engine.h"
 #include "image/image.h"
 #include "measure/error_estimate.h"
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"
-#include "run/content_hash.h"
+#include "run/content.h"
 
 #include <fmt/format.h>
 
@@ -51,7 +52,7 @@ fs::path references_folder()
 fs::path cache_file(const Prepared& prepared, const compute::Context& context)
 {
   const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
-  std::uint64_t hash = content_hash(recipe, prepared.loaded->scene);
+  std::uint64_t hash = content_hash(recipe, prepared.plan->inputs);
   hash = hash_of(fmt::format("{} passes {}", version(), recipe.stop.passes.value()), hash);
   hash = hash_of(compute::kernel_sources(context, prepared.preset.settings.type().name), hash);
   return references_folder() / fmt::format("{:016x}.exr", hash);
@@ -112,6 +113,8 @@ public:
   SeedRun(const Prepared& prepared, const compute::Context& context, std::uint64_t seed)
       : recipe_(prepare(recipe_preset(prepared.preset, seed), &prepared)), job_(make_job(recipe_, context))
   {
+    if (const std::string changed = what_changed(prepared.plan->inputs, recipe_.plan->inputs); !changed.empty())
+      throw failed(Place(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
   }
 
   /// done: seconds of the seeds before this one, of two.

@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace nephroid::run {
 
@@ -52,11 +54,17 @@ void begin_run(const std::filesystem::path& folder, const Prepared& prepared);
 std::vector<std::string> engine_files(const std::filesystem::path& folder);
 /// preset.json and plan.json alone: what begin_run and write_run write, and a resumed run whose stop differs.
 void write_settings(const std::filesystem::path& folder, const Prepared& prepared);
-/// How far the run in the folder came, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged.
-std::optional<job::Progress> finished_run(const std::filesystem::path& folder, const preset::Preset& preset);
+struct FinishedRun {
+  job::Progress progress;
+  std::string changed; ///< what_changed (run/content.h) of its files since: then it is no longer the preset's
+};
+/// The run in the folder, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged. known: as
+/// read_inputs takes it.
+std::optional<FinishedRun> finished_run(const std::filesystem::path& folder, const preset::Preset& preset,
+                                        const std::vector<plan::Input>& known = {});
 
 /// Writes image.exr, image.png, history.csv (where the snapshot has a history), preset.json, plan.json and run.json into folder (made if
-/// missing), each whole. reference: what the run was measured against, or null.
+/// missing), each whole; no image where the snapshot's stands in for one. reference: what the run was measured against, or null.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
                const job::Snapshot& snapshot, const measure::Reference* reference, bool finished);
 /// report.html of a run whose other files are written. Throws as report::report_html does.
@@ -64,10 +72,11 @@ void write_report(const std::filesystem::path& folder);
 /// history.csv alone, while the run goes on.
 void write_history(const std::filesystem::path& folder, const job::History& history);
 
-/// checkpoint.bin in folder: written whole; bound to the settings and file contents that its sums depend on, and to the device, the kernels
-/// and the program's version, each of which may round in its own way.
+/// checkpoint.bin in folder: written whole; bound to the engine and its state's version, to the settings and file contents that its sums
+/// depend on, and to the device, the kernels and the program's version, each of which may round in its own way.
 void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
-/// Loads it into a job that was just made. False where there is none. Throws bad_input where it is bound to something else or is cut.
+/// Loads it into a job that was just made. False where there is none. Throws bad_input where it is bound to something else, which it
+/// names, or is cut.
 bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
 
 } // namespace nephroid::run

@@ -113,7 +113,7 @@ void write_run(const std::filesystem::path& folder, const Prepared& prepared, co
     write_picture(folder / name, prepared.preset, device, pixels);
     files.insert(files.end(), {name + ".exr", name + ".png"});
   };
-  picture("image", *snapshot.picture);
+  if (!snapshot.stands_in) picture("image", *snapshot.picture);
   for (const job::NamedPicture& further : snapshot.pictures) picture(further.name, *further.picture);
   for (const job::Curve& curve : snapshot.curves) write_file_whole(folder / files.emplace_back(curve.name + ".csv"), to_csv(curve));
   for (const job::ExtraFile& file : snapshot.files) write_file_whole(folder / files.emplace_back(file.name), file.write);

@@ -216,6 +216,12 @@ struct BvhRelease {
 
 } // namespace
 
+std::map<std::string, std::string> tree_defines(const Bvh& bvh)
+{
+  return {{"NEPHROID_ELLIPSOIDS", bvh.ellipsoid_places.empty() ? "0" : "1"},
+          {"NEPHROID_BVH_STACK", std::to_string(std::max(bvh.stack, 1))}};
+}
+
 Bvh build_bvh(const Mesh& mesh)
 {
   Bvh bvh;

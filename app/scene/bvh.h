@@ -5,6 +5,8 @@
 #include "scene/mesh.h"
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace nephroid::scene {
@@ -22,6 +24,9 @@ struct Bvh {
   int depth = 0;                               ///< nodes on the longest way from the root to a leaf
   int stack = 0;                               ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
 };
+
+/// The -D flags of kernels that go through it.
+std::map<std::string, std::string> tree_defines(const Bvh& bvh);
 
 /// Triangles without area are left out: nothing hits them. An empty mesh gives a tree that nothing hits.
 /// Throws failed where Embree has no memory, bad_input for a triangle with a missing or non-finite vertex.

@@ -42,8 +42,8 @@ std::optional<std::filesystem::path> shipped_material(const std::string& name)
   return std::nullopt;
 }
 
-/// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name ("N-SF66"), which means
-/// the same from every folder.
+} // namespace
+
 std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where)
 {
   try {
@@ -53,8 +53,6 @@ std::filesystem::path find_dispersion(const std::string& name, const FileFinder&
     throw;
   }
 }
-
-} // namespace
 
 optics::Outside outside_policy(preset::Outside outside)
 {

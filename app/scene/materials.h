@@ -7,6 +7,7 @@
 #include "preset/preset.h"
 #include "scene/scene.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace nephroid::scene {
 
 /// The preset's word for it, which knows nothing of optics.
 optics::Outside outside_policy(preset::Outside outside);
+
+/// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name ("N-SF66"), which means
+/// the same from every folder.
+std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where);
 
 /// where (all four): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
 optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where);

@@ -2,7 +2,7 @@
 #include "scene/mesh_cache.h"
 
 #include "base/files.h"
-#include "base/hash.h"
+#include "base/hashed_bytes.h"
 
 #include <cstdint>
 #include <list>
@@ -26,14 +26,18 @@ std::uint64_t bytes_of(const Mesh& mesh)
 
 } // namespace
 
+bool has_further_files(const std::filesystem::path& file) { return file.extension() == ".gltf" || file.extension() == ".GLTF"; }
+
 std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file)
 {
   static std::mutex mutex;
   static std::list<Kept> all; // the last used first
-  if (file.extension() == ".gltf") return std::make_shared<const Mesh>(load_mesh(file));
+  if (has_further_files(file)) return std::make_shared<const Mesh>(load_mesh(file));
   const std::lock_guard lock(mutex);
   const std::string bytes = read_file(file);
-  Kept wanted{file, bytes.size(), hash_of(bytes), nullptr};
+  PieceHash hash;
+  hash.add(std::as_bytes(std::span(bytes)));
+  Kept wanted{file, bytes.size(), hash.value(), nullptr};
   for (auto kept = all.begin(); kept != all.end(); ++kept)
     if (kept->file == wanted.file && kept->bytes == wanted.bytes && kept->hash == wanted.hash) {
       all.splice(all.begin(), all, kept);

@@ -65,6 +65,8 @@ struct Camera {
   double tan_x = 1, tan_y = 1;
   int width = 0, height = 0;
   std::vector<int> inside; ///< dielectric objects that contain it, outermost first
+
+  std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 struct Scene {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": kernels/spectral/background.cl.
+#include "base/counted.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/colour.h"
 #include "optics/primary_spectra.h"
@@ -9,6 +10,8 @@
 #include "tracing/exact_cdf.h"
 #include "tracing/scales.h"
 #include "tracing/sky_tables.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,13 +75,6 @@ bool goes_one_way(const scene::Scene& scene)
   });
 }
 
-std::vector<int> all_wavelengths()
-{
-  std::vector<int> all(WAVELENGTH_COUNT);
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 class BackgroundStage final : public EyeStage {
 public:
   BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
@@ -86,7 +82,7 @@ public:
         tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
         texels_(tracing::upload_vector(world.context, "environment", scene.environment->rgb)),
         primary_xyz_(tracing::upload_vector(world.context, "colours of the primaries", tables_.primary_xyz)),
-        wavelengths_(tracing::upload_vector(world.context, "wavelengths", all_wavelengths())),
+        wavelengths_(tracing::upload_vector(world.context, "wavelengths", optics::all_wavelengths())),
         spectrum_cdf_(tracing::upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf))
   {
     compute::Defines defines = world.defines;
@@ -118,11 +114,27 @@ private:
   compute::Kernel kernel_;
 };
 
+plan::Pass background_pass(const PlanInput& input)
+{
+  const char* const name = "background";
+  const auto& environment = input.scene.environment;
+  if (!input.settings.background) return not_asked_for(name, name);
+  if (!environment) return {name, false, "there is no environment: what meets nothing is black"};
+  if (environment->is_black()) return {name, false, "the environment is black"};
+  return {name, true,
+          fmt::format("{}, seen directly, through glass and in mirrors; {} a pixel{}", size_of(*environment),
+                      counted(input.settings.pixel_samples, "sample"), more_through_glass(input)),
+          "/spectral/background", true};
+}
+
+PlanPart plan_background(const PlanInput& input)
+{
+  const std::uint64_t texels = input.scene.environment ? input.scene.environment->rgb.size() : 0;
+  return part_of(background_pass(input), {{"environment", texels * sizeof(float)}, {"film background", input.film_bytes()}});
+}
+
 } // namespace
 
-std::unique_ptr<Stage> make_background_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-{
-  return std::make_unique<BackgroundStage>(world, scene, settings);
-}
+const RunPart background_stage{plan_background, make_stage<BackgroundStage>, "background"};
 
 } // namespace nephroid::spectral

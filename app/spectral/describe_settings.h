@@ -4,6 +4,8 @@
 #include "preset/field.h"
 #include "spectral/settings.h"
 
+#include <string_view>
+
 namespace nephroid::preset {
 
 template <>

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer: kernels/spectral/direct.cl.
+#include "base/counted.h"
 #include "spectral/eye_stage.h"
+
+#include <fmt/format.h>
 
 namespace nephroid::spectral {
 namespace {
 
 class DirectStage final : public EyeStage {
 public:
-  DirectStage(DeviceWorld& world, const Settings& settings)
+  DirectStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
       : EyeStage(world, "direct", settings), kernel_(compute::Program(world.context, "spectral/direct.cl", world.defines).kernel("direct"))
   {
   }
@@ -27,11 +30,22 @@ private:
   compute::Kernel kernel_;
 };
 
+plan::Pass direct_pass(const PlanInput& input)
+{
+  const char* const name = "direct";
+  if (!input.settings.direct) return not_asked_for(name, name);
+  const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
+  if (!missing.empty()) return tracing::omission(name, input.leave_out.direct, false, missing);
+  return tracing::omission(name, input.leave_out.direct, true,
+                           fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),
+                                       counted(shining_lights(input), "light"), counted(input.settings.pixel_samples, "sample"),
+                                       input.settings.relight ? "" : more_through_glass(input)));
+}
+
+PlanPart plan_direct(const PlanInput& input) { return part_of(direct_pass(input), {{"film direct", input.film_bytes()}}); }
+
 } // namespace
 
-std::unique_ptr<Stage> make_direct_stage(DeviceWorld& world, const Settings& settings)
-{
-  return std::make_unique<DirectStage>(world, settings);
-}
+const RunPart direct_stage{plan_direct, make_stage<DirectStage>, "direct"};
 
 } // namespace nephroid::spectral

@@ -2,12 +2,32 @@
 #include "spectral/energy.h"
 
 #include "base/counted.h"
+#include "tracing/scales.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 namespace nephroid::spectral {
+
+OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_per_watt, double passes)
+{
+  OutcomeWatts watts{};
+  for (std::size_t i = 0; i < watts.size(); ++i)
+    watts[i] = i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : tracing::mean_watts(quanta[i], quanta_per_watt, passes);
+  return watts;
+}
+
+EnergyBalance balance_of(const OutcomeWatts& watts)
+{
+  return {watts[OUTCOME_EMITTED],
+          watts[OUTCOME_DEPOSITED],
+          watts[OUTCOME_MISSED],
+          watts[OUTCOME_ABSORBED],
+          watts[OUTCOME_ESCAPED],
+          watts[OUTCOME_LOST],
+          static_cast<std::uint64_t>(watts[OUTCOME_REFUSED])};
+}
 
 void add_energy(const Energy& energy, job::Snapshot& snapshot)
 {

@@ -2,9 +2,12 @@
 // Where the power that photons carried went, as the mean of the passes, and how a snapshot holds it.
 #pragma once
 #include "job/job.h"
+#include "kernels/tracing/shared_types.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace nephroid::spectral {
 
@@ -23,6 +26,11 @@ struct Energy {
   EnergyBalance caustics;
   std::optional<IndirectBalance> indirect; ///< where there is such a layer
 };
+
+/// [OUTCOME_*]: W by the counters of so many passes; of refused contributions their number.
+using OutcomeWatts = std::array<double, OUTCOME_COUNT>;
+OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_per_watt, double passes);
+EnergyBalance balance_of(const OutcomeWatts& watts);
 
 /// Adds the scalars of the groups "energy" and "indirect_energy", and a warning where contributions were refused.
 void add_energy(const Energy& energy, job::Snapshot& snapshot);

@@ -14,37 +14,37 @@ namespace {
 /// reference.
 Settings brute_force(const Settings& settings)
 {
-  Settings made;
-  made.method = Settings::Method::brute_force;
-  made.step_nm = 1;
-  made.max_surfaces = std::max(made.max_surfaces, settings.max_surfaces);
+  Settings exact;
+  exact.method = Settings::Method::brute_force;
+  exact.step_nm = 1;
+  exact.max_surfaces = std::max(exact.max_surfaces, settings.max_surfaces);
   // Photon maps have a radius, and the estimator sppm keeps to them: where splats do, they are the truth.
-  if (settings.estimator == Settings::Estimator::splat) made.estimator = settings.estimator;
-  made.direct = settings.direct;
-  made.caustic = settings.caustic;
-  made.indirect = settings.indirect;
-  made.background = settings.background;
-  return made;
+  if (settings.estimator == Settings::Estimator::splat) exact.estimator = settings.estimator;
+  exact.direct = settings.direct;
+  exact.caustic = settings.caustic;
+  exact.indirect = settings.indirect;
+  exact.background = settings.background;
+  return exact;
 }
 
 preset::Settings reference(const preset::Preset& preset, int passes)
 {
   const auto& recipe = preset.reference->settings;
-  preset::Settings made = recipe ? *recipe : preset.settings;
-  Settings& s = made.as<Settings>();
+  preset::Settings settings = recipe ? *recipe : preset.settings;
+  Settings& s = settings.as<Settings>();
   if (!recipe) s = brute_force(s);
   s.smoothing = Settings::Smoothing::off; // it would be a bias
   if (s.effort == Settings::Effort::automatic) s.effort = Settings::Effort::power;
   s.pixel_samples = std::max(s.pixel_samples, passes); // the direct layer as well converged as the caustic
-  return made;
+  return settings;
 }
 
 std::vector<check::Check> closed_forms()
 {
-  std::vector<check::Check> all;
+  std::vector<check::Check> checks;
   for (const auto subject : {check::spectral_checks, check::emission_checks, check::radiometry_checks, check::refraction_checks})
-    for (check::Check& check : subject()) all.push_back(std::move(check));
-  return all;
+    for (check::Check& check : subject()) checks.push_back(std::move(check));
+  return checks;
 }
 
 // Cauchy's formula with the two terms that fit N-BK7: the scene needs no file.
@@ -69,6 +69,7 @@ constexpr const char* new_scene = R"({
 
 constinit const engine::Engine engine{
     .settings = settings_type,
+    .state_version = 7,
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) -> std::unique_ptr<plan::Plan> {
       return std::make_unique<RunPlan>(make_plan(preset, scene, bvh));
     },

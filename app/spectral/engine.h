@@ -12,16 +12,19 @@
 #include "spectral/tables/run_tables.h"
 
 #include <memory>
+#include <vector>
 
 namespace nephroid::spectral {
+
+struct RunPart; ///< plan_part.h
 
 extern const engine::Engine engine;
 
 /// What a run does, decided once, with the tables that this took.
 struct RunPlan : plan::Plan {
   RunTables tables;
-  bool direct = false, photons = false, maps = false, indirect = false, background = false; ///< stages; photons: splats
-  bool smoothing = false;
+  std::vector<const RunPart*> parts; ///< that run; stages in the order of their turns in a pass
+  bool runs(const RunPart& part) const;
 };
 
 /// Leaves out what the scene does not need where the preset says so. Throws bad_input as make_run_tables does.

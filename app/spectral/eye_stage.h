@@ -11,6 +11,12 @@
 
 namespace nephroid::spectral {
 
+/// For the plan: what a stage adds to "64 samples a pixel".
+inline const char* more_through_glass(const PlanInput& input)
+{
+  return tracing::may_see_glass_or_mirror(input.scene) ? ", more where glass or a mirror is seen" : "";
+}
+
 class EyeStage : public Stage {
 public:
   EyeStage(DeviceWorld& world, const char* layer, const Settings& settings)
@@ -28,15 +34,10 @@ public:
   }
   void share_work(double factor) override { pixels_.sample_one_pass_in(static_cast<double>(pixels_.every()) / factor); }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    pixels_.save(to);
-    to.buffer(film_);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    pixels_.load(from);
-    from.buffer(film_);
+    pixels_.state(state);
+    state.buffer(film_);
   }
 
 protected:
@@ -61,8 +62,7 @@ protected:
   /// Stage::develop. quanta_per_unit: of the film, of what becomes 1 in the picture.
   void add_to(job::Picture& picture, double quanta_per_unit) const
   {
-    const std::vector<std::int64_t> sums = film_.read();
-    tracing::add_layer(layer_, {sums, quanta_per_unit, [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
+    tracing::add_layer(layer_, {film_.read(), quanta_per_unit, [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
   }
 
   DeviceWorld& world_;

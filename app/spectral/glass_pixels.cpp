@@ -16,10 +16,7 @@ using Seen = glm::dvec3;
 
 class Marks {
 public:
-  explicit Marks(const scene::Camera& camera)
-      : camera_(camera), marked_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height))
-  {
-  }
+  explicit Marks(const scene::Camera& camera) : camera_(camera), marked_(camera.pixels()) {}
 
   Seen see(const glm::dvec3& place) const
   {
@@ -66,7 +63,7 @@ public:
       }
   }
 
-  const std::vector<bool>& all() const { return marked_; }
+  const std::vector<bool>& marked() const { return marked_; }
 
 private:
   /// Single precision decides which pixel a path is of.
@@ -114,8 +111,8 @@ std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene)
     for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) marks.mark(ellipsoid);
   }
   std::vector<std::uint32_t> pixels;
-  for (std::size_t i = 0; i < marks.all().size(); ++i)
-    if (marks.all()[i] || !scene.camera.inside.empty()) pixels.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < marks.marked().size(); ++i)
+    if (marks.marked()[i] || !scene.camera.inside.empty()) pixels.push_back(static_cast<std::uint32_t>(i));
   return pixels;
 }
 

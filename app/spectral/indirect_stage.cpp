@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect": kernels/spectral/indirect.cl.
+#include "base/counted.h"
 #include "optics/colour.h"
 #include "spectral/effort/emitters.h"
 #include "spectral/stage.h"
@@ -47,13 +48,13 @@ struct IndirectTables {
 IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons)
 {
   IndirectTables result;
-  const scene::Sphere all = tracing::everything(scene);
-  result.everything.centre_radius = {all.centre.x, all.centre.y, all.centre.z, all.radius};
-  result.outside_distance = 2.5f * all.radius;
+  const scene::Sphere target = tracing::everything(scene);
+  result.everything.centre_radius = {target.centre.x, target.centre.y, target.centre.z, target.radius};
+  result.outside_distance = 2.5f * target.radius;
   std::vector<PhotonSource> sources;
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
-    const double watts = tracing::towards_targets_w(light, {all}, scene.metres_per_unit);
+    const double watts = tracing::towards_targets_w(light, {target}, scene.metres_per_unit);
     const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
     sources.push_back({watts * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
     result.emitted_w += watts;
@@ -110,30 +111,22 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
-    const std::vector<std::int64_t> sums = film_.read();
-    tracing::add_layer("indirect", {sums, tables_.film_scale * world_.white, samples}, picture);
+    tracing::add_layer("indirect", {film_.read(), tables_.film_scale * world_.white, samples}, picture);
   }
 
   void report(std::int64_t passes, bool done, Energy& energy) override
   {
-    const std::vector<std::int64_t> sums = energy_.read();
-    const double all = static_cast<double>(passes) + (done ? 1 : part());
-    const auto watts = [&](int outcome) { return tracing::mean_watts(sums[static_cast<std::size_t>(outcome)], tables_.energy_scale, all); };
-    energy.indirect = {watts(OUTCOME_EMITTED), watts(OUTCOME_ABSORBED), watts(OUTCOME_ESCAPED), watts(OUTCOME_LOST)};
-    energy.caustics.refused_contributions += static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
+    const double passes_done = static_cast<double>(passes) + (done ? 1 : part());
+    const EnergyBalance e = balance_of(outcome_watts(energy_.read(), tables_.energy_scale, passes_done));
+    energy.indirect = {e.emitted_w, e.absorbed_w, e.escaped_w, e.lost_w};
+    energy.caustics.refused_contributions += e.refused_contributions;
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    slices_.save(to);
-    to.buffer(film_);
-    to.buffer(energy_);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    slices_.load(from);
-    from.buffer(film_);
-    from.buffer(energy_);
+    slices_.state(state);
+    state.buffer(film_);
+    state.buffer(energy_);
   }
 
 private:
@@ -147,11 +140,23 @@ private:
   tracing::PhotonSlices slices_;
 };
 
+plan::Pass indirect_pass(const PlanInput& input)
+{
+  const char* const name = "indirect";
+  if (input.settings.relight) return not_in_layers(name, "its light met several reflectors");
+  if (!input.settings.indirect) return not_asked_for(name, name);
+  const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
+  if (!missing.empty()) return {name, false, missing};
+  std::string reason = counted(input.settings.indirect_photons_per_pass, "photon a pass", "photons a pass");
+  if (input.objects.dielectrics + input.objects.mirrors > 0)
+    reason += ", shown where the camera sees a surface directly; through glass and in mirrors it is left out";
+  return {name, true, reason, "/spectral/indirect", true};
+}
+
+PlanPart plan_indirect(const PlanInput& input) { return part_of(indirect_pass(input), {{"film indirect", input.film_bytes()}}); }
+
 } // namespace
 
-std::unique_ptr<Stage> make_indirect_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-{
-  return std::make_unique<IndirectStage>(world, scene, settings);
-}
+const RunPart indirect_stage{plan_indirect, make_stage<IndirectStage>, "indirect"};
 
 } // namespace nephroid::spectral

@@ -2,14 +2,14 @@
 // Photons that are splatted into the pixel that sees them: kernels/spectral/photons.cl.
 #include "spectral/effort/emission_guide.h"
 #include "spectral/effort/variance_deal.h"
-#include "spectral/maps/photon_map.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace nephroid::spectral {
 namespace {
@@ -20,7 +20,7 @@ constexpr double least_gain = 1.5;
 
 class PhotonStage final : public Stage {
 public:
-  PhotonStage(DeviceWorld& world, const Settings& settings, PhotonMap* map)
+  PhotonStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
       : world_(world), insists_(settings.effort == Settings::Effort::variance),
         by_variance_(insists_ || settings.effort == Settings::Effort::automatic), deal_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
@@ -29,7 +29,7 @@ public:
         guide_table_(world.context, "guide of directions", std::span<const float>(guide_.table())),
         film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0)
   {
-    if (map) stored_ = map->stored();
+    if (world.map) stored_ = world.map->stored();
     make_kernel();
   }
 
@@ -71,32 +71,21 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
-    const std::vector<std::int64_t> sums = film_.read();
-    tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    slices_.save(to);
-    to.value(by_variance_);
-    to.buffer(film_);
-    deal_.save(to);
-    guide_.save(to);
-    to.buffer(moments_);
-    to.buffer(guide_moments_);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    slices_.load(from);
-    bool by_variance = false;
-    from.value(by_variance);
-    from.buffer(film_);
-    deal_.load(from);
-    guide_.load(from);
-    from.buffer(moments_);
-    from.buffer(guide_moments_);
-    write_deal();
-    if (std::exchange(by_variance_, by_variance) != by_variance) make_kernel();
+    const bool was_by_variance = by_variance_;
+    slices_.state(state);
+    state.value(by_variance_);
+    state.buffer(film_);
+    deal_.state(state);
+    guide_.state(state);
+    state.buffer(moments_);
+    state.buffer(guide_moments_);
+    if (state.is_read()) write_deal();
+    if (by_variance_ != was_by_variance) make_kernel();
   }
 
 private:
@@ -153,11 +142,23 @@ private:
   tracing::PhotonSlices slices_;
 };
 
+PlanPart plan_photons(const PlanInput& input)
+{
+  if (!input.caustics.runs) return {.passes = {input.caustics}};
+  if (input.is_sppm()) return {.passes = {{"photons", false, "spectral.estimator is sppm: nothing is splatted"}}};
+  PlanPart part{.passes = {input.caustics}, .buffers = {{"film caustic", input.film_bytes()}}};
+  using Effort = Settings::Effort;
+  if (const Effort effort = input.settings.effort; effort == Effort::variance || effort == Effort::automatic)
+    part.buffers.push_back({"guide of directions", input.tables.lights.size() * (EmissionGuide::floats * sizeof(float) +
+                                                                                 EmissionGuide::cells * sizeof(std::int64_t))});
+  if (const int wanted = input.settings.photons_per_pass; input.tables.photons_per_pass > static_cast<unsigned>(wanted))
+    part.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light", wanted,
+                                     input.tables.photons_per_pass));
+  return part;
+}
+
 } // namespace
 
-std::unique_ptr<Stage> make_photon_stage(DeviceWorld& world, const Settings& settings, PhotonMap* map)
-{
-  return std::make_unique<PhotonStage>(world, settings, map);
-}
+const RunPart photon_stage{plan_photons, make_stage<PhotonStage>, "caustic"};
 
 } // namespace nephroid::spectral

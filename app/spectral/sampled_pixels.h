@@ -39,7 +39,7 @@ public:
   {
     in_hand_ = pass;
     if (size(pass) == 0 || (!has_all(pass) && pass % every_ != 0)) return true;
-    const std::uint32_t begin = has_all(pass) ? 0 : lists_.all;
+    const std::uint32_t begin = has_all(pass) ? 0 : lists_.count;
     const bool complete = steps_.step(size(pass), most, [&](std::uint32_t first, std::uint32_t count) { work(begin + first, count); });
     if (complete) ++(has_all(pass) ? passes_of_all_ : passes_of_glass_)[half()];
     return complete;
@@ -50,30 +50,26 @@ public:
   {
     // Without a pass of all pixels the film is black but for glass, in any number of passes.
     const bool glass = enough_ == 0 || lists_.may_show_glass[pixel];
-    std::array<double, 2> both{};
+    std::array<double, 2> counts{};
     for (std::size_t half = 0; half < 2; ++half)
-      both[half] = static_cast<double>(passes_of_all_[half] + (glass ? passes_of_glass_[half] : 0));
+      counts[half] = static_cast<double>(passes_of_all_[half] + (glass ? passes_of_glass_[half] : 0));
     const auto at = static_cast<std::size_t>(steps_.done());
-    if (at > 0 && pixel < (has_all(in_hand_) ? at : glass ? lists_.glass[at] : 0)) ++both[half()];
-    return both;
+    if (at > 0 && pixel < (has_all(in_hand_) ? at : glass ? lists_.glass[at] : 0)) ++counts[half()];
+    return counts;
   }
 
-  void save(tracing::StateWriter& to) const
+  void state(tracing::State& state)
   {
-    steps_.save(to);
-    for (const std::int64_t value : {every_, in_hand_, passes_of_all_[0], passes_of_all_[1], passes_of_glass_[0], passes_of_glass_[1]})
-      to.value(value);
-  }
-  void load(tracing::StateReader& from)
-  {
-    steps_.load(from);
-    for (std::int64_t* value : {&every_, &in_hand_, &passes_of_all_[0], &passes_of_all_[1], &passes_of_glass_[0], &passes_of_glass_[1]})
-      from.value(*value);
+    steps_.state(state);
+    state.value(every_);
+    state.value(in_hand_);
+    state.value(passes_of_all_);
+    state.value(passes_of_glass_);
   }
 
 private:
   bool has_all(std::int64_t pass) const { return pass < enough_; }
-  std::int64_t size(std::int64_t pass) const { return has_all(pass) ? static_cast<std::int64_t>(lists_.all) : glass(); }
+  std::int64_t size(std::int64_t pass) const { return has_all(pass) ? static_cast<std::int64_t>(lists_.count) : glass(); }
   std::size_t half() const { return static_cast<std::size_t>(in_hand_ % 2); }
 
   const PixelLists& lists_;

@@ -3,6 +3,10 @@
 
 #include "base/parallel.h"
 #include "base/summed_area.h"
+#include "spectral/plan_part.h"
+#include "tracing/scene_buffers.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,15 +39,15 @@ struct Offset {
 /// The pixels within reach, nearest first.
 const std::vector<Offset>& offsets()
 {
-  static const std::vector<Offset> all = [] {
-    std::vector<Offset> made;
+  static const std::vector<Offset> sorted = [] {
+    std::vector<Offset> offsets;
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x)
-        if (x * x + y * y <= reach * reach) made.push_back({x, y});
-    std::stable_sort(made.begin(), made.end(), [](const Offset& a, const Offset& b) { return a.distance2() < b.distance2(); });
-    return made;
+        if (x * x + y * y <= reach * reach) offsets.push_back({x, y});
+    std::stable_sort(offsets.begin(), offsets.end(), [](const Offset& a, const Offset& b) { return a.distance2() < b.distance2(); });
+    return offsets;
   }();
-  return all;
+  return sorted;
 }
 
 /// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in the dark.
@@ -180,13 +184,22 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
 } // namespace
 
 Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, bool everywhere)
-    : width_(scene.camera.width), height_(scene.camera.height), everywhere_(everywhere),
-      seen_(static_cast<std::size_t>(scene.camera.width) * static_cast<std::size_t>(scene.camera.height))
+    : width_(scene.camera.width), height_(scene.camera.height), everywhere_(everywhere)
 {
+  scene::Scene seen = scene;
+  seen.environment.reset(); // the largest part of a scene, and no look needs it
+  view_ = std::make_unique<const View>(std::move(seen), bvh);
+}
+
+void Smoothing::look()
+{
+  if (!view_) return;
+  const std::unique_ptr<const View> view = std::move(view_);
+  seen_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   std::vector<Sight> sights(seen_.size());
   for_ranges(sights.size(), 1 << 10, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      sights[i] = look_through_pixel(scene, bvh, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
+      sights[i] = look_through_pixel(view->scene, view->bvh, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
   const std::vector<bool> pulled = are_near_pulled(sights, width_, height_);
   for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
@@ -201,11 +214,10 @@ void Smoothing::find_edges()
   });
 }
 
-std::uint64_t Smoothing::bytes(const scene::Camera& camera)
+std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
-  return (sizeof(Sight) + sizeof(Seen) + pulled_apart) * static_cast<std::uint64_t>(camera.width) *
-         static_cast<std::uint64_t>(camera.height);
+  return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) + (sizeof(Sight) + sizeof(Seen) + pulled_apart) * scene.camera.pixels();
 }
 
 bool Smoothing::are_level(const Seen& a, const Seen& b)
@@ -253,10 +265,10 @@ void Smoothing::give_parts(const Weights& by, const Needed& needed, const Give& 
       if (!needed(i)) continue;
       find_kernel(i, by.wanted[i], by.light, kernel);
       const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * by.favour[kernel.pixels[k]]; };
-      double all = 0;
-      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) all += weight(k);
+      double sum = 0;
+      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) sum += weight(k);
       for (std::size_t k = 0; k < kernel.pixels.size(); ++k)
-        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / all);
+        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / sum);
     }
   });
 }
@@ -283,20 +295,21 @@ void Smoothing::spread_shares(const Weights& by, std::span<const float> share, s
 std::vector<float> Smoothing::shares(const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
                                      const std::vector<float>& rgb_spread) const
 {
-  const std::vector<float> all(seen_.size(), 1);
+  const std::vector<float> whole(seen_.size(), 1);
   std::vector<float> a(rgb.size()), b(rgb.size()), none;
   std::transform(rgb.begin(), rgb.end(), error_draw.begin(), a.begin(), std::plus());
   std::transform(rgb.begin(), rgb.end(), error_draw.begin(), b.begin(), std::minus());
   for (std::vector<float>* half : {&a, &b}) {
     const std::vector<double> light = light_of(*half);
-    spread_shares({light, by.wanted, by.favour}, all, *half, none);
+    spread_shares({light, by.wanted, by.favour}, whole, *half, none);
   }
   return worthwhile_shares(rgb, error_draw, rgb_spread, a, b, by.light, width_, height_);
 }
 
-void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) const
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw)
 {
   if (error_draw.empty()) return;
+  look();
   const std::vector<double> light = light_of(rgb);
   std::vector<double> wanted = portions(light, error_draw, width_, height_);
   for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
@@ -309,9 +322,9 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) 
       by, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
   std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
 
-  const std::vector<float> all(seen_.size(), 1);
+  const std::vector<float> whole(seen_.size(), 1);
   std::vector<float> rgb_spread = rgb, draw_spread = error_draw;
-  spread_shares(by, all, rgb_spread, draw_spread);
+  spread_shares(by, whole, rgb_spread, draw_spread);
   if (!everywhere_) {
     const std::vector<float> share = shares(by, rgb, error_draw, rgb_spread);
     rgb_spread = rgb, draw_spread = error_draw;
@@ -321,5 +334,41 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw) 
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);
 }
+
+namespace {
+
+plan::Pass smoothing_pass(const PlanInput& input)
+{
+  const char* const name = "smoothing";
+  using Choice = Settings::Smoothing;
+  const Choice choice = input.settings.smoothing;
+  if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
+  if (!input.caustics.runs) return {name, false, "there are no caustics"};
+  if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
+  if (!input.estimate.runs)
+    return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
+  if (input.preset.stop.passes == 1) return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
+  return {name, true,
+          fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in how far it goes",
+                      Smoothing::noise, choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
+}
+
+PlanPart plan_smoothing(const PlanInput& input)
+{
+  const plan::Pass pass = smoothing_pass(input);
+  PlanPart part;
+  if (input.caustics.runs) part.passes = {pass};
+  if (pass.runs) part.buffers = {{"surfaces in pixels (host)", Smoothing::bytes(input.scene, input.bvh), true}};
+  if (input.settings.smoothing != Settings::Smoothing::on) return part;
+  if (!pass.runs)
+    part.notes = {"spectral.smoothing: on does nothing here: " + pass.reason};
+  else if (input.preset.stop.error && !input.preset.reference)
+    part.notes = {"stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does"};
+  return part;
+}
+
+} // namespace
+
+const RunPart smoothing_part{plan_smoothing};
 
 } // namespace nephroid::spectral

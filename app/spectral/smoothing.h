@@ -13,6 +13,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -27,18 +28,26 @@ public:
   /// Looks once through the middle of every pixel, on every core. Light is spread within one nearly flat part of the diffuse object that
   /// the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where glass or a mirror shows none, or
   /// is curved so that neighbours show places far apart, it is spread within one nearly flat part of the glass or mirror.
-  /// everywhere: light is spread as far as its noise asks for; otherwise only as much of it as the halves say is for the better.
+  /// The looks wait until the first call of look() or spread(), for they would hold up a run's first picture: until then it keeps a copy
+  /// of what is looked at. everywhere: light is spread as far as its noise asks for; otherwise only as much of it as the halves say is for
+  /// the better.
   Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, bool everywhere);
+  void look();
 
-  /// What it takes at most while it is made, in bytes; it keeps less.
-  static std::uint64_t bytes(const scene::Camera& camera);
+  /// What it takes at most, in bytes.
+  static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
 
   /// rgb: of caustics alone, [pixel][3] of the camera's size. error_draw: a draw of its error (Picture::error_draw), which tells how noisy
   /// a pixel is; it becomes one of the error of what is spread, the bias included. Values below 0, of colours outside of sRGB, count as
   /// no light when kernels are chosen. Nothing changes where the draw is empty.
-  void spread(std::vector<float>& rgb, std::vector<float>& error_draw) const;
+  void spread(std::vector<float>& rgb, std::vector<float>& error_draw);
 
 private:
+  /// What is looked at.
+  struct View {
+    scene::Scene scene; ///< but for its environment
+    scene::Bvh bvh;
+  };
   /// What a pixel shows, as far as light may be spread over it.
   struct Seen {
     Sight::Surface surface; ///< the diffuse one at the end of a look, or the first of glass or a mirror
@@ -73,7 +82,8 @@ private:
 
   int width_, height_;
   bool everywhere_;
-  std::vector<Seen> seen_; ///< [pixel]
+  std::unique_ptr<const View> view_; ///< null: all looks are taken
+  std::vector<Seen> seen_;           ///< [pixel]
 };
 
 } // namespace nephroid::spectral

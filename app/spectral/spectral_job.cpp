@@ -16,10 +16,10 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace nephroid::spectral {
@@ -27,19 +27,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t checkpoint_version = 6;
-
 PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene)
 {
   PixelLists lists;
-  lists.all = static_cast<std::uint32_t>(scene.camera.width) * static_cast<std::uint32_t>(scene.camera.height);
+  lists.count = static_cast<std::uint32_t>(scene.camera.pixels());
   lists.glass = glass_pixels(scene);
-  lists.may_show_glass.assign(lists.all, false);
+  lists.may_show_glass.assign(lists.count, false);
   for (const std::uint32_t pixel : lists.glass) lists.may_show_glass[pixel] = true;
-  std::vector<std::uint32_t> both(lists.all);
-  std::iota(both.begin(), both.end(), 0);
-  both.insert(both.end(), lists.glass.begin(), lists.glass.end());
-  lists.on_device = tracing::upload_vector(context, "pixels", both);
+  std::vector<std::uint32_t> pixels(lists.count);
+  std::iota(pixels.begin(), pixels.end(), 0);
+  pixels.insert(pixels.end(), lists.glass.begin(), lists.glass.end());
+  lists.on_device = tracing::upload_vector(context, "pixels", pixels);
   return lists;
 }
 
@@ -54,46 +52,19 @@ class SpectralJob final : public job::Job, public job::SpectrumSource {
 public:
   SpectralJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
               const compute::Context& context)
-      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed),
-               plan.tables,
-               preset.white,
-               plan.estimates_error ? 2u : 1u,
-               {},
-               {},
-               {}},
-        estimates_error_(plan.estimates_error), stop_seconds_(preset.stop.seconds)
+      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white,
+               plan.estimates_error ? 2u : 1u},
+        preset_(preset), stop_seconds_(preset.stop.seconds)
   {
-    if (plan_smooths_ = plan.smoothing; plan_smooths_) {
-      scene::Scene seen = scene;
-      seen.environment.reset(); // the largest part of a scene, and no look needs it
-      make_smoothing_ = [seen = std::move(seen), bvh, everywhere = spectral::settings(preset).smoothing == Settings::Smoothing::on] {
-        return std::make_unique<const Smoothing>(seen, bvh, everywhere);
-      };
-    }
-    shares_work_ =
-        spectral::settings(preset).effort == Settings::Effort::automatic && !spectral::settings(preset).relight && plan.estimates_error;
+    const Settings& settings = spectral::settings(preset_);
+    if (plan.runs(smoothing_part)) smoothing_.emplace(scene, bvh, settings.smoothing == Settings::Smoothing::on);
+    shares_work_ = settings.effort == Settings::Effort::automatic && !settings.relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
     world_.emitters = tracing::upload_vector(context, "emitters", plan.tables.emitters);
-    if (spectral::settings(preset).relight && (plan.direct || plan.photons)) {
-      preset_ = preset;
-      relighting_ = make_relighting(world_, layer_light(scene, preset.white));
-    }
-    if (plan.direct)
-      stages_.push_back({relighting_ ? make_layered_direct_stage(world_, *relighting_, spectral::settings(preset))
-                                     : make_direct_stage(world_, spectral::settings(preset))});
-    const bool sppm = spectral::settings(preset).estimator == Settings::Estimator::sppm;
-    if (plan.maps && !sppm) map_ = std::make_unique<PhotonMap>(context, world_.tables.photons_per_pass, world_.defines);
-    if (plan.photons)
-      stages_.push_back({relighting_ ? make_layered_photon_stage(world_, *relighting_)
-                                     : make_photon_stage(world_, spectral::settings(preset), map_.get()),
-                         true});
-    if (plan.maps)
-      stages_.push_back({sppm ? make_sppm_stage(world_, scene, spectral::settings(preset))
-                              : make_map_stage(world_, scene, spectral::settings(preset), *map_),
-                         true});
-    if (plan.indirect) stages_.push_back({make_indirect_stage(world_, scene, spectral::settings(preset))});
-    if (plan.background) stages_.push_back({make_background_stage(world_, scene, spectral::settings(preset))});
+    if (plan.runs(map_stage)) world_.map.emplace(context, world_.tables.photons_per_pass, world_.defines);
+    for (const RunPart* part : plan.parts)
+      if (part->make) stages_.push_back({part->make(world_, scene, settings), std::string_view(part->layer) == "caustic"});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
     for (const TimedStage& s : stages_) s.stage->warm_up();
     world_.energy.fill_zero();
@@ -111,7 +82,7 @@ public:
 
   void step() override
   {
-    if (smooths()) smoothing();
+    if (smooths()) smoothing_->look();
     const auto begin = Clock::now();
     if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
@@ -126,7 +97,7 @@ public:
     ++at_.pass;
   }
 
-  bool estimates_error() const override { return estimates_error_; }
+  bool estimates_error() const override { return world_.halves == 2; }
 
   job::Progress progress() const override
   {
@@ -155,13 +126,14 @@ public:
       snapshot.phases.emplace_back(stages_[s].stage->name(), stages_[s].seconds);
     }
     if (smooths()) add_smooth_caustics(*picture);
-    if (plan_smooths_) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
+    if (smoothing_) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
     for (const job::Layer& layer : picture->layers)
       for (std::size_t i = 0; i < layer.rgb.size(); ++i) picture->rgb[i] += layer.rgb[i];
     snapshot.picture = std::move(picture);
     snapshot.whole = at_.pass > 0;
     snapshot.progress = progress();
-    Energy energy{energy_balance(), {}};
+    const double photon_passes = this->photon_passes() - at_.energy_from;
+    Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, photon_passes)), {}};
     for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
     add_energy(energy, snapshot);
     return snapshot;
@@ -171,54 +143,37 @@ public:
   {
     const auto [x, y] = pixel;
     if (x < 0 || y < 0 || x >= world_.tables.camera.width || y >= world_.tables.camera.height) return nullptr;
-    auto made = std::make_shared<job::PixelSpectrum>();
-    made->pixel = pixel;
-    if (!relighting_) {
-      made->why_not = "the film adds up colours, and a spectrum is not kept; spectral.relight true keeps a layer for each cluster";
-      made->remedy = "spectral.relight=true";
-      return made;
+    auto spectrum = std::make_shared<job::PixelSpectrum>();
+    spectrum->pixel = pixel;
+    if (!world_.relighting) {
+      spectrum->why_not = "the film adds up colours, and a spectrum is not kept; spectral.relight true keeps a layer for each cluster";
+      spectrum->remedy = "spectral.relight=true";
+      return spectrum;
     }
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (!stages_[s].stage->add_spectrum(at_.pass, s < at_.stage, *made))
-        made->notes.push_back(fmt::format("Without the layer \"{}\", of which no spectrum is kept.", stages_[s].stage->name()));
-    if (plan_smooths_) made->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
-    return made;
+      if (!stages_[s].stage->add_spectrum(at_.pass, s < at_.stage, *spectrum))
+        spectrum->notes.push_back(fmt::format("Without the layer \"{}\", of which no spectrum is kept.", stages_[s].stage->name()));
+    if (smoothing_) spectrum->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
+    return spectrum;
   }
 
   void save(ByteSink& sink) override
   {
-    tracing::StateWriter to(sink);
-    to.value(checkpoint_version);
-    to.value(at_);
-    to.buffer(world_.energy);
-    for (const TimedStage& s : stages_) {
-      to.value(s.seconds);
-      s.stage->save(to);
-    }
+    tracing::State state(sink);
+    this->state(state);
   }
 
   void load(ByteSource& source) override
   {
-    tracing::StateReader from(source);
-    std::uint32_t version = 0;
-    from.value(version);
-    if (version != checkpoint_version)
-      throw bad_input("checkpoint", fmt::format("is of version {}", version),
-                      fmt::format("this program writes version {}", checkpoint_version), "delete it and start again");
-    from.value(at_);
-    from.buffer(world_.energy);
-    for (TimedStage& s : stages_) {
-      from.value(s.seconds);
-      s.stage->load(from);
-    }
-    if (!from.at_end()) throw bad_input("checkpoint", "is too long", "expected one of this preset", "delete it and start again");
+    tracing::State state(source);
+    this->state(state);
     world_.context.finish();
   }
 
   bool adopt(const preset::Preset& preset) override
   {
-    if (!relighting_ || !spectral::only_relit(preset_, preset)) return false;
-    change_light(*relighting_, world_, layer_light(preset));
+    if (!world_.relighting || !engine::adoptable(preset_, preset)) return false;
+    change_light(*world_.relighting, world_, layer_light(preset));
     preset_ = preset;
     world_.white = preset.white;
     at_.energy_from = photon_passes();
@@ -267,6 +222,16 @@ private:
         stages_[s].stage->share_work(std::sqrt(noise_over_work(s, work, true) / of_photons));
   }
 
+  void state(tracing::State& state)
+  {
+    state.value(at_);
+    state.buffer(world_.energy);
+    for (TimedStage& s : stages_) {
+      state.value(s.seconds);
+      s.stage->state(state);
+    }
+  }
+
   /// A black picture without layers, with room for a draw of its error where films have halves.
   job::Picture black() const
   {
@@ -279,14 +244,7 @@ private:
   }
 
   /// With both halves whole: what a few photons of one tell of the noise makes blotches.
-  bool smooths() const { return plan_smooths_ && at_.pass >= 2; }
-
-  /// Made with the third pass: a look through every pixel would hold up the first picture.
-  const Smoothing& smoothing()
-  {
-    if (make_smoothing_) smoothing_ = std::exchange(make_smoothing_, nullptr)();
-    return *smoothing_;
-  }
+  bool smooths() const { return smoothing_ && at_.pass >= 2; }
 
   /// Adds the layer "caustic", spread, and its error.
   void add_smooth_caustics(job::Picture& picture)
@@ -295,9 +253,8 @@ private:
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (stages_[s].caustics) stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
     std::vector<float>& rgb = tracing::layer_of(caustics, "caustic").rgb;
-    const Smoothing& smoothing = this->smoothing();
     const auto begin = Clock::now();
-    smoothing.spread(rgb, caustics.error_draw);
+    smoothing_->spread(rgb, caustics.error_draw);
     smoothing_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
     tracing::layer_of(picture, "caustic").rgb = std::move(rgb);
     if (caustics.error_draw.empty()) picture.error_draw.clear();
@@ -324,34 +281,11 @@ private:
     return 0;
   }
 
-  EnergyBalance energy_balance()
-  {
-    const std::vector<std::int64_t> sums = world_.energy.read();
-    const double passes = photon_passes() - at_.energy_from;
-    const auto watts = [&](int outcome) {
-      return tracing::mean_watts(sums[static_cast<std::size_t>(outcome)], world_.tables.energy_scale, passes);
-    };
-    EnergyBalance e;
-    e.emitted_w = watts(OUTCOME_EMITTED);
-    e.deposited_w = watts(OUTCOME_DEPOSITED);
-    e.missed_w = watts(OUTCOME_MISSED);
-    e.absorbed_w = watts(OUTCOME_ABSORBED);
-    e.escaped_w = watts(OUTCOME_ESCAPED);
-    e.lost_w = watts(OUTCOME_LOST);
-    e.refused_contributions = static_cast<std::uint64_t>(sums[OUTCOME_REFUSED]);
-    return e;
-  }
-
-  DeviceWorld world_;     ///< the stages use it
-  preset::Preset preset_; ///< where layers are kept: what the light is of
-  std::unique_ptr<Relighting> relighting_;
-  std::unique_ptr<PhotonMap> map_;
+  DeviceWorld world_;        ///< the stages use it
+  preset::Preset preset_;    ///< with the lights as they are now
   bool shares_work_ = false; ///< whether time is dealt out by what it gains
-  bool plan_smooths_ = false;
-  std::function<std::unique_ptr<const Smoothing>()> make_smoothing_; ///< until it was called
-  std::unique_ptr<const Smoothing> smoothing_;
+  std::optional<Smoothing> smoothing_;
   double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
-  bool estimates_error_;
   std::optional<double> stop_seconds_;
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
   std::vector<TimedStage> stages_;

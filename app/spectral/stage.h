@@ -8,10 +8,9 @@
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "spectral/energy.h"
-#include "spectral/maps/photon_map.h"
-#include "spectral/settings.h"
+#include "spectral/plan_part.h"
 #include "spectral/tables/device_world.h"
-#include "tracing/state_bytes.h"
+#include "tracing/state.h"
 
 #include <cstdint>
 #include <memory>
@@ -32,12 +31,12 @@ public:
   virtual void warm_up()
   {
     ByteStore kept; // little: films are still all 0, and such pieces are left out
-    tracing::StateWriter before(kept);
-    save(before);
+    tracing::State before(kept);
+    state(before);
     step(0);
     StoredBytes bytes(kept.bytes(), name());
-    tracing::StateReader back(bytes);
-    load(back);
+    tracing::State back(bytes);
+    state(back);
   }
   /// How many passes it takes part in: what has had enough samples takes no more.
   virtual std::int64_t passes() const { return preset::max_passes; }
@@ -60,28 +59,15 @@ public:
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether theirs is the power in DeviceWorld::energy.
   virtual bool counts_energy() const { return false; }
-  /// Everything that it needs to go on with the same bits. load() gets what save() wrote.
-  virtual void save(tracing::StateWriter& to) const = 0;
-  virtual void load(tracing::StateReader& from) = 0;
+  /// Everything that it needs to go on with the same bits.
+  virtual void state(tracing::State& state) = 0;
 };
 
-/// Layer "direct": spectral.pixel_samples samples a pixel, one a pass. world outlives the stage.
-std::unique_ptr<Stage> make_direct_stage(DeviceWorld& world, const Settings& settings);
-
-/// Layer "caustic" where the camera sees the receiver directly: RunTables::photons_per_pass splats a pass. map: stores the photons too;
-/// nullptr: nothing gathers them.
-std::unique_ptr<Stage> make_photon_stage(DeviceWorld& world, const Settings& settings, PhotonMap* map);
-
-/// Layer "caustic" through glass and in mirrors, from the photons in the map, after the photon stage; map outlives the stage.
-std::unique_ptr<Stage> make_map_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings, PhotonMap& map);
-
-/// Layer "caustic" by progressive photon mapping alone: spectral.photons_per_pass photons for every cluster that has its turn in a pass.
-std::unique_ptr<Stage> make_sppm_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings);
-
-/// Layer "indirect": spectral.indirect_photons_per_pass photons a pass.
-std::unique_ptr<Stage> make_indirect_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings);
-
-/// Layer "background": the scene's environment, which is there; spectral.pixel_samples samples a pixel, one a pass.
-std::unique_ptr<Stage> make_background_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings);
+/// RunPart::make.
+template <class Kind>
+std::unique_ptr<Stage> make_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+{
+  return std::make_unique<Kind>(world, scene, settings);
+}
 
 } // namespace nephroid::spectral

@@ -39,8 +39,8 @@ void add_layer(const std::string& name, const Film& film, job::Picture& picture)
   std::array<double, 2> samples{-1, -1}; // of the pixel before: most have as many
   double mean = 0, of_a = 0, of_b = 0;
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-    if (const std::array<double, 2> own = film.samples(pixel); own != samples) {
-      const auto [a, b] = samples = own;
+    if (const std::array<double, 2> counts = film.samples(pixel); counts != samples) {
+      const auto [a, b] = samples = counts;
       mean = a + b > 0 ? 1 / ((a + b) * film.quanta_per_unit) : 0;
       // (A / a - B / b) sqrt(a b) / (a + b), with the sums A and B
       of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
@@ -58,9 +58,9 @@ void add_layer(const std::string& name, const Film& film, job::Picture& picture)
 std::array<double, 2> halves_of(std::int64_t passes, double part)
 {
   const std::int64_t odd = passes / 2, even = passes - odd; // the first pass is number 0
-  std::array<double, 2> both{static_cast<double>(even), static_cast<double>(odd)};
-  both[static_cast<std::size_t>(passes % 2)] += part;
-  return both;
+  std::array<double, 2> counts{static_cast<double>(even), static_cast<double>(odd)};
+  counts[static_cast<std::size_t>(passes % 2)] += part;
+  return counts;
 }
 
 } // namespace nephroid::tracing

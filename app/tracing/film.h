@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -17,8 +16,8 @@ inline constexpr double film_limit = 0x1p42;
 
 /// What a device added up.
 struct Film {
-  std::span<const std::int64_t> sums; ///< [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples
-  double quanta_per_unit = 1;         ///< quanta of what becomes 1 in the picture
+  std::vector<std::int64_t> sums; ///< [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples
+  double quanta_per_unit = 1;     ///< quanta of what becomes 1 in the picture
   /// How many samples, or passes of photons, the sums of a pixel hold: from the even and from the odd passes. A film without halves has
   /// all of them in one image.
   std::function<std::array<double, 2>(std::size_t pixel)> samples;

@@ -21,7 +21,17 @@ std::vector<glm::uvec3> corners_of_primitives(const scene::Mesh& mesh, const sce
   return corners;
 }
 
+std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }
+
 } // namespace
+
+std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
+
+std::uint64_t surface_bytes(const scene::Scene& scene)
+{
+  const scene::Mesh& mesh = scene.geometry;
+  return bytes_of(mesh.triangles) + bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(scene.object_of_primitive);
+}
 
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& b)
 {

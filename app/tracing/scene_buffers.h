@@ -30,6 +30,10 @@ compute::Buffer<T> upload_vector(const compute::Context& context, const char* na
   return compute::Buffer<T>(context, name, std::span<const T>(items));
 }
 
+/// What a scene's tree and its triangles take, in bytes.
+std::uint64_t tree_bytes(const scene::Bvh& bvh);
+std::uint64_t surface_bytes(const scene::Scene& scene);
+
 /// Of the tables those that say where surfaces are; the others stay. Throws as upload.
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& buffers);
 

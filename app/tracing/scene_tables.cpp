@@ -57,9 +57,9 @@ void set_targets(shared::DeviceLight& light, const std::vector<scene::Sphere>& s
     const shared::float4 &p = a.centre_radius, &q = b.centre_radius;
     return p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w;
   };
-  auto found = std::search(tables.targets.begin(), tables.targets.end(), list.begin(), list.end(), same);
-  if (found == tables.targets.end()) found = tables.targets.insert(found, list.begin(), list.end());
-  light.first_target = static_cast<int>(found - tables.targets.begin());
+  auto list_begin = std::search(tables.targets.begin(), tables.targets.end(), list.begin(), list.end(), same);
+  if (list_begin == tables.targets.end()) list_begin = tables.targets.insert(list_begin, list.begin(), list.end());
+  light.first_target = static_cast<int>(list_begin - tables.targets.begin());
   light.target_count = static_cast<int>(list.size());
 }
 

@@ -40,13 +40,13 @@ shared::DeviceBackground picture_size(const scene::Environment& environment)
 
 SkyTables make_sky_tables(const scene::Environment& environment)
 {
-  const scene::EnvironmentFlux all = scene::flux_of(environment);
+  const scene::EnvironmentFlux whole = scene::flux_of(environment);
   const Flux flux = flux_by_rows(environment);
   const auto width = static_cast<std::size_t>(environment.width);
   SkyTables tables;
   tables.size = picture_size(environment);
   tables.cdf = exact_cdf(flux.rows);
-  tables.mean_colour = {static_cast<float>(all.mean[0]), static_cast<float>(all.mean[1]), static_cast<float>(all.mean[2]), 0};
+  tables.mean_colour = {static_cast<float>(whole.mean[0]), static_cast<float>(whole.mean[1]), static_cast<float>(whole.mean[2]), 0};
   tables.colour.reserve(environment.rgb.size());
   for (std::size_t row = 0; row < flux.rows.size(); ++row) {
     const double steradians = scene::texel_steradians(environment, static_cast<int>(row)), of_row = chance(tables.cdf, row);
@@ -54,7 +54,7 @@ SkyTables make_sky_tables(const scene::Environment& environment)
       const double drawn = of_row * chance(flux.texels[row], column);
       for (std::size_t c = 0; c < 3; ++c) {
         const double value = environment.rgb[3 * (row * width + column) + c];
-        tables.colour.push_back(drawn > 0 ? static_cast<float>(value * steradians / (all.grey * drawn)) : 0.0f);
+        tables.colour.push_back(drawn > 0 ? static_cast<float>(value * steradians / (whole.grey * drawn)) : 0.0f);
       }
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixels, rows or photons of a pass in steps of about 50 ms.
 #pragma once
-#include "tracing/state_bytes.h"
+#include "tracing/state.h"
 
 #include <algorithm>
 #include <chrono>
@@ -56,15 +56,10 @@ public:
     return true;
   }
 
-  void save(StateWriter& to) const
+  void state(State& state)
   {
-    to.value(done_);
-    to.value(size_);
-  }
-  void load(StateReader& from)
-  {
-    from.value(done_);
-    from.value(size_);
+    state.value(done_);
+    state.value(size_);
   }
 
 private:
@@ -97,8 +92,7 @@ public:
     return true;
   }
 
-  void save(StateWriter& to) const { to.value(at_); }
-  void load(StateReader& from) { from.value(at_); }
+  void state(State& state) { state.value(at_); }
 
 private:
   struct Position {

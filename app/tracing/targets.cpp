@@ -180,13 +180,13 @@ std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
   std::vector<Piece> pieces = piece_by_object(scene);
   if (pieces.empty()) return {};
   if (pieces.size() > max_targets) {
-    Triangles all;
-    for (const Piece& piece : pieces) all.insert(all.end(), piece.triangles.begin(), piece.triangles.end());
+    Triangles triangles;
+    for (const Piece& piece : pieces) triangles.insert(triangles.end(), piece.triangles.begin(), piece.triangles.end());
     std::vector<scene::Ellipsoid> ellipsoids;
     for (const scene::Object& object : scene.objects)
       if (material_of(scene, object).type != scene::Material::Type::diffuse)
         for (const scene::Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) ellipsoids.push_back(ellipsoid);
-    return {enclosing_sphere(scene.geometry, all, ellipsoids)};
+    return {enclosing_sphere(scene.geometry, triangles, ellipsoids)};
   }
   std::vector<scene::Sphere> best = spheres_of(pieces);
   double best_shadow = mean_shadow(best);

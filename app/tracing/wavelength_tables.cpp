@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <numeric>
 
 namespace nephroid::tracing {
 namespace {
@@ -130,8 +129,7 @@ void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, Wa
 /// Photons are dealt by a light's spectrum and carry it too, but for those of the environment, which carry three parts.
 void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
-  std::vector<int> all(wavelength_count);
-  std::iota(all.begin(), all.end(), 0);
+  const std::vector<int> all = optics::all_wavelengths();
   for (const scene::Light* light : lights) {
     if (is_environment(*light))
       for (const Spectrum& primary : light->primaries) add_spectrum_rows(primary, all, tables);
@@ -163,12 +161,12 @@ void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, Waveleng
   for (const std::vector<int>& cluster : tables.clusters) {
     std::vector<double> weights;
     for (const int w : cluster) {
-      double all = 0;
+      double weight = 0;
       for (const scene::Light* light : lights) {
         const std::array<double, 4> xyz_power = reflected(light->spectrum, nullptr, {w});
-        all += radiometric(*light) * worth((xyz_power[0] + xyz_power[1] + xyz_power[2]) / 3, xyz_power[3]);
+        weight += radiometric(*light) * worth((xyz_power[0] + xyz_power[1] + xyz_power[2]) / 3, xyz_power[3]);
       }
-      weights.push_back(all);
+      weights.push_back(weight);
     }
     const std::vector<float> cdf = exact_cdf(weights);
     tables.wavelength_cdf.insert(tables.wavelength_cdf.end(), cdf.begin(), cdf.end());

@@ -33,34 +33,34 @@ struct World {
            std::initializer_list<compute::Argument> more = {})
   {
     const SceneBuffers& b = buffers;
-    std::vector<compute::Argument> all{{"nodes", b.nodes},
-                                       {"blocks", b.blocks},
-                                       {"corners", b.corners},
-                                       {"positions", b.positions},
-                                       {"normals", b.normals},
-                                       {"object_of_primitive", b.object_of_primitive},
-                                       {"objects", b.objects},
-                                       {"materials", b.materials},
-                                       {"lights", b.lights},
-                                       {"index_of_cluster", b.index_of_cluster},
-                                       {"index_of_wavelength", b.index_of_wavelength},
-                                       {"wavelength_cdf", b.wavelength_cdf},
-                                       {"index_slope", b.index_slope},
-                                       {"stretch_place", b.stretch_place},
-                                       {"stretch_span", b.stretch_span},
-                                       {"reflected_xyz", b.reflected_xyz},
-                                       {"cluster_first", b.cluster_first},
-                                       {"cluster_wavelengths", b.cluster_wavelengths},
-                                       {"coefficient", b.coefficient},
-                                       {"light_xyz", b.light_xyz},
-                                       {"reflectance", b.reflectance},
-                                       {"sky_cdf", b.sky_cdf},
-                                       {"sky_colour", b.sky_colour},
-                                       {"sky_size", sky_size},
-                                       {"reflector_count", reflector_count},
-                                       {"scene", scene}};
-    all.insert(all.end(), more);
-    kernel.run(global, local, all, own);
+    std::vector<compute::Argument> arguments{{"nodes", b.nodes},
+                                             {"blocks", b.blocks},
+                                             {"corners", b.corners},
+                                             {"positions", b.positions},
+                                             {"normals", b.normals},
+                                             {"object_of_primitive", b.object_of_primitive},
+                                             {"objects", b.objects},
+                                             {"materials", b.materials},
+                                             {"lights", b.lights},
+                                             {"index_of_cluster", b.index_of_cluster},
+                                             {"index_of_wavelength", b.index_of_wavelength},
+                                             {"wavelength_cdf", b.wavelength_cdf},
+                                             {"index_slope", b.index_slope},
+                                             {"stretch_place", b.stretch_place},
+                                             {"stretch_span", b.stretch_span},
+                                             {"reflected_xyz", b.reflected_xyz},
+                                             {"cluster_first", b.cluster_first},
+                                             {"cluster_wavelengths", b.cluster_wavelengths},
+                                             {"coefficient", b.coefficient},
+                                             {"light_xyz", b.light_xyz},
+                                             {"reflectance", b.reflectance},
+                                             {"sky_cdf", b.sky_cdf},
+                                             {"sky_colour", b.sky_colour},
+                                             {"sky_size", sky_size},
+                                             {"reflector_count", reflector_count},
+                                             {"scene", scene}};
+    arguments.insert(arguments.end(), more);
+    kernel.run(global, local, arguments, own);
     context.finish();
   }
 
@@ -69,9 +69,9 @@ struct World {
   /// For a kernel that run_photons runs.
   compute::Defines photon_defines() const
   {
-    compute::Defines all = defines;
-    all["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item());
-    return all;
+    compute::Defines result = defines;
+    result["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item());
+    return result;
   }
   /// As run, with items for `count` photons, and one at least.
   void run_photons(compute::Kernel& kernel, std::uint32_t count, std::initializer_list<compute::Argument> own)

@@ -15,5 +15,5 @@ kernel void add_all(global const long* values, global const int* places, volatil
 kernel void add_to_film(global const float4* xyz_scale, volatile global long* film, global int* accepted, uint count)
 {
   const uint i = get_global_id(0);
-  if (i < count) accepted[i] = film_add(film, (int)i, xyz_scale[i].xyz, xyz_scale[i].w);
+  if (i < count) accepted[i] = film_add_dithered(film, (int)i, xyz_scale[i].xyz, xyz_scale[i].w, FILM_LIMIT, 0.5f);
 }

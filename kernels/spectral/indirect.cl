@@ -10,10 +10,6 @@
 #include "kernels/spectral/splat.h"
 #include "kernels/tracing/world.h"
 
-#ifndef NEPHROID_PHOTONS_PER_ITEM
-#define NEPHROID_PHOTONS_PER_ITEM 1
-#endif
-
 // A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area light sends the same
 // power along every cosine-distributed direction; what emit() does, where directions are uniform, would be noisier.
 static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything, const DeviceScene* scene, float4 random,
@@ -113,14 +109,8 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
                      emission.watts / (float)emitter.photon_count,
                      1.0f};
     const int outcome = follow_photon(&world, &receiver, &photon, seed, pass, number, outcomes + OUTCOME_REFUSED);
-
-    const long quanta = convert_long_rte(photon.watts * band_share(&world, photon.source, &photon.band, 0.0f) * energy_scale);
-    const float left = wavelength_left(&world.tables, &photon.path.losses, photon.band.wavelength);
-    const long quanta_left = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
-    outcomes[OUTCOME_EMITTED] += quanta;
-    outcomes[outcome] += quanta_left;
-    outcomes[OUTCOME_ABSORBED] += quanta - quanta_left;
+    count_photon(outcomes, outcome, photon.watts * band_share(&world, photon.source, &photon.band, 0.0f) * energy_scale,
+                 wavelength_left(&world.tables, &photon.path.losses, photon.band.wavelength));
   }
-  for (int i = 0; i < OUTCOME_COUNT; ++i)
-    if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
+  add_outcomes(energy, outcomes);
 }

@@ -9,9 +9,6 @@
 #include "kernels/spectral/stretch.h"
 #include "kernels/spectral/store.h"
 
-#ifndef NEPHROID_PHOTONS_PER_ITEM
-#define NEPHROID_PHOTONS_PER_ITEM 1
-#endif
 // 1: photons go where they matter, and it is measured where that is.
 #ifndef NEPHROID_MOMENTS
 #define NEPHROID_MOMENTS 0
@@ -112,12 +109,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
       add_exactly(guide_moments + emitter.light * GUIDE_CELLS + guided.cell, moment);
     }
 #endif
-    const long quanta = convert_long_rte(watts * share * energy_scale);
-    const long left = end.left >= 1.0f ? quanta : convert_long_rte((float)quanta * end.left);
-    outcomes[OUTCOME_EMITTED] += quanta;
-    outcomes[end.outcome] += left;
-    outcomes[OUTCOME_ABSORBED] += quanta - left;
+    count_photon(outcomes, end.outcome, watts * share * energy_scale, end.left);
   }
-  for (int i = 0; i < OUTCOME_COUNT; ++i)
-    if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
+  add_outcomes(energy, outcomes);
 }

@@ -5,10 +5,6 @@
 #include "kernels/spectral/photon_path.h"
 #include "kernels/spectral/splat.h"
 
-#ifndef NEPHROID_PHOTONS_PER_ITEM
-#define NEPHROID_PHOTONS_PER_ITEM 1
-#endif
-
 // Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. All lamps have 1 W or 1 W m^-2; an emitter's `share` is
 // what its cluster has at present, in the unit that energy_scale is for: only the energy counters ask for it. Every photon counts alike, whatever the number
 // that its emitter has in a pass: that number may change when the light does.
@@ -41,13 +37,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
                                          FILM_LIMIT, mean_reflectance + emitter.cluster * reflector_count, start.emission.w))
         ++outcomes[OUTCOME_REFUSED];
     }
-
-    const long quanta = convert_long_rte(emission.watts / (float)emitter.photon_count * emitter.share * energy_scale);
-    const long rest = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
-    outcomes[OUTCOME_EMITTED] += quanta;
-    outcomes[end.outcome] += rest;
-    outcomes[OUTCOME_ABSORBED] += quanta - rest;
+    count_photon(outcomes, end.outcome, emission.watts / (float)emitter.photon_count * emitter.share * energy_scale, left);
   }
-  for (int i = 0; i < OUTCOME_COUNT; ++i)
-    if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
+  add_outcomes(energy, outcomes);
 }

@@ -46,10 +46,4 @@ static inline bool film_add_dithered(volatile __global long* film, int pixel, fl
   return true;
 }
 
-// The same to the nearest quantum, up to FILM_LIMIT.
-static inline bool film_add(volatile __global long* film, int pixel, float3 xyz, float scale)
-{
-  return film_add_dithered(film, pixel, xyz, scale, FILM_LIMIT, 0.5f);
-}
-
 #endif

@@ -157,7 +157,8 @@ TEST_F(GradientEngine, ACheckpointOfAnotherEngineIsRefused)
   write("s.json", R"({"engine": "spectral", "name": "g", "scene": {"camera": {"resolution": [32, 16]}}})");
   const Ended ended = run({"run", "s.json", "-o", "out", "--passes", "4", "--resume"});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("out/checkpoint.bin: belongs to another preset or seed"));
+  EXPECT_THAT(ended.err,
+              HasSubstr("out/checkpoint.bin: is of the engine 'gradient', and the preset's is 'spectral'; run without --resume"));
 }
 
 } // namespace

@@ -187,7 +187,6 @@ check::Result rises(const compute::Context&, std::uint64_t seed)
 
 bool only_level(const preset::Preset& before, const preset::Preset& now)
 {
-  if (&before.settings.type() != &now.settings.type()) return false;
   preset::Preset same = now;
   same.settings.as<Settings>().level = settings(before).level;
   return same == before;
@@ -198,6 +197,7 @@ std::vector<check::Check> checks() { return {{"gradient: it rises", rises}}; }
 } // namespace
 
 constinit const engine::Engine engine{.settings = settings_type,
+                                      .state_version = 1,
                                       .plan = make_plan,
                                       .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&,
                                                 const plan::Plan& plan, const compute::Context&) -> std::unique_ptr<job::Job> {

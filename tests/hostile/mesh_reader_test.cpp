@@ -2,6 +2,13 @@
 // The program that reads mesh files for nephroid: whatever happens to it, nephroid says so in one line; and it ends within its limits.
 #include "tests/support/program_test.h"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <sys/stat.h>
 
 using namespace nephroid::test;
@@ -58,6 +65,63 @@ TEST_F(StrangeMeshReader, EndsAsItShouldNot)
   const std::string three = R"(\3\0\0\0\0\0\0\0)", zero = R"(\0\0\0\0\0\0\0\0)", one_number = R"(\1\0\0\0\0\0\0\0\0\0\0\0)";
   EXPECT_THAT(refusal_with("printf '" + three + "not'"), HasSubstr(line + "ended early; ")); // cut after its first part
   EXPECT_THAT(refusal_with("printf '" + three + "not" + zero + zero + zero + one_number + "'"), HasSubstr(line + "not; "));
+}
+
+/// Bytes as printf has them.
+template <class... T>
+std::string printed(const T&... values)
+{
+  std::string text;
+  const auto add = [&](const auto& value) {
+    for (const unsigned char byte : std::bit_cast<std::array<unsigned char, sizeof value>>(value)) text += fmt::format("\\{:03o}", byte);
+  };
+  (add(values), ...);
+  return text;
+}
+
+/// An answer for three vertices and a triangle, but for what a test makes wrong.
+struct Answer {
+  std::uint64_t refusal = 0, vertices = 3, normals = 0, triangles = 1, counts = 1;
+  float coordinate = 1, normal = 1;
+  std::uint32_t corner = 2, mended = 0;
+
+  std::string script() const
+  {
+    std::string bytes = printed(refusal, vertices, 0.0f, 0.0f, 0.0f, coordinate, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, normals);
+    for (std::uint64_t i = 0; i < normals; ++i) bytes += printed(0.0f, 0.0f, normal);
+    return "printf '" + bytes + printed(triangles, 0u, 1u, corner, counts, mended) + "'";
+  }
+};
+
+TEST_F(StrangeMeshReader, AnswersNonsense)
+{
+  const std::string line = (folder / "a.obj").string() + ": the mesh cannot be read: the program that reads it answers nonsense: ";
+  constexpr std::uint64_t many = std::uint64_t{1} << 62;
+  EXPECT_THAT(refusal_with(Answer{.corner = 3}.script()), HasSubstr(line + "a triangle with vertex 3 of 3; a triangle mesh as"));
+  EXPECT_THAT(refusal_with(Answer{.coordinate = NAN}.script()), HasSubstr(line + "a coordinate that is not finite; "));
+  EXPECT_THAT(refusal_with(Answer{.normals = 2}.script()), HasSubstr(line + "2 normals of 3 vertices; "));
+  EXPECT_THAT(refusal_with(Answer{.normals = 3, .normal = 0}.script()), HasSubstr(line + "a normal that is no unit vector; "));
+  EXPECT_THAT(refusal_with(Answer{.mended = 1}.script()), HasSubstr(line + "1 mended normals of 0; "));
+  EXPECT_THAT(refusal_with(Answer{.counts = 0}.script()), HasSubstr(line + "no count of mended normals; "));
+  for (const Answer& promise : {Answer{.refusal = many}, Answer{.vertices = many}, Answer{.triangles = many}, Answer{.counts = 2}})
+    EXPECT_THAT(refusal_with(promise.script()), HasSubstr(line)) << promise.script();
+}
+
+TEST_F(StrangeMeshReader, PromisesMoreThanComes)
+{
+  const std::string line = (folder / "a.obj").string() + ": the mesh cannot be read: ";
+  EXPECT_THAT(refusal_with(Answer{.triangles = std::uint64_t{1} << 28}.script()), HasSubstr(line + "ended early; ")); // 3 GB
+  EXPECT_THAT(refusal_with(Answer{}.script() + "; exit 1"), HasSubstr(line + "ended early; "));
+}
+
+// It would go on beside the program, and in the window stay as a zombie.
+TEST_F(StrangeMeshReader, EndsWithTheProgram)
+{
+  refusal_with("echo $$ >" + (folder / "id").string() + "; " + Answer{.refusal = std::uint64_t{1} << 62}.script() + "; exec sleep 1000");
+  pid_t id = 0;
+  std::ifstream(folder / "id") >> id;
+  ASSERT_GT(id, 0);
+  EXPECT_EQ(::kill(id, 0), -1);
 }
 
 /// The reader itself, with small limits.

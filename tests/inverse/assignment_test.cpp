@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -87,7 +88,7 @@ TEST(Assignment, GoesOnWithTheSameBits)
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment whole(layout, targets, 5), first(layout, targets, 5), second(layout, targets, 5), other(layout, targets, 6);
   for (int i = 0; i < 70; ++i) first.advance(); // 64 batches a sweep: in the middle of the second one
-  ASSERT_TRUE(test::load(second, test::saved(first)));
+  ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
   sweep(whole, 3);
   sweep(second, 3);
   sweep(other, 3);
@@ -131,12 +132,12 @@ TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
   std::vector<std::vector<std::byte>> cuts;
   for (std::uint64_t tried = 0; !whole.finished(); tried = whole.tried()) {
     whole.advance();
-    if (whole.tried() - tried == layout.facet_count()) cuts.push_back(test::saved(whole)); // a step moves all facets
+    if (whole.tried() - tried == layout.facet_count()) cuts.push_back(test::saved<State>(whole)); // a step moves all facets
   }
   ASSERT_GT(cuts.size(), 8u);
   for (const std::size_t cut : {std::size_t{0}, std::size_t{7}, cuts.size() - 1}) {
     Assignment other(layout, targets, 5);
-    ASSERT_TRUE(test::load(other, cuts[cut]));
+    ASSERT_TRUE(test::load<State>(other, cuts[cut]));
     while (!other.finished()) other.advance();
     EXPECT_EQ(other.slopes(), whole.slopes());
     EXPECT_EQ(other.light(0), whole.light(0));

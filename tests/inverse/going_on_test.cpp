@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -85,7 +86,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
   }
   EXPECT_NEAR(a.residual(), residual, 1e-9 * residual);
   Assignment b(layout, targets, 1);
-  ASSERT_TRUE(test::load(b, test::saved(a)));
+  ASSERT_TRUE(test::load<State>(b, test::saved<State>(a)));
   sweep(a, 4);
   sweep(b, 4);
   EXPECT_EQ(a.slopes(), b.slopes());

@@ -4,11 +4,13 @@
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
+#include "tests/support/saved_jobs.h"
 
 #include <glm/gtc/constants.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -116,10 +118,7 @@ TEST(Lens, GoesOnWithTheSameBits)
   inverse::Lens whole(layout, target, own), first(layout, target, own), second(layout, target, own);
   for (int i = 0; i < 6; ++i) whole.advance();
   for (int i = 0; i < 3; ++i) first.advance();
-  ByteStore kept;
-  first.save(kept);
-  StoredBytes from(kept.bytes(), "kept");
-  second.load(from);
+  ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
   for (int i = 0; i < 3; ++i) second.advance();
   EXPECT_EQ(whole.steps(), second.steps());
   EXPECT_EQ(whole.light(0), second.light(0));

@@ -102,7 +102,8 @@ TEST_F(InverseRun, LeavesNothingOfTheRunBefore)
 TEST_F(InverseRun, GoesOnWithTheSameBits)
 {
   ASSERT_EQ(run_to("whole", {"--passes", "3"}).exit_code, 0);
-  ASSERT_EQ(run_to("parts", {"--passes", "1"}).exit_code, 0);
+  const Ended part = run_to("parts", {"--passes", "1", "--kernels", NEPHROID_SOURCE_DIR "/kernels"}); // this engine has none there
+  ASSERT_EQ(part.exit_code, 0) << part.err;
   EXPECT_EQ(of("parts/run.json").at("sweeps"), 1);
   const Ended resumed = run_to("parts", {"--passes", "3", "--resume"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;

@@ -81,13 +81,13 @@ TEST_F(ThesisPipeline, GoesOnWithTheSameBitsInEveryStage)
     Pipeline whole(layout, targets, settings, 7);
     std::vector<std::vector<std::byte>> cuts;
     for (int i = 0; !whole.finished(); ++i) {
-      if (i % 3 == 1) cuts.push_back(test::saved(whole)); // between trials and in the middle of one
+      if (i % 3 == 1) cuts.push_back(test::saved<State>(whole)); // between trials and in the middle of one
       whole.advance();
     }
-    cuts.push_back(test::saved(whole));
+    cuts.push_back(test::saved<State>(whole));
     for (const auto& cut : cuts) {
       Pipeline other(layout, targets, settings, 7);
-      ASSERT_TRUE(test::load(other, cut));
+      ASSERT_TRUE(test::load<State>(other, cut));
       finish(other);
       ASSERT_EQ(other.slopes(), whole.slopes());
       ASSERT_EQ(other.light(0), whole.light(0));

@@ -4,18 +4,20 @@
 #include "compute/compute.h"
 #include "compute/embedded.h"
 #include "tests/support/child.h"
+#include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -187,22 +189,51 @@ TEST_F(EditedKernels, CallsWithOtherArgumentsAreRefused)
   EXPECT_EQ(a.read().at(0), 4);
 }
 
-TEST_F(EditedKernels, AChangeIsSeenOnceAndBuilt)
+TEST_F(EditedKernels, AChangeIsBuilt)
 {
   write("test.cl", "kernel void k(global int* a) { a[0] = 1; }\n");
   const Context context = open();
-  EXPECT_FALSE(compute::kernels_changed(context));
-  EXPECT_FALSE(compute::kernels_changed(Context::open()));
   Buffer<int> a(context, "a", 1);
   Program(context, "test.cl").kernel("k").run(1, 1, {{"a", a}});
   EXPECT_EQ(a.read().at(0), 1);
   write("test.cl", "kernel void k(global int* a) { a[0] = 2; }\n");
-  fs::last_write_time(folder() / "test.cl", fs::file_time_type::clock::now() + std::chrono::seconds(2));
-  EXPECT_TRUE(compute::kernels_changed(context));
-  EXPECT_FALSE(compute::kernels_changed(context));
   Program(context, "test.cl").kernel("k").run(1, 1, {{"a", a}});
   EXPECT_EQ(a.read().at(0), 2);
   EXPECT_THAT(error_line([&] { Context::open({.kernels = folder() / "none"}); }, ErrorKind::bad_input), HasSubstr("not a folder"));
+}
+
+// The window's worker builds programs while another thread watches the folder: what is built stays, whatever changes beside it.
+TEST_F(EditedKernels, AreWatchedWhileTheyAreBuilt)
+{
+  write("test.cl", "kernel void k(global int* a) { a[0] = 1; }\n");
+  const Context context = open();
+  int told = 0;
+  compute::tell_of_compiling(context, [&] { ++told; });
+  Program(context, "test.cl");
+  const compute::KernelTimes before = compute::kernel_times(folder());
+  EXPECT_EQ(compute::kernel_times(folder()), before);
+  write("other.cl", "// another kernel\n");
+  std::atomic<bool> seen{false};
+  std::jthread watcher([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) seen = seen || compute::kernel_times(folder()) != before;
+  });
+  EXPECT_TRUE(test::eventually([&] {
+    Program(context, "test.cl");
+    return seen.load();
+  }));
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(compute::kernel_times(folder() / "none"), compute::KernelTimes());
+}
+
+TEST_F(EditedKernels, AnEngineMayHaveNone)
+{
+  const Context context = open();
+  fs::create_directory(folder() / "spectral");
+  write("spectral/test.cl", "// a kernel\n");
+  EXPECT_THAT(compute::kernel_sources(context, "spectral"), HasSubstr("// a kernel"));
+  EXPECT_EQ(compute::kernel_sources(context, "inverse"), "");
+  fs::create_symlink("loop", folder() / "loop");
+  EXPECT_THAT(error_line([&] { compute::kernel_sources(context, "loop"); }), HasSubstr("loop: cannot be read: "));
 }
 
 test::Ended devices_with(const test::Environment& environment)

@@ -3,6 +3,7 @@
 #pragma once
 #include "scene/mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/gtc/constants.hpp>

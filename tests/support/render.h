@@ -45,7 +45,7 @@ inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset, cons
 
 inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset)
 {
-  return job_as_it_is(preset, tracing::leave_out_all(preset.leave_out));
+  return job_as_it_is(preset, tracing::LeaveOut{.all = preset.leave_out});
 }
 
 inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const tracing::LeaveOut& leave_out,
@@ -56,7 +56,7 @@ inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const trac
 
 inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const compute::Context& context = shared_context())
 {
-  return job_of(preset, tracing::leave_out_all(preset.leave_out), context);
+  return job_of(preset, tracing::LeaveOut{.all = preset.leave_out}, context);
 }
 
 inline job::Snapshot render(job::Job& job)
@@ -72,7 +72,7 @@ inline job::Snapshot render(const preset::Preset& preset, const compute::Context
 
 inline job::Snapshot render_as_it_is(const preset::Preset& preset, const compute::Context& context = shared_context())
 {
-  return render(*job_as_it_is(preset, tracing::leave_out_all(preset.leave_out), context));
+  return render(*job_as_it_is(preset, tracing::LeaveOut{.all = preset.leave_out}, context));
 }
 
 } // namespace nephroid::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jobs saved to memory and loaded from there.
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 
 #include <cstddef>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace nephroid::test {
 
-/// saver: a job, or a part of one with a writer of its own (tracing::StateWriter).
+/// saver: a job, or a part of one with a state of its own (tracing::State).
 template <class Writer = ByteSink, class Saver>
 std::vector<std::byte> saved(Saver& saver)
 {
@@ -19,7 +19,7 @@ std::vector<std::byte> saved(Saver& saver)
     saver.save(store);
   else {
     Writer to(store);
-    saver.save(to);
+    saver.state(to);
   }
   return store.bytes();
 }
@@ -33,7 +33,7 @@ bool load(Loader& loader, std::span<const std::byte> bytes)
     loader.load(stored);
   else {
     Reader from(stored);
-    loader.load(from);
+    loader.state(from);
   }
   return stored.left() == 0;
 }

@@ -7,8 +7,11 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace nephroid::test {
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <tuple>
 
 namespace nephroid::ui {
 namespace {

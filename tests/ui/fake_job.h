@@ -109,8 +109,7 @@ public:
   {
     const auto& lights = preset.scene.lights;
     if (!lights.empty() && lights[0].power_w == 13) throw bad_input("lights/0", "is unlucky");
-    const auto adoptable = engine::engine_of(preset_).adoptable;
-    if (!runs_.adopts || !adoptable || !adoptable(preset_, preset)) return false;
+    if (!runs_.adopts || !engine::adoptable(preset_, preset)) return false;
     preset_ = preset;
     ++runs_.adopted;
     return true;

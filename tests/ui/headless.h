@@ -14,6 +14,7 @@
 #include <imgui.h>
 
 #include <ctime>
+#include <variant>
 
 namespace nephroid::test {
 

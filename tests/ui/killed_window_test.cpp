@@ -6,8 +6,11 @@
 #include "base/files.h"
 #include "ui/state/session.h"
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <random>
+#include <thread>
 
 namespace nephroid::test {
 namespace {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 namespace nephroid::ui {
 namespace {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui_internal.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <random>
 

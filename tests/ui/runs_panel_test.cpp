@@ -234,11 +234,14 @@ TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing)
   EXPECT_THAT(report((folder.path() / "file" / "page.html").string()), HasSubstr("file/page"));
   EXPECT_TRUE(workbench.messages().back().error);
   EXPECT_FALSE(is_there(folder.path() / "page-runs"));
-  // A page that cannot be written where a folder is takes what was written beside it along.
+  // A page that cannot be written where a folder is takes what was written beside it along, and nothing that was there.
+  const auto of_others = folder.path() / "page-runs";
+  std::filesystem::create_directory_symlink("a disk that is not there now", of_others);
   std::filesystem::create_directories(folder.path() / "page.html");
   EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("page.html"));
   EXPECT_TRUE(workbench.messages().back().error);
-  EXPECT_FALSE(is_there(folder.path() / "page-runs"));
+  EXPECT_TRUE(std::filesystem::is_symlink(of_others));
+  EXPECT_FALSE(is_there(folder.path() / "page-runs-2"));
 }
 
 TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs)

@@ -214,6 +214,27 @@ TEST_F(SessionTest, AReopenedSessionIsGoneWhenTheNextIsKept)
   EXPECT_TRUE(window.keeper.has_earlier());
 }
 
+TEST_F(SessionTest, OnlyOneWindowReopensASession)
+{
+  {
+    Window killed(state());
+    ASSERT_TRUE(killed.workbench.open(preset_file()));
+    killed.settle();
+  }
+  Window first(state()), second(state());
+  EXPECT_FALSE(first.keeper.killed_session().empty());
+  EXPECT_FALSE(second.keeper.killed_session().empty());
+  first.keeper.reopen(first.workbench);
+  EXPECT_NE(first.workbench.preset(), nullptr);
+  EXPECT_TRUE(Window(state()).keeper.killed_session().empty()) << "it is this window's, though it was not kept yet";
+  second.keeper.reopen(second.workbench);
+  EXPECT_EQ(second.workbench.preset(), nullptr);
+  ASSERT_EQ(second.workbench.messages().size(), 1u);
+  EXPECT_EQ(second.workbench.messages()[0].line, "the earlier session was opened in another window");
+  first.settle();
+  EXPECT_TRUE(Window(state()).keeper.killed_session().empty());
+}
+
 TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn)
 {
   Window first(state());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dependencies point one way: every #include of app/, ui/ and kernels/ is held against the folder table of ARCHITECTURE.md, and
-// every library's headers stay in the one folder that knows the library.
+// every library's headers stay in the one folder that knows the library. A file that uses the standard library includes what it uses:
+// what one compiler's headers bring along, the next one's do not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -228,6 +230,83 @@ TEST(Includes, the_table_keeps_the_promises_of_the_design)
     }
     EXPECT_TRUE(folder == "ui" || !allowed.contains("ui")) << folder;
   }
+}
+
+/// What a source or header includes.
+struct Source {
+  std::string text;
+  std::set<std::string> standard; ///< "algorithm"
+  std::vector<std::string> ours;  ///< "base/error.h"
+};
+
+Source read_source(const fs::path& file)
+{
+  static const std::regex include(R"re(\s*#\s*include\s*["<]([^">]+)[">].*)re");
+  Source source;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    source.text += line.substr(0, line.find("//")) + '\n';
+    std::smatch match;
+    if (line.find("include") == std::string::npos || !std::regex_match(line, match, include)) continue;
+    if (line.find('"') == std::string::npos)
+      source.standard.insert(match.str(1));
+    else
+      source.ours.push_back(match.str(1));
+  }
+  return source;
+}
+
+/// The standard headers that a file includes itself or by the project's own, which are named from the root, from app/ or from beside it.
+std::set<std::string> standard_headers(const std::map<std::string, Source>& sources, const fs::path& file, std::set<fs::path>& seen)
+{
+  const auto source = sources.find(file.string());
+  if (source == sources.end() || !seen.insert(file).second) return {};
+  std::set<std::string> headers = source->second.standard;
+  for (const std::string& included : source->second.ours)
+    for (const fs::path& candidate : {fs::path(included), "app" / fs::path(included), file.parent_path() / included})
+      headers.merge(standard_headers(sources, candidate, seen));
+  return headers;
+}
+
+/// Words that only one standard header promises.
+const std::map<std::string, std::vector<std::string>> standard_words{
+    {"algorithm", {"all_of(",      "any_of(",    "binary_search(", "clamp(",       "copy(",        "copy_if(",    "copy_n(",   "count(",
+                   "count_if(",    "equal(",     "fill(",          "fill_n(",      "find(",        "find_if(",    "for_each(", "generate(",
+                   "is_sorted(",   "max(",       "max_element(",   "min(",         "min_element(", "minmax(",     "mismatch(", "none_of(",
+                   "nth_element(", "remove(",    "remove_if(",     "replace(",     "reverse(",     "rotate(",     "search(",   "shuffle(",
+                   "sort(",        "transform(", "unique(",        "stable_sort(", "upper_bound(", "lower_bound("}},
+    {"array", {"array<"}},
+    {"chrono", {"chrono::"}},
+    {"cmath", {"abs(", "exp(", "floor(", "hypot(", "isfinite(", "isnan(", "log(", "nextafter(", "pow(", "round(", "sqrt("}},
+    {"cstdint", {"int32_t", "int64_t", "uint16_t", "uint32_t", "uint64_t", "uint8_t", "uintmax_t"}},
+    {"cstdlib", {"getenv(", "strtod(", "strtoul(", "strtoull(", "system("}},
+    {"cstring", {"memcmp(", "memcpy(", "strcmp(", "strerror(", "strlen("}},
+    {"functional", {"function<"}},
+    {"limits", {"numeric_limits<"}},
+    {"numeric", {"accumulate(", "gcd(", "inner_product(", "iota(", "lcm(", "midpoint("}},
+    {"sstream", {"istringstream", "ostringstream", "stringstream"}},
+    {"thread", {"this_thread", "jthread", "thread("}},
+};
+
+TEST(Includes, files_include_what_they_use_of_the_standard_library)
+{
+  const fs::path root = NEPHROID_SOURCE_DIR;
+  std::map<std::string, Source> sources;
+  for (const char* top : {"app", "ui", "kernels", "tests"})
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top))
+      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h")
+        sources[fs::relative(entry.path(), root).string()] = read_source(entry.path());
+  EXPECT_GT(sources.size(), 500u);
+  std::vector<std::string> missing;
+  for (const auto& [file, source] : sources) {
+    std::set<fs::path> seen;
+    const std::set<std::string> headers = standard_headers(sources, file, seen);
+    for (const auto& [header, words] : standard_words)
+      if (!headers.contains(header))
+        for (const std::string& word : words)
+          if (source.text.find("std::" + word) != std::string::npos) missing.push_back(file + ": std::" + word + " lacks <" + header + ">");
+  }
+  EXPECT_THAT(missing, testing::IsEmpty());
 }
 
 // The check itself, on breaks made up for it.

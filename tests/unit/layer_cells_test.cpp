@@ -70,16 +70,16 @@ shared::DeviceCamera camera_along_minus_z(int pixels)
   return camera;
 }
 
-TEST(LayerBudget, CountsPixelsThatMaySeeASphere)
+TEST(BentCells, CountPixelsThatMaySeeASphere)
 {
   // A sphere of radius 1 at distance 10 fills a disc of radius tan(asin(1 / 10)) of the square of edge 1: pi 0.1005^2 = 0.0317, and two
   // pixels of 1 / 400 beyond: 0.035.
   const std::vector<scene::Sphere> far{{{0, 0, -10}, 1}};
-  const LayerBudget budget = layer_budget(camera_along_minus_z(400), far);
-  EXPECT_GE(budget.bent, 2 * 0.0317 * 160000);
-  EXPECT_LE(budget.bent, 2 * 0.037 * 160000 + 8192);
-  EXPECT_EQ(layer_budget(camera_along_minus_z(400), std::vector<scene::Sphere>{{{0, 0, 10}, 1}}).bent, 0u) << "behind the camera";
-  EXPECT_EQ(layer_budget(camera_along_minus_z(10), std::vector<scene::Sphere>{{{0, 0, 0.5f}, 1}}).bent, 200u + 8192u) << "about it";
+  const std::size_t cells = bent_cells(camera_along_minus_z(400), far);
+  EXPECT_GE(cells, 2 * 0.0317 * 160000);
+  EXPECT_LE(cells, 2 * 0.037 * 160000 + 8192);
+  EXPECT_EQ(bent_cells(camera_along_minus_z(400), std::vector<scene::Sphere>{{{0, 0, 10}, 1}}), 0u) << "behind the camera";
+  EXPECT_EQ(bent_cells(camera_along_minus_z(10), std::vector<scene::Sphere>{{{0, 0, 0.5f}, 1}}), 200u + 8192u) << "about it";
 }
 
 TEST(LayerEmitters, HalfOfThePhotonsGoEvenlyHalfByThePresentLight)
@@ -118,11 +118,11 @@ TEST(LayerWeights, AddUpToTheColourOfTheReflectorUnderTheLight)
   const optics::Colour white = optics::xyz_to_linear_srgb(optics::to_xyz(light.spectra[0]));
   ASSERT_EQ(weights.clusters.size(), 6u);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_NEAR(weights.all[0][k], 1.5 * white[k], 1e-9);
-    EXPECT_NEAR(weights.all[1][k], 0.25 * 1.5 * white[k], 1e-9);
+    EXPECT_NEAR(weights.whole[0][k], 1.5 * white[k], 1e-9);
+    EXPECT_NEAR(weights.whole[1][k], 0.25 * 1.5 * white[k], 1e-9);
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) sum += weights.clusters[2 * c][k];
-    EXPECT_NEAR(sum, weights.all[0][k], 1e-9);
+    EXPECT_NEAR(sum, weights.whole[0][k], 1e-9);
   }
 }
 

@@ -19,7 +19,7 @@ protected:
     write_file_whole(folder / "image.exr", "a picture");
     write_file_whole(folder / "preset.json", preset::to_json(preset, folder) + "\n");
   }
-  std::optional<job::Progress> with_run_json(const std::string& text) const
+  std::optional<run::FinishedRun> with_run_json(const std::string& text) const
   {
     write_file_whole(folder / "run.json", text);
     return run::finished_run(folder, preset);
@@ -34,12 +34,12 @@ constexpr const char* whole =
 
 TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
 {
-  const auto progress = with_run_json(whole);
-  ASSERT_TRUE(progress);
-  EXPECT_EQ(progress->fraction, 1);
-  EXPECT_EQ(progress->step, 7);
-  EXPECT_EQ(progress->work, 9000000000u);
-  EXPECT_EQ(progress->work_seconds, 1.5);
+  const auto run = with_run_json(whole);
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->progress.fraction, 1);
+  EXPECT_EQ(run->progress.step, 7);
+  EXPECT_EQ(run->progress.work, 9000000000u);
+  EXPECT_EQ(run->progress.work_seconds, 1.5);
 }
 
 TEST_F(RunFolder, AnotherPresetIsAnotherRun)

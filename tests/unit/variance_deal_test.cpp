@@ -110,9 +110,9 @@ TEST(VarianceDeal, IsSavedWhole)
 {
   VarianceDeal deal(emitters({40, 60}));
   deal.deal(2, std::vector<std::int64_t>{5, 700}, 2);
-  const std::vector<std::byte> bytes = test::saved<tracing::StateWriter>(deal);
+  const std::vector<std::byte> bytes = test::saved<tracing::State>(deal);
   VarianceDeal other(emitters({40, 60}));
-  EXPECT_TRUE(test::load<tracing::StateReader>(other, bytes));
+  EXPECT_TRUE(test::load<tracing::State>(other, bytes));
   deal.deal(4, std::vector<std::int64_t>{100, 3}, 2);
   other.deal(4, std::vector<std::int64_t>{100, 3}, 2);
   for (std::size_t e = 0; e < 2; ++e) EXPECT_EQ(other.emitters()[e].photon_count, deal.emitters()[e].photon_count);

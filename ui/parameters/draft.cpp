@@ -9,6 +9,7 @@
 #include "preset/read.h"
 #include "scene/materials.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 

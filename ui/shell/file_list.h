@@ -5,6 +5,7 @@
 #include "ui/widgets/widgets.h"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <future>
 #include <optional>

@@ -52,14 +52,15 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
 {
   if (reread_.exchange(false)) previous_.reset();
   auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get())); });
-  const std::lock_guard lock(building_);
   const Lowered compiling{compiling_};
   if (reopen_.exchange(false)) context_.reset();
   if (!context_) context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
   compute::tell_of_compiling(*context_, [this] { compiling_ = true; });
-  // The sources are read below: what changed until here is in this run.
-  compute::kernels_changed(*context_);
-  changed_ = false;
+  if (watcher_.joinable()) { // the sources are read below: what changed until here is in this run
+    const std::lock_guard lock(watching_);
+    seen_ = compute::kernel_times(options_.kernels);
+    changed_ = false;
+  }
   previous_ = std::move(prepared);
   auto plan = std::make_shared<plan::Plan>(*previous_->plan);
   std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan->notes);
@@ -72,10 +73,13 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
 
 void DeviceRuns::watch(const std::stop_token& stop)
 {
-  std::unique_lock lock(building_);
+  std::unique_lock lock(watching_);
   while (!stop.stop_requested()) {
     stopping_.wait_for(lock, stop, look_at_kernels_every, [] { return false; });
-    if (context_ && compute::kernels_changed(*context_)) changed_ = true;
+    compute::KernelTimes now = compute::kernel_times(options_.kernels);
+    if (!seen_ || now == *seen_) continue;
+    seen_ = std::move(now);
+    changed_ = true;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace nephroid::run {
@@ -39,12 +40,11 @@ private:
 
   compute::DeviceOptions options_;
   LookAround look_around_;
-  /// Building and watching take turns: compute::kernels_changed forgets the built programs, which make() looks up and adds to. A
-  /// job that runs needs no turn: it builds nothing, and its kernels stay while it holds them.
-  std::mutex building_;
-  std::unique_ptr<compute::Context> context_; ///< opened by the first make(): opening a device takes a while
+  std::unique_ptr<compute::Context> context_; ///< opened by the first make(): opening a device takes a while; the worker's thread only
   std::unique_ptr<run::Prepared> previous_;   ///< the worker's thread only
   std::atomic<bool> compiling_{false}, changed_{false}, reread_{false}, reopen_{false};
+  std::mutex watching_;                      ///< held for a look at the folder
+  std::optional<compute::KernelTimes> seen_; ///< by the newest run or look, whichever is later; nothing before the first run
   std::condition_variable_any stopping_;
   std::jthread watcher_; ///< a thread of its own: neither a frame nor a run waits for the folder's disk. Last: it uses the others.
 };

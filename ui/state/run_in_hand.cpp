@@ -94,8 +94,7 @@ void RunInHand::begin()
 void RunInHand::adopt_or_start(const UndoStack& edits)
 {
   if (lent_) return;
-  const auto adoptable = preset_ ? engine::engine_of(*preset_).adoptable : nullptr;
-  if (kernels_changed_ || !adoptable || !adoptable(*preset_, edits.current())) return start(edits);
+  if (kernels_changed_ || !preset_ || !engine::adoptable(*preset_, edits.current())) return start(edits);
   take_over(edits);
   reference_.reset(); // it is of the old light
   adoption_ = worker_.adopt(preset_, maker());

@@ -86,7 +86,7 @@ RunRecord figures_now(const RunInHand& run)
   record.steps_name = progress.units.steps;
   record.steps = progress.step;
   record.work_seconds = progress.work_seconds;
-  record.finished = progress.fraction >= 1;
+  record.finished = progress.fraction >= 1 && !run.snapshot()->stands_in;
   record.preset = run.snapshot_origin().preset;
   if (record.preset) record.engine = record.preset->settings.type().name;
   return record;

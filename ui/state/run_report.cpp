@@ -21,13 +21,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the page, of a name that nothing has.
-fs::path new_folder(const fs::path& file)
+/// A folder beside the page that nobody had, made here. Throws failed where it cannot be made.
+fs::path claim_new_folder(const fs::path& file)
 {
-  fs::path folder = file;
   const std::string stem = file.stem().string() + "-runs";
-  for (int n = 1; n == 1 || is_there(folder); ++n) folder.replace_filename(n == 1 ? stem : fmt::format("{}-{}", stem, n));
-  return folder;
+  for (int n = 1;; ++n) {
+    fs::path folder = file;
+    folder.replace_filename(n == 1 ? stem : fmt::format("{}-{}", stem, n));
+    std::error_code error;
+    if (fs::create_directory(folder, error)) return folder;
+    std::error_code none;
+    if (!fs::exists(fs::symlink_status(folder, none))) throw failed(folder.string(), "cannot be made: " + error.message());
+  }
 }
 
 std::string folder_name(std::size_t number, const std::string& name)
@@ -52,12 +57,12 @@ bool is_still_there(const RunRecord& record)
 
 /// Removes what was written unless it is kept.
 struct Written {
-  fs::path folder;
+  fs::path folder; ///< claimed; empty while nothing was written
   bool keep = false;
   ~Written()
   {
     std::error_code ignored;
-    if (!keep) fs::remove_all(folder, ignored);
+    if (!keep && !folder.empty()) fs::remove_all(folder, ignored);
   }
 };
 
@@ -79,22 +84,22 @@ std::string write_report(const fs::path& file, std::span<const PinnedRun> runs)
   if (taken.empty())
     throw bad_input(file.string(), "there is no run for a report" + (left_out.empty() ? "" : " (" + left_out + ")"),
                     "expected finished runs", "wait until the run is finished, or pin finished ones");
-  Written written{new_folder(file)};
+  Written written;
   std::vector<fs::path> folders;
   std::set<fs::path> seen;
   for (const PinnedRun* run : taken) {
-    fs::path folder = written.folder / folder_name(folders.size() + 1, run->name);
     if (is_still_there(*run->record)) {
-      folder = run->record->folder;
-      if (!seen.insert(folder).second) continue; // pinned twice
-    } else
-      write_run_folder(folder, *run, run->name, true);
-    folders.push_back(std::move(folder));
+      if (seen.insert(run->record->folder).second) folders.push_back(run->record->folder); // else pinned twice
+      continue;
+    }
+    if (written.folder.empty()) written.folder = claim_new_folder(file);
+    folders.push_back(written.folder / folder_name(folders.size() + 1, run->name));
+    write_run_folder(folders.back(), *run, run->name, true);
   }
   write_file_whole(file, report::report_html(folders));
   written.keep = true;
   std::string note = fmt::format("saved {}, a report over {}", file.string(), counted(folders.size(), "run"));
-  if (is_there(written.folder)) note += fmt::format("; their files are in {}", written.folder.string());
+  if (!written.folder.empty()) note += fmt::format("; their files are in {}", written.folder.string());
   return left_out.empty() ? note : note + "; left out: " + left_out;
 }
 

@@ -36,6 +36,17 @@ int lock(const fs::path& file)
   return -1;
 }
 
+/// The same, held as long as somebody has it; null instead of -1.
+SessionKeeper::HeldLock hold(const fs::path& file)
+{
+  const int descriptor = lock(file);
+  if (descriptor < 0) return nullptr;
+  return {new int(descriptor), [](const int* held) {
+            ::close(*held);
+            delete held;
+          }};
+}
+
 std::string read_limited(const fs::path& file)
 {
   std::error_code ignored;
@@ -108,15 +119,14 @@ void SessionKeeper::find_earlier()
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "sessions", error))
     if (entry.path() != own_ && entry.path().extension() != ".unreadable") folders.push_back(entry.path());
   for (const fs::path& folder : folders) {
-    const int held = lock(folder / lock_name);
-    if (held < 0) continue; // its window is open
+    SessionKeeper::HeldLock held = hold(folder / lock_name);
+    if (!held) continue; // its window is open
     const fs::file_time_type kept = fs::last_write_time(folder / session_name, error);
     const SessionHeader header = error ? SessionHeader{} : header_of(folder / session_name);
     if (header.has_preset)
-      earlier_.push_back({folder, header.closed, kept});
+      earlier_.push_back({folder, header.closed, kept, std::move(held)});
     else
       fs::remove_all(folder, error); // nothing was ever opened
-    ::close(held);
   }
   std::sort(earlier_.begin(), earlier_.end(),
             [](const Earlier& a, const Earlier& b) { return a.closed != b.closed ? b.closed : a.kept > b.kept; });
@@ -128,6 +138,7 @@ void SessionKeeper::find_earlier()
     return old;
   });
   for (; earlier_.size() > most_earlier; earlier_.pop_back()) fs::remove_all(earlier_.back().folder, error);
+  for (Earlier& earlier : earlier_) earlier.lock.reset(); // another window may offer them, too
 }
 
 void SessionKeeper::load_settings(Workbench& workbench) const
@@ -154,9 +165,12 @@ void SessionKeeper::reopen(Workbench& workbench)
   if (earlier_.empty()) return;
   const fs::path folder = earlier_.front().folder;
   earlier_.erase(earlier_.begin());
+  HeldLock held = hold(folder / lock_name);
+  if (!held) return workbench.apply({command::Report{"the earlier session was opened in another window"}});
   try {
     workbench.restore(parse_session(read_limited(folder / session_name), (folder / session_name).string()), folder);
     taken_over_ = folder;
+    taken_over_lock_ = std::move(held);
   } catch (const std::exception& error) {
     std::error_code ignored;
     const fs::path kept = folder.string() + ".unreadable";
@@ -205,7 +219,10 @@ void SessionKeeper::collect(Workbench& workbench)
   try {
     writing_.get();
     said_.clear();
-    if (!newest_->replaces.empty()) taken_over_.clear();
+    if (!newest_->replaces.empty()) {
+      taken_over_.clear();
+      taken_over_lock_.reset();
+    }
   } catch (const std::exception& error) {
     newest_.reset();
     next_ = Clock::now() + after_failure;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ namespace nephroid::ui {
 class SessionKeeper {
 public:
   using Clock = std::chrono::steady_clock;
+  using HeldLock = std::shared_ptr<const int>; ///< null: not held
 
   /// folder: state_folder(), or another for tests; empty: nothing is kept and nothing found. Throws failed where it cannot be made.
   explicit SessionKeeper(std::filesystem::path folder);
@@ -30,7 +32,8 @@ public:
   std::string killed_session() const;
   /// Whether there is a session to go back to, of a window that was closed or not.
   bool has_earlier() const { return !earlier_.empty(); }
-  /// Opens the newest earlier session, of a killed window first. What cannot be read becomes a message and is kept under another name.
+  /// Opens the newest earlier session, of a killed window first, and holds its lock until this window's own session has all of it. What
+  /// another window opened meanwhile becomes a message; so does what cannot be read, which is kept under another name.
   void reopen(Workbench& workbench);
 
   /// Once a frame, returns at once: at most once a second writes what changed, in the background.
@@ -43,6 +46,7 @@ private:
     std::filesystem::path folder;
     bool closed = false;
     std::filesystem::file_time_type kept;
+    HeldLock lock = {}; ///< while they are looked for
   };
   /// What there is to write.
   struct Work {
@@ -64,6 +68,7 @@ private:
   int lock_ = -1;
   std::vector<Earlier> earlier_;     ///< the one to go back to first comes first
   std::filesystem::path taken_over_; ///< an earlier session that is not needed once this one is kept
+  HeldLock taken_over_lock_;         ///< its
   std::optional<Work> newest_;       ///< what was written last, or is being written
   std::future<void> writing_;
   SessionText text_; ///< of the thread that writes

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <span>
 
 namespace nephroid::environment {
@@ -55,17 +54,14 @@ BakeTask make_task(const preset::Preset& preset)
   task.seed = preset.seed;
   const scene::Scene& scene = task.caster.scene;
   task.bvh = scene::build_bvh(scene.geometry);
-  const tracing::LeaveOut leave_out = tracing::leave_out_all(preset.leave_out);
-  std::vector<int> all(optics::wavelength_count);
-  std::iota(all.begin(), all.end(), 0);
-  task.tables = tracing::make_scene_tables(scene, {all}, leave_out);
+  const tracing::LeaveOut leave_out{.all = preset.leave_out};
+  task.tables = tracing::make_scene_tables(scene, {optics::all_wavelengths()}, leave_out);
   task.coloured = is_coloured(task.tables.wavelengths);
   task.defines = tracing::code_omissions(leave_out, scene, task.tables.wavelengths.attenuator_count).defines;
   task.defines["NEPHROID_CHANNELS"] = std::to_string(task.coloured ? 3 : 1);
   task.defines["NEPHROID_JITTER"] = std::to_string(int(task.coloured));
   task.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(0);
-  task.defines["NEPHROID_ELLIPSOIDS"] = std::to_string(int(!task.bvh.ellipsoid_places.empty()));
-  task.defines["NEPHROID_BVH_STACK"] = std::to_string(std::max(task.bvh.stack, 1));
+  task.defines.merge(scene::tree_defines(task.bvh));
   return task;
 }
 
@@ -150,33 +146,21 @@ void Baker::finish_direction()
   sent_ = 0;
 }
 
-void Baker::save(tracing::StateWriter& to) const
+void Baker::state(tracing::State& state)
 {
-  to.value(sent_);
-  to.value(std::uint64_t{bake_.baked.size()});
-  for (const BakedDirection& direction : bake_.baked) to.value(direction);
-  to.bytes(std::as_bytes(std::span(bake_.halves)));
-  to.bytes(std::as_bytes(std::span(bake_.ways)));
-  to.buffer(film_);
-  to.buffer(ways_);
-  to.buffer(energy_);
-}
-
-void Baker::load(tracing::StateReader& from)
-{
-  from.value(sent_);
-  std::uint64_t baked = 0;
-  from.value(baked);
-  if (baked > task_.directions.size() || sent_ >= task_.photons) throw bad_input("checkpoint", "is of another run");
+  std::uint64_t baked = bake_.baked.size();
+  state.value(sent_);
+  state.value(baked);
+  if (state.is_read() && (baked > task_.directions.size() || sent_ >= task_.photons)) throw bad_input("checkpoint", "is of another run");
   bake_.baked.resize(baked);
-  for (BakedDirection& direction : bake_.baked) from.value(direction);
   bake_.halves.resize(baked * bake_.direction_items());
-  from.bytes(std::as_writable_bytes(std::span(bake_.halves)));
   bake_.ways.resize(baked * bake_.direction_texels());
-  from.bytes(std::as_writable_bytes(std::span(bake_.ways)));
-  from.buffer(film_);
-  from.buffer(ways_);
-  from.buffer(energy_);
+  state.items(std::span(bake_.baked));
+  state.items(std::span(bake_.halves));
+  state.items(std::span(bake_.ways));
+  state.buffer(film_);
+  state.buffer(ways_);
+  state.buffer(energy_);
 }
 
 } // namespace nephroid::environment

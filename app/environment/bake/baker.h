@@ -62,8 +62,7 @@ public:
   /// Once finished.
   Bake take() { return std::move(bake_); }
 
-  void save(tracing::StateWriter& to) const;
-  void load(tracing::StateReader& from);
+  void state(tracing::State& state);
 
 private:
   void finish_direction();

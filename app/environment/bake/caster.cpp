@@ -65,32 +65,32 @@ preset::Transform in_frame(const preset::Transform& object, const preset::Transf
   // About x, then y, then z, so that the matrix is Z Y X, and glm names the angles in the order of this product.
   glm::dvec3 angles(0);
   glm::extractEulerAngleZYX(glm::dmat4(turn), angles.z, angles.y, angles.x);
-  preset::Transform made = object;
+  preset::Transform result = object;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<glm::length_t>(k);
-    made.rotate_deg[k] = rounded(angles[axis] * 180 / std::numbers::pi);
-    made.translate[k] = rounded(translate[axis]);
+    result.rotate_deg[k] = rounded(angles[axis] * 180 / std::numbers::pi);
+    result.translate[k] = rounded(translate[axis]);
   }
-  return made;
+  return result;
 }
 
 /// The preset of these objects alone. Photons have the wavelengths of D65; white_light() says what each counts.
 preset::Preset alone(const preset::Preset& preset, const std::vector<std::size_t>& objects)
 {
-  preset::Preset made;
-  made.source = preset.source;
-  made.unit = preset.unit;
-  made.scene.damaged_meshes = preset.scene.damaged_meshes;
+  preset::Preset alone;
+  alone.source = preset.source;
+  alone.unit = preset.unit;
+  alone.scene.damaged_meshes = preset.scene.damaged_meshes;
   for (const std::size_t index : objects) {
     preset::Object object = preset.scene.objects[index];
     object.transform = in_frame(object.transform, preset.scene.objects[objects.front()].transform);
-    made.scene.materials[object.material] = preset.scene.materials.at(object.material);
-    made.scene.objects.push_back(object);
+    alone.scene.materials[object.material] = preset.scene.materials.at(object.material);
+    alone.scene.objects.push_back(object);
   }
   preset::Light sun;
   sun.type = preset::Light::Type::directional;
-  made.scene.lights = {sun};
-  return made;
+  alone.scene.lights = {sun};
+  return alone;
 }
 
 std::string name_of(const preset::Preset& preset, const std::vector<std::size_t>& objects)

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -92,9 +91,7 @@ compute::Defines bvh_defines(const scene::Bvh& bvh)
 tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings)
 {
   const scene::Bvh bvh = scene::build_bvh(surroundings.geometry);
-  std::vector<int> all(optics::wavelength_count);
-  std::iota(all.begin(), all.end(), 0);
-  return tracing::make_world(context, surroundings, bvh, tracing::make_scene_tables(surroundings, {all}, tracing::LeaveOut{}),
+  return tracing::make_world(context, surroundings, bvh, tracing::make_scene_tables(surroundings, {optics::all_wavelengths()}, {}),
                              bvh_defines(bvh), 0);
 }
 

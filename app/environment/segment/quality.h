@@ -3,6 +3,8 @@
 #pragma once
 #include "environment/segment/segment.h"
 
+#include <vector>
+
 namespace nephroid::environment {
 
 /// The irradiance of all texels of the cube on planes whose normals lie evenly on the sphere, linear sRGB, W/m^2 of Y. normals: 1 or more.

@@ -10,7 +10,6 @@
 #include "tracing/omissions.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace nephroid::environment {
 namespace {
@@ -18,14 +17,6 @@ namespace {
 constexpr std::size_t surface_point_count = 1024;
 
 bool shines(const scene::Scene& scene) { return scene.environment && !scene.environment->is_black(); }
-
-/// One cluster of all wavelengths: a path has all of them, or one.
-std::vector<std::vector<int>> all_wavelengths()
-{
-  std::vector<int> all(optics::wavelength_count);
-  std::iota(all.begin(), all.end(), 0);
-  return {all};
-}
 
 /// Of the scene, whose environment is a light to this engine whatever `lights` says.
 std::shared_ptr<const scene::Scene> lit_scene(const scene::Scene& scene)
@@ -69,14 +60,14 @@ Segmentation segment_by(const preset::Preset& preset, const CubeMap& cube)
 RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const Caster& caster,
                             const RenderTask* before)
 {
-  const tracing::LeaveOut leave_out = tracing::leave_out_all(preset.leave_out);
+  const tracing::LeaveOut leave_out{.all = preset.leave_out};
   RenderTask task;
   task.scene = lit_scene(scene);
   task.bvh = std::make_shared<const scene::Bvh>(bvh);
   task.lamps = lamps(scene);
   task.placement = placement(preset, caster, scene);
   task.surface_points = surface_points(scene, caster.objects, surface_point_count);
-  task.tables = tracing::make_scene_tables(*task.scene, all_wavelengths(), leave_out);
+  task.tables = tracing::make_scene_tables(*task.scene, {optics::all_wavelengths()}, leave_out);
   task.coloured = is_coloured(task.tables.wavelengths);
   task.defines = tracing::code_omissions(leave_out, *task.scene, task.tables.wavelengths.attenuator_count).defines;
   task.defines.merge(bvh_defines(bvh));

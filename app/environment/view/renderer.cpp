@@ -368,26 +368,15 @@ void Renderer::set_segmentation(Segmentation segmentation)
   begin_anew();
 }
 
-void Renderer::save(tracing::StateWriter& to) const
+void Renderer::state(tracing::State& state)
 {
-  to.value(pass_);
-  to.value(static_cast<std::uint8_t>(shaded_));
-  shade_steps_.save(to);
-  volume_steps_.save(to);
-  to.buffer(sums_);
-  if (task_.has_medium) to.buffer(volume_sums_);
-}
-
-void Renderer::load(tracing::StateReader& from)
-{
-  std::uint8_t shaded = 0;
-  from.value(pass_);
-  from.value(shaded);
-  shade_steps_.load(from);
-  volume_steps_.load(from);
-  from.buffer(sums_);
-  if (task_.has_medium) from.buffer(volume_sums_);
-  shaded_ = shaded != 0;
+  state.value(pass_);
+  state.value(shaded_);
+  shade_steps_.state(state);
+  volume_steps_.state(state);
+  state.buffer(sums_);
+  if (task_.has_medium) state.buffer(volume_sums_);
+  if (!state.is_read()) return;
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
   stage_ = shaded_ ? Stage::compile_air : Stage::see;
   see_steps_ = tracing::PixelSteps(pixels(), 8192);

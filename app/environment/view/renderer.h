@@ -8,7 +8,7 @@
 #include "environment/view/receivers.h"
 #include "environment/view/render_task.h"
 #include "job/job.h"
-#include "tracing/state_bytes.h"
+#include "tracing/state.h"
 #include "tracing/step_size.h"
 
 #include <cstdint>
@@ -56,8 +56,7 @@ public:
   std::vector<glm::dvec3> strong_directions(int most) const;
   const scene::Scene& scene() const { return *task_.scene; }
 
-  void save(tracing::StateWriter& to) const;
-  void load(tracing::StateReader& from);
+  void state(tracing::State& state);
 
 private:
   enum class Stage { see, cast, compile_air, shade, volume };

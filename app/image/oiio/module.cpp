@@ -9,6 +9,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <exception>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>

@@ -175,37 +175,22 @@ double Assignment::part() const
 
 std::vector<Cost> Assignment::costs() const { return costs_of(targets_, light_, light_sent(layout_, slopes_)); }
 
-void Assignment::save(ByteSink& to) const
+void Assignment::state(State& state)
 {
-  to.value(sweeps_);
-  to.value(std::uint64_t{next_});
-  to.value(tried_);
-  to.value(residual_);
-  to.write(std::as_bytes(std::span(slopes_)));
-  if (layout_.free_heights) to.write(std::as_bytes(std::span(heights_)));
-  for (const auto& light : light_) to.write(std::as_bytes(std::span(light)));
-  to.value(converged_);
-  to.value(refinement_.has_value());
-  if (refinement_) refinement_->save(to);
-}
-
-void Assignment::load(ByteSource& from)
-{
-  std::uint64_t next = 0;
-  from.value(sweeps_);
-  from.value(next);
-  from.value(tried_);
-  from.value(residual_);
-  next_ = next;
-  from.read(std::as_writable_bytes(std::span(slopes_)));
-  if (layout_.free_heights) from.read(std::as_writable_bytes(std::span(heights_)));
-  for (auto& light : light_) from.read(std::as_writable_bytes(std::span(light)));
-  bool refines = false;
-  from.value(converged_);
-  from.value(refines);
-  refinement_.reset();
-  if (refines) refinement_.emplace(layout_, targets_, weights_, heights_).load(from);
-  begin_sweep();
+  state.value(sweeps_);
+  state.value(next_);
+  state.value(tried_);
+  state.value(residual_);
+  state.items(slopes_);
+  if (layout_.free_heights) state.items(heights_);
+  for (auto& light : light_) state.items(light);
+  state.value(converged_);
+  bool refines = refinement_.has_value();
+  state.value(refines);
+  if (state.is_read()) refinement_.reset();
+  if (refines && state.is_read()) refinement_.emplace(layout_, targets_, weights_, heights_);
+  if (refines) refinement_->state(state);
+  if (state.is_read()) begin_sweep();
 }
 
 } // namespace nephroid::inverse

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Direct assignment: facet after facet is taken away and put back where it serves the pictures most.
 #pragma once
-#include "base/bytes.h"
 #include "inverse/assign/refinement.h"
 #include "inverse/assign/slope_search.h"
 #include "inverse/method.h"
@@ -46,8 +45,7 @@ public:
   /// The sweep in hand begins again.
   void relight() override;
 
-  void save(ByteSink& to) const override;
-  void load(ByteSource& from) override;
+  void state(State& state) override;
 
 private:
   void begin_sweep();

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <utility>
 
 namespace nephroid::inverse {
@@ -122,22 +121,13 @@ void Refinement::advance(std::vector<glm::dvec2>& slopes, std::vector<std::vecto
   stuck_ = true;
 }
 
-void Refinement::save(ByteSink& to) const
+void Refinement::state(State& state)
 {
-  for (const auto* values : {&before_, &direction_}) to.write(std::as_bytes(std::span(*values)));
-  to.value(step_);
-  to.value(std::uint64_t{done_});
-  to.value(stuck_);
-}
-
-void Refinement::load(ByteSource& from)
-{
-  std::uint64_t done = 0;
-  for (auto* values : {&before_, &direction_}) from.read(std::as_writable_bytes(std::span(*values)));
-  from.value(step_);
-  from.value(done);
-  from.value(stuck_);
-  done_ = done;
+  state.items(before_);
+  state.items(direction_);
+  state.value(step_);
+  state.value(done_);
+  state.value(stuck_);
 }
 
 } // namespace nephroid::inverse

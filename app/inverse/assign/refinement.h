@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The slopes of all facets at once, downhill.
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 #include "inverse/layout.h"
 
 #include <glm/glm.hpp>
@@ -23,8 +23,7 @@ public:
   bool finished() const;
   double part() const;
 
-  void save(ByteSink& to) const;
-  void load(ByteSource& from);
+  void state(State& state);
 
 private:
   void find_gradient(const std::vector<glm::dvec2>& slopes, const std::vector<std::vector<double>>& light);

@@ -149,21 +149,13 @@ Solid Lens::solid() const
 
 void Lens::show(job::Snapshot& made) const { made.scalars.push_back({"lens", "astray", transport_.astray()}); }
 
-void Lens::save(ByteSink& to) const
+void Lens::state(State& state)
 {
-  transport_.save(to);
-  to.value(steps_);
-  to.value(best_step_);
-  to.value(best_);
-}
-
-void Lens::load(ByteSource& from)
-{
-  transport_.load(from);
-  from.value(steps_);
-  from.value(best_step_);
-  from.value(best_);
-  make_surface();
+  transport_.state(state);
+  state.value(steps_);
+  state.value(best_step_);
+  state.value(best_);
+  if (state.is_read()) make_surface();
 }
 
 } // namespace nephroid::inverse

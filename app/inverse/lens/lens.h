@@ -32,8 +32,7 @@ public:
   Solid solid() const override;
   void show(job::Snapshot& made) const override;
 
-  void save(ByteSink& to) const override;
-  void load(ByteSource& from) override;
+  void state(State& state) override;
 
 private:
   void make_surface();

@@ -171,22 +171,13 @@ glm::dvec2 Transport::map(const glm::dvec2& p) const
   return p - glm::mix(glm::mix(way(0, 0), way(1, 0), at.x), glm::mix(way(0, 1), way(1, 1), at.x), at.y);
 }
 
-void Transport::save(ByteSink& to) const
-{
-  for (const Side* const side : {&phi_, &psi_}) {
-    to.write(std::as_bytes(values(side->potential)));
-    to.value(side->step);
-  }
-  to.value(astray_);
-}
-
-void Transport::load(ByteSource& from)
+void Transport::state(State& state)
 {
   for (Side* const side : {&phi_, &psi_}) {
-    from.read(std::as_writable_bytes(values(side->potential)));
-    from.value(side->step);
+    state.items(values(side->potential));
+    state.value(side->step);
   }
-  from.value(astray_);
+  state.value(astray_);
 }
 
 } // namespace nephroid::inverse

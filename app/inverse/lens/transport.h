@@ -3,7 +3,7 @@
 // potential. So it is the one way that a smooth surface can bend light (Schwartzburg et al. 2014, "High-contrast computational caustic
 // design").
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 #include "inverse/poisson.h"
 
 #include <glm/glm.hpp>
@@ -25,8 +25,7 @@ public:
 
   glm::dvec2 cells() const { return {from_.cols(), from_.rows()}; } ///< across and down
 
-  void save(ByteSink& to) const;
-  void load(ByteSource& from);
+  void state(State& state);
 
 private:
   struct Side {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace nephroid::inverse {
@@ -45,24 +44,14 @@ bool Annealer::decide(double cost)
   return true;
 }
 
-void Annealer::save(ByteSink& to) const
+void Annealer::state(State& state)
 {
-  to.write(std::as_bytes(std::span(values_)));
-  to.write(std::as_bytes(std::span(lowest_)));
-  to.value(cost_);
-  to.value(lowest_cost_);
-  to.value(done_);
-  to.value(accepted_);
-}
-
-void Annealer::load(ByteSource& from)
-{
-  from.read(std::as_writable_bytes(std::span(values_)));
-  from.read(std::as_writable_bytes(std::span(lowest_)));
-  from.value(cost_);
-  from.value(lowest_cost_);
-  from.value(done_);
-  from.value(accepted_);
+  state.items(values_);
+  state.items(lowest_);
+  state.value(cost_);
+  state.value(lowest_cost_);
+  state.value(done_);
+  state.value(accepted_);
 }
 
 } // namespace nephroid::inverse

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simulated annealing of a few numbers, as the thesis has it: cycles of moves at one temperature, each cycle colder.
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 
 #include <cstdint>
 #include <random>
@@ -38,8 +38,7 @@ public:
   std::int64_t accepted() const { return accepted_; }
   std::int64_t refused() const { return done_ - accepted_; }
 
-  void save(ByteSink& to) const;
-  void load(ByteSource& from);
+  void state(State& state);
 
 private:
   std::vector<Knob> knobs_;

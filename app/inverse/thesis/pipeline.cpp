@@ -2,7 +2,6 @@
 #include "inverse/thesis/pipeline.h"
 
 #include "base/counted.h"
-#include "base/error.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/uniform.h"
 
@@ -10,28 +9,12 @@
 
 #include <algorithm>
 #include <numeric>
-#include <span>
 #include <utility>
 
 namespace nephroid::inverse {
 namespace {
 
 constexpr std::size_t numbers_a_picture = 4; // size, right, down, distance
-
-void save_values(ByteSink& to, const std::vector<double>& values)
-{
-  to.value(std::uint64_t{values.size()});
-  to.write(std::as_bytes(std::span(values)));
-}
-
-void load_values(ByteSource& from, std::vector<double>& values)
-{
-  std::uint64_t count = 0;
-  from.value(count);
-  if (count > from.left() / sizeof(double)) throw bad_input("checkpoint.bin", "is of another run");
-  values.resize(count);
-  from.read(std::as_writable_bytes(std::span(values)));
-}
 
 double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
@@ -234,59 +217,36 @@ void Pipeline::show(job::Snapshot& snapshot) const
   snapshot.curves.push_back(std::move(curve));
 }
 
-void Pipeline::save(ByteSink& to) const
+void Pipeline::state(State& state)
 {
-  to.value(stage_);
-  to.value(trials_);
-  save_values(to, sizes_);
-  save_values(to, reach_);
-  for (const auto& picture : pictures_) save_values(to, picture);
-  to.value(rounds_);
-  to.value(idle_);
-  to.write(std::as_bytes(std::span(best_.slopes)));
-  to.value(best_.dark);
-  to.value(!best_.light.empty());
-  for (const auto& light : best_.light) save_values(to, light);
-  for (const auto& light : light_) save_values(to, light);
-  to.value(lowest_);
-  to.value(costs_);
-  to.value(std::uint64_t{history_.size()});
-  to.write(std::as_bytes(std::span(history_)));
-  if (annealer_) annealer_->save(to);
-  if (trial_) trial_->save(to);
-}
-
-void Pipeline::load(ByteSource& from)
-{
-  bool tried = false;
-  std::uint64_t rows = 0;
-  from.value(stage_);
-  from.value(trials_);
-  load_values(from, sizes_);
-  adjust(sizes_);
-  if (stage_ > Stage::annealing_1) find_needs();
-  load_values(from, reach_);
-  for (auto& picture : pictures_) load_values(from, picture);
-  from.value(rounds_);
-  from.value(idle_);
-  from.read(std::as_writable_bytes(std::span(best_.slopes)));
-  from.value(best_.dark);
-  from.value(tried);
+  state.value(stage_);
+  state.value(trials_);
+  state.list(sizes_);
+  if (state.is_read()) {
+    adjust(sizes_);
+    if (stage_ > Stage::annealing_1) find_needs();
+  }
+  state.list(reach_);
+  for (auto& picture : pictures_) state.list(picture);
+  state.value(rounds_);
+  state.value(idle_);
+  state.items(best_.slopes);
+  state.value(best_.dark);
+  bool tried = !best_.light.empty();
+  state.value(tried);
   best_.light.resize(tried ? targets_.size() : 0);
-  for (auto& light : best_.light) load_values(from, light);
-  for (auto& light : light_) load_values(from, light);
-  from.value(lowest_);
-  from.value(costs_);
-  from.value(rows);
-  if (rows > from.left() / sizeof(Row)) throw bad_input("checkpoint.bin", "is of another run");
-  history_.resize(rows);
-  from.read(std::as_writable_bytes(std::span(history_)));
-  annealer_ = annealer();
-  if (annealer_) annealer_->load(from);
-  trial_.reset();
-  if (stage_ == Stage::done) return;
-  begin_trial();
-  trial_->load(from);
+  for (auto& light : best_.light) state.list(light);
+  for (auto& light : light_) state.list(light);
+  state.value(lowest_);
+  state.value(costs_);
+  state.list(history_);
+  if (state.is_read()) annealer_ = annealer();
+  if (annealer_) annealer_->state(state);
+  if (state.is_read()) {
+    trial_.reset();
+    if (stage_ != Stage::done) begin_trial();
+  }
+  if (trial_) trial_->state(state);
 }
 
 } // namespace nephroid::inverse

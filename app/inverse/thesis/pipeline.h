@@ -38,8 +38,7 @@ public:
   Solid solid() const override { return make_solid(layout_, slopes()); }
   void show(job::Snapshot& snapshot) const override;
 
-  void save(ByteSink& to) const override;
-  void load(ByteSource& from) override;
+  void state(State& state) override;
 
   /// Of all stages, at most.
   static std::int64_t trials_of(const Thesis& settings);

@@ -6,7 +6,6 @@
 #include "inverse/uniform.h"
 
 #include <algorithm>
-#include <span>
 
 namespace nephroid::inverse {
 namespace {
@@ -60,22 +59,12 @@ Drawn Trial::drawn() const
   return drawn;
 }
 
-void Trial::save(ByteSink& to) const
+void Trial::state(State& state)
 {
-  to.value(std::uint64_t{next_});
-  for (const auto& counts : counts_) to.write(std::as_bytes(std::span(counts)));
-  to.write(std::as_bytes(std::span(slopes_)));
-  to.value(dark_);
-}
-
-void Trial::load(ByteSource& from)
-{
-  std::uint64_t next = 0;
-  from.value(next);
-  next_ = next;
-  for (auto& counts : counts_) from.read(std::as_writable_bytes(std::span(counts)));
-  from.read(std::as_writable_bytes(std::span(slopes_)));
-  from.value(dark_);
+  state.value(next_);
+  for (auto& counts : counts_) state.items(counts);
+  state.items(slopes_);
+  state.value(dark_);
 }
 
 } // namespace nephroid::inverse

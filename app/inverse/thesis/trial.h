@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What light aimed at some pictures makes of them: many draws of every facet (thesis 5.2, "cost computation").
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 #include "inverse/thesis/sampler.h"
 
 #include <cstdint>
@@ -30,8 +30,7 @@ public:
   std::size_t tried() const { return next_; } ///< facets
   Drawn drawn() const;
 
-  void save(ByteSink& to) const;
-  void load(ByteSource& from); ///< into a trial of the same aims
+  void state(State& state); ///< loaded into a trial of the same aims
 
 private:
   const Layout& layout_;

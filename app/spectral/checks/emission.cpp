@@ -74,7 +74,7 @@ double one_minus_cos(double sine) { return 1 - std::sqrt(1 - sine * sine); }
 /// A sphere along +z, one in its shadow, one apart along -x.
 const std::vector<float4> three_spheres{{0, 0, 3, 1}, {0.2f, 0, 6, 0.5f}, {-2, 0, 0, 0.5f}};
 
-Result of_sigma(double z, std::string detail) { return {{}, z, 6, "sigma", std::move(detail)}; }
+Result of_sigma(double z, std::string detail) { return judged(z, 6, "sigma", std::move(detail)); }
 
 Result point(const compute::Context& context, std::uint64_t seed)
 {

@@ -92,11 +92,8 @@ Result direct_light(const compute::Context& context, std::uint64_t seed)
   constexpr int samples = 32;
   p.stop.passes = spectral::settings(p).pixel_samples = samples;
   const Distance d = distance(render(p, context), "direct", p, [](const PixelTruth& t) { return t.variance / samples; });
-  return {{},
-          d.worst(),
-          6,
-          "sigma",
-          fmt::format("a floor under a point light, 32 x 32 pixels, against P cos(theta) / (4 pi d^2): ratio {:.6f}", d.ratio)};
+  return judged(d.worst(), 6, "sigma",
+                fmt::format("a floor under a point light, 32 x 32 pixels, against P cos(theta) / (4 pi d^2): ratio {:.6f}", d.ratio));
 }
 
 /// The light sits in a ball of n = 1, which bends and reflects nothing: its photons, each of P / N, must make the very picture that
@@ -109,12 +106,10 @@ Result through_nothing(const compute::Context& context, std::uint64_t seed)
   spectral::settings(p).photons_per_pass = 1 << 19;
   const double photon_w = p.scene.lights[0].power_w / spectral::settings(p).photons_per_pass, pixel_area = 1.0 / (16 * 16);
   const Distance d = distance(render(p, context), "caustic", p, [&](const PixelTruth& t) { return t.irradiance * photon_w / pixel_area; });
-  return {{},
-          d.worst(),
-          6,
-          "sigma",
-          fmt::format("photons through a ball of n = 1, 16 x 16 pixels and their sum, against the direct light of a point: ratio {:.4f}",
-                      d.ratio)};
+  return judged(
+      d.worst(), 6, "sigma",
+      fmt::format("photons through a ball of n = 1, 16 x 16 pixels and their sum, against the direct light of a point: ratio {:.4f}",
+                  d.ratio));
 }
 
 /// The same under an even sky, which gives a white floor its own colour: what the ball hides of it comes through the ball. Each channel's
@@ -145,13 +140,10 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed)
   }
   for (int c = 0; c < 3; ++c)
     if (const double z = sums[c] / std::sqrt(squares[c]); std::abs(z) > std::abs(worst)) worst = z;
-  return {
-      {},
-      worst,
-      6,
-      "sigma",
+  return judged(
+      worst, 6, "sigma",
       fmt::format("a floor under a sky of one colour, {:.3f} of its light through a ball of n = 1, against the sky's colour: ratio {:.4f}",
-                  hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size()))};
+                  hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size())));
 }
 
 /// A pencil on a mirror that is not grey, then onto a screen: of every wavelength its reflectance is left, and no chance is in it.
@@ -173,13 +165,10 @@ Result coloured_mirror(const compute::Context& context, std::uint64_t seed)
   const optics::Spectrum light = optics::illuminant("D65"), patch = optics::colorchecker_patch("blue sky");
   double truth = 0;
   for (std::size_t i = 0; i < light.size(); ++i) truth += light[i] * patch[i];
-  return {
-      {},
-      e.deposited_w / e.emitted_w - truth,
-      5e-6,
-      "",
+  return judged(
+      e.deposited_w / e.emitted_w - truth, 5e-6, "",
       fmt::format("daylight after a mirror of blue sky's reflectance: {:.6f} of its power is left, against the sum over 401 wavelengths",
-                  e.deposited_w / e.emitted_w)};
+                  e.deposited_w / e.emitted_w));
 }
 
 /// Smooth and faceted glass, a mirror that absorbs, a floor that does not catch everything.
@@ -195,9 +184,7 @@ preset::Preset everything(std::uint64_t seed)
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["mirror"].reflectance.value = 0.9;
   p.scene.materials["white"] = white();
-  preset::Shape diamond;
-  diamond.type = preset::Shape::Type::brilliant;
-  diamond.radius = 1;
+  const preset::Shape diamond{.type = preset::Shape::Type::brilliant, .radius = 1};
   p.scene.objects = {object("ball", ball(1), "glass", at({-1.5, 1.5, 0})),
                      object("diamond", diamond, "glass", at({1.5, 1.5, 0}, {20, 0, 15})),
                      object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})), object("floor", quad(12, 12), "white")};
@@ -219,13 +206,10 @@ Result energy(const compute::Context& context, std::uint64_t seed)
   const spectral::EnergyBalance e = spectral::energy_of(render(everything(seed), context));
   const double off = (e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w - 1;
   const bool all_there = e.deposited_w > 0 && e.missed_w > 0 && e.absorbed_w > 0 && e.escaped_w > 0 && e.refused_contributions == 0;
-  return {
-      {},
-      all_there ? off : 1,
-      1e-12,
-      "",
+  return judged(
+      all_there ? off : 1, 1e-12, "",
       fmt::format("of {:.4f} W, {:.4f} deposited, {:.4f} missed, {:.4f} absorbed, {:.4f} escaped, {:.4f} lost; {} contributions refused",
-                  e.emitted_w, e.deposited_w, e.missed_w, e.absorbed_w, e.escaped_w, e.lost_w, e.refused_contributions)};
+                  e.emitted_w, e.deposited_w, e.missed_w, e.absorbed_w, e.escaped_w, e.lost_w, e.refused_contributions));
 }
 
 /// Steps are cut by the clock, so two runs differ in how their work is cut, and in how the device's threads meet.
@@ -236,12 +220,9 @@ Result same_bits(const compute::Context& context, std::uint64_t seed)
   for (std::size_t i = 0; i < first.picture->rgb.size(); ++i) differ += first.picture->rgb[i] != second.picture->rgb[i];
   const job::Snapshot other = render(everything(seed + 1), context);
   if (first.picture->rgb == other.picture->rgb) differ = static_cast<double>(first.picture->rgb.size());
-  return {{},
-          differ,
-          0,
-          "numbers",
-          fmt::format("of {} of a picture, those that a second run with the same seed changes; another seed changes them",
-                      first.picture->rgb.size())};
+  return judged(differ, 0, "numbers",
+                fmt::format("of {} of a picture, those that a second run with the same seed changes; another seed changes them",
+                            first.picture->rgb.size()));
 }
 
 } // namespace

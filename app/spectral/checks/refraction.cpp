@@ -44,8 +44,8 @@ Result plate(const compute::Context& context, std::uint64_t seed)
     const double z = z_of_transmitted(context, std::move(p), plate_transmittance(theta_deg * degree, n));
     worst = std::abs(z) <= std::abs(worst) ? worst : z;
   }
-  return {
-      {}, worst, 6, "sigma", "transmittance at 0, 40, 56.3, 70, 80 and 86 degrees, the farthest from (1 - R) / (1 + R) with Fresnel's R"};
+  return judged(worst, 6, "sigma",
+                "transmittance at 0, 40, 56.3, 70, 80 and 86 degrees, the farthest from (1 - R) / (1 + R) with Fresnel's R");
 }
 
 /// Four interfaces instead of two, without interference: T = (1 - R) / (1 + 3 R). Above them a hole through glass, which its priority
@@ -62,11 +62,8 @@ Result plates_in_one(const compute::Context& context, std::uint64_t seed)
   p.scene.objects[1].priority = p.scene.objects[3].priority = 1;
   p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
   const double r = std::pow(0.8 / 2.8, 2);
-  return {{},
-          z_of_transmitted(context, std::move(p), (1 - r) / (1 + 3 * r)),
-          6,
-          "sigma",
-          "transmittance of glass of n = 1.8 with a hole through it, above a slab with air inside, against (1 - R) / (1 + 3 R)"};
+  return judged(z_of_transmitted(context, std::move(p), (1 - r) / (1 + 3 * r)), 6, "sigma",
+                "transmittance of glass of n = 1.8 with a hole through it, above a slab with air inside, against (1 - R) / (1 + 3 R)");
 }
 
 /// A camera before the screen z = screen_z that sees the light which lands on it along y = 0: columns are x.
@@ -104,7 +101,7 @@ struct Screen {
 };
 
 /// Half a pixel: a pencil of 0.005 degrees is some pixels wide, and the centre of its thousands of photons is known better than that.
-Result off_by(double worst_pixels, std::string detail) { return {{}, worst_pixels, 0.5, "pixels", std::move(detail)}; }
+Result off_by(double worst_pixels, std::string detail) { return judged(worst_pixels, 0.5, "pixels", std::move(detail)); }
 
 /// N-SF11 by Schott's Sellmeier formula, and by the same coefficients here.
 constexpr double sf11_b[] = {1.73759695, 0.313747346, 1.89878101}, sf11_c[] = {0.013188707, 0.0623068142, 155.23629};
@@ -129,10 +126,7 @@ Result prism(const compute::Context& context, std::uint64_t seed)
   material.dispersion.type = preset::Dispersion::Type::sellmeier;
   material.dispersion.b.assign(std::begin(sf11_b), std::end(sf11_b));
   material.dispersion.c_um2.assign(std::begin(sf11_c), std::end(sf11_c));
-  preset::Shape shape;
-  shape.type = preset::Shape::Type::prism;
-  shape.side = shape.height = side;
-  p.scene.objects.push_back(object("prism", shape, "glass"));
+  p.scene.objects.push_back(object("prism", {.type = preset::Shape::Type::prism, .height = side, .side = side}, "glass"));
   spectral::settings(p).method = spectral::Settings::Method::brute_force;
   spectral::settings(p).photons_per_pass = 1 << 14;
   double worst = 0;

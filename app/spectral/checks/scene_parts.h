@@ -62,48 +62,22 @@ inline preset::Object object(const std::string& name, const preset::Shape& shape
   return o;
 }
 
-inline preset::Shape quad(double x, double z)
-{
-  preset::Shape s;
-  s.type = preset::Shape::Type::quad;
-  s.size = {x, 1, z};
-  return s;
-}
+inline preset::Shape quad(double x, double z) { return {.type = preset::Shape::Type::quad, .size = {x, 1, z}}; }
 
-inline preset::Shape box(double x, double y, double z)
-{
-  preset::Shape s;
-  s.type = preset::Shape::Type::box;
-  s.size = {x, y, z};
-  return s;
-}
+inline preset::Shape box(double x, double y, double z) { return {.type = preset::Shape::Type::box, .size = {x, y, z}}; }
 
 inline preset::Transform at(preset::Vec3 translate, preset::Vec3 rotate_deg = {0, 0, 0})
 {
-  preset::Transform t;
-  t.translate = translate;
-  t.rotate_deg = rotate_deg;
-  return t;
+  return {.rotate_deg = rotate_deg, .translate = translate};
 }
 
 /// A cylinder as high as wide: the one shape with interpolated normals.
 inline preset::Shape rod(double radius, int segments)
 {
-  preset::Shape s;
-  s.type = preset::Shape::Type::cylinder;
-  s.radius = radius;
-  s.height = 2 * radius;
-  s.segments = segments;
-  return s;
+  return {.type = preset::Shape::Type::cylinder, .radius = radius, .height = 2 * radius, .segments = segments};
 }
 
-inline preset::Shape ball(double radius)
-{
-  preset::Shape s;
-  s.type = preset::Shape::Type::sphere;
-  s.radius = radius;
-  return s;
-}
+inline preset::Shape ball(double radius) { return {.type = preset::Shape::Type::sphere, .radius = radius}; }
 
 /// A single wavelength.
 inline preset::LightSpectrum line(double nm)

@@ -70,12 +70,9 @@ Result whole_spectrum(const compute::Context& context, std::uint64_t)
   for (std::size_t i = 0; i < reflected.size(); ++i) reflected[i] *= patch[i];
   const optics::Colour truth = optics::to_xyz(reflected);
   const double worst = std::max({relative(x, truth[0]), relative(y, truth[1]), relative(z, truth[2]), relative(share, 1)});
-  return {{},
-          worst,
-          2e-6,
-          "",
-          fmt::format("daylight on an orange patch summed over {} clusters: share and XYZ, against 401 wavelengths on the host",
-                      t.clusters.size())};
+  return judged(worst, 2e-6, "",
+                fmt::format("daylight on an orange patch summed over {} clusters: share and XYZ, against 401 wavelengths on the host",
+                            t.clusters.size()));
 }
 
 /// Terms are positive, so a sum is as exact as its terms: an exponent e is off by a few e 2^-24, here up to 18, and so is exp(-e).
@@ -105,12 +102,9 @@ Result beer_lambert(const compute::Context& context, std::uint64_t)
         worst = error <= worst ? worst : error;
       if (truth[2] > 0) worst = std::max(worst, relative(s.z, truth[2])); // the eye's blue ends at 650 nm
     }
-  return {
-      {},
-      worst,
-      1e-5,
-      "",
-      fmt::format("what {} clusters keep after 0.1 mm to 1.5 m of absorbing glass, against exp(-4 pi k s / lambda)", t.clusters.size())};
+  return judged(
+      worst, 1e-5, "",
+      fmt::format("what {} clusters keep after 0.1 mm to 1.5 m of absorbing glass, against exp(-4 pi k s / lambda)", t.clusters.size()));
 }
 
 } // namespace

@@ -66,10 +66,11 @@ std::vector<double> watts_in_clusters(const std::vector<double>& watts, const tr
 std::vector<double> by_importance(const std::vector<double>& importance, const std::vector<double>& watts,
                                   const tracing::WavelengthTables& tables)
 {
-  const std::vector<double> all = watts_in_clusters(watts, tables);
+  const std::vector<double> sums = watts_in_clusters(watts, tables);
   std::vector<double> weights;
   for (std::size_t l = 0; l < watts.size(); ++l)
-    for (std::size_t c = 0; c < all.size(); ++c) weights.push_back(all[c] > 0 ? importance[c] * watts[l] * tables.share[l][c] / all[c] : 0);
+    for (std::size_t c = 0; c < sums.size(); ++c)
+      weights.push_back(sums[c] > 0 ? importance[c] * watts[l] * tables.share[l][c] / sums[c] : 0);
   return weights;
 }
 

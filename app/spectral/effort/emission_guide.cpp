@@ -86,24 +86,10 @@ void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const
   }
 }
 
-void EmissionGuide::save(tracing::StateWriter& to) const
+void EmissionGuide::state(tracing::State& state)
 {
-  for (std::size_t i = 0; i < chance_.size(); ++i) {
-    to.value(chance_[i]);
-    to.value(squares_[i]);
-    to.value(samples_[i]);
-  }
-  for (const float value : table_) to.value(value);
-}
-
-void EmissionGuide::load(tracing::StateReader& from)
-{
-  for (std::size_t i = 0; i < chance_.size(); ++i) {
-    from.value(chance_[i]);
-    from.value(squares_[i]);
-    from.value(samples_[i]);
-  }
-  for (float& value : table_) from.value(value);
+  for (std::vector<double>* values : {&chance_, &squares_, &samples_}) state.items(std::span(*values));
+  state.items(std::span(table_));
 }
 
 } // namespace nephroid::spectral

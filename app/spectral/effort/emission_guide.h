@@ -4,7 +4,7 @@
 // add, which gives the sum of all cells' variances its smallest value. No OpenCL here.
 #pragma once
 #include "kernels/tracing/shared_types.h"
-#include "tracing/state_bytes.h"
+#include "tracing/state.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +27,7 @@ public:
   /// photons: [light] of a pass, in those passes. Every cell keeps a chance, however dark it was.
   void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes);
 
-  void save(tracing::StateWriter& to) const;
-  void load(tracing::StateReader& from);
+  void state(tracing::State& state);
 
 private:
   std::vector<double> chance_;            ///< [light][cell]: of a photon of the light; sums to 1 for each light

@@ -12,17 +12,17 @@ namespace nephroid::spectral {
 namespace {
 
 /// The part of the photons that stays as it was dealt first, whatever was measured: a variance that few photons measured may be far off.
-constexpr double kept = 0.1;
+constexpr double first_part = 0.1;
 
 } // namespace
 
 VarianceDeal::VarianceDeal(std::vector<shared::DeviceEmitter> emitters)
     : emitters_(std::move(emitters)), squares_(emitters_.size(), 0), photons_(emitters_.size(), 0)
 {
-  const double all = count_photons(emitters_);
+  const double photons = count_photons(emitters_);
   for (const shared::DeviceEmitter& emitter : emitters_) {
     first_counts_.push_back(emitter.photon_count);
-    first_deal_.push_back(emitter.photon_count / all);
+    first_deal_.push_back(emitter.photon_count / photons);
   }
 }
 
@@ -37,21 +37,21 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
 {
   const double passes = static_cast<double>(pass - first_pass_);
   std::vector<double> deviation(emitters_.size());
-  unsigned all = 0;
+  unsigned photons_per_pass = 0;
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     const double count = emitters_[e].photon_count;
     squares_[e] += count * count * static_cast<double>(moments[e]);
     photons_[e] += count * passes;
     deviation[e] = std::sqrt(squares_[e] / photons_[e]);
-    all += emitters_[e].photon_count;
+    photons_per_pass += emitters_[e].photon_count;
   }
   last_variance_ = std::accumulate(moments.begin(), moments.end(), 0.0) / passes;
   if (first_pass_ == 0) first_variance_ = last_variance_;
   const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
   std::vector<double> weights = first_deal_;
   if (total > 0)
-    for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = kept * first_deal_[e] + (1 - kept) * deviation[e] / total;
-  give_out(pass, deal_out(weights, all), halves);
+    for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = first_part * first_deal_[e] + (1 - first_part) * deviation[e] / total;
+  give_out(pass, deal_out(weights, photons_per_pass), halves);
 }
 
 void VarianceDeal::deal_as_first(std::int64_t pass, unsigned halves) { give_out(pass, first_counts_, halves); }
@@ -69,28 +69,14 @@ void VarianceDeal::give_out(std::int64_t pass, const std::vector<unsigned>& coun
   first_pass_ = pass;
 }
 
-void VarianceDeal::save(tracing::StateWriter& to) const
+void VarianceDeal::state(tracing::State& state)
 {
-  to.value(first_pass_);
-  to.value(first_variance_);
-  to.value(last_variance_);
-  for (std::size_t e = 0; e < emitters_.size(); ++e) {
-    to.value(emitters_[e]);
-    to.value(squares_[e]);
-    to.value(photons_[e]);
-  }
-}
-
-void VarianceDeal::load(tracing::StateReader& from)
-{
-  from.value(first_pass_);
-  from.value(first_variance_);
-  from.value(last_variance_);
-  for (std::size_t e = 0; e < emitters_.size(); ++e) {
-    from.value(emitters_[e]);
-    from.value(squares_[e]);
-    from.value(photons_[e]);
-  }
+  state.value(first_pass_);
+  state.value(first_variance_);
+  state.value(last_variance_);
+  state.items(std::span(emitters_));
+  state.items(std::span(squares_));
+  state.items(std::span(photons_));
 }
 
 } // namespace nephroid::spectral

@@ -4,7 +4,7 @@
 // that carries all of the emitter's power. No OpenCL here.
 #pragma once
 #include "kernels/tracing/shared_types.h"
-#include "tracing/state_bytes.h"
+#include "tracing/state.h"
 
 #include <cstdint>
 #include <span>
@@ -32,8 +32,7 @@ public:
   /// before there were two deals, or nothing to see.
   double gain() const;
 
-  void save(tracing::StateWriter& to) const;
-  void load(tracing::StateReader& from);
+  void state(tracing::State& state);
 
 private:
   std::vector<shared::DeviceEmitter> emitters_;

@@ -46,8 +46,7 @@ public:
 
   const SampledPixels& pixels() const { return pixels_; }
 
-  void save(tracing::StateWriter& to) const { pixels_.save(to); }
-  void load(tracing::StateReader& from) { pixels_.load(from); }
+  void state(tracing::State& state) { pixels_.state(state); }
 
 private:
   /// Which paths a launch of view.cl has.

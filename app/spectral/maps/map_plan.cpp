@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/maps/map_plan.h"
 
-#include "base/counted.h"
 #include "base/error.h"
 #include "spectral/maps/eye_paths.h"
 #include "spectral/maps/photon_map.h"
@@ -24,13 +23,13 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
   if (!scene.camera.inside.empty()) return 1;
   const int width = scene.camera.width, height = scene.camera.height,
             step = std::max(1, static_cast<int>(std::sqrt(width * 1.0 * height) / 64));
-  int bent = 0, all = 0;
+  int bent = 0, looks = 0;
   for (int row = step / 2; row < height; row += step)
-    for (int column = step / 2; column < width; column += step, ++all) {
+    for (int column = step / 2; column < width; column += step, ++looks) {
       const int object = look_through_pixel(scene, bvh, column, row).first.object;
       bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type != scene::Material::Type::diffuse;
     }
-  return static_cast<double>(bent) / all;
+  return static_cast<double>(bent) / looks;
 }
 
 } // namespace
@@ -39,64 +38,25 @@ unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsi
 {
   constexpr double most = 64, of_photons = 1.0 / 3; // a path takes about twice as long as a photon
   if (!tracing::may_see_glass_or_mirror(scene)) return 1;
-  const double pixels = static_cast<double>(scene.camera.width) * scene.camera.height * bent_share(scene, bvh);
+  const double pixels = static_cast<double>(scene.camera.pixels()) * bent_share(scene, bvh);
   return static_cast<unsigned>(std::clamp(of_photons * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
 }
 
-namespace {
-
-using Estimator = Settings::Estimator;
-
-plan::Pass map_pass(const Settings& settings, const scene::Scene& scene, const RunTables& tables, bool caustics, bool leave_out)
+PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t photons)
 {
-  if (!caustics) return {"photon maps", false, "there are no caustics to gather", "", false};
-  const std::string radius = fmt::format("from {:.3g} units around a visible point", first_map_radius(settings, scene));
-  if (settings.estimator == Estimator::sppm)
-    return {"photon maps", true,
-            fmt::format("spectral.estimator is sppm: every caustic is gathered, {}, {}", radius,
-                        settings.effort == Settings::Effort::random ? "one cluster a pass in shared statistics"
-                                                                    : "with statistics of each pixel in each cluster"),
-            "", false};
-  const bool sees = tracing::may_see_glass_or_mirror(scene);
-  if (settings.estimator == Estimator::splat) {
-    const std::string seen = sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror";
-    return {"photon maps", false, "spectral.estimator is splat: " + seen, "", false};
-  }
-  return tracing::omission(
-      "photon maps", leave_out, sees,
-      sees ? fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
-                         radius, counted(tables.eye_paths, "path"))
-           : "the camera sees no glass and no mirror, so every caustic is splatted");
-}
-
-} // namespace
-
-MapPlan plan_maps(const Settings& settings, const scene::Scene& scene, const RunTables& tables, bool caustics, std::uint64_t film_bytes,
-                  bool leave_out)
-{
-  MapPlan plan{map_pass(settings, scene, tables, caustics, leave_out), {}};
-  if (!plan.pass.runs) return plan;
-  const std::uint64_t clusters = tables.wavelengths.clusters.size(), groups = 2 * clusters * scene.objects.size();
-  if (groups > MAX_PHOTON_GROUPS)
-    throw bad_input(Place(scene.source) / "scene" / "objects",
-                    fmt::format("{} objects in {} wavelength clusters", scene.objects.size(), clusters),
+  PlanPart part{.passes = {std::move(pass)}};
+  if (!part.passes[0].runs) return part;
+  const std::size_t objects = input.scene.objects.size(), clusters = input.tables.wavelengths.clusters.size();
+  if (2 * clusters * objects > MAX_PHOTON_GROUPS)
+    throw bad_input(Place(input.scene.source) / "scene" / "objects", fmt::format("{} objects in {} wavelength clusters", objects, clusters),
                     fmt::format("photon maps tell {} surfaces in clusters apart", int{MAX_PHOTON_GROUPS}),
                     "choose spectral.estimator splat, or a larger threshold_deg");
-  const bool sppm = settings.estimator == Estimator::sppm;
-  const auto slots = sppm ? static_cast<std::uint32_t>(settings.photons_per_pass) : tables.photons_per_pass;
-  const std::uint64_t pixels = static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
-  const std::uint64_t stored = slots * sizeof(shared::StoredPhoton);
-  plan.buffers = {{"photons on surfaces", stored},
-                  {"photon grid", PhotonMap::bytes(slots) - stored},
-                  {"visible points", EyePaths::bytes(tables.camera)}};
-  if (!sppm) {
-    plan.buffers.push_back({"film photon maps", film_bytes});
-    return plan;
-  }
-  const std::uint64_t runs = settings.effort == Settings::Effort::random ? 1 : clusters;
-  plan.buffers.push_back({"statistics of pixels", runs * pixels * sizeof(shared::PixelStatistics)});
-  plan.buffers.push_back({"radiance", 3 * pixels * sizeof(float)});
-  return plan;
+  const std::uint64_t stored = photons * sizeof(shared::StoredPhoton);
+  part.buffers = {{"photons on surfaces", stored},
+                  {"photon grid", PhotonMap::bytes(photons) - stored},
+                  {"visible points", EyePaths::bytes(input.tables.camera)}};
+  if (const std::string note = map_radius_note(input.settings, input.scene); !note.empty()) part.notes = {note};
+  return part;
 }
 
 namespace {
@@ -113,6 +73,11 @@ double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds)
 double first_map_radius(const Settings& settings, const scene::Scene& scene)
 {
   return settings.sppm.radius ? *settings.sppm.radius : 2 * pixel_width(scene.camera, tracing::scene_bounds(scene));
+}
+
+std::string map_radius(const Settings& settings, const scene::Scene& scene)
+{
+  return fmt::format("from {:.3g} units around a visible point", first_map_radius(settings, scene));
 }
 
 std::string map_radius_note(const Settings& settings, const scene::Scene& scene)

@@ -1,36 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a run has photon maps, why, what memory they take, and how far around a visible point photons are gathered: the first radius,
-// and how it shrinks from pass to pass.
+// What MapStage and SppmStage have in common: what memory photon maps take, and how far around a visible point photons are gathered: the
+// first radius, and how it shrinks from pass to pass.
 #pragma once
 #include "plan/plan.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "spectral/settings.h"
-#include "spectral/tables/run_tables.h"
+#include "spectral/plan_part.h"
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace nephroid::spectral {
-
-struct MapPlan {
-  plan::Pass pass;                          ///< "photon maps"
-  std::vector<plan::PlannedBuffer> buffers; ///< of MapStage or SppmStage; none where it does not run
-};
 
 /// Paths from the eye that a pixel has in a pass of MapStage, 1..64: those that meet glass or a mirror first, which go on, are a third as
 /// many in the whole picture as there are photons, so that neither takes most of the time and neither most of the noise.
 unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass);
 
-/// caustics: whether there are any to estimate, by splats or maps. film_bytes: of one film. leave_out: maps where nothing needs them.
-/// Throws bad_input at FILE#/scene/objects for more objects than photons in so many clusters can tell apart.
-MapPlan plan_maps(const Settings& settings, const scene::Scene& scene, const RunTables& tables, bool caustics, std::uint64_t film_bytes,
-                  bool leave_out);
+/// For a stage that gathers, if the pass says so: with so many photons at a time. Throws bad_input at FILE#/scene/objects for more objects
+/// than photons in so many clusters can tell apart.
+PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t photons);
 
 /// spectral.sppm.radius; without, twice what a pixel covers at the distance of the scene's middle (a quarter of the scene's
 /// radius for a camera that is nearer). In scene units.
 double first_map_radius(const Settings& settings, const scene::Scene& scene);
+/// The same in the plan's words.
+std::string map_radius(const Settings& settings, const scene::Scene& scene);
 
 /// What the plan says of a spectral.sppm.radius that loses the caustics: wider than 32 pixels or than the whole scene, or below 1/16 pixel,
 /// where a pass of as many photons as pixels finds one in some hundred pixels; and of an alpha that makes it so small by the first photons

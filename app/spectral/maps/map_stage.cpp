@@ -2,11 +2,14 @@
 // Caustics seen through glass or in a mirror: paths from the eye gather the photons that the photon stage has splatted elsewhere and
 // stored. The radius shrinks from pass to pass and is the same for all pixels (Knaus and Zwicker 2011), so each pass is an estimate of
 // its own, and the film adds them up like any other's.
+#include "base/counted.h"
 #include "spectral/maps/eye_paths.h"
 #include "spectral/maps/map_plan.h"
 #include "spectral/maps/photon_map.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -18,8 +21,8 @@ namespace {
 
 class MapStage final : public Stage {
 public:
-  MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings, PhotonMap& map)
-      : world_(world), map_(map), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
+  MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+      : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
         paths_(world.tables.eye_paths), eye_(world, 0), film_(world.zeroed("film photon maps", world.film_size())),
         gather_(compute::Program(world.context, "spectral/gather.cl", world.defines).kernel("gather_to_film"))
   {
@@ -46,7 +49,7 @@ public:
                    {"film", film_},
                    {"energy", world_.energy},
                    {"pixels", world_.pixels.on_device},
-                   {"picture", world_.pixels.all},
+                   {"picture", world_.pixels.count},
                    {"pass", number},
                    {"first", first},
                    {"count", count},
@@ -60,26 +63,17 @@ public:
   void develop(std::int64_t, bool, job::Picture& picture) override
   {
     const auto samples = [&](std::size_t pixel) { return eye_.pixels().samples(pixel); };
-    const std::vector<std::int64_t> sums = film_.read();
-    tracing::add_layer("caustic", {sums, world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    eye_.save(to);
-    to.value(paths_);
-    to.value(before_);
-    to.buffer(film_);
-    to.buffer(map_.stored());
-  }
-  void load(tracing::StateReader& from) override
-  {
-    eye_.load(from);
-    from.value(paths_);
-    from.value(before_);
-    from.buffer(film_);
-    from.buffer(map_.stored());
-    sorted_pass_ = -1;
+    eye_.state(state);
+    state.value(paths_);
+    state.value(before_);
+    state.buffer(film_);
+    state.buffer(map_.stored());
+    if (state.is_read()) sorted_pass_ = -1;
   }
 
 private:
@@ -94,11 +88,38 @@ private:
   std::int64_t sorted_pass_ = -1; ///< whose photons the grid has
 };
 
+plan::Pass map_pass(const PlanInput& input)
+{
+  const char* const name = "photon maps";
+  if (input.settings.relight)
+    return {name, false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight", false};
+  if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
+  const bool sees = tracing::may_see_glass_or_mirror(input.scene);
+  if (input.settings.estimator == Settings::Estimator::splat)
+    return {name, false,
+            fmt::format("spectral.estimator is splat: {}",
+                        sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror")};
+  return tracing::omission(
+      name, input.leave_out.photon_maps, sees,
+      sees ? fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
+                         map_radius(input.settings, input.scene), counted(input.tables.eye_paths, "path"))
+           : "the camera sees no glass and no mirror, so every caustic is splatted");
+}
+
+PlanPart plan_maps(const PlanInput& input)
+{
+  PlanPart part = plan_gathering(input, map_pass(input), input.tables.photons_per_pass);
+  const bool runs = part.passes[0].runs;
+  if (runs) part.buffers.push_back({"film photon maps", input.film_bytes()});
+  // Wavelengths of a cluster in one pass, as photons and eye paths of one wavelength need each other: so many that a pass has 32 in all,
+  // for a picture of a few wavelengths has a cast.
+  const int clusters = std::max(static_cast<int>(input.tables.wavelengths.clusters.size()), 1);
+  part.defines = {{"NEPHROID_PASS_BANDS", std::to_string(runs && jitter_pass(input).runs ? std::max(1, 32 / clusters) : 1)}};
+  return part;
+}
+
 } // namespace
 
-std::unique_ptr<Stage> make_map_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings, PhotonMap& map)
-{
-  return std::make_unique<MapStage>(world, scene, settings, map);
-}
+const RunPart map_stage{plan_maps, make_stage<MapStage>, "caustic"};
 
 } // namespace nephroid::spectral

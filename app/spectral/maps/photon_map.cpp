@@ -35,9 +35,9 @@ PhotonMap::PhotonMap(const compute::Context& context, std::uint32_t slots, const
   // What is read beyond the last photon does not count, but it has to be numbers.
   positions_.fill_zero();
   values_.fill_zero();
-  compute::Defines all = defines;
-  all["NEPHROID_SCAN_BLOCKS"] = std::to_string(scan_blocks);
-  const compute::Program program(context, "spectral/grid.cl", all);
+  compute::Defines grid_defines = defines;
+  grid_defines["NEPHROID_SCAN_BLOCKS"] = std::to_string(scan_blocks);
+  const compute::Program program(context, "spectral/grid.cl", grid_defines);
   count_ = program.kernel("count_photons");
   sum_ = program.kernel("sum_blocks");
   scan_ = program.kernel("scan_blocks");

@@ -21,7 +21,6 @@ public:
 
   /// Where kernels write photons, each to the slot of its number, before build(). Every slot has to be written, if only with NO_PHOTON.
   compute::Buffer<shared::StoredPhoton>& stored() { return stored_; }
-  const compute::Buffer<shared::StoredPhoton>& stored() const { return stored_; }
   /// Sorts the first `slots` stored photons into cells of that edge, in scene units; queued. Searches may be as wide as 3 cells.
   void build(double cell_edge, std::uint32_t slots);
   std::uint32_t slots() const { return static_cast<std::uint32_t>(stored_.size()); }

@@ -13,6 +13,8 @@
 #include "tracing/scales.h"
 #include "tracing/step_size.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -88,31 +90,65 @@ public:
     return true;
   }
 
-  void develop(std::int64_t passes, bool done, job::Picture& picture) override;
-  void report(std::int64_t passes, bool done, Energy& energy) override;
-
-  void save(tracing::StateWriter& to) const override
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    to.value(at_);
-    slices_.save(to);
-    eye_.save(to);
-    to.buffer(map_.stored());
-    for (const ClusterRun& run : runs_) {
-      to.buffer(run.statistics);
-      to.buffer(run.energy);
+    compute::Buffer<float> sums(world_.context, "radiance", 3 * std::size_t{pixel_count()});
+    sums.fill_zero();
+    const double metres = world_.tables.scene.metres_per_unit, power = world_.tables.power_unit;
+    const auto per_iteration = [&](std::int64_t count) {
+      return count > 0 ? static_cast<float>(power / (static_cast<double>(count) * std::pow(std::numbers::pi * metres, 2))) : 0.0f;
+    };
+    for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
+      const std::int64_t before = iterations_of(run, passes), after = iterations_of(run, passes + 1);
+      const bool in_hand = !done && (random_ || run == at_.cluster);
+      // Pixels up to the split have had the iteration in hand.
+      const std::uint32_t split = done || (!random_ && run < at_.cluster) ? pixel_count()
+                                  : in_hand                               ? static_cast<std::uint32_t>(eye_.pixels().done())
+                                                                          : 0;
+      add_radiance_.run(pixel_count(), 64,
+                        {{"statistics", runs_[static_cast<std::size_t>(run)].statistics},
+                         {"xyz", sums},
+                         {"pixels", pixel_count()},
+                         {"split", split},
+                         {"per_iteration_before", per_iteration(after)},
+                         {"per_iteration_after", per_iteration(before)}});
     }
+    const std::vector<float> xyz = sums.read();
+    job::Layer layer{"caustic", std::vector<float>(xyz.size())};
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      const optics::Colour rgb = optics::xyz_to_linear_srgb({xyz[i] / world_.white, xyz[i + 1] / world_.white, xyz[i + 2] / world_.white});
+      for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] = static_cast<float>(rgb[c]);
+    }
+    picture.layers.push_back(std::move(layer));
+    picture.error_draw.clear(); // there are no two halves: what a radius has become hangs on all photons
   }
-  void load(tracing::StateReader& from) override
+
+  void report(std::int64_t passes, bool done, Energy& energy) override
   {
-    from.value(at_);
-    slices_.load(from);
-    eye_.load(from);
-    from.buffer(map_.stored());
-    for (ClusterRun& run : runs_) {
-      from.buffer(run.statistics);
-      from.buffer(run.energy);
+    OutcomeWatts watts{};
+    for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
+      const bool in_hand = !done && (random_ || run == at_.cluster);
+      const bool had = done || (!random_ && run < at_.cluster) || (in_hand && at_.sent);
+      const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.part() : 0);
+      if (count <= 0) continue;
+      const OutcomeWatts of_run = outcome_watts(runs_[static_cast<std::size_t>(run)].energy.read(), world_.tables.energy_scale, count);
+      const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
+      for (std::size_t i = 0; i < watts.size(); ++i) watts[i] += i == OUTCOME_REFUSED ? of_run[i] : share * of_run[i];
     }
-    sorted_ = false;
+    energy.caustics = balance_of(watts);
+  }
+
+  void state(tracing::State& state) override
+  {
+    state.value(at_);
+    slices_.state(state);
+    eye_.state(state);
+    state.buffer(map_.stored());
+    for (ClusterRun& run : runs_) {
+      state.buffer(run.statistics);
+      state.buffer(run.energy);
+    }
+    if (state.is_read()) sorted_ = false;
   }
 
 private:
@@ -164,13 +200,86 @@ private:
     return run;
   }
 
-  Sender make_sender(int cluster) const;
-  void send_photons(std::int64_t pass, std::uint32_t offset, std::uint32_t stride, std::uint32_t count);
+  Sender make_sender(int cluster) const
+  {
+    const RunTables& t = world_.tables;
+    const auto c = static_cast<std::size_t>(cluster);
+    std::vector<PhotonSource> sources;
+    double weights = 0;
+    for (std::size_t l = 0; l < t.lights.size(); ++l) {
+      const double share = t.wavelengths.share[l][c];
+      sources.push_back({t.towards_targets_w[l] * tracing::worth(t.wavelengths.seen[l][c], share), static_cast<int>(l), cluster, share});
+      weights += sources.back().weight;
+    }
+    std::vector<shared::DeviceEmitter> emitters = make_emitters(sources, photons_);
+    for (shared::DeviceEmitter& emitter : emitters)
+      emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters are runs of their own
+    return {{world_.context, "emitters of a cluster", std::span<const shared::DeviceEmitter>(emitters)},
+            static_cast<int>(emitters.size()),
+            photon_scale(photons_, weights)};
+  }
+
+  void send_photons(std::int64_t pass, std::uint32_t offset, std::uint32_t stride, std::uint32_t count)
+  {
+    const int cluster = std::min(at_.cluster, cluster_count() - 1);
+    const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
+    const RunTables& t = world_.tables;
+    world_.run_photons(send_, count,
+                       {{"targets", world_.buffers.targets},
+                        {"emitters", sender.emitters},
+                        {"film", unused_},
+                        {"energy", run_of(cluster).energy},
+                        {"moments", unused_},
+                        {"guide_moments", unused_},
+                        {"guide", no_guide_},
+                        {"unseen_weight", 0.0f},
+                        {"stored", map_.stored()},
+                        {"emitter_count", sender.emitter_count},
+                        {"object_count", static_cast<int>(t.objects.size())},
+                        {"camera", t.camera},
+                        {"seed", seed_of(cluster)},
+                        {"pass", static_cast<std::uint32_t>(iterations_of(cluster, pass))},
+                        {"first_pass", 0u},
+                        {"offset", offset},
+                        {"stride", stride},
+                        {"count", count},
+                        {"film_scale", 0.0f},
+                        {"energy_scale", world_.on_device(t.energy_scale)},
+                        {"stored_scale", world_.on_device(sender.photon_scale)}});
+  }
+
   /// items: work items, at least one; of them `count` gather.
   void gather_photons(const compute::Buffer<shared::VisiblePoint>& points, std::uint32_t first_pixel, std::uint32_t count, int cluster,
-                      std::size_t items);
-  bool send(std::int64_t pass);
-  bool gather(std::int64_t pass);
+                      std::size_t items)
+  {
+    const double weight = random_ ? cluster_count() : 1;
+    const double unit = weight / (senders_[static_cast<std::size_t>(cluster)].photon_scale * world_.tables.power_unit);
+    gather_.run(items, 64, map_.arguments(),
+                {{"points", points},
+                 {"statistics", run_of(cluster).statistics},
+                 {"first_pixel", first_pixel},
+                 {"count", count},
+                 {"alpha", static_cast<float>(alpha_)},
+                 {"unit", static_cast<float>(unit)}});
+  }
+
+  bool send(std::int64_t pass)
+  {
+    return slices_.step(
+        photons_, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) { send_photons(pass, offset, stride, count); });
+  }
+
+  bool gather(std::int64_t pass)
+  {
+    const std::int64_t iteration = iterations_of(at_.cluster, pass);
+    // Pixels without photons keep the first radius, and a search may be as wide as 3 cells.
+    if (!sorted_) map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
+    sorted_ = true;
+    return eye_.step(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), {1, static_cast<std::uint32_t>(iteration), 0},
+                     at_.cluster, [&](const auto& points, std::uint32_t first_pixel, std::uint32_t count) {
+                       gather_photons(points, first_pixel, count, at_.cluster, count);
+                     });
+  }
 
   DeviceWorld& world_;
   std::uint32_t photons_; ///< of an iteration
@@ -188,146 +297,30 @@ private:
   bool sorted_ = false; ///< the grid has this iteration's photons
 };
 
-Sender SppmStage::make_sender(int cluster) const
+plan::Pass sppm_pass(const PlanInput& input)
 {
-  const RunTables& t = world_.tables;
-  const auto c = static_cast<std::size_t>(cluster);
-  std::vector<PhotonSource> sources;
-  double weights = 0;
-  for (std::size_t l = 0; l < t.lights.size(); ++l) {
-    const double share = t.wavelengths.share[l][c];
-    sources.push_back({t.towards_targets_w[l] * tracing::worth(t.wavelengths.seen[l][c], share), static_cast<int>(l), cluster, share});
-    weights += sources.back().weight;
-  }
-  std::vector<shared::DeviceEmitter> emitters = make_emitters(sources, photons_);
-  for (shared::DeviceEmitter& emitter : emitters) emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters are runs of their own
-  return {{world_.context, "emitters of a cluster", std::span<const shared::DeviceEmitter>(emitters)},
-          static_cast<int>(emitters.size()),
-          photon_scale(photons_, weights)};
+  const char* const name = "photon maps";
+  if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
+  return {name, true,
+          fmt::format("spectral.estimator is sppm: every caustic is gathered, {}, {}", map_radius(input.settings, input.scene),
+                      input.settings.effort == Settings::Effort::random ? "one cluster a pass in shared statistics"
+                                                                        : "with statistics of each pixel in each cluster")};
 }
 
-void SppmStage::send_photons(std::int64_t pass, std::uint32_t offset, std::uint32_t stride, std::uint32_t count)
+PlanPart plan_sppm(const PlanInput& input)
 {
-  const int cluster = std::min(at_.cluster, cluster_count() - 1);
-  const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
-  const RunTables& t = world_.tables;
-  world_.run_photons(send_, count,
-                     {{"targets", world_.buffers.targets},
-                      {"emitters", sender.emitters},
-                      {"film", unused_},
-                      {"energy", run_of(cluster).energy},
-                      {"moments", unused_},
-                      {"guide_moments", unused_},
-                      {"guide", no_guide_},
-                      {"unseen_weight", 0.0f},
-                      {"stored", map_.stored()},
-                      {"emitter_count", sender.emitter_count},
-                      {"object_count", static_cast<int>(t.objects.size())},
-                      {"camera", t.camera},
-                      {"seed", seed_of(cluster)},
-                      {"pass", static_cast<std::uint32_t>(iterations_of(cluster, pass))},
-                      {"first_pass", 0u},
-                      {"offset", offset},
-                      {"stride", stride},
-                      {"count", count},
-                      {"film_scale", 0.0f},
-                      {"energy_scale", world_.on_device(t.energy_scale)},
-                      {"stored_scale", world_.on_device(sender.photon_scale)}});
-}
-
-bool SppmStage::send(std::int64_t pass)
-{
-  return slices_.step(photons_,
-                      [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) { send_photons(pass, offset, stride, count); });
-}
-
-void SppmStage::gather_photons(const compute::Buffer<shared::VisiblePoint>& points, std::uint32_t first_pixel, std::uint32_t count,
-                               int cluster, std::size_t items)
-{
-  const double weight = random_ ? cluster_count() : 1;
-  const double unit = weight / (senders_[static_cast<std::size_t>(cluster)].photon_scale * world_.tables.power_unit);
-  gather_.run(items, 64, map_.arguments(),
-              {{"points", points},
-               {"statistics", run_of(cluster).statistics},
-               {"first_pixel", first_pixel},
-               {"count", count},
-               {"alpha", static_cast<float>(alpha_)},
-               {"unit", static_cast<float>(unit)}});
-}
-
-bool SppmStage::gather(std::int64_t pass)
-{
-  const std::int64_t iteration = iterations_of(at_.cluster, pass);
-  // Pixels without photons keep the first radius, and a search may be as wide as 3 cells.
-  if (!sorted_) map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
-  sorted_ = true;
-  return eye_.step(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), {1, static_cast<std::uint32_t>(iteration), 0}, at_.cluster,
-                   [&](const auto& points, std::uint32_t first_pixel, std::uint32_t count) {
-                     gather_photons(points, first_pixel, count, at_.cluster, count);
-                   });
-}
-
-void SppmStage::develop(std::int64_t passes, bool done, job::Picture& picture)
-{
-  compute::Buffer<float> sums(world_.context, "radiance", 3 * std::size_t{pixel_count()});
-  sums.fill_zero();
-  const double metres = world_.tables.scene.metres_per_unit, power = world_.tables.power_unit;
-  const auto per_iteration = [&](std::int64_t count) {
-    return count > 0 ? static_cast<float>(power / (static_cast<double>(count) * std::pow(std::numbers::pi * metres, 2))) : 0.0f;
-  };
-  for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
-    const std::int64_t before = iterations_of(run, passes), after = iterations_of(run, passes + 1);
-    const bool in_hand = !done && (random_ || run == at_.cluster);
-    // Pixels up to the split have had the iteration in hand.
-    const std::uint32_t split = done || (!random_ && run < at_.cluster) ? pixel_count()
-                                : in_hand                               ? static_cast<std::uint32_t>(eye_.pixels().done())
-                                                                        : 0;
-    add_radiance_.run(pixel_count(), 64,
-                      {{"statistics", runs_[static_cast<std::size_t>(run)].statistics},
-                       {"xyz", sums},
-                       {"pixels", pixel_count()},
-                       {"split", split},
-                       {"per_iteration_before", per_iteration(after)},
-                       {"per_iteration_after", per_iteration(before)}});
-  }
-  const std::vector<float> xyz = sums.read();
-  job::Layer layer{"caustic", std::vector<float>(xyz.size())};
-  for (std::size_t i = 0; i < xyz.size(); i += 3) {
-    const optics::Colour rgb = optics::xyz_to_linear_srgb({xyz[i] / world_.white, xyz[i + 1] / world_.white, xyz[i + 2] / world_.white});
-    for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] = static_cast<float>(rgb[c]);
-  }
-  picture.layers.push_back(std::move(layer));
-  picture.error_draw.clear(); // there are no two halves: what a radius has become hangs on all photons
-}
-
-void SppmStage::report(std::int64_t passes, bool done, Energy& energy)
-{
-  std::array<double, OUTCOME_COUNT> watts{};
-  for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
-    const bool in_hand = !done && (random_ || run == at_.cluster);
-    const bool had = done || (!random_ && run < at_.cluster) || (in_hand && at_.sent);
-    const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.part() : 0);
-    if (count <= 0) continue;
-    const std::vector<std::int64_t> quanta = runs_[static_cast<std::size_t>(run)].energy.read();
-    const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
-    for (std::size_t i = 0; i < watts.size(); ++i)
-      watts[i] +=
-          i == OUTCOME_REFUSED ? static_cast<double>(quanta[i]) : share * tracing::mean_watts(quanta[i], world_.tables.energy_scale, count);
-  }
-  energy.caustics = {watts[OUTCOME_EMITTED],
-                     watts[OUTCOME_DEPOSITED],
-                     watts[OUTCOME_MISSED],
-                     watts[OUTCOME_ABSORBED],
-                     watts[OUTCOME_ESCAPED],
-                     watts[OUTCOME_LOST],
-                     static_cast<std::uint64_t>(watts[OUTCOME_REFUSED])};
+  PlanPart part = plan_gathering(input, sppm_pass(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
+  // A pass has one cluster's turn after the other, with one wavelength each.
+  part.defines = {{"NEPHROID_PASS_BANDS", "1"}};
+  if (!part.passes[0].runs) return part;
+  const std::uint64_t runs = input.settings.effort == Settings::Effort::random ? 1 : input.tables.wavelengths.clusters.size();
+  part.buffers.push_back({"statistics of pixels", runs * input.pixels() * sizeof(shared::PixelStatistics)});
+  part.buffers.push_back({"radiance", 3 * input.pixels() * sizeof(float)});
+  return part;
 }
 
 } // namespace
 
-std::unique_ptr<Stage> make_sppm_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-{
-  return std::make_unique<SppmStage>(world, scene, settings);
-}
+const RunPart sppm_stage{plan_sppm, make_stage<SppmStage>, "caustic"};
 
 } // namespace nephroid::spectral

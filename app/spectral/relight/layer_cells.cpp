@@ -18,11 +18,11 @@ void add_samples(const Survey& survey, int x, int y, int weight, std::vector<See
   const auto samples = static_cast<std::size_t>(survey.samples);
   for (const int reflector : survey.seen.subspan(pixel * samples, samples)) {
     if (reflector < 0) continue;
-    const auto found = std::find_if(list.begin(), list.end(), [&](const Seen& s) { return s.reflector == reflector; });
-    if (found == list.end())
+    const auto seen = std::find_if(list.begin(), list.end(), [&](const Seen& s) { return s.reflector == reflector; });
+    if (seen == list.end())
       list.push_back({reflector, weight});
     else
-      found->count += weight;
+      seen->count += weight;
   }
 }
 
@@ -39,6 +39,13 @@ void look(const Survey& survey, int x, int y, std::vector<Seen>& list)
         add_samples(survey, x + dx, y + dy, dx == 0 && dy == 0 ? own_weight(survey) : 1, list);
   std::sort(list.begin(), list.end(),
             [](const Seen& a, const Seen& b) { return a.count != b.count ? a.count > b.count : a.reflector < b.reflector; });
+}
+
+constexpr std::size_t spare_cells = 8192; // small pictures may have edges everywhere
+
+std::size_t pixel_count(const shared::DeviceCamera& camera)
+{
+  return static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
 }
 
 /// Numbers the cells reflector by reflector.
@@ -93,12 +100,18 @@ std::size_t padded_cells(std::size_t cells, int reflector_count)
   return LAYER_BLOCK * blocks;
 }
 
-LayerBudget layer_budget(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres)
+std::size_t unbent_cells(const shared::DeviceCamera& camera)
+{
+  const std::size_t pixels = pixel_count(camera);
+  return pixels + pixels / 4 + spare_cells;
+}
+
+std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres)
 {
   const auto vec = [](const shared::float4& v) { return glm::vec3(v.x, v.y, v.z); };
   const glm::vec3 position = vec(camera.position), right = vec(camera.right), up = vec(camera.up), forward = vec(camera.forward);
   const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
-  const std::size_t pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  const std::size_t pixels = pixel_count(camera);
   // Cells go to neighbours too, and places are anywhere in a pixel: about two pixels beyond a sphere.
   const float margin = 6 * std::max(camera.tan_x / width, camera.tan_y / height);
   const auto may_see = [&](const glm::vec3& way, const scene::Sphere& sphere) {
@@ -115,8 +128,7 @@ LayerBudget layer_budget(const shared::DeviceCamera& camera, std::span<const sce
     const glm::vec3 way = glm::normalize(forward + x * camera.tan_x * right + y * camera.tan_y * up);
     if (std::any_of(spheres.begin(), spheres.end(), [&](const scene::Sphere& sphere) { return may_see(way, sphere); })) ++bent;
   }
-  constexpr std::size_t small = 8192; // pictures may have edges everywhere
-  return {pixels + pixels / 4 + small, bent > 0 ? 2 * bent + small : 0};
+  return bent > 0 ? 2 * bent + spare_cells : 0;
 }
 
 } // namespace nephroid::spectral

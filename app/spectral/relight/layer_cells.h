@@ -35,12 +35,9 @@ LayerCells make_layer_cells(const Survey& survey, std::size_t most, bool every_p
 /// The most that LayerCells::count() can be for so many cells.
 std::size_t padded_cells(std::size_t cells, int reflector_count);
 
-/// How many cells a camera's films may have, known before anything is surveyed. unbent: one a pixel and a quarter more for edges; bent, for
-/// what is seen through glass and mirrors: two a pixel that may see `spheres`, which enclose all glass and mirrors; both some thousand
-/// more.
-struct LayerBudget {
-  std::size_t unbent = 0, bent = 0;
-};
-LayerBudget layer_budget(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres);
+/// How many cells a camera's films may have, known before anything is surveyed: one a pixel and a quarter more for edges; of what is seen
+/// through glass and mirrors two a pixel that may see `spheres`, which enclose all glass and mirrors. Both have some thousand more.
+std::size_t unbent_cells(const shared::DeviceCamera& camera);
+std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene::Sphere> spheres);
 
 } // namespace nephroid::spectral

@@ -54,7 +54,7 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
 
 std::vector<LayerSums> LayerFilm::pixel(std::size_t index) const
 {
-  std::vector<LayerSums> all;
+  std::vector<LayerSums> cells;
   std::array<int, 2> range{};
   first_.RawBuffer::read(range.data(), sizeof(range), index * sizeof(int));
   for (int i = range[0]; i < range[1]; ++i) {
@@ -67,9 +67,9 @@ std::vector<LayerSums> LayerFilm::pixel(std::size_t index) const
     LayerSums sums{cell.reflector, {}};
     for (std::size_t row = 0; row < halves_ * layers_; ++row)
       sums.sums.push_back(static_cast<double>(block[row * LAYER_BLOCK + number % LAYER_BLOCK]));
-    all.push_back(std::move(sums));
+    cells.push_back(std::move(sums));
   }
-  return all;
+  return cells;
 }
 
 namespace {
@@ -91,12 +91,12 @@ LayerFilmWeights make_weights(std::span<const std::array<double, 3>> colours, in
         exact.push_back({c[0] * first, c[1] * first, c[2] * first, c[0] * second, c[1] * second, c[2] * second});
         for (const double value : exact.back()) largest = std::max(largest, std::abs(value));
       }
-  LayerFilmWeights made{{}, largest > 0 ? std::ilogb(largest) : 0};
-  made.weights.reserve(exact.size());
-  const auto number = [&](double value) { return static_cast<float>(std::ldexp(value, -made.exponent)); };
+  LayerFilmWeights weights{{}, largest > 0 ? std::ilogb(largest) : 0};
+  weights.weights.reserve(exact.size());
+  const auto number = [&](double value) { return static_cast<float>(std::ldexp(value, -weights.exponent)); };
   for (const std::array<double, 6>& v : exact)
-    made.weights.push_back({{number(v[0]), number(v[1]), number(v[2])}, {number(v[3]), number(v[4]), number(v[5])}});
-  return made;
+    weights.weights.push_back({{number(v[0]), number(v[1]), number(v[2])}, {number(v[3]), number(v[4]), number(v[5])}});
+  return weights;
 }
 
 } // namespace

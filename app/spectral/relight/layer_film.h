@@ -4,7 +4,7 @@
 #include "compute/compute.h"
 #include "job/job.h"
 #include "spectral/relight/layer_cells.h"
-#include "tracing/state_bytes.h"
+#include "tracing/state.h"
 
 #include <array>
 #include <cstdint>
@@ -52,8 +52,7 @@ public:
   /// What a pixel's cells hold.
   std::vector<LayerSums> pixel(std::size_t index) const;
 
-  void save(tracing::StateWriter& to) const { to.buffer(sums_); }
-  void load(tracing::StateReader& from) { from.buffer(sums_); }
+  void state(tracing::State& state) { state.buffer(sums_); }
 
 private:
   compute::Context context_{};

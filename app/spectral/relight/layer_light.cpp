@@ -61,7 +61,7 @@ LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTab
   const optics::ColourMatching& eye = optics::cie_1931();
   LayerWeights weights;
   for (std::size_t l = 0; l < light.spectra.size(); ++l) {
-    std::vector<Colour> all(reflectors(tables), Colour{});
+    std::vector<Colour> whole(reflectors(tables), Colour{});
     for (const std::vector<int>& cluster : tables.clusters)
       for (std::size_t r = 0; r < reflectors(tables); ++r) {
         Colour xyz{};
@@ -73,9 +73,9 @@ LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTab
           xyz[2] += power * eye.z[w];
         }
         weights.clusters.push_back(optics::xyz_to_linear_srgb(xyz));
-        for (std::size_t k = 0; k < 3; ++k) all[r][k] += weights.clusters.back()[k];
+        for (std::size_t k = 0; k < 3; ++k) whole[r][k] += weights.clusters.back()[k];
       }
-    weights.all.insert(weights.all.end(), all.begin(), all.end());
+    weights.whole.insert(weights.whole.end(), whole.begin(), whole.end());
   }
   return weights;
 }

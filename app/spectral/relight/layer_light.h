@@ -29,7 +29,7 @@ LayerLight layer_light(const preset::Preset& preset);
 /// Linear sRGB over white of what a layer of value 1 adds to the picture where a reflector is seen.
 struct LayerWeights {
   std::vector<optics::Colour> clusters; ///< [light][cluster][reflector]
-  std::vector<optics::Colour> all;      ///< [light][reflector]: of all wavelengths
+  std::vector<optics::Colour> whole;    ///< [light][reflector]: of all wavelengths
 };
 LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTables& tables);
 

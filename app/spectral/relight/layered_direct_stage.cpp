@@ -3,6 +3,7 @@
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
+#include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"
 
@@ -12,15 +13,12 @@
 namespace nephroid::spectral {
 namespace {
 
-/// A sample through glass adds up to four times to one cell.
-constexpr double paths_through_glass = 4;
-
 class LayeredDirectStage final : public Stage {
 public:
-  LayeredDirectStage(DeviceWorld& world, const Relighting& relighting, const Settings& settings)
-      : world_(world), relighting_(relighting), pixel_samples_(settings.pixel_samples),
-        unbent_(world.context, "film direct", relighting.unbent, world.tables.lights.size(), world.halves, world.defines),
-        bent_(world.context, "film direct through glass", relighting.bent,
+  LayeredDirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+      : world_(world), relighting_(relighting_of(world, scene)), pixel_samples_(settings.pixel_samples),
+        unbent_(world.context, "film direct", relighting_.unbent, world.tables.lights.size(), world.halves, world.defines),
+        bent_(world.context, "film direct through glass", relighting_.bent,
               world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),
         cluster_cdf_(world.context, "cluster choice", std::span<const float>(world.tables.wavelengths.cluster_cdf)),
         kernel_(compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("direct")),
@@ -57,6 +55,7 @@ public:
                   {"first_row", static_cast<int>(first_row)},
                   {"row_count", static_cast<int>(rows)},
                   {"film_scale", world_.on_device(world_.tables.direct_scale)},
+                  // A sample through glass adds to one cell as often as it has paths.
                   {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
     });
   }
@@ -65,7 +64,8 @@ public:
   {
     const int reflectors = world_.tables.wavelengths.reflector_count;
     const double quanta = world_.tables.direct_scale;
-    const std::array<std::vector<float>, 2> straight = unbent_.weigh(half_sums(relighting_.weights.all, reflectors, world_.halves, quanta)),
+    const std::array<std::vector<float>, 2> straight =
+                                                unbent_.weigh(half_sums(relighting_.weights.whole, reflectors, world_.halves, quanta)),
                                             through =
                                                 bent_.weigh(half_sums(relighting_.weights.clusters, reflectors, world_.halves, quanta));
     std::vector<float>& rgb = tracing::layer_of(picture, "direct").rgb;
@@ -102,17 +102,11 @@ public:
     return true;
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    rows_.save(to);
-    unbent_.save(to);
-    bent_.save(to);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    rows_.load(from);
-    unbent_.load(from);
-    bent_.load(from);
+    rows_.state(state);
+    unbent_.state(state);
+    bent_.state(state);
   }
 
 private:
@@ -133,11 +127,19 @@ private:
   tracing::PixelSteps rows_;
 };
 
+PlanPart plan_layered_direct(const PlanInput& input)
+{
+  PlanPart part{.passes = direct_stage.plan(input).passes};
+  if (!part.passes[0].runs) return part;
+  const RunTables& tables = input.tables;
+  const std::size_t lights = tables.lights.size(), clusters = tables.wavelengths.clusters.size();
+  plan_layer_film("film direct", lights, unbent_cells(tables.camera), input, part);
+  plan_layer_film("film direct through glass", lights * clusters, bent_cells(tables.camera, tables.spheres), input, part);
+  return part;
+}
+
 } // namespace
 
-std::unique_ptr<Stage> make_layered_direct_stage(DeviceWorld& world, const Relighting& relighting, const Settings& settings)
-{
-  return std::make_unique<LayeredDirectStage>(world, relighting, settings);
-}
+const RunPart layered_direct_stage{plan_layered_direct, make_stage<LayeredDirectStage>, "direct"};
 
 } // namespace nephroid::spectral

@@ -5,6 +5,7 @@
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
+#include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"
 
@@ -15,9 +16,9 @@ namespace {
 
 class LayeredPhotonStage final : public Stage {
 public:
-  LayeredPhotonStage(DeviceWorld& world, const Relighting& relighting)
-      : world_(world), relighting_(relighting), emitters_(world.tables.emitters), sent_(emitters_.size()),
-        film_(world.context, "film caustic", relighting.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
+  LayeredPhotonStage(DeviceWorld& world, const scene::Scene& scene, const Settings&)
+      : world_(world), relighting_(relighting_of(world, scene)), emitters_(world.tables.emitters), sent_(emitters_.size()),
+        film_(world.context, "film caustic", relighting_.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
         // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
         scale_(world.tables.caustic_scale / world.tables.photons_per_pass)
   {
@@ -89,29 +90,17 @@ public:
     return true;
   }
 
-  void save(tracing::StateWriter& to) const override
+  void state(tracing::State& state) override
   {
-    to.value(at_);
-    to.value(dealt_ == relighting_.changes);
-    slices_.save(to);
-    for (std::size_t e = 0; e < emitters_.size(); ++e) {
-      to.value(sent_[e]);
-      to.value(emitters_[e]);
-    }
-    film_.save(to);
-  }
-  void load(tracing::StateReader& from) override
-  {
-    from.value(at_);
-    bool dealt = true;
-    from.value(dealt);
+    bool dealt = dealt_ == relighting_.changes;
+    state.value(at_);
+    state.value(dealt);
+    slices_.state(state);
+    state.items(std::span(sent_));
+    state.items(std::span(emitters_));
+    film_.state(state);
+    if (!state.is_read()) return;
     dealt_ = relighting_.changes - (dealt ? 0 : 1);
-    slices_.load(from);
-    for (std::size_t e = 0; e < emitters_.size(); ++e) {
-      from.value(sent_[e]);
-      from.value(emitters_[e]);
-    }
-    film_.load(from);
     world_.emitters.write(emitters_);
   }
 
@@ -188,11 +177,18 @@ private:
   tracing::PhotonSlices slices_;
 };
 
+PlanPart plan_layered_photons(const PlanInput& input)
+{
+  PlanPart part = photon_stage.plan(input);
+  part.buffers.clear();
+  if (input.caustics.runs)
+    plan_layer_film("film caustic", input.tables.lights.size() * input.tables.wavelengths.clusters.size(),
+                    unbent_cells(input.tables.camera), input, part);
+  return part;
+}
+
 } // namespace
 
-std::unique_ptr<Stage> make_layered_photon_stage(DeviceWorld& world, const Relighting& relighting)
-{
-  return std::make_unique<LayeredPhotonStage>(world, relighting);
-}
+const RunPart layered_photon_stage{plan_layered_photons, make_stage<LayeredPhotonStage>, "caustic"};
 
 } // namespace nephroid::spectral

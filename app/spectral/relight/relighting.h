@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages of a run that keeps layers share: the light as it is now, and which cells the films have (thesis 6.2.2).
 #pragma once
+#include "spectral/plan_part.h"
 #include "spectral/relight/layer_cells.h"
 #include "spectral/relight/layer_light.h"
-#include "spectral/settings.h"
-#include "spectral/stage.h"
 #include "spectral/tables/device_world.h"
 
 #include <cstdint>
-#include <memory>
 
 namespace nephroid::spectral {
 
@@ -20,14 +18,13 @@ struct Relighting {
   compute::Buffer<float> mean_reflectance, luminance_share; ///< FlatLight
 };
 
-/// Surveys what the camera sees on the device. world: of make_run_tables.
-std::unique_ptr<Relighting> make_relighting(DeviceWorld& world, LayerLight light);
+/// DeviceWorld::relighting; the first call surveys what the camera sees on the device. world: of make_run_tables for the scene.
+const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene);
 
 /// From now on the light is another one; the energy counters begin anew, but for refused contributions.
 void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light);
 
-/// Layer "direct" and layer "caustic", kept as layers. world and relighting outlive the stage.
-std::unique_ptr<Stage> make_layered_direct_stage(DeviceWorld& world, const Relighting& relighting, const Settings& settings);
-std::unique_ptr<Stage> make_layered_photon_stage(DeviceWorld& world, const Relighting& relighting);
+/// Adds a film of so many cells to the plan: its sums by their name, its cells and the pictures that are weighed of it by theirs.
+void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part);
 
 } // namespace nephroid::spectral

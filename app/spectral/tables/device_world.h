@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages of a job share: the scene on its device, the run's tables, the energy counters.
 #pragma once
+#include "spectral/maps/photon_map.h"
 #include "spectral/tables/run_tables.h"
 #include "tracing/world.h"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace nephroid::spectral {
@@ -13,17 +16,21 @@ namespace nephroid::spectral {
 struct PixelLists {
   std::vector<std::uint32_t> glass;         ///< glass_pixels.h
   std::vector<bool> may_show_glass;         ///< [pixel]
-  std::uint32_t all = 0;                    ///< pixels of the picture
+  std::uint32_t count = 0;                  ///< pixels of the picture
   compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass
 };
+
+struct Relighting;
 
 struct DeviceWorld : tracing::World {
   RunTables tables;
   double white = 1;
-  unsigned halves = 2;                  ///< of a film: 2 where the error is estimated (tracing/film.h)
-  compute::Buffer<std::int64_t> energy; ///< [OUTCOME_COUNT] quanta
-  compute::Buffer<shared::DeviceEmitter> emitters;
-  PixelLists pixels;
+  unsigned halves = 2;                    ///< of a film: 2 where the error is estimated (tracing/film.h)
+  compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
+  compute::Buffer<shared::DeviceEmitter> emitters{};
+  PixelLists pixels{};
+  std::optional<PhotonMap> map{};           ///< that photons which are splatted go to as well, where a stage gathers them
+  std::shared_ptr<Relighting> relighting{}; ///< where layers are kept for another light
 
   /// The number of 64-bit sums of a film of XYZ.
   std::size_t film_size() const
