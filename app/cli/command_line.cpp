@@ -7,6 +7,7 @@
 #include "base/nearest.h"
 #include "cli/examples.h"
 #include "cli/verbs.h"
+#include "engine/engine.h"
 
 #include <fmt/format.h>
 
@@ -30,11 +31,11 @@ constexpr const char* closing =
 
 std::string description()
 {
-  return fmt::format("{}\n\n{}\n", summary,
-                     examples({{"nephroid first-light", "the window: a glass bunny and its caustic, to watch and to change"},
-                               {"nephroid run first-light", "the same as files, in out/first-light"},
-                               {"nephroid run environment/ball", "a glass ball under a picture of the sky"},
-                               {"nephroid run inverse/shapes", "design glass that casts a ring, a cross and a disc"}}));
+  std::vector<Example> list{{"nephroid first-light", "the window: a glass bunny and its caustic, to watch and to change"}};
+  for (const engine::Engine* engine : engine::engines())
+    if (const engine::ShippedExample& shipped = engine->introduction.example; shipped.preset)
+      list.push_back({fmt::format("nephroid run {}", shipped.preset), shipped.run});
+  return fmt::format("{}\n\n{}\n", summary, examples(list));
 }
 
 std::vector<std::string> verb_names(const CLI::App& program)

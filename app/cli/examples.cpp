@@ -4,18 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace nephroid::cli {
 
-std::string examples(std::initializer_list<Example> list)
+std::string examples(const std::vector<Example>& list)
 {
   std::size_t width = 0;
   for (const Example& example : list)
-    if (*example.says) width = std::max(width, std::strlen(example.command));
+    if (!example.says.empty()) width = std::max(width, example.command.size());
   std::string text = list.size() == 1 ? "Example:" : "Examples:";
   for (const Example& example : list)
-    text += *example.says ? fmt::format("\n  {:<{}}  # {}", example.command, width, example.says) : fmt::format("\n  {}", example.command);
+    text += example.says.empty() ? fmt::format("\n  {}", example.command)
+                                 : fmt::format("\n  {:<{}}  # {}", example.command, width, example.says);
   return text;
 }
 

@@ -37,8 +37,8 @@ void add_plan(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<PlanOptions>();
   CLI::App* verb = program.add_subcommand("plan", "What a preset would run, what is left out and why, and the memory it takes");
-  verb->footer(examples({{"nephroid plan first-light", ""},
-                         {"nephroid plan first-light --set spectral.threshold_deg=0.5", "what a coarser threshold changes"}}));
+  verb->footer(examples(
+      {{"nephroid plan first-light", ""}, {"nephroid plan first-light --set leave_out=false", "what would run if nothing were left out"}}));
   verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset")->required();
   verb->add_option("--set", options->overrides, "Change a setting: scene.lights.0.power_w=2; may be repeated")
       ->type_name("KEY=VALUE")

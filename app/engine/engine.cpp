@@ -25,6 +25,8 @@ const Engine& engine_of(const preset::Preset& preset)
   throw std::logic_error("settings of an engine that is not in app/engines.cpp");
 }
 
+std::string_view name_of(const Engine& engine) { return engine.settings().name; }
+
 bool adoptable(const preset::Preset& before, const preset::Preset& now)
 {
   const Engine& engine = engine_of(before);

@@ -4,6 +4,7 @@
 #pragma once
 #include "check/check.h"
 #include "compute/compute.h"
+#include "engine/introduction.h"
 #include "job/job.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
@@ -11,11 +12,19 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace nephroid::engine {
+
+/// What became of a file that a preset took.
+struct Taken {
+  std::string edit; ///< the edit's name in the history: "cast face.png"
+  std::string note; ///< a sentence without a full stop
+};
 
 struct Engine {
   /// Their name is the word in a preset's "engine", and the folder in kernels/ that has the engine's own kernels. What their description
@@ -43,6 +52,15 @@ struct Engine {
 
   /// Whether a job of `before` may take on `now` (job::Job::adopt); both are of this engine. Null: never.
   bool (*adoptable)(const preset::Preset& before, const preset::Preset& now) = nullptr;
+
+  /// Whether the scene of its presets has things to select and to move; false: a camera alone.
+  bool has_scene = true;
+
+  /// Puts a picture's file, which is there and was dropped on the window, into the preset. Throws bad_input where that has no place for it.
+  /// Null: its presets take no picture.
+  Taken (*take_picture)(preset::Preset& preset, const std::filesystem::path& file) = nullptr;
+
+  Introduction introduction = {};
 };
 
 /// Every engine there is: app/engines.cpp, a line each. A default-constructed preset has the first one.
@@ -53,6 +71,9 @@ const std::vector<check::Check>& checks();
 
 /// Of a preset.
 const Engine& engine_of(const preset::Preset& preset);
+
+/// The word in a preset's "engine".
+std::string_view name_of(const Engine& engine);
 
 /// Whether a job of `before` may take on `now`, whatever engines they are of.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);

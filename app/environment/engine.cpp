@@ -2,6 +2,26 @@
 #include "environment/engine.h"
 
 namespace nephroid::environment {
+namespace {
+
+// Cauchy's formula with the two terms that fit N-BK7.
+constexpr const char* new_scene = R"({
+  "name": "untitled", "description": "A glass sphere on a floor under an evening sky", "engine": "environment", "unit": "cm", "white": 4,
+  "scene": {
+    "camera": {"position": [0.5, 5, 7], "target": [0.9, 0.3, -0.2], "fov_deg": 38, "resolution": [512, 512]},
+    "environment": {"type": "file", "file": "spectral/low-sun.hdr"},
+    "materials": {
+      "glass": {"type": "dielectric", "dispersion": {"type": "cauchy", "coefficients": [1.5046, 0.0042]}},
+      "floor": {"type": "diffuse", "reflectance": 0.8}
+    },
+    "objects": [
+      {"name": "sphere", "shape": {"type": "sphere", "radius": 1}, "material": "glass", "transform": {"translate": [0, 1.0001, 0]}},
+      {"name": "floor", "shape": {"type": "quad", "size": [40, 1, 40]}, "material": "floor"}
+    ]
+  }
+})";
+
+} // namespace
 
 constinit const engine::Engine engine{
     .settings = settings_type,
@@ -13,6 +33,13 @@ constinit const engine::Engine engine{
               const compute::Context& context) { return make_job(preset, dynamic_cast<const EnvironmentPlan&>(plan), context); },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
     .checks = closed_forms,
-    .adoptable = adoptable};
+    .adoptable = adoptable,
+    .introduction = {.example = {.preset = "environment/ball",
+                                 .title = "Caustics under a sky",
+                                 .sentence = "An object of glass is baked once. Then its caustics follow while the sky, the camera and the "
+                                             "floor are turned and moved.",
+                                 .run = "a glass ball under a picture of the sky"},
+                     .new_scene = {.preset = new_scene, .what = "A glass sphere under a sky"},
+                     .badge = {62, 104, 84}}};
 
 } // namespace nephroid::environment

@@ -94,6 +94,9 @@ public:
     if (!renderer_ || passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
     snapshot.picture = renderer_ ? renderer_->picture() : sheet_;
     snapshot.stands_in = render_ && !renderer_;
+    if (!renderer_)
+      snapshot.caption = render_ ? "The object is baked first: its caustic spheres, as far as they are"
+                                 : "There is no light: the object's caustic spheres, as far as they are baked";
     snapshot.pictures = spheres_;
     if (renderer_ && sheet_) snapshot.pictures.insert(snapshot.pictures.begin(), {"spheres", sheet_});
     snapshot.progress = progress();

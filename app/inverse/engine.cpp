@@ -2,14 +2,18 @@
 #include "inverse/engine.h"
 
 #include "base/counted.h"
+#include "base/error.h"
 #include "inverse/assign/assignment.h"
 #include "inverse/bending.h"
 #include "inverse/describe_settings.h"
+#include "inverse/glass_view.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
 
 namespace nephroid::inverse {
@@ -53,6 +57,33 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
            straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
           {"judge", true, "rays through the finished solid, walls and all"}};
 }
+
+/// A receiver with a drawing casts it now, or else the first one.
+engine::Taken take_picture(preset::Preset& preset, const std::filesystem::path& file)
+{
+  std::vector<Receiver>& receivers = settings(preset).receivers;
+  if (receivers.empty()) throw bad_input(file.string(), "the preset has no receiver to cast it on", "", "add one in Parameters");
+  auto receiver = std::ranges::find_if(receivers, [](const Receiver& r) { return r.picture.type != Picture::Type::file; });
+  if (receiver == receivers.end()) receiver = receivers.begin();
+  receiver->picture = {};
+  receiver->picture.type = Picture::Type::file;
+  receiver->picture.file = std::filesystem::absolute(file).string();
+  const std::string name = file.filename().string();
+  return {"cast " + name, fmt::format("{} is the picture at {:g} mm; Parameters has the others", name, receiver->distance_mm)};
+}
+
+constexpr const char* new_scene = R"({
+  "name": "untitled", "description": "One piece of acrylic that casts a ring and a cross", "engine": "inverse", "unit": "mm",
+  "scene": {"camera": {"resolution": [768, 384]}},
+  "inverse": {
+    "size_mm": [100, 100], "facets": [64, 64], "index": 1.5, "cells": [64, 64],
+    "receivers": [
+      {"distance_mm": 100, "picture": {"type": "ring", "radius": 0.3, "inner": 0.15}},
+      {"distance_mm": 200, "picture": {"type": "cross", "length": 0.7, "width": 0.15}}
+    ]
+  },
+  "stop": {"passes": 12}
+})";
 
 } // namespace
 
@@ -109,6 +140,18 @@ constinit const engine::Engine engine{
               const compute::Context&) { return make_job(preset, dynamic_cast<const InversePlan&>(plan)); },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
     .checks = closed_forms,
-    .adoptable = may_go_on};
+    .adoptable = may_go_on,
+    .has_scene = false,
+    .take_picture = take_picture,
+    .introduction =
+        {.example = {.preset = "inverse/shapes",
+                     .title = "Designed glass",
+                     .sentence =
+                         "Say which pictures a piece of glass shall cast, and how far away. It is found, judged by rays, and written as "
+                         "a closed mesh.",
+                     .run = "design glass that casts a ring, a cross and a disc"},
+         .new_scene = {.preset = new_scene, .what = "An object that casts two drawings"},
+         .result = {.file = glass_view_file, .action = "Show as glass", .what = "as lit glass over its receivers"},
+         .badge = {112, 84, 62}}};
 
 } // namespace nephroid::inverse

@@ -307,8 +307,8 @@ private:
     add("heights.exr", write_height_exr);
     add("heights.png", write_height_png);
     if (!layout_.lamp)
-      made.files.push_back({"view.json", [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
-                                             ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
+      made.files.push_back({glass_view_file, [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
+                                                 ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
     add("workshop.md", [material = material_of(settings(preset_), layout_.n)](const Layout& of, const Solid& solid, ByteSink& to) {
       const std::string page = workshop_page(of, solid, material);
       to.write(std::as_bytes(std::span(page)));

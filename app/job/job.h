@@ -54,7 +54,7 @@ struct NamedPicture {
 
 /// A figure of the run: run.json has it under group and name, and the report shows it.
 struct Scalar {
-  std::string group, name; ///< "energy", "emitted_w"; one of a list: "inverse/receivers/0", "cost"
+  std::string group, name; ///< "energy", "emitted_w"; one of a list: "lights/0", "hidden"
   double value = 0;
 };
 
@@ -74,6 +74,7 @@ struct ExtraFile {
 
 struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
+  std::string caption;                    ///< a sentence on what it shows, where that is not what the preset asks for; else empty
   bool whole = true;                      ///< false: parts of the picture are black since nothing was computed for them yet
   bool stands_in = false;                 ///< true: the picture shows the work before the first one of what was asked for, and is no result
   std::vector<NamedPicture> pictures;     ///< the others

@@ -17,6 +17,7 @@ struct PixelSpectrum {
   std::array<int, 2> pixel{}; ///< column and row from the top
   std::vector<Layer> layers;
   std::string why_not;            ///< why the run has none, with what to do; else empty
+  std::string remedy;             ///< the change of the preset with which a run has one, as for --set; empty: there is none
   std::vector<std::string> notes; ///< how it differs from the picture's pixel, a sentence each
 };
 

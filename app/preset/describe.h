@@ -269,7 +269,8 @@ void describe(V& v, S& e)
              .unit = "degrees",
              .bounds = within(-3600, 3600)},
             e.rotate_deg);
-  v.field({.name = "lights", .sentence = "Whether engine 1 lights the scene with it; if not, it is only seen."}, e.lights);
+  v.field({.name = "lights", .sentence = "Whether it lights the scene, where the engine leaves that open; if not, it is only seen."},
+          e.lights);
 }
 
 template <class V, Is<Scene> S>

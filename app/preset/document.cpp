@@ -115,8 +115,7 @@ void apply_override(Document& document, const std::string& text)
   Origin origin{"--set " + text, false, document.origins().main().folder, true};
   if (text.size() > 200) origin.place = "--set " + text.substr(0, 200) + "...";
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos)
-    throw bad_input(origin.place, "has no '='", "expected KEY=VALUE, for instance spectral.threshold_deg=0.1");
+  if (equals == std::string::npos) throw bad_input(origin.place, "has no '='", "expected KEY=VALUE, for instance scene.lights.0.power_w=2");
   const std::vector<std::string> path = split_path(std::string_view(text).substr(0, equals));
   if (path.empty())
     throw bad_input(origin.place, "has an empty key", "expected keys joined by dots, for instance scene.lights.0.power_w=2");

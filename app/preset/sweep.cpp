@@ -50,7 +50,7 @@ Axis make_axis(const std::string& key, Json values, const Document& document)
   const std::string pointer = child("/sweep", key);
   Axis axis{key, split_path(key), std::move(values), {}, document.origins().at(pointer), document.where(pointer)};
   if (axis.path.empty())
-    throw bad_input(axis.where, in_quotes(key) + " is no path", "expected keys joined by dots, for instance spectral.threshold_deg");
+    throw bad_input(axis.where, in_quotes(key) + " is no path", "expected keys joined by dots, for instance scene.lights.0.power_w");
   if (axis.path.front() == "sweep" || axis.path.front() == "parent") throw bad_input(axis.where, in_quotes(key) + " cannot be swept");
   if (!axis.values.is_array() || axis.values.empty())
     throw bad_input(axis.where, "is " + shown(axis.values), "expected a list of at least one value");

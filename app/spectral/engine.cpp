@@ -47,6 +47,24 @@ std::vector<check::Check> closed_forms()
   return checks;
 }
 
+// Cauchy's formula with the two terms that fit N-BK7: the scene needs no file.
+constexpr const char* new_scene = R"({
+  "name": "untitled", "description": "A glass sphere on a floor under a lamp", "engine": "spectral", "unit": "cm", "white": 6,
+  "scene": {
+    "camera": {"position": [2, 5, 8], "target": [0.6, 0.4, 0], "fov_deg": 36, "resolution": [512, 512]},
+    "materials": {
+      "glass": {"type": "dielectric", "dispersion": {"type": "cauchy", "coefficients": [1.5046, 0.0042]}},
+      "floor": {"type": "diffuse", "reflectance": 0.8}
+    },
+    "objects": [
+      {"name": "floor", "shape": {"type": "quad", "size": [24, 1, 24]}, "material": "floor"},
+      {"name": "sphere", "shape": {"type": "sphere", "radius": 1}, "material": "glass", "transform": {"translate": [0, 1.5, 0]}}
+    ],
+    "lights": [{"type": "point", "spectrum": "D65", "power_w": 10, "position": [-4, 6, -2]}]
+  },
+  "stop": {"passes": 64}
+})";
+
 } // namespace
 
 constinit const engine::Engine engine{
@@ -59,6 +77,15 @@ constinit const engine::Engine engine{
               const compute::Context& context) { return make_job(preset, scene, bvh, dynamic_cast<const RunPlan&>(plan), context); },
     .reference = reference,
     .checks = closed_forms,
-    .adoptable = only_relit};
+    .adoptable = only_relit,
+    .introduction =
+        {.example =
+             {.preset = "first-light",
+              .title = "Spectral caustics",
+              .sentence =
+                  "Glass parts light into its colours. All 401 wavelengths are rendered; those that refract alike share their paths.",
+              .run = "the same as files, in out/first-light"},
+         .new_scene = {.preset = new_scene, .what = "A glass sphere on a floor under a lamp"},
+         .badge = {70, 84, 120}}};
 
 } // namespace nephroid::spectral

@@ -147,6 +147,7 @@ public:
     spectrum->pixel = pixel;
     if (!world_.relighting) {
       spectrum->why_not = "the film adds up colours, and a spectrum is not kept; spectral.relight true keeps a layer for each cluster";
+      spectrum->remedy = "spectral.relight=true";
       return spectrum;
     }
     for (std::size_t s = 0; s < stages_.size(); ++s)

@@ -41,8 +41,10 @@ protected:
 TEST_F(EnvironmentViewJob, ShowsItsLayers)
 {
   const auto job = job_of(lit());
+  EXPECT_NE(job->snapshot().caption, "") << "its picture is of the bake";
   while (job->progress().work == 0) job->step(); // the bake
   const job::Snapshot coarse = job->snapshot(), made = run(*job);
+  EXPECT_EQ(coarse.caption, "");
   EXPECT_EQ(made.progress.step, 2);
   EXPECT_EQ(made.progress.steps, 2);
   EXPECT_EQ(made.progress.fraction, 1);

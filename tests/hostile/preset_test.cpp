@@ -250,7 +250,7 @@ TEST_F(BadPresets, AreRefusedInOneLine)
 TEST_F(BadPresets, OverridesAreRefusedInOneLine)
 {
   const std::vector<Case> cases = {
-      {"no equals sign", R"(seed)", R"(--set seed: has no '='; expected KEY=VALUE, for instance spectral.threshold_deg=0.1)"},
+      {"no equals sign", R"(seed)", R"(--set seed: has no '='; expected KEY=VALUE, for instance scene.lights.0.power_w=2)"},
       {"an empty key", R"(.seed=1)",
        R"(--set .seed=1: has an empty key; expected keys joined by dots, for instance scene.lights.0.power_w=2)"},
       {"a mistyped key", R"(spectral.treshold_deg=0.1)",

@@ -154,6 +154,7 @@ TEST(PixelSpectrum, WithoutLayersSaysWhatToSwitchOn)
   ASSERT_NE(spectrum, nullptr);
   EXPECT_TRUE(spectrum->layers.empty());
   EXPECT_THAT(spectrum->why_not, HasSubstr("spectral.relight"));
+  EXPECT_EQ(spectrum->remedy, "spectral.relight=true");
   EXPECT_EQ(spectrum_of(*job, {5, size}), nullptr) << "outside of the picture";
   EXPECT_EQ(spectrum_of(*job, {-1, 5}), nullptr);
 }

@@ -3,6 +3,7 @@
 #pragma once
 #include "action_desk.h"
 #include "base/bytes.h"
+#include "engine/engine.h"
 #include "preset/read.h"
 #include "tests/support/test.h"
 #include "ui/shell/panels.h"
@@ -171,11 +172,11 @@ inline void add_run_and_view(Effects& all)
       [](Desk& d) {
         d.apply(command::Cancel{});
         EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.workbench.run().status().state == job::State::cancelled; }));
-        d.runs.files = {{glass_view, [text = ball_text()](ByteSink& file) { file.write(std::as_bytes(std::span(text))); }}};
+        d.runs.files = {{"view.json", [text = ball_text()](ByteSink& file) { file.write(std::as_bytes(std::span(text))); }}};
         d.apply(command::Restart{});
         EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.workbench.run().snapshot_is_current(); }));
       },
-      [](Desk& d) { return is_there(d.folder.path() / "test-object" / glass_view); }};
+      [](Desk& d) { return is_there(d.folder.path() / "test-object/view.json"); }};
 
   all["Flip"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().flip; }};
   all["Difference"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().difference; }};
@@ -214,9 +215,9 @@ inline bool in_front(const char* title)
 /// What can be closed is closed; the picture comes to the front.
 inline Effect of_panel(const PanelEntry& entry)
 {
-  const NewScene scene = entry.name == "environment" ? NewScene::environment : NewScene::inverse;
-  const auto prepare = [entry, scene](Desk& d) {
-    if (!serves(entry, d.preset())) d.apply(command::New{scene});
+  const auto prepare = [entry](Desk& d) {
+    for (const engine::Engine* engine : engine::engines())
+      if (!serves(entry, d.preset())) d.apply(command::New{engine->introduction.new_scene.preset});
     d.apply(command::ShowPanel{can_close(entry) ? std::string(entry.name) : "plan", true});
     if (!ImGui::GetIO().WantTextInput) return; // the presets' search has the keyboard
     d.hold(ImGuiKey_Escape);

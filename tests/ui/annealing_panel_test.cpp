@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
 #include "inverse_runs.h"
-#include "ui/annealing/panel.h"
+#include "preset/settings_type.h"
+#include "ui/inverse/annealing/panel.h"
 
 namespace nephroid::ui::annealing_panel_test {
 

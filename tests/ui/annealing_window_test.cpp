@@ -5,7 +5,7 @@
 #include "inverse_runs.h"
 #include "places.h"
 #include "real_window.h"
-#include "ui/annealing/panel.h"
+#include "ui/inverse/annealing/panel.h"
 
 namespace nephroid::ui::annealing_window_test {
 

@@ -5,8 +5,8 @@
 #include "spectral/clusters/clusters.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/dispersion/edits.h"
-#include "ui/dispersion/model.h"
+#include "ui/spectral/dispersion/edits.h"
+#include "ui/spectral/dispersion/model.h"
 #include "ui/state/dielectrics.h"
 
 namespace nephroid::ui::dispersion_edits_test {

@@ -2,6 +2,10 @@
 // The panel "Dispersion" and files: they are loaded into the glass that is shown, become control points, and what is wrong with them is
 // a message.
 #include "dispersion_fixture.h"
+#include "optics/dispersion.h"
+#include "preset/read.h"
+#include "spectral/clusters/clusters.h"
+#include "ui/spectral/dispersion/panel.h"
 
 namespace nephroid::ui::dispersion_files_test {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Dear ImGui context without a window or a renderer: frames are drawn, the mouse and the keys are injected.
 #pragma once
-#include "ui/dispersion/panel.h"
 #include "ui/error/panel.h"
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
 #include "ui/shell/workspace.h"
-#include "ui/spectra/panel.h"
+#include "ui/spectral/dispersion/panel.h"
+#include "ui/spectral/spectra/panel.h"
 #include "ui/state/workbench.h"
 #include "ui/view/panel.h"
 #include "ui/widgets/theme.h"

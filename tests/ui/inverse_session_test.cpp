@@ -3,7 +3,8 @@
 // comes to its end, and the object is saved as meshes and shown as glass. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
 #include "inverse_runs.h"
 #include "recorded_session.h"
-#include "ui/annealing/panel.h"
+#include "scene/mesh.h"
+#include "ui/inverse/annealing/panel.h"
 
 namespace nephroid::ui::inverse_session_test {
 

@@ -45,6 +45,7 @@ public:
     made->pixel = pixel;
     if (!relights_) {
       made->why_not = "spectral.relight is false";
+      made->remedy = "spectral.relight=true";
       return made;
     }
     made->layers = {{"direct", std::vector<double>(optics::wavelength_count, pixel[0])},

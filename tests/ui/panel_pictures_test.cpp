@@ -6,6 +6,8 @@
 #include "places.h"
 #include "real_window.h"
 #include "spectra_scene.h"
+#include "ui/spectral/dispersion/panel.h"
+#include "ui/spectral/spectra/panel.h"
 
 namespace nephroid::ui::panel_pictures_test {
 

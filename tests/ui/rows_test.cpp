@@ -3,8 +3,8 @@
 #include "optics/dispersion.h"
 #include "preset/field.h"
 #include "tests/support/test.h"
-#include "ui/dispersion/edits.h"
-#include "ui/spectra/light_edits.h"
+#include "ui/spectral/dispersion/edits.h"
+#include "ui/spectral/spectra/light_edits.h"
 #include "ui/widgets/rows.h"
 
 namespace nephroid::ui::rows_test {

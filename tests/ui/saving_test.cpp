@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What leaves the window and what comes in from nothing: the command line on the clipboard, saving with the parent kept, new scenes, a glTF
 // file that is dropped.
+#include "base/files.h"
+#include "engine/engine.h"
 #include "preset/differences.h"
+#include "preset/read.h"
+#include "ui/state/files.h"
 #include "window_fixture.h"
 
 #include <nlohmann/json.hpp>
@@ -49,7 +53,7 @@ TEST_F(SavingTest, TheCommandLineIsOnTheClipboard)
 
 TEST_F(SavingTest, WithoutAFileTheCommandLineSaysToSaveFirst)
 {
-  workbench.apply({command::New{NewScene::spectral}});
+  workbench.apply({command::New{engine::engines().front()->introduction.new_scene.preset}});
   frames(3);
   ImGui::SetClipboardText("before");
   press_with_shift(ImGuiKey_C);
@@ -149,10 +153,9 @@ TEST_F(SavingTest, NewScenesAreInNoFileAndAskBeforeChangesGo)
   workbench.apply({*workbench.waiting()});
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_NE(workbench.preset()->white, 2);
-  for (const auto& [kind, engine] :
-       {std::pair{NewScene::spectral, "spectral"}, {NewScene::environment, "environment"}, {NewScene::inverse, "inverse"}}) {
-    workbench.apply({command::New{kind, true}});
-    EXPECT_EQ(workbench.preset()->settings.type().name, engine);
+  for (const engine::Engine* engine : engine::engines()) {
+    workbench.apply({command::New{engine->introduction.new_scene.preset, true}});
+    EXPECT_EQ(workbench.preset()->settings.type().name, name_of(*engine));
     workbench.apply({command::SavePreset{folder.path() / "new.json"}});
     EXPECT_TRUE(preset::read_preset((folder.path() / "new.json").string()) == *workbench.preset());
   }

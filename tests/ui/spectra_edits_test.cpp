@@ -5,7 +5,7 @@
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/clusters/scene_clusters.h"
-#include "ui/spectra/light_edits.h"
+#include "ui/spectral/spectra/light_edits.h"
 
 namespace nephroid::ui::spectra_edits_test {
 

@@ -4,6 +4,8 @@
 #include "scene/materials.h"
 #include "spectra_scene.h"
 #include "spectral/tables/run_tables.h"
+#include "ui/spectral/spectra/light_edits.h"
+#include "ui/spectral/spectra/panel.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::spectra_panel_test {

@@ -3,7 +3,7 @@
 #pragma once
 #include "fake_job.h"
 #include "run/run.h"
-#include "ui/spectra/curves.h"
+#include "ui/spectral/spectra/curves.h"
 
 #include <string>
 

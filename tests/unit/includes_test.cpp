@@ -88,14 +88,42 @@ std::string break_of(const std::string& folder, const std::string& included, con
   return "";
 }
 
-/// The same between the folders of ui/: what panels share knows no panel, and panels not each other.
+/// The same between the folders of ui/: what panels share knows no panel, and panels not each other. An engine's list of panels
+/// ("spectral") knows those below ("spectral/dispersion").
 std::string break_in_ui(const std::string& folder, const std::string& included)
 {
   if (!included.starts_with("ui/")) return "";
-  const std::string into = included.substr(3, included.find('/', 3) - 3);
-  if (into == folder || folder == "shell" || folder == "actions" || into == "state") return "";
+  const std::string into = fs::path(included).parent_path().string().substr(3);
+  if (into == folder || into.starts_with(folder + "/") || folder == "shell" || folder == "actions" || into == "state") return "";
   if (into == "widgets" && folder != "state") return "";
   return "ui/" + folder + " may not include ui/" + into;
+}
+
+/// The engines by their folders: app/engines.cpp includes them.
+Folders engine_folders()
+{
+  std::ifstream list(fs::path(NEPHROID_SOURCE_DIR) / "app/engines.cpp");
+  const std::regex include(R"re(#include "([a-z]+)/engine.h")re");
+  Folders engines;
+  std::smatch match;
+  for (std::string line; std::getline(list, line);)
+    if (std::regex_match(line, match, include)) engines.insert(match.str(1));
+  return engines;
+}
+
+/// The engine in whose folder a file is (app/spectral, app/cli/spectral, ui/spectral/spectra, kernels/spectral); empty: in none.
+std::string engine_of(const fs::path& file, const Folders& engines)
+{
+  for (const fs::path& part : file.parent_path())
+    if (engines.contains(part.string())) return part.string();
+  return "";
+}
+
+/// Nobody includes what is an engine's own but the engine itself.
+std::string break_of_engines(const fs::path& file, const std::string& included, const Folders& engines)
+{
+  const std::string of = engine_of(included, engines);
+  return of.empty() || of == engine_of(file, engines) ? "" : "this is of the engine " + of + " alone";
 }
 
 /// The folder of the table that a file belongs to; empty for app/main.cpp, which may include all.
@@ -106,7 +134,7 @@ std::string folder_of(const fs::path& relative)
   return std::next(part) == relative.end() ? "" : part->string();
 }
 
-std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& relative, const FolderTable& table)
+std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& relative, const FolderTable& table, const Folders& engines)
 {
   const std::regex include(R"re(\s*#\s*include\s*["<]([^">]+)[">].*)re");
   const std::string folder = folder_of(relative);
@@ -120,7 +148,8 @@ std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& re
     std::smatch match;
     if (!std::regex_match(line, match, include)) continue;
     std::string wrong = break_of(folder, match.str(1), table);
-    if (folder == "ui" && wrong.empty()) wrong = break_in_ui(std::next(relative.begin())->string(), match.str(1));
+    if (folder == "ui" && wrong.empty()) wrong = break_in_ui(relative.parent_path().string().substr(3), match.str(1));
+    if (wrong.empty()) wrong = break_of_engines(relative, match.str(1), engines);
     if (!wrong.empty()) breaks.push_back(relative.string() + ":" + std::to_string(number) + ": " + match.str(1) + ": " + wrong);
   }
   return breaks;
@@ -136,6 +165,8 @@ TEST(Includes, point_one_way)
 {
   const fs::path root = NEPHROID_SOURCE_DIR;
   const FolderTable table = project_table();
+  const Folders engines = engine_folders();
+  ASSERT_FALSE(engines.empty());
   ASSERT_THAT(table.at("base"), testing::ElementsAre("base")) << "ARCHITECTURE.md's table could not be read";
   const std::set<std::string> endings{".cpp", ".h", ".cl"};
   std::vector<std::string> breaks;
@@ -144,12 +175,25 @@ TEST(Includes, point_one_way)
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top)) {
       if (!endings.contains(entry.path().extension().string())) continue;
       ++files;
-      const auto of_file = breaks_of_file(entry.path(), fs::relative(entry.path(), root), table);
+      const auto of_file = breaks_of_file(entry.path(), fs::relative(entry.path(), root), table, engines);
       breaks.insert(breaks.end(), of_file.begin(), of_file.end());
     }
   }
   EXPECT_GT(files, 20);
   EXPECT_THAT(breaks, testing::IsEmpty());
+}
+
+// An engine is known by its line in app/engines.cpp, and by the declaration and the call of its panels.
+TEST(Includes, engines_are_named_where_they_are_listed)
+{
+  const std::string script = (fs::path(NEPHROID_SOURCE_DIR) / "tests/unit/engine_names.sh").string();
+  std::FILE* lines = popen(("'" + script + "'").c_str(), "r");
+  ASSERT_TRUE(lines);
+  std::string places;
+  for (int c = std::fgetc(lines); c != EOF; c = std::fgetc(lines)) places += static_cast<char>(c);
+  EXPECT_EQ(pclose(lines), 0);
+  EXPECT_LE(std::count(places.begin(), places.end(), '\n'), 15) << places;
+  EXPECT_THAT(places, testing::HasSubstr("app/engines.cpp")) << "the script sees nothing";
 }
 
 TEST(Includes, every_row_of_the_table_is_a_folder)
@@ -279,7 +323,15 @@ TEST(Includes, breaks_are_seen)
   EXPECT_EQ(break_in_ui("state", "ui/view/panel.h"), "ui/state may not include ui/view");
   EXPECT_EQ(break_in_ui("state", "ui/widgets/theme.h"), "ui/state may not include ui/widgets");
   EXPECT_EQ(break_in_ui("widgets", "ui/shell/menus.h"), "ui/widgets may not include ui/shell");
-  EXPECT_EQ(break_in_ui("dispersion", "ui/spectra/curves.h"), "ui/dispersion may not include ui/spectra");
+  EXPECT_EQ(break_in_ui("spectral/dispersion", "ui/spectral/spectra/curves.h"),
+            "ui/spectral/dispersion may not include ui/spectral/spectra");
+  EXPECT_EQ(break_in_ui("spectral", "ui/spectral/spectra/panel.h"), "");
+  EXPECT_EQ(break_in_ui("view", "ui/spectral/spectra/panel.h"), "ui/view may not include ui/spectral/spectra");
+  const Folders engines{"spectral", "inverse"};
+  EXPECT_EQ(break_of_engines("app/cli/spectral/clusters.cpp", "spectral/clusters/clusters.h", engines), "");
+  EXPECT_EQ(break_of_engines("ui/spectral/spectra/panel.cpp", "scene/scene.h", engines), "");
+  EXPECT_NE(break_of_engines("ui/state/workbench.cpp", "inverse/settings.h", engines), "");
+  EXPECT_NE(break_of_engines("ui/spectral/spectra/panel.cpp", "inverse/settings.h", engines), "");
   EXPECT_THROW(allowed_folders("base, optcis", {"base", "optics"}), std::runtime_error);
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The menu "File".
+#include "engine/engine.h"
 #include "ui/actions/table.h"
 #include "ui/state/files.h"
+
+#include <fmt/format.h>
 
 namespace nephroid::ui {
 namespace {
@@ -15,10 +18,20 @@ void save(const Context& c)
 }
 
 bool has_file(const Context& c) { return c.preset() && !c.preset()->source.empty(); }
-template <NewScene kind>
-void begin(const Context& c)
+
+/// One an engine. The first engine's is "New scene" itself.
+std::vector<Action> new_scene_actions(const char* menu)
 {
-  c.push(command::New{kind});
+  std::vector<Action> actions;
+  for (const engine::Engine* engine : engine::engines()) {
+    const engine::NewScene& scene = engine->introduction.new_scene;
+    if (!scene.preset) continue;
+    const bool first = actions.empty();
+    actions.push_back({menu, first ? "New scene" : fmt::format("New scene: {}", name_of(*engine)), first ? ctrl | ImGuiKey_N : 0, false,
+                       fmt::format("{}, for the engine {}", scene.what, name_of(*engine)), always,
+                       [preset = scene.preset](const Context& c) { c.push(command::New{preset}); }});
+  }
+  return actions;
 }
 
 } // namespace
@@ -26,12 +39,8 @@ void begin(const Context& c)
 std::vector<Action> file_actions()
 {
   const char* menu = "File";
-  return {
-      {menu, "New scene", ctrl | ImGuiKey_N, false, "A glass sphere on a floor under a lamp, to begin with", always,
-       begin<NewScene::spectral>},
-      {menu, "New scene: environment", 0, false, "A glass sphere under a sky, for the engine environment", always,
-       begin<NewScene::environment>},
-      {menu, "New scene: inverse", 0, false, "An object that casts two drawings, for the engine inverse", always, begin<NewScene::inverse>},
+  std::vector<Action> actions = new_scene_actions(menu);
+  const std::vector<Action> others{
       {menu, "Open...", ctrl | ImGuiKey_O, false, "A preset file, or one of the shipped presets", always, ask<Question::open>},
       {menu, "Open history...", ctrl | shift | ImGuiKey_O, false, "Pin an earlier run by its folder or its history.csv", always,
        ask<Question::open_history>},
@@ -47,6 +56,8 @@ std::vector<Action> file_actions()
        ask<Question::save_picture>},
       {menu, "Quit", ctrl | ImGuiKey_Q, false, "Close the window", always, push<command::Quit>},
   };
+  actions.insert(actions.end(), others.begin(), others.end());
+  return actions;
 }
 
 } // namespace nephroid::ui

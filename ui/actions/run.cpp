@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The menu "Run".
+#include "engine/engine.h"
 #include "ui/actions/table.h"
-#include "ui/state/files.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -25,11 +27,23 @@ std::string why_no_sweep(const Context& c)
 
 bool has_runs(const Context& c) { return has_picture(c) || !c.comparing.pinned().all().empty(); }
 
-/// Of a finished inverse run.
-bool has_object(const Context& c)
+/// An action for each engine whose finished runs have a view of what they found.
+void add_result_actions(const char* menu, std::vector<Action>& actions)
 {
-  return has_picture(c) && c.run.snapshot_is_current() &&
-         std::ranges::count(c.run.snapshot()->files, glass_view, &job::ExtraFile::name) > 0;
+  for (const engine::Engine* engine : engine::engines()) {
+    const engine::ResultView& result = engine->introduction.result;
+    if (!result.file) continue;
+    actions.push_back({menu, result.action, 0, false,
+                       fmt::format("Save what a finished run of the engine {} found in a new folder beside the preset, else in the current "
+                                   "one, and open it {}",
+                                   name_of(*engine), result.what),
+                       [file = result.file](const Context& c) {
+                         return has_picture(c) && c.run.snapshot_is_current() &&
+                                std::ranges::count(c.run.snapshot()->files, file, &job::ExtraFile::name) > 0;
+                       },
+                       [file = result.file](const Context& c) { c.push(command::OpenResult{file}); },
+                       [engine](const Context&) { return fmt::format("there is no finished run of the engine {}", name_of(*engine)); }});
+  }
 }
 
 void pause(const Context& c) { c.push(command::Pause{c.run.status().state != job::State::paused}); }
@@ -39,7 +53,7 @@ void pause(const Context& c) { c.push(command::Pause{c.run.status().state != job
 std::vector<Action> run_actions()
 {
   const char* menu = "Run";
-  return {
+  std::vector<Action> actions{
       {menu, "Start again", ImGuiKey_F5, false, "Start the run from its beginning", can_restart, push<command::Restart>, why_no_restart},
       {menu, "Pause", ImGuiKey_Space, false, "Hold the run, or let it go on", works, pause},
       {menu, "Cancel", ImGuiKey_Escape, false, "End the run; its picture stays", works, push<command::Cancel>},
@@ -51,12 +65,9 @@ std::vector<Action> run_actions()
        [](const Context&) { return std::string("no sweep is running"); }},
       {menu, "Write a report...", 0, false, "One page over the pinned runs and this one, as nephroid report makes it", has_runs,
        ask<Question::save_report>, [](const Context&) { return std::string("there is no run yet"); }},
-      {menu, "Show as glass", 0, false,
-       "Save the object of a finished inverse run in a new folder beside the preset, else in the current one, and open it as lit glass "
-       "over its receivers",
-       has_object, push<command::ShowAsGlass>,
-       [](const Context&) { return std::string("there is no finished run of the engine inverse"); }},
   };
+  add_result_actions(menu, actions);
+  return actions;
 }
 
 } // namespace nephroid::ui

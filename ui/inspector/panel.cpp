@@ -3,8 +3,6 @@
 
 #include "optics/wavelength.h"
 #include "preset/read.h"
-#include "preset/settings_type.h"
-#include "spectral/settings.h"
 #include "ui/inspector/pixel.h"
 #include "ui/inspector/tables.h"
 #include "ui/widgets/action.h"
@@ -15,9 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <optional>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -36,19 +31,6 @@ HeldPicture enlarged(const Context& context)
 {
   const HeldPicture other = context.comparing.comparison().flip ? context.comparing.other_picture() : HeldPicture{};
   return other.owner ? other : context.comparing.picture();
-}
-
-/// The preset with spectral.relight; nothing, and why, where that contradicts another field.
-std::pair<std::optional<preset::Preset>, std::string> keeping_spectra(const preset::Preset& preset)
-{
-  preset::Preset changed = preset;
-  spectral::settings(changed).relight = true;
-  try {
-    preset::check(changed, [&](const std::string& pointer) { return Place(preset.source, pointer); });
-  } catch (const std::exception& error) {
-    return {std::nullopt, error.what()};
-  }
-  return {std::move(changed), {}};
 }
 
 } // namespace
@@ -127,7 +109,7 @@ void InspectorPanel::draw_spectrum(const Context& context)
 {
   const auto& spectrum = context.run.spectrum();
   if (!spectrum || spectrum->pixel != *context.chosen.pixel) return;
-  if (!spectrum->why_not.empty()) return offer_spectra(context, spectrum->why_not);
+  if (!spectrum->why_not.empty()) return offer_spectra(context, *spectrum);
   static const std::vector<double> nm = wavelengths();
   const std::vector<double> total = total_radiance(*spectrum);
   const double most = *std::max_element(total.begin(), total.end());
@@ -152,20 +134,16 @@ void InspectorPanel::draw_spectrum(const Context& context)
   for (const std::string& note : spectrum->notes) draw_wrapped(colour::quiet_text, note);
 }
 
-void InspectorPanel::offer_spectra(const Context& context, const std::string& why_not)
+/// What the remedy contradicts is said once it is tried.
+void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpectrum& none)
 {
-  draw_wrapped(colour::quiet_text, "No spectrum: " + why_not + ".");
-  if (!context.preset() || context.preset()->settings.type().name != spectral::settings_type().name ||
-      spectral::settings(*context.preset()).relight)
-    return;
-  auto [changed, reason] = keeping_spectra(*context.preset());
-  const bool can = changed.has_value();
-  ImGui::BeginDisabled(!can);
-  if (ImGui::Button("Keep spectra") && can) context.push(command::Edit{"keep spectra", *std::move(changed)});
+  draw_wrapped(colour::quiet_text, "No spectrum: " + none.why_not + ".");
+  if (none.remedy.empty() || !context.preset()) return;
+  if (ImGui::Button("Keep spectra"))
+    context.push(
+        command::Edit{"keep spectra", preset::parse_preset(preset::to_json(*context.preset()), context.preset()->source, {none.remedy})});
   places_.note("keep spectra");
-  ImGui::EndDisabled();
-  ImGui::SetItemTooltip("Sets spectral.relight, which starts the run again; one edit to undo");
-  if (!can) draw_wrapped(colour::note, reason);
+  ImGui::SetItemTooltip("Sets %s, which starts the run again; one edit to undo", none.remedy.c_str());
 }
 
 void InspectorPanel::draw_region(const Context& context)

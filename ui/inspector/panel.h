@@ -29,7 +29,7 @@ private:
   void draw_pixel(const Context& context);
   void draw_neighbours(const Context& context);
   void draw_spectrum(const Context& context);
-  void offer_spectra(const Context& context, const std::string& why_not);
+  void offer_spectra(const Context& context, const job::PixelSpectrum& none);
   void draw_region(const Context& context);
 
   /// Of the neighbours that are drawn: kept while nothing changes, since an automatic range takes the whole picture.

@@ -2,7 +2,7 @@
 #include "ui/presets/panel.h"
 
 #include "base/counted.h"
-#include "preset/settings_type.h"
+#include "engine/engine.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -14,13 +14,14 @@
 namespace nephroid::ui {
 namespace {
 
-/// Of an engine's placeholder: dark enough for white letters.
-ImU32 colour_of(std::string_view engine)
+/// Of what stands in for a picture.
+ImU32 badge_of(std::string_view name)
 {
-  if (engine == "spectral") return IM_COL32(70, 84, 120, 255);
-  if (engine == "environment") return IM_COL32(62, 104, 84, 255);
-  if (engine == "inverse") return IM_COL32(112, 84, 62, 255);
-  return IM_COL32(80, 80, 80, 255);
+  engine::Introduction introduction;
+  for (const engine::Engine* engine : engine::engines())
+    if (name_of(*engine) == name) introduction = engine->introduction;
+  const auto [red, green, blue] = introduction.badge;
+  return IM_COL32(red, green, blue, 255);
 }
 
 /// The picture in the middle of the area, as large as fits; without one the engine's name.
@@ -37,7 +38,7 @@ void draw_picture(const PictureTexture* picture, const CatalogueEntry& entry, co
     list->AddImage(ref, low, {low.x + scale * wide, low.y + scale * high});
     return;
   }
-  list->AddRectFilled(corner, end, colour_of(entry.engine), 4);
+  list->AddRectFilled(corner, end, badge_of(entry.engine), 4);
   const std::string text = entry.problem.empty() ? entry.engine : "not readable";
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
   list->PushClipRect(corner, end, true);
@@ -101,9 +102,10 @@ void PresetsPanel::draw_top()
   if (choosing) {
     if (ImGui::Selectable("All engines", filter_.engine.empty())) filter_.engine.clear();
     places_.note("engine:");
-    for (const preset::SettingsType* type : preset::settings_types()) {
-      if (ImGui::Selectable(std::string(type->name).c_str(), filter_.engine == type->name)) filter_.engine = type->name;
-      places_.note("engine:" + std::string(type->name));
+    for (const engine::Engine* engine : engine::engines()) {
+      const std::string name(name_of(*engine));
+      if (ImGui::Selectable(name.c_str(), filter_.engine == name)) filter_.engine = name;
+      places_.note("engine:" + name);
     }
     ImGui::EndCombo();
   }

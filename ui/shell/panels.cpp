@@ -2,56 +2,49 @@
 #include "ui/shell/panels.h"
 
 #include "preset/settings_type.h"
-#include "ui/annealing/panel.h"
-#include "ui/dispersion/panel.h"
-#include "ui/environment/panel.h"
 #include "ui/error/panel.h"
 #include "ui/inspector/panel.h"
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
 #include "ui/presets/panel.h"
 #include "ui/runs/panel.h"
-#include "ui/spectra/panel.h"
 #include "ui/view/panel.h"
 #include "ui/view/picking.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <type_traits>
+#include <vector>
 
 namespace nephroid::ui {
 namespace {
 
-template <class P>
-std::unique_ptr<Panel> make([[maybe_unused]] WavelengthAxis& wavelengths)
+/// Those of an engine stand together, in the middle.
+std::vector<PanelEntry> make_table()
 {
-  if constexpr (std::is_constructible_v<P, WavelengthAxis&>)
-    return std::make_unique<P>(wavelengths);
-  else
-    return std::make_unique<P>();
+  std::vector<PanelEntry> table{{"view", ViewPanel::title, "", make_panel<ViewPanel>, SeenScene::look},
+                                {"error", ErrorPanel::title, "", make_panel<ErrorPanel>},
+                                {"parameters", ParametersPanel::title, "", make_panel<ParametersPanel>},
+                                {"runs", RunsPanel::title, "", make_panel<RunsPanel>}};
+  for (const auto panels_of_engine : {
+           spectral_panels,
+           inverse_panels,
+           environment_panels,
+       })
+    for (const PanelEntry& entry : panels_of_engine()) table.push_back(entry);
+  table.insert(table.end(), {{"inspector", InspectorPanel::title, "", make_panel<InspectorPanel>},
+                             {"plan", PlanPanel::title, "", make_panel<PlanPanel>},
+                             {"presets", PresetsPanel::title, "", make_panel<PresetsPanel>}});
+  return table;
 }
-
-const PanelEntry table[] = {
-    {"view", ViewPanel::title, "", make<ViewPanel>, SeenScene::look},
-    {"error", ErrorPanel::title, "", make<ErrorPanel>},
-    {"parameters", ParametersPanel::title, "", make<ParametersPanel>},
-    {"runs", RunsPanel::title, "", make<RunsPanel>},
-    {"dispersion", DispersionPanel::title, "spectral", make<DispersionPanel>},
-    {"spectra", SpectraPanel::title, "spectral", make<SpectraPanel>,
-     [](const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded) {
-       return SeenByGlass::look(preset, loaded->scene, *loaded->bvh);
-     }},
-    {"annealing", AnnealingPanel::title, "inverse", make<AnnealingPanel>, nullptr, nullptr, "inverse"},
-    {"environment", EnvironmentPanel::title, "", make<EnvironmentPanel>, nullptr, EnvironmentPanel::serves, "environment"},
-    {"inspector", InspectorPanel::title, "", make<InspectorPanel>},
-    {"plan", PlanPanel::title, "", make<PlanPanel>},
-    {"presets", PresetsPanel::title, "", make<PresetsPanel>},
-};
 
 } // namespace
 
-std::span<const PanelEntry> panel_table() { return table; }
+std::span<const PanelEntry> panel_table()
+{
+  static const std::vector<PanelEntry> table = make_table();
+  return table;
+}
 
 bool can_close(const PanelEntry& entry) { return entry.name != panel_table().front().name; }
 
@@ -76,7 +69,7 @@ bool serves(const PanelEntry& entry, const preset::Preset& preset)
 std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
 {
   std::vector<std::any> seen;
-  for (const PanelEntry& entry : table)
+  for (const PanelEntry& entry : panel_table())
     if (entry.look_around && serves(entry, preset)) seen.push_back(entry.look_around(preset, loaded));
   return seen;
 }

@@ -3,6 +3,7 @@
 
 #include "base/counted.h"
 #include "base/files.h"
+#include "engine/engine.h"
 #include "ui/state/recent_files.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
@@ -13,30 +14,25 @@
 
 #include <chrono>
 #include <utility>
+#include <vector>
 
 namespace nephroid::ui {
 namespace {
 
-struct Card {
-  const char* title;
-  const char* preset; ///< shipped; its picture is the card's
-  const char* what;
-};
-
-constexpr Card cards[] = {
-    {"Spectral caustics", "first-light",
-     "Glass parts light into its colours. All 401 wavelengths are rendered; those that refract alike share their paths."},
-    {"Caustics under a sky", "environment/ball",
-     "An object of glass is baked once. Then its caustics follow while the sky, the camera and the floor are turned and moved."},
-    {"Designed glass", "inverse/shapes",
-     "Say which pictures a piece of glass shall cast, and how far away. It is found, judged by rays, and written as a closed mesh."},
-};
+/// A card each; the preset's picture is the card's.
+std::vector<engine::ShippedExample> examples()
+{
+  std::vector<engine::ShippedExample> examples;
+  for (const engine::Engine* engine : engine::engines())
+    if (engine->introduction.example.preset) examples.push_back(engine->introduction.example);
+  return examples;
+}
 
 constexpr float picture_aspect = static_cast<float>(thumbnail_height) / static_cast<float>(thumbnail_width);
 
-std::filesystem::path file_of(const Card& card) { return presets_folder() / (std::string(card.preset) + ".json"); }
+std::filesystem::path file_of(const engine::ShippedExample& example) { return presets_folder() / (std::string(example.preset) + ".json"); }
 
-void draw_card(const Card& card, const PictureTexture* picture, float width, const Context& context, WidgetPlaces& places)
+void draw_card(const engine::ShippedExample& card, const PictureTexture* picture, float width, const Context& context, WidgetPlaces& places)
 {
   const float em = ImGui::GetFontSize(), high = 7 * em;
   ImGui::PushID(card.preset);
@@ -50,7 +46,7 @@ void draw_card(const Card& card, const PictureTexture* picture, float width, con
     ImGui::SetCursorScreenPos({corner.x + size.x + em, corner.y});
     ImGui::BeginGroup();
     ImGui::TextUnformatted(card.title);
-    draw_wrapped(colour::quiet_text, card.what);
+    draw_wrapped(colour::quiet_text, card.sentence);
     if (ImGui::Button("Open an example")) context.push(command::Open{file_of(card).string()});
     places.note(card.preset);
     ImGui::SetItemTooltip("%s", card.preset);
@@ -89,11 +85,13 @@ void StartPage::draw(const Context& context, Panel& presets, bool to_presets)
 
 void StartPage::draw_engines(const Context& context)
 {
+  static const std::vector<engine::ShippedExample> cards = examples();
   if (pictures_.empty())
-    for (const Card& card : cards) pictures_.push_back(thumbnail_of(file_of(card), {}));
+    for (const engine::ShippedExample& card : cards) pictures_.push_back(thumbnail_of(file_of(card), {}));
   thumbnails_.update();
-  const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
-  for (std::size_t i = 0; i < std::size(cards); ++i) {
+  const auto count = static_cast<float>(cards.size());
+  const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - (count - 1) * gap) / count;
+  for (std::size_t i = 0; i < cards.size(); ++i) {
     if (i > 0) ImGui::SameLine();
     draw_card(cards[i], thumbnails_.of(pictures_[i]), width, context, places_);
   }

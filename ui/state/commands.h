@@ -5,7 +5,6 @@
 #include "measure/difference.h"
 #include "preset/preset.h"
 #include "preset/sweep.h"
-#include "ui/state/new_scenes.h"
 #include "ui/state/selection.h"
 #include "ui/state/settings.h"
 
@@ -65,14 +64,14 @@ namespace command {
 
 /// A preset file, or the name of a shipped preset: asks first where there are unsaved changes, unless sure. A run's folder or a table
 /// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does. A map (.exr, .hdr) becomes the environment, a
-/// picture what the engine inverse casts, a mesh an object, glTF a preset of its own.
+/// picture what the engine makes of it, a mesh an object, glTF a preset of its own.
 struct Open {
   std::string name;
   bool sure = false;
 };
 /// A scene to begin with, in no file; asks first as Open does.
 struct New {
-  NewScene kind = NewScene::spectral;
+  std::string preset; ///< as JSON
   bool sure = false;
 };
 /// The preset as it shall be. Edits of one gesture (same number, not 0) make one entry to undo. live: the gesture still lasts,
@@ -190,9 +189,11 @@ struct SavePreset {
 struct SavePicture {
   std::filesystem::path file;
 };
-/// Writes the files that an inverse run made (job::Snapshot::files) into a new folder, in the background, and then opens the preset among
-/// them that shows the object as glass.
-struct ShowAsGlass {};
+/// Writes the files that a run made (job::Snapshot::files) into a new folder, in the background, and then opens the preset among them that
+/// shows what was found (engine::ResultView).
+struct OpenResult {
+  std::string file; ///< its name
+};
 /// The report over the pinned runs and the present one (run_report.h), in the background.
 struct WriteReport {
   std::filesystem::path file;
@@ -242,7 +243,7 @@ using Command =
                  command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric,
                  command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles, command::Nudged,
                  command::AddBookmark, command::GoToBookmark, command::RenameBookmark, command::DeleteBookmark, command::Ask,
-                 command::SavePreset, command::SavePicture, command::ShowAsGlass, command::WriteReport, command::Dismiss,
+                 command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport, command::Dismiss,
                  command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout,
                  command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/lower_case.h"
+#include "engine/engine.h"
 #include "image/image.h"
 #include "preset/differences.h"
 #include "run/import/import.h"
@@ -29,7 +30,7 @@ struct KnownKind {
   FileKind kind;
   std::string_view endings; ///< lower case, each followed by a space
   const char* what;
-  const char* remedy; ///< {} stands for the file's name
+  const char* remedy; ///< {} stands for the file's name, {1} for the engines that take pictures
 };
 
 constexpr std::array kinds{
@@ -43,10 +44,19 @@ constexpr std::array kinds{
               "drop it on the window once a preset is open, whose environment it becomes; a run's pictures lie beside its preset.json"},
     KnownKind{
         FileKind::picture, ".pfm .png .jpg .jpeg .tif .tiff ", "is a picture",
-        "drop it on the window once a preset of the engine inverse is open, whose object then casts it; a run's pictures lie beside its "
-        "preset.json: open that; an environment is a .hdr or .exr"},
+        "drop it on the window once a preset of the engine {1} is open, which takes it; a run's pictures lie beside its preset.json: open "
+        "that; an environment is a .hdr or .exr"},
     KnownKind{FileKind::kernel, ".cl ", "is a kernel source", "start with --kernels and its folder"},
 };
+
+/// "inverse": the engines that take pictures.
+std::string engines_for_pictures()
+{
+  std::string names;
+  for (const engine::Engine* engine : engine::engines())
+    if (engine->take_picture) names += (names.empty() ? "" : " or ") + std::string(name_of(*engine));
+  return names;
+}
 
 /// Writes the PNG; returns what else is worth saying of it.
 std::string write_shown(const std::filesystem::path& file, const PictureToSave& shown)
@@ -113,7 +123,7 @@ void refuse_other_kinds(const std::string& name)
   constexpr const char* expected = "the window opens presets";
   const std::string ending = lower_case(std::filesystem::path(name).extension().string());
   if (const KnownKind* kind = known_kind(ending))
-    throw bad_input(name, kind->what, expected, fmt::format(fmt::runtime(kind->remedy), name));
+    throw bad_input(name, kind->what, expected, fmt::format(fmt::runtime(kind->remedy), name, engines_for_pictures()));
   if (ending != ".json" && !may_be_object(name))
     throw bad_input(name, "is no preset and of no kind that Nephroid knows", std::string(expected) + ", JSON files",
                     "see `nephroid presets` for those that are shipped");

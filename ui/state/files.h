@@ -43,8 +43,6 @@ std::string proposed_name(const preset::Preset* preset, const std::string& endin
 
 /// The path, or where something is there already, may be edited since, the first of PATH-2, PATH-3, ... where nothing is.
 std::filesystem::path free_name(const std::filesystem::path& path);
-/// Of the files that an inverse run makes the preset that shows its object as glass.
-inline constexpr const char* glass_view = "view.json";
 
 /// The View's picture, for a file.
 struct PictureToSave {

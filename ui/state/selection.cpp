@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/selection.h"
 
+#include "engine/engine.h"
 #include "preset/choices.h"
-#include "preset/settings_type.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ using Kind = Selection::Kind;
 
 } // namespace
 
-bool has_scene(const preset::Preset& preset) { return preset.settings.type().name != "inverse"; }
+bool has_scene(const preset::Preset& preset) { return engine::engine_of(preset).has_scene; }
 
 Selection in_preset(const Selection& selection, const preset::Preset* preset)
 {

@@ -26,7 +26,7 @@ struct Handles {
   bool operator==(const Handles&) const = default;
 };
 
-/// Whether the preset has a scene that one can select something of. An inverse preset has a camera only.
+/// Whether the preset has a scene that one can select something of; else it has a camera only.
 bool has_scene(const preset::Preset& preset);
 /// The selection as far as it is in the preset; nothing where it is not, and where there is no preset (null).
 Selection in_preset(const Selection& selection, const preset::Preset* preset);

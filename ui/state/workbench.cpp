@@ -2,6 +2,7 @@
 #include "ui/state/workbench.h"
 
 #include "base/files.h"
+#include "engine/engine.h"
 #include "preset/differences.h"
 #include "preset/settings_type.h"
 #include "ui/state/dielectrics.h"
@@ -129,7 +130,7 @@ void Workbench::carry_out(const command::Open& c)
     carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
     return messages_.note(name + " is the environment");
   }
-  if (kind == FileKind::picture && cast_picture(c.name)) return;
+  if (edits_ && kind == FileKind::picture && engine::engine_of(edits_->current()).take_picture) return take_picture(c.name);
   if (kind == FileKind::scene) return files_.import_scene(c.name);
   if (edits_ && kind == FileKind::mesh && has_scene(edits_->current())) return meshes_.read(c.name);
   if (c.sure || !edits_ || !edits_->modified()) {
@@ -143,10 +144,10 @@ void Workbench::carry_out(const command::Open& c)
 
 void Workbench::carry_out(const command::New& c)
 {
-  if (c.sure || !edits_ || !edits_->modified())
-    begin(new_scene(c.kind));
-  else
-    ask_first(command::New{c.kind, true});
+  if (!c.sure && edits_ && edits_->modified()) return ask_first(command::New{c.preset, true});
+  preset::Preset preset = preset::parse_preset(c.preset, "untitled");
+  preset.source.clear(); // else a file that happens to have this name would be its own
+  begin(std::move(preset));
 }
 
 /// Throws bad_input where the preset could not be read again: a number is out of its range, however it came there, or two fields
@@ -286,11 +287,11 @@ PictureToSave Workbench::shown_picture() const
   return {map->of.picture, map, chosen_.look, white, map->error};
 }
 
-void Workbench::carry_out(const command::ShowAsGlass&)
+void Workbench::carry_out(const command::OpenResult& c)
 {
   if (!run_.snapshot() || !edits_) return;
   const std::filesystem::path beside = save_target(&edits_->current()).parent_path();
-  files_.save_files(beside / proposed_name(&edits_->current(), "-object"), run_.snapshot(), glass_view);
+  files_.save_files(beside / proposed_name(&edits_->current(), "-object"), run_.snapshot(), c.file);
 }
 
 void Workbench::carry_out(const command::WriteReport& c)

@@ -104,7 +104,7 @@ private:
   void carry_out(const command::Ask& c);
   void carry_out(const command::SavePreset& c);
   void carry_out(const command::SavePicture& c);
-  void carry_out(const command::ShowAsGlass&);
+  void carry_out(const command::OpenResult& c);
   void carry_out(const command::WriteReport& c);
   void carry_out(const command::Dismiss& c) { messages_.dismiss(c.message); }
   void carry_out(const command::ToggleHelp&) { help_shown_ = !help_shown_; }
@@ -133,9 +133,8 @@ private:
   /// What the View shows now.
   PictureToSave shown_picture() const;
   void add_object(const DroppedMesh& mesh);
-  /// With the engine inverse: its object shall cast a picture that was dropped, in place of the first drawing, else of the first picture.
-  /// False for another engine.
-  bool cast_picture(const std::string& file);
+  /// As the engine of the preset in hand does, which takes pictures.
+  void take_picture(const std::string& file);
   void begin(preset::Preset preset, preset::Sweep sweep = {});
   void let_go();
   void close_question();

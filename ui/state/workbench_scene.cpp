@@ -4,34 +4,19 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "inverse/settings.h"
+#include "engine/engine.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <utility>
 
 namespace nephroid::ui {
 
-bool Workbench::cast_picture(const std::string& file)
+void Workbench::take_picture(const std::string& file)
 {
-  if (!edits_) return false;
-  preset::Preset edited = edits_->current();
-  auto* settings = std::any_cast<inverse::Settings>(&edited.settings.value());
-  if (!settings) return false;
   if (!is_there(file)) throw bad_input(file, "there is no such picture");
-  if (settings->receivers.empty()) throw bad_input(file, "the preset has no receiver to cast it on", "", "add one in Parameters");
-  auto receiver = std::find_if(settings->receivers.begin(), settings->receivers.end(),
-                               [](const inverse::Receiver& one) { return one.picture.type != inverse::Picture::Type::file; });
-  if (receiver == settings->receivers.end()) receiver = settings->receivers.begin();
-  receiver->picture = {};
-  receiver->picture.type = inverse::Picture::Type::file;
-  std::error_code ignored;
-  receiver->picture.file = std::filesystem::absolute(file, ignored).string();
-  const std::string name = std::filesystem::path(file).filename().string();
-  const double distance_mm = receiver->distance_mm;
-  carry_out(command::Edit{"cast " + name, std::move(edited)});
-  messages_.note(fmt::format("{} is the picture at {:g} mm; Parameters has the others", name, distance_mm));
-  return true;
+  preset::Preset edited = edits_->current();
+  engine::Taken taken = engine::engine_of(edited).take_picture(edited, file);
+  carry_out(command::Edit{std::move(taken.edit), std::move(edited)});
+  messages_.note(std::move(taken.note));
 }
 
 void Workbench::carry_out(const command::Select& c)

@@ -21,9 +21,6 @@ std::string too_large_hint(const std::array<int, 2>& size)
                      size[0], size[1], platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight);
 }
 
-/// Pictures of a bake come before those of the scene, and alone have no layers.
-bool bakes(const Context& context) { return context.engine() == "environment" && context.run.snapshot()->picture->layers.empty(); }
-
 /// What to do or to wait for before the first picture.
 std::string waiting_hint(const Context& context)
 {
@@ -96,7 +93,7 @@ ShownPicture shown_picture(const Context& context)
     shown.rgb = held.pixels.rgb;
     if (const std::string why = context.comparing.why_no_picture(); !why.empty())
       shown.hint = fmt::format("Nothing to show: {}. Choose above, or go on with L.", why);
-    shown.label = bakes(context) ? "The object is baked first: its caustic spheres, as far as they are" : comparison.layer;
+    shown.label = snapshot->caption.empty() ? comparison.layer : snapshot->caption;
   } else if (const HeldPicture other = context.comparing.other_picture(); !other.owner)
     shown.hint = "Nothing to compare with: " + context.comparing.why_not();
   else if (comparison.flip) {

@@ -69,7 +69,6 @@ public:
     }
     if (root_.has("animations") && !root_.list("animations").empty()) note("animations are left out");
     if (made_.scene.objects.empty()) throw bad_input(root_.where(), "has no triangles in its scene", "expected meshes of triangles");
-    made_.settings = preset::parse_preset(R"({"engine":"spectral"})", "import").settings;
     made_.name = preset_file_.stem().string();
     made_.description = "Imported from " + name_of(file.file.filename().string(), "glTF");
     if (!has_camera_) look_at_all();

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid clusters`: the wavelength clusters of a preset's glass or of a dispersion file.
+#include "spectral/clusters/clusters.h"
+#include "base/counted.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json_output.h"
+#include "cli/dispersion_input.h"
+#include "cli/examples.h"
+#include "cli/spectral/wavelength_runs.h"
+#include "cli/verbs.h"
+#include "preset/choices.h"
+#include "preset/origins.h"
+#include "preset/read.h"
+#include "scene/materials.h"
+#include "spectral/describe_settings.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace nephroid::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+using spectral::Clustering;
+using spectral::ClusterMethod;
+
+struct ClusterOptions {
+  std::string preset, ior, material, outside;
+  std::optional<double> threshold_deg;
+  std::optional<std::string> method;
+  preset::Overrides overrides;
+  bool json = false;
+};
+
+/// A curve and how it is to be clustered where the command line does not say.
+struct Task {
+  optics::DispersionCurve curve;
+  optics::Outside outside = optics::Outside::automatic;
+  double threshold_deg = spectral::Settings{}.threshold_deg;
+  ClusterMethod method = ClusterMethod::optimal;
+};
+
+ClusterMethod method_called(const std::string& name)
+{
+  for (const auto& choice : preset::Choices<ClusterMethod>::all)
+    if (choice.name == name) return choice.value;
+  throw bad_input("--method", fmt::format("'{}' is no method", name));
+}
+
+/// The dielectric to cluster: the wanted one, or the only one that an object is made of.
+std::string chosen_material(const preset::Preset& preset, const std::string& wanted)
+{
+  std::set<std::string> dielectrics;
+  for (const preset::Object& object : preset.scene.objects) {
+    const auto found = preset.scene.materials.find(object.material);
+    if (found != preset.scene.materials.end() && found->second.type == preset::Material::Type::dielectric) dielectrics.insert(found->first);
+  }
+  const std::string names = fmt::format("{}", fmt::join(dielectrics, ", "));
+  if (dielectrics.empty()) throw bad_input(preset.source, "no object is made of a dielectric", "expected a material with dispersion");
+  if (wanted.empty() && dielectrics.size() == 1) return *dielectrics.begin();
+  if (wanted.empty())
+    throw bad_input(preset.source, "objects are made of several dielectrics: " + names, "expected one of them with --material");
+  if (!dielectrics.contains(wanted))
+    throw bad_input("--material", fmt::format("no object is made of a dielectric \"{}\"", wanted), "expected one of " + names);
+  return wanted;
+}
+
+Task preset_task(const ClusterOptions& options)
+{
+  const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
+  const std::string name = chosen_material(preset, options.material);
+  const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
+  const Place where = Place(preset.source) / "scene" / "materials" / name / "dispersion";
+  const FileFinder finder(std::filesystem::path(preset.source).parent_path());
+  return {preset::at_origins(preset, [&] { return scene::make_curve(dispersion, finder, where); }),
+          scene::outside_policy(dispersion.outside), spectral::settings(preset).threshold_deg, spectral::settings(preset).method};
+}
+
+Task make_task(const ClusterOptions& options)
+{
+  if (options.preset.empty() == options.ior.empty())
+    throw bad_input("clusters", options.ior.empty() ? "nothing to cluster" : "both a preset and --ior are given",
+                    "expected a PRESET or --ior FILE");
+  if (is_dispersion(options.preset) && !is_there(options.preset + ".json"))
+    throw bad_input("clusters", fmt::format("'{}' is a dispersion file, not a preset", options.preset), {},
+                    fmt::format("take it with --ior {}", options.preset));
+  Task task = options.ior.empty() ? preset_task(options) : Task{.curve = find_dispersion(options.ior)};
+  if (options.outside != "automatic") task.outside = outside_policy(options.outside);
+  if (options.threshold_deg) task.threshold_deg = *options.threshold_deg;
+  if (options.method) task.method = method_called(*options.method);
+  return task;
+}
+
+void print_json(const Clustering& clustering)
+{
+  Json clusters = Json::array();
+  for (const spectral::Cluster& c : clustering.clusters)
+    clusters.push_back({{"wavelengths_nm", wavelengths_nm(c.wavelengths)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});
+  const Json all{{"method", preset::word(clustering.method)},
+                 {"threshold_deg", clustering.threshold_deg},
+                 {"total_theta_deg2", clustering.total_theta_deg2},
+                 {"count", clustering.clusters.size()},
+                 {"clusters", std::move(clusters)}};
+  fmt::print("{}\n", json_text(all));
+}
+
+void print_text(const std::string& name, const Clustering& clustering)
+{
+  fmt::print("{}: {} by the method {} at a threshold of {} deg; the angle changes by {:.3f} square degrees in all\n", name,
+             counted(clustering.clusters.size(), "cluster"), preset::word(clustering.method), clustering.threshold_deg,
+             clustering.total_theta_deg2);
+  fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "mean n", "deg^2", "wavelengths");
+  for (const spectral::Cluster& c : clustering.clusters)
+    fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2, wavelength_runs(c.wavelengths));
+}
+
+void print_clusters(const ClusterOptions& options)
+{
+  const Task task = make_task(options);
+  const optics::Spectrum n = optics::sample_n(task.curve, task.outside);
+  if (const std::string note = optics::outside_note(task.curve, task.outside); !note.empty()) fmt::print(stderr, "nephroid: {}\n", note);
+  const Clustering clustering = spectral::cluster_wavelengths(n, task.threshold_deg, task.method);
+  if (options.json)
+    print_json(clustering);
+  else
+    print_text(task.curve.name, clustering);
+}
+
+} // namespace
+
+void add_clusters(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<ClusterOptions>();
+  CLI::App* verb = program.add_subcommand("clusters", "Which wavelengths share one path through a glass");
+  verb->footer(
+      examples({{"nephroid clusters first-light", ""}, {"nephroid clusters --ior N-SF66 --threshold 0.1", "of a glass, without a scene"}}));
+  verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset");
+  verb->add_option("--ior", options->ior, "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset")
+      ->type_name("FILE");
+  verb->add_option("--material", options->material, "Which dielectric of the preset, where it has several")->type_name("NAME");
+  verb->add_option("--threshold", options->threshold_deg,
+                   "The largest change of the refraction angle inside a cluster, in degrees; default: the preset's, else 0.05")
+      ->type_name("DEG");
+  std::vector<std::string> names;
+  for (const auto& choice : preset::Choices<ClusterMethod>::all) names.emplace_back(choice.name);
+  verb->add_option("--method", options->method, "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal")
+      ->check(CLI::IsMember(names))
+      ->type_name("METHOD");
+  verb->add_option("--set", options->overrides, "Change a setting of the preset, as for run; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+  add_outside_option(*verb, options->outside);
+  verb->add_flag("--json", options->json, "One JSON object instead of text");
+  verb->callback([options] { print_clusters(*options); });
+}
+
+} // namespace nephroid::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/spectral/wavelength_runs.h"
+
+#include "optics/wavelength.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace nephroid::cli {
+
+std::vector<int> wavelengths_nm(const std::vector<int>& indices)
+{
+  std::vector<int> result;
+  for (const int index : indices) result.push_back(optics::wavelength_nm(index));
+  return result;
+}
+
+std::string wavelength_runs(const std::vector<int>& indices)
+{
+  const std::vector<int> members = wavelengths_nm(indices);
+  const std::set<int> sorted(members.begin(), members.end());
+  std::string text;
+  for (auto i = sorted.begin(); i != sorted.end();) {
+    const int first = *i;
+    int last = first;
+    while (++i != sorted.end() && *i == last + 1) last = *i;
+    if (!text.empty()) text += ',';
+    text += first == last ? fmt::format("{}", first) : fmt::format("{}-{}", first, last);
+  }
+  return text + " nm";
+}
+
+} // namespace nephroid::cli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel "Annealing" of engine 3: how the search goes, what every receiver shows, and where the light of a facet goes. Distances are
+// dragged in it, and the search goes on from where it was.
+#pragma once
+#include "inverse/layout.h"
+#include "inverse/settings.h"
+#include "ui/inverse/annealing/beam.h"
+#include "ui/inverse/annealing/pictures.h"
+#include "ui/inverse/annealing/plot.h"
+#include "ui/widgets/panel.h"
+#include "ui/widgets/widgets.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct ImVec2;
+
+namespace nephroid::ui {
+
+class AnnealingPanel : public Panel {
+public:
+  static constexpr const char* title = "Annealing";
+  void draw(const Context& context) override;
+
+  /// For tests: what was drawn last, and where.
+  const std::vector<HistoryLines>& histories() const { return histories_; }
+  const std::optional<FacetBeam>& beam() const { return beam_; }
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
+  /// x, y, width and height of a picture on the screen; zeros where it was not drawn.
+  std::array<double, 4> area_of(const std::string& picture) const;
+
+private:
+  void follow(const Context& context);
+  void draw_toolbar(const Context& context);
+  void draw_histories();
+  void draw_figures(const job::Snapshot& snapshot) const;
+  void draw_receivers(const Context& context);
+  struct Dragged {
+    std::string name; ///< "distance of receiver 2": of the edit
+    double value, low, high;
+    const char* format; ///< as printf's
+    const char* help;
+  };
+  void draw_distance(const Context& context, std::size_t receiver);
+  void draw_weight(const Context& context, std::size_t receiver);
+  /// A number of a receiver that is dragged; set(receiver's settings, value).
+  void draw_dragged(const Context& context, std::size_t receiver, const std::string& widget, const Dragged& dragged,
+                    void (*set)(inverse::Receiver&, double));
+  void draw_receiver_picture(const std::string& kind, std::size_t receiver, const ImVec2& size);
+  void draw_beam_row(const ImVec2& size);
+  void draw_facets();
+  void draw_facet_map(const std::string& picture, const ImVec2& size);
+  void draw_facet_text() const;
+
+  HistoryLook look_;
+  std::map<std::string, HistoryPlot> plots_; ///< of each curve
+  std::vector<HistoryLines> histories_;
+  RunPictures pictures_;
+  std::shared_ptr<const job::Snapshot> snapshot_;
+  inverse::Settings settings_; ///< that the layout is of
+  std::string source_;
+  std::optional<inverse::Layout> layout_; ///< empty: settings_ cannot be laid out
+  std::string why_no_layout_;
+  std::optional<glm::ivec2> facet_; ///< that was clicked
+  std::optional<FacetBeam> beam_;   ///< its own
+  Gestures gestures_{title};
+  WidgetPlaces places_;
+  std::map<std::string, std::array<double, 4>> areas_;
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/spectral/dispersion/model.h"
+
+#include "base/files.h"
+#include "optics/dispersion.h"
+#include "scene/materials.h"
+#include "scene/scene.h"
+#include "spectral/clusters/scene_clusters.h"
+#include "ui/state/dielectrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+constexpr spectral::ClusterMethod methods[] = {spectral::ClusterMethod::optimal, spectral::ClusterMethod::thesis,
+                                               spectral::ClusterMethod::brute_force};
+constexpr double beyond_nm = 120;                    ///< how far the line goes on outside of the 401 wavelengths,
+constexpr double lowest_nm = 100, highest_nm = 1500; ///< and how far at most where control points lie there
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Wavelengths to draw: every nanometre of the grid, every fifth beyond it. low, high: of the control points.
+std::vector<double> wavelengths_of_line(double low_nm, double high_nm)
+{
+  const double low = std::max(lowest_nm, std::min(low_nm, optics::first_nm - beyond_nm));
+  const double high = std::min(highest_nm, std::max(high_nm, optics::last_nm + beyond_nm));
+  std::vector<double> nm;
+  for (int l = optics::first_nm - 5; l >= low; l -= 5) nm.push_back(l);
+  std::reverse(nm.begin(), nm.end());
+  for (int l = optics::first_nm; l <= optics::last_nm; ++l) nm.push_back(l);
+  for (int l = optics::last_nm + 5; l <= high; l += 5) nm.push_back(l);
+  return nm;
+}
+
+void make_lines(const optics::DispersionCurve& data, optics::Outside outside, GlassCurve& made)
+{
+  const auto ends = made.points ? made.data_nm : std::array<double, 2>{optics::first_nm, optics::last_nm};
+  made.line_nm = wavelengths_of_line(ends[0], ends[1]);
+  for (const double nm : made.line_nm) {
+    const bool refused = outside == optics::Outside::refuse && (nm < made.data_nm[0] || nm > made.data_nm[1]);
+    const optics::IndexSample sample = refused ? optics::IndexSample{} : data.sample(nm, outside);
+    made.line_n.push_back(sample.n.value_or(nan));
+    if (data.k) made.line_k.push_back(sample.k.value_or(nan));
+  }
+}
+
+/// The dielectrics that objects are made of.
+std::vector<std::string> used_dielectrics(const preset::Preset& preset)
+{
+  std::vector<std::string> used = dielectrics(preset);
+  std::erase_if(used, [&](const std::string& name) {
+    return std::none_of(preset.scene.objects.begin(), preset.scene.objects.end(),
+                        [&](const preset::Object& object) { return object.material == name; });
+  });
+  return used;
+}
+
+/// theta2 = asin(sin theta1 / n) at theta1 = 45 degrees; 90 degrees beyond the critical angle.
+double angle_at_45_deg(double n) { return std::asin(std::min(1.0, std::numbers::sqrt2 / 2 / n)) * 180 / std::numbers::pi; }
+
+double mean_angle_deg(double n) { return spectral::refraction_integral_deg2(n) / spectral::last_angle_deg; }
+
+/// angle: of refraction, as a function of n, falling.
+template <class Angle>
+Spread spread_of(const spectral::Clustering& clustering, const optics::Spectrum& n, Angle angle)
+{
+  Spread spread;
+  for (const spectral::Cluster& cluster : clustering.clusters) {
+    const double highest = n[static_cast<std::size_t>(cluster.wavelengths.front())];
+    const double lowest = n[static_cast<std::size_t>(cluster.wavelengths.back())];
+    if (highest == lowest) continue;
+    const double inside = std::max(0.0, angle(lowest) - angle(highest));
+    spread.greatest_deg = std::max(spread.greatest_deg, inside);
+    spread.mean_deg += inside * static_cast<double>(cluster.wavelengths.size()) / optics::wavelength_count;
+  }
+  return spread;
+}
+
+} // namespace
+
+ClusterFigures figures_of(spectral::Clustering clustering, const optics::Spectrum& n)
+{
+  ClusterFigures figures;
+  figures.saving = static_cast<double>(optics::wavelength_count) / static_cast<double>(clustering.clusters.size());
+  figures.at_45 = spread_of(clustering, n, angle_at_45_deg);
+  figures.over_angles = spread_of(clustering, n, mean_angle_deg);
+  figures.clustering = std::move(clustering);
+  return figures;
+}
+
+std::array<std::size_t, optics::wavelength_count> cluster_of_wavelengths(const spectral::Clustering& clustering)
+{
+  std::array<std::size_t, optics::wavelength_count> cluster_of{};
+  for (std::size_t c = 0; c < clustering.clusters.size(); ++c)
+    for (const int index : clustering.clusters[c].wavelengths) cluster_of[static_cast<std::size_t>(index)] = c;
+  return cluster_of;
+}
+
+std::vector<Band> bands_of(const spectral::Clustering& clustering)
+{
+  const auto cluster_of = cluster_of_wavelengths(clustering);
+  std::vector<Band> bands;
+  for (int i = 0; i < optics::wavelength_count; ++i) {
+    const std::size_t cluster = cluster_of[static_cast<std::size_t>(i)];
+    if (bands.empty() || bands.back().cluster != cluster) bands.push_back({i, i, cluster});
+    bands.back().last = i;
+  }
+  return bands;
+}
+
+GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where)
+{
+  GlassCurve made;
+  made.points = dispersion.type == preset::Dispersion::Type::points;
+  try {
+    const FileFinder finder(std::filesystem::path(preset_source).parent_path());
+    const optics::DispersionCurve data = scene::make_curve(dispersion, finder, where);
+    const optics::Outside outside = scene::outside_policy(dispersion.outside);
+    made.name = data.name;
+    made.data_nm = data.range_nm();
+    make_lines(data, outside, made); // also where it cannot be rendered: the person sees where it goes wrong
+    made.note = optics::outside_note(data, outside);
+    made.has_k = data.k.has_value();
+    made.n = optics::sample_n(data, outside);
+    made.k = optics::sample_k(data, outside);
+  } catch (const std::exception& error) {
+    made.error = error.what();
+  }
+  return made;
+}
+
+bool DispersionModel::update_curve(const preset::Preset& preset, const std::string& material)
+{
+  const preset::Dispersion& dispersion = preset.scene.materials.at(material).dispersion;
+  const auto found = glasses_.find(material);
+  if (found != glasses_.end() && found->second.dispersion == dispersion && found->second.source == preset.source) return false;
+  const Place where = Place(preset.source) / "scene" / "materials" / material / "dispersion";
+  glasses_[material] = {dispersion, preset.source, make_glass_curve(dispersion, preset.source, where)};
+  ++curves_made_;
+  return true;
+}
+
+void DispersionModel::update(const preset::Preset& preset, const std::string& material)
+{
+  if (material_ == material && preset_ == preset) return;
+  const spectral::Settings& settings = spectral::settings(preset);
+  std::erase_if(glasses_, [&](const auto& glass) { return !preset.scene.materials.contains(glass.first); });
+  bool changed = std::exchange(material_, material) != material;
+  changed |= update_curve(preset, material);
+  changed |= std::exchange(threshold_deg_, settings.threshold_deg) != settings.threshold_deg;
+  curve_ = &glasses_.at(material).curve;
+  if (changed) cluster();
+  method_ = settings.method;
+  if (error_.empty()) {
+    bands_ = bands_of(chosen().clustering);
+    cluster_of_ = cluster_of_wavelengths(chosen().clustering);
+  }
+  combine(preset);
+  preset_ = preset;
+}
+
+void DispersionModel::cluster()
+{
+  error_ = curve_->error;
+  if (!error_.empty()) return;
+  try {
+    for (const spectral::ClusterMethod method : methods)
+      figures_[static_cast<std::size_t>(method)] = figures_of(spectral::cluster_wavelengths(curve_->n, threshold_deg_, method), curve_->n);
+    ++clusterings_made_;
+  } catch (const std::exception& error) {
+    error_ = error.what();
+  }
+}
+
+/// By the engine's own rule, which asks for each object's index of refraction only.
+void DispersionModel::combine(const preset::Preset& preset)
+{
+  clusters_of_run_.reset();
+  const spectral::Settings& settings = spectral::settings(preset);
+  scene::Scene outline;
+  for (const std::string& name : used_dielectrics(preset)) {
+    update_curve(preset, name);
+    const GlassCurve& glass = glasses_.at(name).curve;
+    if (!glass.error.empty() || (settings.relight && glass.has_k)) return; // layers also hang on the lengths of paths in what absorbs
+    outline.objects.emplace_back().material = static_cast<int>(outline.materials.size());
+    scene::Material& material = outline.materials.emplace_back();
+    material.type = scene::Material::Type::dielectric;
+    material.n = glass.n;
+  }
+  if (outline.objects.empty() || !error_.empty()) return;
+  clusters_of_run_ = spectral::scene_clusters(settings, outline).size();
+}
+
+} // namespace nephroid::ui
