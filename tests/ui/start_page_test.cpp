@@ -29,7 +29,7 @@ protected:
     WindowFixtureOf::click(*place);
     frames(3);
   }
-  std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.type().name) : ""; }
+  std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.engine()) : ""; }
   void listed()
   {
     ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return presets().catalogue().readings() > 0 && !presets().catalogue().busy(); }));

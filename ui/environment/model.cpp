@@ -3,7 +3,6 @@
 
 #include "environment/segment/quality.h"
 #include "environment/settings.h"
-#include "preset/settings_type.h"
 #include "scene/environment.h"
 
 #include <exception>

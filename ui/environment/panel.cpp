@@ -4,7 +4,6 @@
 #include "base/counted.h"
 #include "environment/describe_settings.h"
 #include "environment/settings.h"
-#include "preset/settings_type.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -72,7 +71,7 @@ void EnvironmentPanel::draw(const Context& context)
     draw_wrapped(colour::quiet_text,
                  fmt::format("The engine \"{}\" takes the map as it is. How it is cut into lights is for presets of the "
                              "engine \"environment\".",
-                             preset.settings.type().name));
+                             preset.settings.engine()));
   draw_radiance_row(context);
   if (cuts_) draw_caustics_row(context);
   if (!shown_.error.empty()) draw_wrapped(colour::error, shown_.error);

@@ -5,10 +5,10 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/lower_case.h"
+#include "preset/choices.h"
 #include "preset/differences.h"
 #include "preset/outline.h"
 #include "preset/read.h"
-#include "preset/settings_type.h"
 
 #include <fmt/format.h>
 
@@ -86,7 +86,7 @@ CatalogueEntry entry_of(const fs::path& file, std::string name, bool shipped, co
     const preset::Preset& first = presets.front();
     entry.title = first.name;
     entry.description = first.description;
-    entry.engine = first.settings.type().name;
+    entry.engine = first.settings.engine();
     entry.resolution = first.scene.camera.resolution;
     entry.stop = stop_of(first);
     entry.runs = presets.size();

@@ -8,7 +8,6 @@
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
 #include "preset/read.h"
-#include "preset/settings_type.h"
 #include "run/picture.h"
 #include "run/run.h"
 
@@ -88,7 +87,7 @@ RunRecord figures_now(const RunInHand& run)
   record.work_seconds = progress.work_seconds;
   record.finished = progress.fraction >= 1 && !run.snapshot()->stands_in;
   record.preset = run.snapshot_origin().preset;
-  if (record.preset) record.engine = record.preset->settings.type().name;
+  if (record.preset) record.engine = record.preset->settings.engine();
   return record;
 }
 

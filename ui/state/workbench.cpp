@@ -4,7 +4,6 @@
 #include "base/files.h"
 #include "engine/engine.h"
 #include "preset/differences.h"
-#include "preset/settings_type.h"
 #include "ui/state/dielectrics.h"
 #include "ui/state/run_record.h"
 #include "ui/state/tone.h"
@@ -301,7 +300,7 @@ void Workbench::carry_out(const command::WriteReport& c)
 }
 
 /// What is kept for the presets of the engine in hand.
-EngineLayout& Workbench::engine_layout() { return settings_.engines[std::string(edits_->current().settings.type().name)]; }
+EngineLayout& Workbench::engine_layout() { return settings_.engines[std::string(edits_->current().settings.engine())]; }
 
 void Workbench::carry_out(const command::ResetLayout&)
 {
