@@ -32,7 +32,7 @@ protected:
   std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.engine()) : ""; }
   void listed()
   {
-    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return presets().catalogue().readings() > 0 && !presets().catalogue().busy(); }));
+    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return presets().catalogue().readings() > 0 && workbench.tasks().empty(); }));
     frames(2);
   }
 };

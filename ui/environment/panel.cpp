@@ -93,7 +93,7 @@ void EnvironmentPanel::follow(const Context& context)
   MapPictureSize size = map_.wanted_size();
   if (size.layout != layout_) size = {layout_, size.width};
   const WantedMap wanted = wanted_map(preset, size);
-  model_.want(wanted);
+  model_.want(wanted, context.tasks);
   shown_ = model_.shown();
   if (shown_.source != wanted.source) shown_ = {}; // another map's picture would be mistaken for this one's
   if (!cuts_) shown_.cut.reset();

@@ -2,7 +2,7 @@
 // The panel Inspector: one pixel with all its values, its neighbours and its spectrum, and statistics of a rectangle of pixels. Which they
 // are the View's mouse says, and actions (commands InspectPixel and SelectRegion).
 #pragma once
-#include "ui/inspector/region_maker.h"
+#include "ui/inspector/region.h"
 #include "ui/state/tone.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
@@ -22,7 +22,7 @@ public:
   void draw(const Context& context) override;
 
   /// Of the region; null where there is none yet. For tests, as is places().
-  const std::shared_ptr<const RegionStatistics>& statistics() const { return maker_.newest(); }
+  const std::shared_ptr<const RegionStatistics>& statistics() const { return statistics_.newest(); }
   const WidgetPlaces& places() const { return places_; }
 
 private:
@@ -42,7 +42,7 @@ private:
   };
 
   WavelengthAxis& axis_;
-  RegionMaker maker_;
+  NewestResult<RegionStatistics> statistics_;
   Neighbours neighbours_;
   WidgetPlaces places_;
 };

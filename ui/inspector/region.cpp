@@ -132,6 +132,21 @@ RegionStatistics region_statistics(RegionRequest request)
   return made;
 }
 
+void want_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request)
+{
+  const auto is_same_but_picture = [&](const RegionRequest& of) { // whose region is cut to its picture
+    return of.region == cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height) &&
+           of.other.owner == request.other.owner && of.other_name == request.other_name && of.white == request.white;
+  };
+  const auto& newest = statistics.newest();
+  const Request wanted = !newest || !is_same_but_picture(newest->of)         ? Request::other
+                         : newest->of.picture.owner == request.picture.owner ? Request::same
+                                                                             : Request::other_picture;
+  statistics.want(
+      tasks, "statistics of the region", wanted, [request] { return std::make_shared<RegionStatistics>(region_statistics(request)); },
+      TaskQueue::Clock::now());
+}
+
 std::string to_csv(const RegionStatistics& statistics)
 {
   std::string csv = "x0,y0,x1,y1,picture,quantity,unit,mean,standard_deviation,min,max,median,pixels,nan,infinite,negative_luminance,"

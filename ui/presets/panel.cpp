@@ -72,9 +72,9 @@ void PresetsPanel::draw(const Context& context)
     thumbnails_.read_again();
   }
   const std::size_t readings = catalogue_.readings();
-  catalogue_.follow(context.recent);
+  catalogue_.follow(context.recent, context.tasks);
   if (catalogue_.readings() != readings) thumbnails_.read_again();
-  thumbnails_.update();
+  thumbnails_.update(context.tasks);
   draw_top();
   found_ = found(catalogue_.entries(), filter_);
   follow_keys(context);

@@ -8,6 +8,7 @@
 #include "ui/state/run_in_hand.h"
 #include "ui/state/settings.h"
 #include "ui/state/sweep_queue.h"
+#include "ui/state/tasks.h"
 #include "ui/state/undo.h"
 
 #include <array>
@@ -42,6 +43,7 @@ struct Context {
   Commands& commands;
   const RecentFiles& recent;
   const SweepQueue& sweep;
+  TaskQueue& tasks; ///< for what takes longer than a frame
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
