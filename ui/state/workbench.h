@@ -119,7 +119,7 @@ private:
     if (!take_over_file()) messages_.note("the file has what is shown");
   }
   void carry_out(const command::ResetLayout&);
-  void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].layout = c.layout; }
+  void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].ini = c.ini; }
   void carry_out(const command::ShowPanel& c);
   void carry_out(const command::SetAppearance& c);
   void carry_out(const command::Report& c);
