@@ -45,7 +45,7 @@ protected:
   }
   void click_on(const std::string& widget)
   {
-    const auto at = inspector().places().of(widget);
+    const auto at = inspector().place_of(widget);
     ASSERT_TRUE(at) << widget;
     click(*at);
     frames(2);
@@ -164,7 +164,7 @@ TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit)
 {
   start();
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().places().of("keep spectra"); }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
   click_on("keep spectra");
   EXPECT_TRUE(spectral::settings(*workbench.preset()).relight);
   EXPECT_EQ(workbench.edits()->undo_label(), "keep spectra");
@@ -178,7 +178,7 @@ TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered)
   open(std::string(test::preset_text).replace(std::string(test::preset_text).find("\"stop\""), 0, "\"spectral\": {\"indirect\": true}, "));
   finish();
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().places().of("keep spectra"); }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
   click_on("keep spectra");
   EXPECT_FALSE(spectral::settings(*workbench.preset()).relight);
   EXPECT_EQ(workbench.edits()->undo_label(), "");

@@ -6,7 +6,6 @@
 #include "ui/state/tone.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/widgets.h"
 
 #include <memory>
 #include <string>
@@ -21,9 +20,8 @@ public:
   explicit InspectorPanel(WavelengthAxis& wavelengths) : axis_(wavelengths) {}
   void draw(const Context& context) override;
 
-  /// Of the region; null where there is none yet. For tests, as is places().
+  /// Of the region; null where there is none yet. For tests.
   const std::shared_ptr<const RegionStatistics>& statistics() const { return statistics_.newest(); }
-  const WidgetPlaces& places() const { return places_; }
 
 private:
   void draw_pixel(const Context& context);
@@ -44,7 +42,6 @@ private:
   WavelengthAxis& axis_;
   NewestResult<RegionStatistics> statistics_;
   Neighbours neighbours_;
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui
