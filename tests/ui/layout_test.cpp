@@ -183,7 +183,7 @@ TEST_F(LayoutTest, ThePaletteHasEveryAction)
   workbench.apply({command::Ask{Question::command}});
   frames(2);
   std::vector<std::string> names;
-  for (const Palette::Entry* entry : workspace.palette().found()) names.push_back(entry->name);
+  for (const Palette::Entry* entry : workspace.palette().matches()) names.push_back(entry->name);
   for (const Action& one : actions()) EXPECT_THAT(names, ::testing::Contains(one.name));
   EXPECT_EQ(names.size(), actions().size() + preset::shipped_presets().size());
 }
@@ -194,8 +194,8 @@ TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
   workbench.apply({command::Ask{Question::command}});
   frames(3);
   type("brigh");
-  ASSERT_FALSE(workspace.palette().found().empty());
-  EXPECT_EQ(workspace.palette().found().front()->name, "Brighter");
+  ASSERT_FALSE(workspace.palette().matches().empty());
+  EXPECT_EQ(workspace.palette().matches().front()->name, "Brighter");
   press(ImGuiKey_Enter);
   frames(2);
   EXPECT_EQ(workbench.chosen().look.exposure_stops, 0.5);
@@ -208,8 +208,8 @@ TEST_F(LayoutTest, TheArrowsChooseInThePalette)
   workbench.apply({command::Ask{Question::command}});
   frames(3);
   type("er text");
-  ASSERT_EQ(workspace.palette().found().size(), 2u);
-  const std::string second = workspace.palette().found()[1]->name;
+  ASSERT_EQ(workspace.palette().matches().size(), 2u);
+  const std::string second = workspace.palette().matches()[1]->name;
   press(ImGuiKey_DownArrow);
   press(ImGuiKey_DownArrow); // is at the end
   press(ImGuiKey_UpArrow);

@@ -200,15 +200,15 @@ TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsFollowed)
 TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
 {
   open_room(table);
-  const std::uint64_t made = panel().maker().made();
+  const std::uint64_t made = panel().maker().updates();
   frames(20);
-  EXPECT_EQ(panel().maker().made(), made);
+  EXPECT_EQ(panel().maker().updates(), made);
   move(panel().plot().place(600, 0.5));
   imgui.button(0, true);
   frame();
   move(panel().plot().place(620, 0.7));
   frames(2);
-  const std::uint64_t dragged = panel().maker().made();
+  const std::uint64_t dragged = panel().maker().updates();
   EXPECT_GT(dragged, made);
   for (int i = 0; i < 20; ++i) { // held, and at rest
     frame();
@@ -218,7 +218,7 @@ TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
   frames(3);
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
   frames(3);
-  EXPECT_EQ(panel().maker().made(), dragged) << "the new run's glass sees what the old one's saw";
+  EXPECT_EQ(panel().maker().updates(), dragged) << "the new run's glass sees what the old one's saw";
 }
 
 TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
@@ -267,7 +267,7 @@ TEST_F(SpectraPanelTest, AStepOfADragIsTimed)
   imgui.button(0, true);
   frame();
   std::vector<double> steps_ms;
-  const std::uint64_t before = panel().maker().made();
+  const std::uint64_t before = panel().maker().updates();
   for (int i = 1; i <= 200; ++i) {
     const auto to = panel().plot().place(510 + 11 * i % 167, 0.2 + 0.003 * (37 * i % 211));
     imgui.move(to[0], to[1]);
@@ -278,7 +278,7 @@ TEST_F(SpectraPanelTest, AStepOfADragIsTimed)
   }
   imgui.button(0, false);
   frame();
-  EXPECT_GE(panel().maker().made(), before + 190) << "every step changed the curve";
+  EXPECT_GE(panel().maker().updates(), before + 190) << "every step changed the curve";
   std::sort(steps_ms.begin(), steps_ms.end());
   RecordProperty("drag_step_ms_median", std::to_string(steps_ms[100]));
   RecordProperty("drag_step_ms_worst", std::to_string(steps_ms.back()));

@@ -17,24 +17,24 @@ using environment::SegmentSettings;
 
 std::shared_ptr<const ReadMap> read(const MapSource& source)
 {
-  auto made = std::make_shared<ReadMap>();
+  auto read_map = std::make_shared<ReadMap>();
   const Place where = Place(source.preset) / "scene" / "environment";
   const FileFinder finder(std::filesystem::path(source.preset).parent_path());
-  const scene::Environment map = scene::make_environment(source.environment, finder, where, made->warnings);
-  made->width = map.width;
-  made->height = map.height;
-  made->cube = environment::make_cube_map(map);
-  made->picture = environment::shown_map(map);
-  return made;
+  const scene::Environment map = scene::make_environment(source.environment, finder, where, read_map->warnings);
+  read_map->width = map.width;
+  read_map->height = map.height;
+  read_map->cube = environment::make_cube_map(map);
+  read_map->picture = environment::shown_map(map);
+  return read_map;
 }
 
 std::shared_ptr<const CutMap> cut(const ReadMap& map, const SegmentSettings& settings)
 {
-  auto made = std::make_shared<CutMap>();
-  made->settings = settings;
-  made->segmentation = environment::segment(map.cube, settings);
-  made->region_of_texel = regions_of_texels(made->segmentation);
-  return made;
+  auto cut_map = std::make_shared<CutMap>();
+  cut_map->settings = settings;
+  cut_map->segmentation = environment::segment(map.cube, settings);
+  cut_map->region_of_texel = regions_of_texels(cut_map->segmentation);
+  return cut_map;
 }
 
 /// The method that has fewer points so far.

@@ -135,7 +135,7 @@ bool holds_words(const CatalogueEntry& entry, const std::string& words)
 
 } // namespace
 
-std::vector<std::size_t> found(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter)
+std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter)
 {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < entries.size(); ++i)

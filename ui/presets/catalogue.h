@@ -40,7 +40,7 @@ struct CatalogueFilter {
 };
 
 /// Indices of the entries that pass, in their order.
-std::vector<std::size_t> found(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter);
+std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter);
 
 class Catalogue {
 public:

@@ -34,7 +34,7 @@ private:
   Catalogue catalogue_;
   Thumbnails thumbnails_;
   CatalogueFilter filter_;
-  std::vector<std::size_t> found_;
+  std::vector<std::size_t> matches_;
   std::string chosen_;  ///< the file of the row that is marked
   bool reveal_ = false; ///< the marked row is to be brought into sight
   bool focused_ = false;
