@@ -11,6 +11,8 @@ namespace nephroid::preset {
 Settings::Settings() : Settings(*settings_types().front()) {}
 Settings::Settings(const SettingsType& type) : type_(&type), value_(type.make()) {}
 
+std::string_view Settings::engine() const { return type_->name; }
+
 bool Settings::operator==(const Settings& other) const { return type_ == other.type_ && type_->equal(value_, other.value_); }
 
 void FileNames::settings(Settings& settings) { settings.type().name_files(settings.value(), rename_); }

@@ -19,6 +19,8 @@ public:
   explicit Settings(const SettingsType& type);
 
   const SettingsType& type() const { return *type_; }
+  /// The name of the engine whose settings they are.
+  std::string_view engine() const;
   /// S: the struct of the type. Throws std::bad_any_cast for another one.
   template <class S>
   S& as()

@@ -42,7 +42,7 @@ static_assert(sizeof(Header) == 72, "the header has no padding: it is written as
 Header header_of(const Prepared& prepared, const compute::Context& context)
 {
   const compute::DeviceInfo& device = context.device();
-  const std::string_view engine = prepared.preset.settings.type().name;
+  const std::string_view engine = prepared.preset.settings.engine();
   Header header;
   header.state = engine::engine_of(prepared.preset).state_version;
   header.engine = word_of(engine);

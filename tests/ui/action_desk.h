@@ -82,7 +82,7 @@ public:
     apply(ui::command::Ask{ui::Question::command});
     ImGui::GetIO().AddInputCharactersUTF8(action.name.c_str());
     frames(2);
-    const auto& found = workspace.palette().found();
+    const auto& found = workspace.palette().matches();
     if (found.empty() || found.front()->action != &action) return false;
     imgui.key(ImGuiKey_Enter, true);
     frame();

@@ -32,7 +32,7 @@ inline auto asks(Question question)
 /// A new scene of an engine, in no file.
 inline auto begins(const char* engine)
 {
-  return [engine](Desk& d) { return d.preset().source.empty() && d.preset().settings.type().name == std::string_view(engine); };
+  return [engine](Desk& d) { return d.preset().source.empty() && d.preset().settings.engine() == std::string_view(engine); };
 }
 inline auto copies(const char* text)
 {
@@ -225,7 +225,7 @@ inline Effect of_panel(const PanelEntry& entry)
   };
   if (!can_close(entry)) return {prepare, [entry](Desk&) { return in_front(entry.title); }};
   return {prepare, [entry](Desk& d) {
-            const std::string engine(d.preset().settings.type().name);
+            const std::string engine(d.preset().settings.engine());
             const auto now = d.workbench.settings().engines.find(engine);
             return now != d.workbench.settings().engines.end() && now->second.closed.contains(std::string(entry.name));
           }};

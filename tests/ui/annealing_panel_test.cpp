@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
 #include "inverse_runs.h"
-#include "preset/settings_type.h"
 #include "ui/inverse/annealing/panel.h"
 
 namespace nephroid::ui::annealing_panel_test {
@@ -182,7 +181,7 @@ TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass)
   open(test::inverse_text(1));
   finish();
   click_widget("show as glass");
-  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.preset()->settings.type().name == "spectral"; }));
+  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.preset()->settings.engine() == "spectral"; }));
   EXPECT_TRUE(std::filesystem::is_regular_file(folder.path() / "test-object" / "object.obj"));
   EXPECT_EQ(std::filesystem::weakly_canonical(workbench.preset()->source),
             std::filesystem::weakly_canonical(folder.path() / "test-object" / "view.json"));

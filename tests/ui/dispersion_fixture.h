@@ -68,7 +68,7 @@ protected:
   }
 
   using WindowFixture::click;
-  void click(const std::string& widget) { click(panel().widget(widget)); }
+  void click(const std::string& widget) { click(panel().place_of(widget).value()); }
   /// In the plot, as wavelength and n.
   void drag_point(const ControlPoint& from, const ControlPoint& to, int steps = 5)
   {

@@ -25,9 +25,15 @@ protected:
   }
   ShownMap shown_of(const preset::Preset& wanted, const MapPictureSize& size = {MapLayout::latitude_longitude, 64})
   {
-    model.want(wanted_map(wanted, size));
-    EXPECT_TRUE(test::eventually([&] { return model.rests(); }));
+    want(wanted, size);
+    EXPECT_TRUE(test::eventually([&] { want(wanted, size); }, [&] { return model.rests(); }));
     return model.shown();
+  }
+  /// As a frame does.
+  void want(const preset::Preset& wanted, const MapPictureSize& size = {MapLayout::latitude_longitude, 64})
+  {
+    tasks.collect(messages);
+    model.want(wanted_map(wanted, size), tasks);
   }
   ShownMap edited(const std::function<void(preset::Preset&)>& change)
   {
@@ -36,6 +42,8 @@ protected:
   }
 
   test::TemporaryFolder folder;
+  Messages messages;
+  TaskQueue tasks;
   EnvironmentModel model;
   preset::Preset preset;
 };
@@ -100,8 +108,8 @@ TEST_F(EnvironmentModelTest, AnotherMapEndsWhatIsInTheMaking)
   const ShownMap alone = shown_of(preset);
   for (const char* file : {"room.exr", "night.exr", "overcast.exr", "noon.exr"}) {
     preset.scene.environment->file = file;
-    model.want(wanted_map(preset, {MapLayout::latitude_longitude, 64}));
-    ASSERT_TRUE(test::eventually([&] { return model.shown().source && model.shown().source->environment.file == file; }));
+    ASSERT_TRUE(
+        test::eventually([&] { want(preset); }, [&] { return model.shown().source && model.shown().source->environment.file == file; }));
   }
   const ShownMap shown = shown_of(preset);
   EXPECT_EQ(shown.quality, alone.quality);

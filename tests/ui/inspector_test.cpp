@@ -33,7 +33,7 @@ protected:
   }
   void click_on(const std::string& widget)
   {
-    click(inspector().places().of(widget).value());
+    click(inspector().place_of(widget).value());
     frames(2);
   }
   PixelRow row(const std::string& name)
@@ -150,7 +150,7 @@ TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit)
 {
   start();
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().places().of("keep spectra"); }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
   click_on("keep spectra");
   EXPECT_TRUE(spectral::settings(*workbench.preset()).relight);
   EXPECT_EQ(workbench.edits()->undo_label(), "keep spectra");
@@ -164,7 +164,7 @@ TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered)
   open(std::string(test::preset_text).replace(std::string(test::preset_text).find("\"stop\""), 0, "\"spectral\": {\"indirect\": true}, "));
   finish();
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().places().of("keep spectra"); }));
+  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
   click_on("keep spectra");
   EXPECT_FALSE(spectral::settings(*workbench.preset()).relight);
   EXPECT_EQ(workbench.edits()->undo_label(), "");

@@ -10,18 +10,19 @@ namespace nephroid::ui::layout_test {
 class LayoutTest : public test::WindowFixture {
 protected:
   using test::WindowFixture::WindowFixtureOf;
-  ImGuiID dock_space() const
-  {
-    ImGuiID root = 0;
-    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
-      if (window->DockNode) root = ImGui::DockNodeGetRootNode(window->DockNode)->ID;
-    return root;
-  }
-  void set_layout(const Layout& layout)
+  void set_ini(const std::string& ini)
   {
     Settings settings = workbench.settings();
-    settings.engines["spectral"].layout = layout;
+    settings.engines["spectral"].ini = ini;
     workbench.set_settings(settings);
+  }
+  /// Another engine's preset, and back.
+  void leave_and_come_back()
+  {
+    ASSERT_TRUE(workbench.open("inverse/shapes"));
+    frames(6);
+    ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+    frames(6);
   }
   /// Whether the panel is seen: drawn, and in front of its tabs.
   static bool seen(const char* title)
@@ -33,33 +34,33 @@ protected:
 
 TEST_F(LayoutTest, AKeptLayoutIsWhereThePanelsAre)
 {
-  const Layout kept{{.split = Dock::Split::rows,
-                     .first_part = 0.6,
-                     .parts = {{.split = Dock::Split::columns,
-                                .first_part = 0.3,
-                                .parts = {{.tabs = {"parameters", "plan", "error", "annealing", "environment"}, .front = "plan"},
-                                          {.tabs = {"view"}, .front = "view"}}},
-                               {.tabs = {"dispersion"}, .front = "dispersion"}}},
-                    {{"spectra", {0.1, 0.2, 0.5, 0.25}}}};
-  set_layout(kept);
   open();
   frames(5);
+  const ImGuiID left =
+      ImGui::DockBuilderSplitNode(ImGui::FindWindowByName(ViewPanel::title)->DockId, ImGuiDir_Left, 0.3f, nullptr, nullptr);
+  ImGui::DockBuilderDockWindow(ParametersPanel::title, left);
+  ImGui::DockBuilderDockWindow(PlanPanel::title, left);
+  ImGui::DockBuilderDockWindow(SpectraPanel::title, 0);
+  ImGui::SetWindowPos(SpectraPanel::title, {100, 140});
+  ImGui::SetWindowSize(SpectraPanel::title, {500, 175});
+  frames(3);
+  ImGui::SetWindowFocus(PlanPanel::title);
+  frames(3);
+  const float width = ImGui::FindWindowByName(PlanPanel::title)->Size.x;
+  click({5, 695}); // the status line; what the mouse let go of is kept
+  frames(3);
+  leave_and_come_back();
   EXPECT_TRUE(seen(PlanPanel::title));
   EXPECT_FALSE(seen(ParametersPanel::title));
-  EXPECT_TRUE(seen(DispersionPanel::title));
   const ImGuiWindow* view = ImGui::FindWindowByName(ViewPanel::title);
   const ImGuiWindow* plan = ImGui::FindWindowByName(PlanPanel::title);
   EXPECT_LT(plan->Pos.x, view->Pos.x) << "at the left of the picture";
-  const ImVec2 area = ImGui::GetMainViewport()->WorkSize;
-  EXPECT_NEAR(plan->Size.x / area.x, 0.3, 0.02);
+  EXPECT_NEAR(plan->Size.x, width, 2);
+  EXPECT_EQ(plan->DockId, ImGui::FindWindowByName(ParametersPanel::title)->DockId);
   const ImGuiWindow* spectra = ImGui::FindWindowByName(SpectraPanel::title);
   EXPECT_FALSE(spectra->DockNode);
-  EXPECT_NEAR(spectra->SizeFull.x, 0.5 * ImGui::GetMainViewport()->Size.x, 2);
-  const Layout now = layout_now(dock_space());
-  EXPECT_EQ(now.docks.parts[0].parts[0].front, "plan");
-  EXPECT_NEAR(now.docks.first_part, 0.6, 0.01);
-  ASSERT_EQ(now.floating.size(), 1u);
-  EXPECT_NEAR(now.floating[0].place[1], 0.2, 0.01);
+  EXPECT_NEAR(spectra->SizeFull.x, 500, 2);
+  EXPECT_NEAR(spectra->Pos.y, 140, 2);
 }
 
 TEST_F(LayoutTest, WhatTheMouseMakesOfItIsKeptForThatEngine)
@@ -74,8 +75,8 @@ TEST_F(LayoutTest, WhatTheMouseMakesOfItIsKeptForThatEngine)
   frames(3);
   EXPECT_NEAR(ImGui::FindWindowByName(ViewPanel::title)->Size.x, before - 150, 8);
   ASSERT_TRUE(workbench.settings().engines.contains("spectral"));
-  const Dock& docks = workbench.settings().engines.at("spectral").layout.docks;
-  EXPECT_NEAR(docks.first_part, (before - 150) / ImGui::GetMainViewport()->WorkSize.x, 0.02);
+  leave_and_come_back();
+  EXPECT_NEAR(ImGui::FindWindowByName(ViewPanel::title)->Size.x, before - 150, 8);
   workbench.apply({command::ResetLayout{}});
   frames(5);
   EXPECT_NEAR(ImGui::FindWindowByName(ViewPanel::title)->Size.x, before, 2);
@@ -116,16 +117,19 @@ TEST_F(ParametersInFront, StaysInFrontForAnotherEngine)
   EXPECT_FALSE(seen("Annealing"));
 }
 
-TEST_F(LayoutTest, NamesThatAreNoPanelsAndPanelsTwiceDoNoHarm)
+TEST_F(LayoutTest, NamesThatAreNoPanelsAndPanelsThatItDoesNotKnowDoNoHarm)
 {
-  set_layout({{.split = Dock::Split::columns,
-               .first_part = 0.9,
-               .parts = {{.tabs = {"view", "view", "nothing"}, .front = "nothing"}, {.tabs = {"view"}, .front = "view"}}},
-              {{"view", {0, 0, 1, 1}}, {"nobody", {0, 0, 1, 1}}}});
   open();
-  frames(10);
+  frames(5);
+  std::string of_another_version = layout_now();
+  const std::string plan = std::string("[Window][") + PlanPanel::title + "]";
+  ASSERT_NE(of_another_version.find(plan), std::string::npos);
+  of_another_version.replace(of_another_version.find(plan), plan.size(), "[Window][Nobody]");
+  set_ini(of_another_version);
+  leave_and_come_back();
   EXPECT_TRUE(workbench.messages().empty());
   EXPECT_TRUE(ImGui::FindWindowByName(PlanPanel::title)->DockNode) << "what the layout does not have is docked somewhere";
+  EXPECT_TRUE(seen(ViewPanel::title));
 }
 
 TEST_F(LayoutTest, EveryPanelIsClosedAndShownByItsAction)
@@ -172,8 +176,8 @@ TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
   frames(3);
   EXPECT_EQ(workspace.palette().found().size(), actions().size() + preset::shipped_presets().size());
   type("brigh");
-  ASSERT_FALSE(workspace.palette().found().empty());
-  EXPECT_EQ(workspace.palette().found().front()->name, "Brighter");
+  ASSERT_FALSE(workspace.palette().matches().empty());
+  EXPECT_EQ(workspace.palette().matches().front()->name, "Brighter");
   press(ImGuiKey_Enter);
   frames(2);
   EXPECT_EQ(workbench.chosen().look.exposure_stops, 0.5);
@@ -186,8 +190,8 @@ TEST_F(LayoutTest, TheArrowsChooseInThePalette)
   workbench.apply({command::Ask{Question::command}});
   frames(3);
   type("er text");
-  ASSERT_EQ(workspace.palette().found().size(), 2u);
-  const std::string second = workspace.palette().found()[1]->name;
+  ASSERT_EQ(workspace.palette().matches().size(), 2u);
+  const std::string second = workspace.palette().matches()[1]->name;
   press(ImGuiKey_DownArrow);
   press(ImGuiKey_DownArrow); // is at the end
   press(ImGuiKey_UpArrow);

@@ -19,7 +19,7 @@ protected:
   /// Clicks the box of a pass; the edit that this pushed.
   std::optional<command::Edit> click(const std::string& pass)
   {
-    const auto at = workspace.panel<ui::PlanPanel>().box_of(pass);
+    const auto at = workspace.panel<ui::PlanPanel>().place_of(pass);
     if (!at) return std::nullopt;
     press_at(*at);
     let_go();
@@ -32,10 +32,10 @@ TEST_F(PlanPanelTest, WhatAFieldDecidesHasABox)
 {
   frames(3);
   open();
-  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().box_of("direct"));
-  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().box_of("mirrors"));
-  EXPECT_FALSE(workspace.panel<ui::PlanPanel>().box_of("indirect"));
-  EXPECT_FALSE(workspace.panel<ui::PlanPanel>().box_of("fog")) << "the preset has no such field";
+  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().place_of("direct"));
+  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().place_of("mirrors"));
+  EXPECT_FALSE(workspace.panel<ui::PlanPanel>().place_of("indirect"));
+  EXPECT_FALSE(workspace.panel<ui::PlanPanel>().place_of("fog")) << "the preset has no such field";
   EXPECT_TRUE(workbench.messages().empty());
 }
 
@@ -89,7 +89,7 @@ TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
   EXPECT_EQ(workbench.run().plan(), nullptr);
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().plan() != nullptr; }));
   frames(2);
-  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().box_of("mirrors"));
+  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().place_of("mirrors"));
 }
 
 } // namespace nephroid::ui::plan_panel_test

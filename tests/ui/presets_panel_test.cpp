@@ -21,7 +21,7 @@ protected:
   {
     ASSERT_TRUE(test::eventually(
         [&] { frame(); },
-        [&] { return panel().catalogue().readings() > 0 && !panel().catalogue().busy() && !panel().thumbnails().busy(); }));
+        [&] { return panel().catalogue().readings() > 0 && workbench.tasks().empty() && !panel().thumbnails().busy(workbench.tasks()); }));
     frames(2);
   }
   using test::WindowFixture::click;
@@ -130,7 +130,7 @@ TEST_F(PresetsPanelTest, WhatWasOpenedIsListedInTheNextSessionTheNewestFirst)
   EXPECT_THAT(panel().listed(), Contains("other.json"));
   click("newest");
   EXPECT_THAT(panel().listed().at(0), testing::AnyOf("other.json", "test.json"));
-  workbench.remember({}); // waits until the list is written
+  workbench.finish_files();
   const RecentFiles next(list_file, {});
   ASSERT_THAT(next.all(), SizeIs(2));
   EXPECT_EQ(next.all()[0].file, folder.path() / "other.json");
@@ -188,20 +188,21 @@ TEST(RecentFilesTest, KeepsThirtyTheNewestFirstAndEachOnce)
 {
   const test::TemporaryFolder folder;
   const fs::path list = folder.path() / "deep" / "recent.json";
-  {
-    RecentFiles files(list, {});
-    for (int i = 0; i < 40; ++i) files.add("/presets/" + std::to_string(i % 35) + ".json", i);
-    EXPECT_THAT(files.all(), SizeIs(30));
-    EXPECT_EQ(files.all()[0], (RecentFile{"/presets/4.json", 39}));
-  }
+  RecentFiles files(list, {});
+  for (int i = 0; i < 40; ++i) files.add("/presets/" + std::to_string(i % 35) + ".json", i);
+  EXPECT_THAT(files.all(), SizeIs(30));
+  EXPECT_EQ(files.all()[0], (RecentFile{"/presets/4.json", 39}));
+  files.writer()();
   const RecentFiles again(list, {});
-  ASSERT_THAT(again.all(), SizeIs(30));
-  EXPECT_EQ(again.all()[0], (RecentFile{"/presets/4.json", 39}));
+  EXPECT_EQ(again.all(), files.all());
   RecentFiles nowhere("/proc/nephroid/recent.json", {});
   nowhere.add("/a.json", 1);
-  std::string note;
-  ASSERT_TRUE(test::eventually([&] { nowhere.update(); }, [&] { return !(note = nowhere.take_note()).empty(); }));
-  EXPECT_THAT(note, HasSubstr("recent files are not remembered"));
+  try {
+    nowhere.writer()();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.line(), HasSubstr("recent files are not remembered"));
+  }
 }
 
 TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
@@ -216,14 +217,17 @@ TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
   write_thumbnail(folder.path() / "new" / "good.png", picture, 0);
   folder.write("broken.png", "\x89PNG\r\n\x1a\nnot");
   write_file_whole(folder.path() / "large.png", std::string(2 << 20, 'x'));
+  Messages messages;
+  TaskQueue tasks;
   Thumbnails thumbnails;
   const auto look = [&] {
-    thumbnails.update();
+    tasks.collect(messages);
+    thumbnails.update(tasks);
     for (const char* name : {"broken.png", "large.png", "missing.png"}) EXPECT_EQ(thumbnails.of(folder.path() / name), nullptr) << name;
     return thumbnails.of(folder.path() / "new" / "good.png");
   };
   EXPECT_EQ(look(), nullptr) << "it is read away from here";
-  ASSERT_TRUE(test::eventually([&] { look(); }, [&] { return !thumbnails.busy(); }));
+  ASSERT_TRUE(test::eventually([&] { look(); }, [&] { return !thumbnails.busy(tasks); }));
   const PictureTexture* good = look();
   ASSERT_TRUE(good);
   EXPECT_EQ(good->pixels().size(), 4u * 128 * 64);

@@ -2,6 +2,7 @@
 // Statistics of rectangles against closed forms.
 #include "tests/support/eventually.h"
 #include "tests/support/test.h"
+#include "ui/inspector/region.h"
 #include "ui/inspector/region_maker.h"
 
 namespace nephroid::ui::region_test {
@@ -97,24 +98,31 @@ TEST(RegionHistogram, CountsEveryPixelAboveZeroOnce)
   EXPECT_THAT(none.counts[0], Each(0));
 }
 
-TEST(RegionMaker, MakesWhatIsWantedOnce)
+TEST(NewestStatistics, AreMadeOnceOfWhatIsWanted)
 {
-  RegionMaker maker;
+  Messages messages;
+  TaskQueue tasks;
+  NewestResult<RegionStatistics> statistics;
+  const auto want = [&](const RegionRequest& wanted) {
+    tasks.collect(messages);
+    want_statistics(statistics, tasks, wanted);
+  };
   const RegionRequest request{picture_of(2, 1, {1, 3}), {}, "", {{0, 0}, {2, 1}}, 1};
-  ASSERT_TRUE(test::eventually([&] { return maker.want(request), maker.newest() != nullptr; }));
-  const auto first = maker.newest();
-  for (int i = 0; i < 5; ++i) maker.want(request);
-  EXPECT_EQ(maker.newest(), first);
+  ASSERT_TRUE(test::eventually([&] { return want(request), statistics.newest() != nullptr; }));
+  const auto first = statistics.newest();
+  for (int i = 0; i < 5; ++i) want(request);
+  EXPECT_TRUE(tasks.empty());
+  EXPECT_EQ(statistics.newest(), first);
   RegionRequest other = request;
   other.region = {{1, 0}, {2, 1}};
-  ASSERT_TRUE(test::eventually([&] { return maker.want(other), maker.newest() != first; }));
-  EXPECT_DOUBLE_EQ(maker.newest()->pictures[0].of[1].mean, 3);
+  ASSERT_TRUE(test::eventually([&] { return want(other), statistics.newest() != first; }));
+  EXPECT_DOUBLE_EQ(statistics.newest()->pictures[0].of[1].mean, 3);
   RegionRequest newer = other;
   newer.picture = picture_of(2, 1, {1, 5});
-  ASSERT_TRUE(test::eventually([&] { return maker.want(newer), maker.newest()->pictures[0].of[1].mean == 5; }))
+  ASSERT_TRUE(test::eventually([&] { return want(newer), statistics.newest()->pictures[0].of[1].mean == 5; }))
       << "it rests, and then goes on";
-  maker.forget();
-  EXPECT_EQ(maker.newest(), nullptr);
+  statistics.forget(tasks);
+  EXPECT_EQ(statistics.newest(), nullptr);
 }
 
 } // namespace nephroid::ui::region_test

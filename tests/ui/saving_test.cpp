@@ -155,7 +155,7 @@ TEST_F(SavingTest, NewScenesAreInNoFileAndAskBeforeChangesGo)
   EXPECT_NE(workbench.preset()->white, 2);
   for (const engine::Engine* engine : engine::engines()) {
     workbench.apply({command::New{engine->introduction.new_scene.preset, true}});
-    EXPECT_EQ(workbench.preset()->settings.type().name, name_of(*engine));
+    EXPECT_EQ(workbench.preset()->settings.engine(), name_of(*engine));
     workbench.apply({command::SavePreset{folder.path() / "new.json"}});
     EXPECT_TRUE(preset::read_preset((folder.path() / "new.json").string()) == *workbench.preset());
   }

@@ -75,12 +75,12 @@ TEST(SpectraMaker, MakesAnewWhatChangedOnly)
   EXPECT_THAT(maker.update(preset, nullptr).why_no_u, HasSubstr("before a run"));
   EXPECT_EQ(maker.spectra().lights[0].spectrum, optics::illuminant("D65"));
   maker.update(preset, nullptr);
-  EXPECT_EQ(maker.made(), 1u);
+  EXPECT_EQ(maker.updates(), 1u);
   const auto seen = seen_of(preset);
   const Spectra& spectra = maker.update(preset, seen);
   EXPECT_EQ(spectra.why_no_u, "");
   maker.update(preset, seen_of(preset));
-  EXPECT_EQ(maker.made(), 2u) << "another run saw the same";
+  EXPECT_EQ(maker.updates(), 2u) << "another run saw the same";
   preset.scene.lights[0].spectrum.illuminant = "A";
   const std::size_t clusters = spectra.clusters.size();
   const double before = spectra.importance.u[50];

@@ -181,15 +181,15 @@ TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsFollowed)
 TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
 {
   open_room(table);
-  const std::uint64_t made = panel().maker().made();
+  const std::uint64_t made = panel().maker().updates();
   frames(20);
-  EXPECT_EQ(panel().maker().made(), made);
+  EXPECT_EQ(panel().maker().updates(), made);
   move(panel().plot().place(600, 0.5));
   imgui.button(0, true);
   frame();
   move(panel().plot().place(620, 0.7));
   frames(2);
-  const std::uint64_t dragged = panel().maker().made();
+  const std::uint64_t dragged = panel().maker().updates();
   EXPECT_GT(dragged, made);
   for (int i = 0; i < 20; ++i) { // held, and at rest
     frame();
@@ -199,7 +199,7 @@ TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
   frames(3);
   ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
   frames(3);
-  EXPECT_EQ(panel().maker().made(), dragged) << "the new run's glass sees what the old one's saw";
+  EXPECT_EQ(panel().maker().updates(), dragged) << "the new run's glass sees what the old one's saw";
 }
 
 TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)

@@ -26,7 +26,7 @@ TEST_F(SpectralSession, FromTheStartPageToASavedPicture)
   session.shot("Open an example: the run begins");
 
   session.click(session.tab<DispersionPanel>());
-  session.click(session.panel<DispersionPanel>().widget("Make editable"));
+  session.click(session.panel<DispersionPanel>().place_of("Make editable").value());
   const auto glass = [&](const preset::Preset& preset) { return sorted_points(preset.scene.materials.at("glass").dispersion); };
   const std::vector<ControlPoint> fitted = glass(*session.workbench().preset());
   ASSERT_GT(fitted.size(), 5u) << "the glass has points";

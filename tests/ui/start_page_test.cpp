@@ -19,10 +19,10 @@ protected:
   }
   const PresetsPanel& presets() const { return workspace.panel<PresetsPanel>(); }
   void click(const std::string& widget) { click_in(workspace.start_page(), widget, 3); }
-  std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.type().name) : ""; }
+  std::string engine() const { return workbench.preset() ? std::string(workbench.preset()->settings.engine()) : ""; }
   void listed()
   {
-    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return presets().catalogue().readings() > 0 && !presets().catalogue().busy(); }));
+    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return presets().catalogue().readings() > 0 && workbench.tasks().empty(); }));
     frames(2);
   }
 };

@@ -24,21 +24,21 @@ Colour colour_of(const glm::dvec3& flux)
 std::vector<RegionFigures> figures_of(const environment::Segmentation& segmentation, double radiance, double rotate_deg,
                                       const std::vector<double>& visible)
 {
-  const double all = environment::luminance(segmentation.total_flux);
+  const double total = environment::luminance(segmentation.total_flux);
   std::vector<RegionFigures> figures;
   for (const auto* regions : {&segmentation.lights, &segmentation.dropped})
     for (const environment::Region& region : *regions) {
       const glm::dvec3 d = environment::turned(region.direction, rotate_deg);
       const double flux = environment::luminance(region.flux);
-      RegionFigures one;
-      one.flux = radiance * flux;
-      one.share = all > 0 ? flux / all : 0;
-      one.azimuth_deg = glm::degrees(std::atan2(d.x, -d.z));
-      one.elevation_deg = glm::degrees(std::asin(std::clamp(d.y, -1.0, 1.0)));
-      one.solid_angle_sr = region.solid_angle_sr;
-      one.colour = colour_of(region.flux);
-      if (figures.size() < visible.size()) one.occluded = 1 - visible[figures.size()];
-      figures.push_back(one);
+      RegionFigures of_region;
+      of_region.flux = radiance * flux;
+      of_region.share = total > 0 ? flux / total : 0;
+      of_region.azimuth_deg = glm::degrees(std::atan2(d.x, -d.z));
+      of_region.elevation_deg = glm::degrees(std::asin(std::clamp(d.y, -1.0, 1.0)));
+      of_region.solid_angle_sr = region.solid_angle_sr;
+      of_region.colour = colour_of(region.flux);
+      if (figures.size() < visible.size()) of_region.occluded = 1 - visible[figures.size()];
+      figures.push_back(of_region);
     }
   return figures;
 }

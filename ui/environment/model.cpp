@@ -3,7 +3,6 @@
 
 #include "environment/segment/quality.h"
 #include "environment/settings.h"
-#include "preset/settings_type.h"
 #include "scene/environment.h"
 
 #include <exception>
@@ -18,24 +17,24 @@ using environment::SegmentSettings;
 
 std::shared_ptr<const ReadMap> read(const MapSource& source)
 {
-  auto made = std::make_shared<ReadMap>();
+  auto read_map = std::make_shared<ReadMap>();
   const Place where = Place(source.preset) / "scene" / "environment";
   const FileFinder finder(std::filesystem::path(source.preset).parent_path());
-  const scene::Environment map = scene::make_environment(source.environment, finder, where, made->warnings);
-  made->width = map.width;
-  made->height = map.height;
-  made->cube = environment::make_cube_map(map);
-  made->picture = environment::shown_map(map);
-  return made;
+  const scene::Environment map = scene::make_environment(source.environment, finder, where, read_map->warnings);
+  read_map->width = map.width;
+  read_map->height = map.height;
+  read_map->cube = environment::make_cube_map(map);
+  read_map->picture = environment::shown_map(map);
+  return read_map;
 }
 
 std::shared_ptr<const CutMap> cut(const ReadMap& map, const SegmentSettings& settings)
 {
-  auto made = std::make_shared<CutMap>();
-  made->settings = settings;
-  made->segmentation = environment::segment(map.cube, settings);
-  made->region_of_texel = regions_of_texels(made->segmentation);
-  return made;
+  auto cut_map = std::make_shared<CutMap>();
+  cut_map->settings = settings;
+  cut_map->segmentation = environment::segment(map.cube, settings);
+  cut_map->region_of_texel = regions_of_texels(cut_map->segmentation);
+  return cut_map;
 }
 
 /// The method that has fewer points so far.
@@ -56,120 +55,93 @@ WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture
   return wanted;
 }
 
-EnvironmentModel::EnvironmentModel() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
-EnvironmentModel::~EnvironmentModel() = default;
+/// What steps leave for later ones.
+struct EnvironmentModel::Known {
+  std::vector<glm::dvec3> truth;           ///< irradiance of the whole map
+  std::shared_ptr<const ReadMap> under_of; ///< what lies under the pixels of pictures
+  MapPictureSize under_size;               ///< of this map and size
+  std::vector<Colour> colours;
+  std::vector<int> texels;
+};
 
-void EnvironmentModel::want(const WantedMap& wanted)
+struct EnvironmentModel::Result {
+  ShownMap shown;
+  bool refused = false;
+};
+
+void EnvironmentModel::want(const WantedMap& wanted, TaskQueue& tasks)
 {
-  const std::lock_guard lock(mutex_);
-  if (wanted_ == wanted) return;
   wanted_ = wanted;
-  wake_.notify_one();
+  const Step step = next();
+  if (step == Step::none || tasks.busy(steps_)) return;
+  if (!known_) known_ = std::make_shared<Known>();
+  tasks.start(
+      steps_, {"lights of the environment"},
+      [step, wanted, shown = shown_, known = known_] { return take_step(step, wanted, shown, *known); },
+      [this, step, wanted](Result result) {
+        shown_ = std::move(result.shown);
+        refused_ = result.refused ? std::optional(wanted) : std::nullopt;
+        if (result.refused) return;
+        if (step == Step::read) has_truth_ = false, ++maps_read_;
+        if (step == Step::truth) has_truth_ = true;
+        if (step == Step::cut) ++cuts_made_;
+      });
 }
 
-ShownMap EnvironmentModel::shown() const
+/// What is seen first comes first. A point of the quality is a step of its own, so that it holds nothing else up for long.
+EnvironmentModel::Step EnvironmentModel::next() const
 {
-  const std::lock_guard lock(mutex_);
-  return shown_;
-}
-
-bool EnvironmentModel::rests() const
-{
-  const std::lock_guard lock(mutex_);
-  return in_hand_ == Task::none && next() == Task::none;
-}
-
-int EnvironmentModel::maps_read() const
-{
-  const std::lock_guard lock(mutex_);
-  return maps_read_;
-}
-
-int EnvironmentModel::cuts_made() const
-{
-  const std::lock_guard lock(mutex_);
-  return cuts_made_;
-}
-
-/// What is seen first comes first. A point of the quality is a task of its own, so that it holds nothing else up for long.
-EnvironmentModel::Task EnvironmentModel::next() const
-{
-  if (!wanted_) return Task::none;
-  if (refused_ && refused_->source == wanted_->source && refused_->segments == wanted_->segments) return Task::none;
-  if (!shown_.map || shown_.source != wanted_->source) return Task::read;
+  if (!wanted_) return Step::none;
+  if (refused_ && refused_->source == wanted_->source && refused_->segments == wanted_->segments) return Step::none;
+  if (!shown_.map || shown_.source != wanted_->source) return Step::read;
   const bool segments = wanted_->segments.has_value();
-  if (segments && (!shown_.cut || shown_.cut->settings != *wanted_->segments)) return Task::cut;
+  if (segments && (!shown_.cut || shown_.cut->settings != *wanted_->segments)) return Step::cut;
   const std::shared_ptr<const CutMap> with = segments ? shown_.cut : nullptr;
-  if (!shown_.picture || shown_.picture->size != wanted_->picture || shown_.picture->cut != with) return Task::draw;
-  if (!segments) return Task::none;
-  if (!has_truth_) return Task::truth;
-  if (!shown_.cut_error) return Task::error;
-  return shown_.quality[1].size() < quality_lights.size() ? Task::quality : Task::none;
+  if (!shown_.picture || shown_.picture->size != wanted_->picture || shown_.picture->cut != with) return Step::draw;
+  if (!segments) return Step::none;
+  if (!has_truth_) return Step::truth;
+  if (!shown_.cut_error) return Step::error;
+  return shown_.quality[1].size() < quality_lights.size() ? Step::quality : Step::none;
 }
 
-void EnvironmentModel::work(const std::stop_token& stop)
+EnvironmentModel::Result EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMap shown, Known& known)
 {
-  std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [&] { return next() != Task::none; })) {
-    if (stop.stop_requested()) return;
-    in_hand_ = next();
-    const WantedMap wanted = *wanted_;
-    ShownMap made = shown_; // only this thread changes it
-    lock.unlock();
-    std::string error;
-    try {
-      carry_out(in_hand_, wanted, made);
-    } catch (const std::exception& e) {
-      error = e.what();
-    }
-    lock.lock();
-    if (error.empty()) {
-      shown_ = std::move(made);
-      refused_.reset();
-      if (in_hand_ == Task::read) has_truth_ = false, ++maps_read_;
-      if (in_hand_ == Task::truth) has_truth_ = true;
-      if (in_hand_ == Task::cut) ++cuts_made_;
+  const auto error_of = [&](const environment::Segmentation& segmentation) {
+    return environment::irradiance_error(known.truth, segmentation);
+  };
+  try {
+    if (step == Step::read) {
+      shown = {};
+      shown.map = read(wanted.source);
+      shown.source = wanted.source;
+    } else if (step == Step::cut) {
+      shown.cut = cut(*shown.map, *wanted.segments);
+      shown.cut_error.reset();
+    } else if (step == Step::draw) {
+      if (known.under_of != shown.map || known.under_size != wanted.picture) {
+        known.colours = colours_under(wanted.picture, shown.map->picture);
+        known.texels = texels_under(wanted.picture, shown.map->cube.size);
+        known.under_of = shown.map;
+        known.under_size = wanted.picture;
+      }
+      auto picture = std::make_shared<MapPicture>();
+      picture->size = wanted.picture;
+      if (wanted.segments) picture->cut = shown.cut;
+      picture->rgba = drawn(wanted.picture, known.colours, known.texels, picture->cut ? picture->cut->region_of_texel : std::vector<int>());
+      shown.picture = std::move(picture);
+    } else if (step == Step::truth) {
+      known.truth = environment::irradiances(shown.map->cube);
+    } else if (step == Step::error) {
+      shown.cut_error = error_of(shown.cut->segmentation);
     } else {
-      shown_ = {};
-      shown_.source = wanted.source;
-      shown_.error = error;
-      refused_ = wanted;
+      const std::size_t method = method_in_turn(shown.quality);
+      Quality& points = shown.quality.at(method);
+      const SegmentSettings settings{.lights = quality_lights.at(points.size()), .method = static_cast<SegmentMethod>(method)};
+      points.push_back(error_of(environment::segment(shown.map->cube, settings)));
     }
-    in_hand_ = Task::none;
-  }
-}
-
-void EnvironmentModel::carry_out(Task task, const WantedMap& wanted, ShownMap& made)
-{
-  const auto error_of = [&](const environment::Segmentation& segmentation) { return environment::irradiance_error(truth_, segmentation); };
-  if (task == Task::read) {
-    made = {};
-    made.map = read(wanted.source);
-    made.source = wanted.source;
-  } else if (task == Task::cut) {
-    made.cut = cut(*made.map, *wanted.segments);
-    made.cut_error.reset();
-  } else if (task == Task::draw) {
-    if (under_of_ != made.map || under_size_ != wanted.picture) {
-      colours_ = colours_under(wanted.picture, made.map->picture);
-      texels_ = texels_under(wanted.picture, made.map->cube.size);
-      under_of_ = made.map;
-      under_size_ = wanted.picture;
-    }
-    auto picture = std::make_shared<MapPicture>();
-    picture->size = wanted.picture;
-    if (wanted.segments) picture->cut = made.cut;
-    picture->rgba = drawn(wanted.picture, colours_, texels_, picture->cut ? picture->cut->region_of_texel : std::vector<int>());
-    made.picture = std::move(picture);
-  } else if (task == Task::truth) {
-    truth_ = environment::irradiances(made.map->cube);
-  } else if (task == Task::error) {
-    made.cut_error = error_of(made.cut->segmentation);
-  } else {
-    const std::size_t method = method_in_turn(made.quality);
-    Quality& points = made.quality.at(method);
-    const SegmentSettings settings{.lights = quality_lights.at(points.size()), .method = static_cast<SegmentMethod>(method)};
-    points.push_back(error_of(environment::segment(made.map->cube, settings)));
+    return {std::move(shown)};
+  } catch (const std::exception& error) {
+    return {.shown = {.source = wanted.source, .error = error.what()}, .refused = true};
   }
 }
 

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the panel "Environment" shows of a preset: its map, read once, as a cube and as a picture; the lights that it is cut into; how well
-// as many lights as one likes would do. Made on a thread of its own, what is seen first. No Dear ImGui.
+// as many lights as one likes would do. Made beside the frames, what is seen first. No Dear ImGui.
 #pragma once
 #include "environment/segment/segment.h"
 #include "preset/preset.h"
 #include "ui/environment/picture.h"
+#include "ui/state/tasks.h"
 
 #include <array>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace nephroid::ui {
@@ -73,42 +70,30 @@ struct ShownMap {
 
 class EnvironmentModel {
 public:
-  EnvironmentModel();
-  ~EnvironmentModel();
-  EnvironmentModel(const EnvironmentModel&) = delete;
-  EnvironmentModel& operator=(const EnvironmentModel&) = delete;
-
-  /// Once a frame, returns at once. What is in the making for something else is finished and dropped.
-  void want(const WantedMap& wanted);
-  ShownMap shown() const;
+  /// Once a frame, returns at once: begins what is missing, one thing after the other. What is in the making for something else is finished
+  /// and dropped.
+  void want(const WantedMap& wanted, TaskQueue& tasks);
+  const ShownMap& shown() const { return shown_; }
   /// Whether nothing of what is wanted is missing, but for what an error says.
-  bool rests() const;
+  bool rests() const { return next() == Step::none; }
   /// How often a map was read, and cut for the panel; for tests.
-  int maps_read() const;
-  int cuts_made() const;
+  int maps_read() const { return maps_read_; }
+  int cuts_made() const { return cuts_made_; }
 
 private:
-  enum class Task { none, read, cut, draw, truth, error, quality };
-  Task next() const;
-  void work(const std::stop_token& stop);
-  void carry_out(Task task, const WantedMap& wanted, ShownMap& made);
+  enum class Step { none, read, cut, draw, truth, error, quality };
+  struct Known;
+  struct Result;
+  Step next() const;
+  static Result take_step(Step step, const WantedMap& wanted, ShownMap shown, Known& known);
 
-  mutable std::mutex mutex_; ///< of what follows
-  std::condition_variable_any wake_;
   std::optional<WantedMap> wanted_;
   std::optional<WantedMap> refused_; ///< what failed last
   ShownMap shown_;
-  Task in_hand_ = Task::none;
-  bool has_truth_ = false; ///< truth_ is of shown_.map
+  bool has_truth_ = false; ///< known_ has the truth of shown_.map
   int maps_read_ = 0, cuts_made_ = 0;
-
-  std::vector<glm::dvec3> truth_;           ///< the thread's own, as are these:
-  std::shared_ptr<const ReadMap> under_of_; ///< what lies under the pixels of pictures
-  MapPictureSize under_size_;               ///< of this map and size
-  std::vector<Colour> colours_;
-  std::vector<int> texels_;
-
-  std::jthread thread_; ///< last: it uses the others
+  std::shared_ptr<Known> known_; ///< of the step that is taken, else nobody's
+  TaskKey steps_;
 };
 
 } // namespace nephroid::ui

@@ -4,7 +4,6 @@
 #include "base/counted.h"
 #include "environment/describe_settings.h"
 #include "environment/settings.h"
-#include "preset/settings_type.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -72,7 +71,7 @@ void EnvironmentPanel::draw(const Context& context)
     draw_wrapped(colour::quiet_text,
                  fmt::format("The engine \"{}\" takes the map as it is. How it is cut into lights is for presets of the "
                              "engine \"environment\".",
-                             preset.settings.type().name));
+                             preset.settings.engine()));
   draw_radiance_row(context);
   if (cuts_) draw_caustics_row(context);
   if (!shown_.error.empty()) draw_wrapped(colour::error, shown_.error);
@@ -94,7 +93,7 @@ void EnvironmentPanel::follow(const Context& context)
   MapPictureSize size = map_.wanted_size();
   if (size.layout != layout_) size = {layout_, size.width};
   const WantedMap wanted = wanted_map(preset, size);
-  model_.want(wanted);
+  model_.want(wanted, context.tasks);
   shown_ = model_.shown();
   if (shown_.source != wanted.source) shown_ = {}; // another map's picture would be mistaken for this one's
   if (!cuts_) shown_.cut.reset();

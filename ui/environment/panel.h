@@ -7,7 +7,6 @@
 #include "ui/environment/model.h"
 #include "ui/environment/plot.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
 #include <array>
 #include <optional>
@@ -30,7 +29,6 @@ public:
   const QualityPlot& plot() const { return plot_; }
   const std::vector<RegionFigures>& figures() const { return figures_; }
   std::array<double, 2> place_on_map(const glm::dvec3& direction) const;
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   void follow(const Context& context);
@@ -65,7 +63,6 @@ private:
   QualityPlot plot_;
   Gestures gestures_{title};
   double taken_deg_ = 0; ///< rotate_deg when the picture was taken
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

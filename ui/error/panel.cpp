@@ -69,10 +69,10 @@ std::string plot_as_csv(const Context& context)
 
 const RunLines& ErrorPanel::lines(std::uint64_t id, const std::shared_ptr<const job::History>& history)
 {
-  Made& made = made_[id];
-  if (made.history != history || made.metric != contents_.metric)
-    made = {history, contents_.metric, history ? lines_of(*history, contents_.metric) : RunLines{}};
-  return made.lines;
+  Known& known = known_[id];
+  if (known.history != history || known.metric != contents_.metric)
+    known = {history, contents_.metric, history ? lines_of(*history, contents_.metric) : RunLines{}};
+  return known.lines;
 }
 
 void ErrorPanel::collect(const Context& context)
@@ -80,7 +80,7 @@ void ErrorPanel::collect(const Context& context)
   contents_.metric = shown_metric(context);
   contents_.target = target_of(context, contents_.metric);
   contents_.runs.clear();
-  std::erase_if(made_, [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
+  std::erase_if(known_, [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
   for (const PinnedRun& pin : context.comparing.pinned().all())
     if (const RunLines& of_pin = lines(pin.id, pin.history); pin.shown && !of_pin.empty())
       contents_.runs.push_back({pin.name, pin.colour, 1.5f, &of_pin});

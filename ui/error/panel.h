@@ -26,7 +26,7 @@ public:
 
 private:
   /// Lines of a history, made anew when the history or the metric is another.
-  struct Made {
+  struct Known {
     std::shared_ptr<const job::History> history;
     std::string metric;
     RunLines lines;
@@ -40,7 +40,7 @@ private:
   void draw_pin(const Context& context, const PinnedRun& pin);
   std::string findings(const Context& context, const PinnedRun& pin);
 
-  std::map<std::uint64_t, Made> made_;
+  std::map<std::uint64_t, Known> known_;
   PlotContents contents_;
   ErrorPlot plot_;
 };

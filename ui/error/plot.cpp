@@ -175,11 +175,8 @@ void ErrorPlot::draw(const PlotContents& contents, float height)
   const bool hovered = ImPlot::IsPlotHovered();
   if (hovered && !contents.runs.empty()) draw_values(contents);
   ImPlot::EndPlot();
-  if (!hovered) return;
   // The axes are held while they follow; the gesture that lets them go takes effect with the next frame.
-  if (ImGui::GetIO().MouseWheel != 0 || ImGui::IsMouseDragging(ImGuiMouseButton_Left) || ImGui::IsMouseDragging(ImGuiMouseButton_Right))
-    follows_ = false;
-  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) follows_ = true;
+  if (hovered) follows_ = follows_after_mouse(follows_);
 }
 
 } // namespace nephroid::ui

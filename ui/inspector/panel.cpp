@@ -156,7 +156,7 @@ void InspectorPanel::draw_region(const Context& context)
                                     .c_str()
                               : "Region");
   if (!region) {
-    maker_.forget();
+    statistics_.forget(context.tasks);
     draw_wrapped(colour::quiet_text, !chosen         ? "Alt and a drag on the picture takes a rectangle, Shift+I the whole picture."
                                      : picture.owner ? "The rectangle lies outside of the picture, which has another size now."
                                                      : context.comparing.why_no_picture());
@@ -164,8 +164,9 @@ void InspectorPanel::draw_region(const Context& context)
   }
   const HeldPicture other = context.comparing.other_picture();
   const PinnedRun* pin = context.comparing.pinned().find(context.comparing.comparison().pin);
-  maker_.want({picture, other, pin ? pin->name : "reference", *region, context.preset() ? context.preset()->white : 1});
-  const auto& statistics = maker_.newest();
+  want_statistics(statistics_, context.tasks,
+                  {picture, other, pin ? pin->name : "reference", *region, context.preset() ? context.preset()->white : 1});
+  const auto& statistics = statistics_.newest();
   if (!statistics) return draw_wrapped(colour::quiet_text, "The statistics are being made.");
   if (ImGui::Button("Copy as CSV")) ImGui::SetClipboardText(to_csv(*statistics).c_str());
   places_.note("copy region");

@@ -2,11 +2,10 @@
 // The panel Inspector: one pixel with all its values, its neighbours and its spectrum, and statistics of a rectangle of pixels. Which they
 // are the View's mouse says, and actions (commands InspectPixel and SelectRegion).
 #pragma once
-#include "ui/inspector/region_maker.h"
+#include "ui/inspector/region.h"
 #include "ui/state/tone.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/widgets.h"
 
 #include <memory>
 #include <string>
@@ -21,9 +20,8 @@ public:
   explicit InspectorPanel(WavelengthAxis& wavelengths) : axis_(wavelengths) {}
   void draw(const Context& context) override;
 
-  /// Of the region; null where there is none yet. For tests, as is places().
-  const std::shared_ptr<const RegionStatistics>& statistics() const { return maker_.newest(); }
-  const WidgetPlaces& places() const { return places_; }
+  /// Of the region; null where there is none yet. For tests.
+  const std::shared_ptr<const RegionStatistics>& statistics() const { return statistics_.newest(); }
 
 private:
   void draw_pixel(const Context& context);
@@ -42,9 +40,8 @@ private:
   };
 
   WavelengthAxis& axis_;
-  RegionMaker maker_;
+  NewestResult<RegionStatistics> statistics_;
   Neighbours neighbours_;
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

@@ -32,28 +32,28 @@ std::vector<Rgb> pixels_of(const measure::Pixels& picture, const PixelRegion& re
 
 PictureStatistics statistics(std::string name, const std::vector<Rgb>& pixels, double white)
 {
-  PictureStatistics made;
-  made.name = std::move(name);
-  made.pixels = pixels.size();
+  PictureStatistics picture;
+  picture.name = std::move(name);
+  picture.pixels = pixels.size();
   std::array<std::vector<double>, 4> values;
   for (auto& list : values) list.reserve(pixels.size());
   for (const Rgb& rgb : pixels) {
     if (std::ranges::any_of(rgb, [](float v) { return std::isnan(v); })) {
-      ++made.nan;
+      ++picture.nan;
       continue;
     }
     if (std::ranges::any_of(rgb, [](float v) { return std::isinf(v); })) {
-      ++made.infinite;
+      ++picture.infinite;
       continue;
     }
     const double luminance = white * measure::luminance(rgb.data());
-    made.dark += luminance < 0;
-    made.coloured += std::ranges::any_of(rgb, [](float v) { return v < 0; });
+    picture.dark += luminance < 0;
+    picture.coloured += std::ranges::any_of(rgb, [](float v) { return v < 0; });
     values[0].push_back(luminance);
     for (std::size_t c = 0; c < 3; ++c) values[c + 1].push_back(static_cast<double>(rgb[c]));
   }
-  for (std::size_t q = 0; q < 4; ++q) made.of[q] = moments(std::move(values[q]));
-  return made;
+  for (std::size_t q = 0; q < 4; ++q) picture.of[q] = moments(std::move(values[q]));
+  return picture;
 }
 
 Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double white)
@@ -67,18 +67,18 @@ Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double
   for (const auto* pixels : pictures)
     for (const Rgb& rgb : *pixels)
       if (const double l = log_of(rgb); !std::isnan(l)) low = std::min(low, l), high = std::max(high, l);
-  Histogram made;
+  Histogram bars;
   if (low > high) low = 0, high = 1;
-  made.last = std::floor(high * bins_a_decade + 1) / bins_a_decade;
-  made.first = std::max(std::floor(low * bins_a_decade) / bins_a_decade, made.last - 12); // twelve decades are enough for an eye
-  const auto bins = static_cast<std::size_t>(std::lround((made.last - made.first) * bins_a_decade));
+  bars.last = std::floor(high * bins_a_decade + 1) / bins_a_decade;
+  bars.first = std::max(std::floor(low * bins_a_decade) / bins_a_decade, bars.last - 12); // twelve decades are enough for an eye
+  const auto bins = static_cast<std::size_t>(std::lround((bars.last - bars.first) * bins_a_decade));
   for (const auto* pixels : pictures) {
-    std::vector<double>& counts = made.counts.emplace_back(bins, 0.0);
+    std::vector<double>& counts = bars.counts.emplace_back(bins, 0.0);
     for (const Rgb& rgb : *pixels)
-      if (const double l = log_of(rgb); l >= made.first)
-        ++counts[std::min(static_cast<std::size_t>((l - made.first) * bins_a_decade), bins - 1)];
+      if (const double l = log_of(rgb); l >= bars.first)
+        ++counts[std::min(static_cast<std::size_t>((l - bars.first) * bins_a_decade), bins - 1)];
   }
-  return made;
+  return bars;
 }
 
 } // namespace
@@ -88,20 +88,20 @@ Moments moments(std::vector<double> values)
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   if (values.empty()) return {none, none, none, none, none};
   const auto n = static_cast<double>(values.size());
-  Moments made{0, 0, values[0], values[0], 0};
+  Moments m{0, 0, values[0], values[0], 0};
   double sum = 0, squares = 0;
   for (const double v : values) sum += v;
-  made.mean = sum / n;
+  m.mean = sum / n;
   for (const double v : values) {
-    squares += (v - made.mean) * (v - made.mean);
-    made.least = std::min(made.least, v);
-    made.most = std::max(made.most, v);
+    squares += (v - m.mean) * (v - m.mean);
+    m.least = std::min(m.least, v);
+    m.most = std::max(m.most, v);
   }
-  made.deviation = std::sqrt(squares / n);
+  m.deviation = std::sqrt(squares / n);
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  made.median = values.size() % 2 == 1 ? *middle : (*middle + *std::max_element(values.begin(), middle)) / 2;
-  return made;
+  m.median = values.size() % 2 == 1 ? *middle : (*middle + *std::max_element(values.begin(), middle)) / 2;
+  return m;
 }
 
 std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int height)
@@ -114,22 +114,37 @@ std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int heig
 
 RegionStatistics region_statistics(RegionRequest request)
 {
-  RegionStatistics made;
+  RegionStatistics of_region;
   request.region = *cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height);
   const std::vector<Rgb> run = pixels_of(request.picture.pixels, request.region);
-  made.pictures.push_back(statistics("run", run, request.white));
+  of_region.pictures.push_back(statistics("run", run, request.white));
   if (request.other.owner) {
     const std::vector<Rgb> other = pixels_of(request.other.pixels, request.region);
     std::vector<Rgb> difference = run;
     for (std::size_t i = 0; i < run.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c) difference[i][c] -= other[i][c];
-    made.pictures.push_back(statistics(request.other_name, other, request.white));
-    made.pictures.push_back(statistics("difference", difference, request.white));
-    made.histogram = histogram({&run, &other}, request.white);
+    of_region.pictures.push_back(statistics(request.other_name, other, request.white));
+    of_region.pictures.push_back(statistics("difference", difference, request.white));
+    of_region.histogram = histogram({&run, &other}, request.white);
   } else
-    made.histogram = histogram({&run}, request.white);
-  made.of = std::move(request);
-  return made;
+    of_region.histogram = histogram({&run}, request.white);
+  of_region.of = std::move(request);
+  return of_region;
+}
+
+void want_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request)
+{
+  const auto is_same_but_picture = [&](const RegionRequest& of) { // whose region is cut to its picture
+    return of.region == cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height) &&
+           of.other.owner == request.other.owner && of.other_name == request.other_name && of.white == request.white;
+  };
+  const auto& newest = statistics.newest();
+  const Request wanted = !newest || !is_same_but_picture(newest->of)         ? Request::other
+                         : newest->of.picture.owner == request.picture.owner ? Request::same
+                                                                             : Request::other_picture;
+  statistics.want(
+      tasks, "statistics of the region", wanted, [request] { return std::make_shared<RegionStatistics>(region_statistics(request)); },
+      TaskQueue::Clock::now());
 }
 
 std::string to_csv(const RegionStatistics& statistics)

@@ -3,6 +3,7 @@
 #pragma once
 #include "ui/state/commands.h"
 #include "ui/state/difference.h"
+#include "ui/state/newest_result.h"
 
 #include <array>
 #include <cstddef>
@@ -53,6 +54,8 @@ struct RegionStatistics {
 std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int height);
 /// The region reaches into the picture; both pictures have one size.
 RegionStatistics region_statistics(RegionRequest request);
+/// Once a frame: NewestResult::want(), as medians of a large picture take a tenth of a second.
+void want_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request);
 /// A row a picture and quantity, under a line of names.
 std::string to_csv(const RegionStatistics& statistics);
 

@@ -99,17 +99,17 @@ void Draft::take(preset::Preset preset)
 
 Json Draft::with(const Edits& edits) const
 {
-  Json made = base_;
-  for (const auto& [pointer, value] : edits) made[Pointer(pointer)] = value;
-  return made;
+  Json edited = base_;
+  for (const auto& [pointer, value] : edits) edited[Pointer(pointer)] = value;
+  return edited;
 }
 
-std::optional<Problem> Draft::problem_of(const Edits& edits, const std::string& pointer, preset::Preset& made) const
+std::optional<Problem> Draft::problem_of(const Edits& edits, const std::string& pointer, preset::Preset& edited) const
 {
   try {
     const Json value = with(edits);
-    made = preset::parse_preset(json_text(value), preset_.source);
-    check_loads(preset_, made, base_, value);
+    edited = preset::parse_preset(json_text(value), preset_.source);
+    check_loads(preset_, edited, base_, value);
   } catch (const Error& error) {
     const Place& place = error.place();
     const bool known = place.name == preset_.source && place.pointer;
@@ -130,14 +130,14 @@ Draft::Edits Draft::together(const std::string& pointer, int reach) const
 std::optional<preset::Preset> Draft::settle(const std::string& pointer)
 {
   problems_.erase(pointer);
-  preset::Preset made;
+  preset::Preset edited;
   for (const int reach : {0, 1, 2}) {
     const Edits edits = together(pointer, reach);
-    if (auto problem = problem_of(edits, pointer, made)) {
+    if (auto problem = problem_of(edits, pointer, edited)) {
       problems_.insert_or_assign(pointer, *std::move(problem)); // of the most edits together: they say one thing
       continue;
     }
-    take(std::move(made));
+    take(std::move(edited));
     for (const auto& [settled, value] : edits) {
       waiting_.erase(settled);
       problems_.erase(settled);
@@ -162,19 +162,19 @@ std::optional<preset::Preset> Draft::edit(const std::string& pointer, Json value
   std::erase_if(waiting_, [&](const auto& edit) { return is_inside(edit.first, root); });
   std::erase_if(problems_, [&](const auto& problem) { return is_inside(problem.first, root); });
   waiting_[root] = std::move(whole);
-  std::optional<preset::Preset> made = settle(root);
+  std::optional<preset::Preset> edited = settle(root);
   // What became possible lets others be possible.
-  for (bool again = made.has_value(); again;) {
+  for (bool again = edited.has_value(); again;) {
     again = false;
     for (const auto& [waiting, _] : Edits(waiting_))
       if (auto more = settle(waiting)) {
-        made = std::move(more);
+        edited = std::move(more);
         again = true;
         break;
       }
   }
   value_ = with(waiting_);
-  return made;
+  return edited;
 }
 
 std::optional<Problem> Draft::trial(const std::string& pointer, const Json& value) const

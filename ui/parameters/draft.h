@@ -46,7 +46,7 @@ private:
   Json with(const Edits& edits) const;
   Edits together(const std::string& pointer, int reach) const;
   std::optional<preset::Preset> settle(const std::string& pointer);
-  std::optional<Problem> problem_of(const Edits& edits, const std::string& pointer, preset::Preset& made) const;
+  std::optional<Problem> problem_of(const Edits& edits, const std::string& pointer, preset::Preset& edited) const;
 
   preset::Preset preset_; ///< as it is outside
   Json base_, value_;     ///< that as JSON; with the edits that wait

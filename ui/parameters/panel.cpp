@@ -41,10 +41,10 @@ Json reset(const Outline& o, const Json& value)
 {
   if (o.optional) return nullptr;
   if (o.kind == Kind::object) {
-    Json made = value;
+    Json reset_fields = value;
     for (const Outline& f : o.fields(value))
-      if (value.contains(f.field.name)) made[std::string(f.field.name)] = reset(f, part(value, f));
-    return made;
+      if (value.contains(f.field.name)) reset_fields[std::string(f.field.name)] = reset(f, part(value, f));
+    return reset_fields;
   }
   return o.field.required || o.kind == Kind::list || o.kind == Kind::map ? value : o.standard;
 }
@@ -123,8 +123,8 @@ void ParametersPanel::draw(const Context& context)
 void ParametersPanel::carry_out(const Context& context)
 {
   for (Asked& asked : std::exchange(asked_, {})) {
-    if (auto made = draft_.edit(asked.pointer, std::move(asked.value)))
-      context.push(command::Edit{std::move(asked.label), *std::move(made), asked.live ? gestures_.number() : 0, asked.live});
+    if (auto edited = draft_.edit(asked.pointer, std::move(asked.value)))
+      context.push(command::Edit{std::move(asked.label), *std::move(edited), asked.live ? gestures_.number() : 0, asked.live});
     else if (!asked.live)
       for (const auto& [edit, problem] : draft_.problems())
         if (is_inside(asked.pointer, edit)) reveal_ = shown_at(problem);

@@ -5,9 +5,7 @@
 #include "preset/outline.h"
 #include "ui/parameters/draft.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -23,7 +21,6 @@ public:
   /// For tests: what waits, and the middle of a widget on the screen: "/scene/camera/fov_deg" is a field's own, "/scene/lights:add",
   /// "/white:reset" and so on are buttons, "search" is the box at the top. Nothing where it is not drawn.
   const Draft& draft() const { return draft_; }
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   using Outline = preset::Outline;
@@ -98,7 +95,6 @@ private:
   std::string help_;               ///< of the field under the mouse
   std::string folder_;             ///< that the choice of a file shows,
   std::vector<std::string> files_; ///< and what is in it
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

@@ -5,7 +5,6 @@
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
 #include <array>
 #include <memory>
@@ -20,9 +19,6 @@ public:
   static constexpr const char* title = "Plan";
   void draw(const Context& context) override;
 
-  /// Where the box of a pass was drawn last (its middle on the screen); nothing where it has none. For tests.
-  std::optional<std::array<double, 2>> box_of(const std::string& pass) const { return places_.of(pass); }
-
 private:
   void read_fields(const Context& context);
   void draw_passes(const Context& context);
@@ -31,7 +27,6 @@ private:
   std::shared_ptr<const plan::Plan> plan_;    ///< what computed_ belongs to,
   preset::Preset preset_;                     ///< and the preset that it was read from
   std::vector<std::optional<bool>> computed_; ///< by pass: whether its field says that it is computed; nothing without such a field
-  WidgetPlaces places_;
 };
 
 /// The preset with the boolean at a JSON pointer set. Throws bad_input where there is no such field.

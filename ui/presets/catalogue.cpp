@@ -5,15 +5,14 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/lower_case.h"
+#include "preset/choices.h"
 #include "preset/differences.h"
 #include "preset/outline.h"
 #include "preset/read.h"
-#include "preset/settings_type.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <sys/stat.h>
 #include <utility>
 
@@ -86,7 +85,7 @@ CatalogueEntry entry_of(const fs::path& file, std::string name, bool shipped, co
     const preset::Preset& first = presets.front();
     entry.title = first.name;
     entry.description = first.description;
-    entry.engine = first.settings.type().name;
+    entry.engine = first.settings.engine();
     entry.resolution = first.scene.camera.resolution;
     entry.stop = stop_of(first);
     entry.runs = presets.size();
@@ -99,12 +98,15 @@ CatalogueEntry entry_of(const fs::path& file, std::string name, bool shipped, co
 }
 
 /// thumbnails: their folder.
-std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs::path& thumbnails)
+std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs::path& thumbnails, TaskControl& control)
 {
   std::vector<CatalogueEntry> entries;
   try {
-    for (const preset::ShippedPreset& shipped : preset::shipped_presets())
+    const std::vector<preset::ShippedPreset> all_shipped = preset::shipped_presets();
+    for (const preset::ShippedPreset& shipped : all_shipped) {
       entries.push_back(entry_of(shipped.file, shipped.name, true, thumbnails));
+      control.progress(static_cast<double>(entries.size()) / static_cast<double>(all_shipped.size() + opened.size()));
+    }
   } catch (const Error&) {
     // No presets are shipped with this program: recent files are all there is.
   }
@@ -133,7 +135,7 @@ bool holds_words(const CatalogueEntry& entry, const std::string& words)
 
 } // namespace
 
-std::vector<std::size_t> found(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter)
+std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter)
 {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < entries.size(); ++i)
@@ -145,17 +147,18 @@ std::vector<std::size_t> found(const std::vector<CatalogueEntry>& entries, const
   return indices;
 }
 
-void Catalogue::follow(const RecentFiles& recent)
+void Catalogue::follow(const RecentFiles& recent, TaskQueue& tasks)
 {
-  if (reading_.valid()) {
-    if (reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    entries_ = reading_.get();
-    ++readings_;
-  }
-  if (!stale_ && recent.all() == recent_) return;
+  if (tasks.busy(reading_) || (!stale_ && recent.all() == recent_)) return;
   stale_ = false;
   recent_ = recent.all();
-  reading_ = std::async(std::launch::async, [opened = recent_, thumbnails = recent.thumbnails()] { return read(opened, thumbnails); });
+  tasks.start(
+      reading_, {"reading the presets"},
+      [opened = recent_, thumbnails = recent.thumbnails()](TaskControl& control) { return read(opened, thumbnails, control); },
+      [this](std::vector<CatalogueEntry> entries) {
+        entries_ = std::move(entries);
+        ++readings_;
+      });
 }
 
 } // namespace nephroid::ui

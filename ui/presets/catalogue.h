@@ -3,11 +3,11 @@
 // them a search finds, and in which order. No Dear ImGui.
 #pragma once
 #include "ui/state/recent_files.h"
+#include "ui/state/tasks.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <future>
 #include <string>
 #include <vector>
 
@@ -40,26 +40,25 @@ struct CatalogueFilter {
 };
 
 /// Indices of the entries that pass, in their order.
-std::vector<std::size_t> found(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter);
+std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, const CatalogueFilter& filter);
 
 class Catalogue {
 public:
   /// Once a frame, returns at once. Reads again where other files were opened lately.
-  void follow(const RecentFiles& recent);
+  void follow(const RecentFiles& recent, TaskQueue& tasks);
   /// Reads again with the next follow(): files may have changed.
   void read_again() { stale_ = true; }
   /// What was read last.
   const std::vector<CatalogueEntry>& entries() const { return entries_; }
   /// Rises with every reading.
   std::size_t readings() const { return readings_; }
-  bool busy() const { return reading_.valid(); }
 
 private:
   bool stale_ = true;
   std::vector<RecentFile> recent_; ///< of the reading that is there or on its way
   std::vector<CatalogueEntry> entries_;
   std::size_t readings_ = 0;
-  std::future<std::vector<CatalogueEntry>> reading_;
+  TaskKey reading_;
 };
 
 } // namespace nephroid::ui

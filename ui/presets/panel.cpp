@@ -51,13 +51,13 @@ void draw_picture(const PictureTexture* picture, const CatalogueEntry& entry, co
 std::vector<std::string> PresetsPanel::listed() const
 {
   std::vector<std::string> names;
-  for (const std::size_t i : found_) names.push_back(catalogue_.entries()[i].name);
+  for (const std::size_t i : matches_) names.push_back(catalogue_.entries()[i].name);
   return names;
 }
 
 const CatalogueEntry* PresetsPanel::chosen_entry() const
 {
-  for (const std::size_t i : found_)
+  for (const std::size_t i : matches_)
     if (catalogue_.entries()[i].file == chosen_) return &catalogue_.entries()[i];
   return nullptr;
 }
@@ -72,11 +72,11 @@ void PresetsPanel::draw(const Context& context)
     thumbnails_.read_again();
   }
   const std::size_t readings = catalogue_.readings();
-  catalogue_.follow(context.recent);
+  catalogue_.follow(context.recent, context.tasks);
   if (catalogue_.readings() != readings) thumbnails_.read_again();
-  thumbnails_.update();
+  thumbnails_.update(context.tasks);
   draw_top();
-  found_ = found(catalogue_.entries(), filter_);
+  matches_ = matches(catalogue_.entries(), filter_);
   follow_keys(context);
   const float details = std::min(ImGui::GetFontSize() * 12, ImGui::GetContentRegionAvail().y / 2);
   draw_list(context, ImGui::GetContentRegionAvail().y - details - ImGui::GetStyle().ItemSpacing.y);
@@ -117,10 +117,10 @@ void PresetsPanel::draw_top()
 
 void PresetsPanel::follow_keys(const Context& context)
 {
-  if (!focused_ || found_.empty() || (ImGui::GetIO().WantTextInput && !typing_)) return;
-  const auto at = std::find_if(found_.begin(), found_.end(), [&](std::size_t i) { return catalogue_.entries()[i].file == chosen_; });
-  const auto last = static_cast<std::ptrdiff_t>(found_.size()) - 1;
-  const std::ptrdiff_t now = at == found_.end() ? -1 : at - found_.begin();
+  if (!focused_ || matches_.empty() || (ImGui::GetIO().WantTextInput && !typing_)) return;
+  const auto at = std::find_if(matches_.begin(), matches_.end(), [&](std::size_t i) { return catalogue_.entries()[i].file == chosen_; });
+  const auto last = static_cast<std::ptrdiff_t>(matches_.size()) - 1;
+  const std::ptrdiff_t now = at == matches_.end() ? -1 : at - matches_.begin();
   std::ptrdiff_t next = now;
   const auto step = [&](ImGuiKey key, std::ptrdiff_t by) {
     if (ImGui::IsKeyPressed(key)) next = std::clamp<std::ptrdiff_t>(now < 0 ? 0 : now + by, 0, last);
@@ -130,23 +130,23 @@ void PresetsPanel::follow_keys(const Context& context)
   step(ImGuiKey_PageDown, page_);
   step(ImGuiKey_PageUp, -page_);
   if (next != now) {
-    chosen_ = catalogue_.entries()[found_[static_cast<std::size_t>(next)]].file.string();
+    chosen_ = catalogue_.entries()[matches_[static_cast<std::size_t>(next)]].file.string();
     reveal_ = true;
   }
   if (!ImGui::IsKeyPressed(ImGuiKey_Enter, false) && !ImGui::IsKeyPressed(ImGuiKey_KeypadEnter, false)) return;
   if (const CatalogueEntry* entry = chosen_entry())
     open(context, *entry);
   else if (!filter_.words.empty()) { // what was searched for is at the top
-    chosen_ = catalogue_.entries()[found_.front()].file.string();
-    open(context, catalogue_.entries()[found_.front()]);
+    chosen_ = catalogue_.entries()[matches_.front()].file.string();
+    open(context, catalogue_.entries()[matches_.front()]);
   }
 }
 
 void PresetsPanel::draw_list(const Context& context, float height)
 {
   if (ImGui::BeginChild("list", {0, std::max(height, ImGui::GetFontSize())}, ImGuiChildFlags_Borders, ImGuiWindowFlags_NoNav)) {
-    if (found_.empty()) ImGui::TextDisabled("%s", catalogue_.readings() == 0 ? "Reading..." : "Nothing is found.");
-    for (const std::size_t i : found_) draw_row(context, catalogue_.entries()[i]);
+    if (matches_.empty()) ImGui::TextDisabled("%s", catalogue_.readings() == 0 ? "Reading..." : "Nothing is found.");
+    for (const std::size_t i : matches_) draw_row(context, catalogue_.entries()[i]);
     reveal_ = false;
   }
   ImGui::EndChild();
@@ -182,7 +182,7 @@ void PresetsPanel::draw_details(const Context& context)
 {
   const CatalogueEntry* entry = chosen_entry();
   if (!entry) {
-    ImGui::TextDisabled("%s", counted(found_.size(), "preset").c_str());
+    ImGui::TextDisabled("%s", counted(matches_.size(), "preset").c_str());
     ImGui::TextDisabled("Click: what it is. Double click or Enter: open it. Arrows go through the list.");
     return;
   }

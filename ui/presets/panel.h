@@ -5,10 +5,7 @@
 #include "ui/presets/catalogue.h"
 #include "ui/presets/thumbnails.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
-#include <array>
-#include <optional>
 #include <string>
 
 namespace nephroid::ui {
@@ -24,7 +21,6 @@ public:
   std::vector<std::string> listed() const;
   const std::string& chosen() const { return chosen_; }
   const Thumbnails& thumbnails() const { return thumbnails_; }
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   void draw_top();
@@ -38,13 +34,12 @@ private:
   Catalogue catalogue_;
   Thumbnails thumbnails_;
   CatalogueFilter filter_;
-  std::vector<std::size_t> found_;
+  std::vector<std::size_t> matches_;
   std::string chosen_;  ///< the file of the row that is marked
   bool reveal_ = false; ///< the marked row is to be brought into sight
   bool focused_ = false;
   bool typing_ = false; ///< in the search
   int page_ = 1;        ///< rows in sight
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

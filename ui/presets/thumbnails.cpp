@@ -4,7 +4,6 @@
 #include "image/image.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <system_error>
@@ -18,28 +17,31 @@ constexpr int most_pixels = 512;            ///< of its edge
 
 } // namespace
 
-void Thumbnails::update()
+void Thumbnails::take(const std::vector<Pixels>& pictures)
 {
-  if (reading_.valid()) {
-    if (reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    for (const Pixels& pixels : reading_.get()) {
-      std::unique_ptr<PictureTexture>& picture = pictures_[pixels.file];
-      if (pixels.width == 0) {
-        picture.reset();
-        continue;
-      }
-      if (!picture) picture = std::make_unique<PictureTexture>();
-      std::copy(pixels.rgba8.begin(), pixels.rgba8.end(), picture->edit(pixels.width, pixels.height).begin());
+  for (const Pixels& pixels : pictures) {
+    std::unique_ptr<PictureTexture>& picture = pictures_[pixels.file];
+    if (pixels.width == 0) {
+      picture.reset();
+      continue;
     }
+    if (!picture) picture = std::make_unique<PictureTexture>();
+    std::copy(pixels.rgba8.begin(), pixels.rgba8.end(), picture->edit(pixels.width, pixels.height).begin());
   }
+}
+
+void Thumbnails::update(TaskQueue& tasks)
+{
+  if (tasks.busy(reading_)) return;
   if (std::exchange(stale_, false))
     for (const auto& [file, picture] : pictures_) wanted_.push_back(file);
   if (wanted_.empty()) return;
-  reading_ = std::async(std::launch::async, [files = std::exchange(wanted_, {})] {
-    std::vector<Pixels> all;
-    for (const std::string& file : files) all.push_back(read(file));
-    return all;
-  });
+  const auto read_all = [files = std::exchange(wanted_, {})] {
+    std::vector<Pixels> pictures;
+    for (const std::string& file : files) pictures.push_back(read(file));
+    return pictures;
+  };
+  tasks.start(reading_, {"reading small pictures"}, read_all, [this](const std::vector<Pixels>& pictures) { take(pictures); });
 }
 
 const PictureTexture* Thumbnails::of(const std::filesystem::path& file)

@@ -5,10 +5,7 @@
 #include "ui/runs/rows.h"
 #include "ui/runs/sweep_section.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
-#include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +23,6 @@ public:
   const std::vector<RunRow>& rows() const { return rows_; }
   std::string difference(const RunRow& row, const Context& context) { return differences_.in_short(row, context); }
   const SweepSection& sweep() const { return sweep_; }
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   void draw_table(const Context& context);
@@ -37,7 +33,6 @@ private:
   std::vector<RunRow> rows_;
   PresetDifferences differences_;
   SweepSection sweep_;
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

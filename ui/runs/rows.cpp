@@ -85,8 +85,8 @@ std::vector<RunRow> run_rows(const Context& context)
 
 void PresetDifferences::begin_frame()
 {
-  std::erase_if(known_, [](const auto& one) { return !one->used; });
-  for (const auto& one : known_) one->used = false;
+  std::erase_if(known_, [](const auto& known) { return !known->used; });
+  for (const auto& known : known_) known->used = false;
 }
 
 const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const Context& context)
@@ -94,21 +94,21 @@ const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const C
   static const Known none, unknown{nullptr, nullptr, "its preset is not known", {}};
   if (!row.preset) return row.pin == 0 ? none : unknown;
   const auto present = present_of(context);
-  for (const auto& one : known_)
-    if (one->of == row.preset && one->present == present) {
-      one->used = true;
-      return *one;
+  for (const auto& known : known_)
+    if (known->of == row.preset && known->present == present) {
+      known->used = true;
+      return *known;
     }
-  Known made{row.preset, present, {}, {}};
+  Known texts{row.preset, present, {}, {}};
   if (present) try {
       const std::vector<preset::Difference> all = preset::differences(*present, *row.preset);
-      made.in_short = all.empty() ? "as the present preset" : line_of(all.front());
-      if (all.size() > 1) made.in_short += fmt::format(", {} more", all.size() - 1);
-      if (!all.empty()) made.in_full = all_lines(all);
+      texts.in_short = all.empty() ? "as the present preset" : line_of(all.front());
+      if (all.size() > 1) texts.in_short += fmt::format(", {} more", all.size() - 1);
+      if (!all.empty()) texts.in_full = all_lines(all);
     } catch (const Error& error) {
-      made.in_short = error.line();
+      texts.in_short = error.line();
     }
-  return *known_.emplace_back(std::make_unique<Known>(std::move(made)));
+  return *known_.emplace_back(std::make_unique<Known>(std::move(texts)));
 }
 
 command::Edit taken(const RunRow& row, const preset::Preset& present)

@@ -115,7 +115,7 @@ void SweepSection::draw_fields(const Context& context, WidgetPlaces& places)
     const auto known = std::ranges::find(fields_, field.key, &NumberField::key);
     if (ImGui::SmallButton("x")) {
       preset::Sweep without = sweep;
-      std::erase_if(without, [&](const preset::SweptField& one) { return one.key == field.key; });
+      std::erase_if(without, [&](const preset::SweptField& swept) { return swept.key == field.key; });
       context.push(command::SetSweep{"sweep " + field.key + " no more", std::move(without)});
     }
     places.note("remove " + field.key);

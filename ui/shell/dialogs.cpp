@@ -48,7 +48,7 @@ bool is_folder(const std::string& name)
 
 } // namespace
 
-void Dialogs::begin(const Workbench& workbench)
+void Dialogs::begin(Workbench& workbench)
 {
   shown_ = workbench.question();
   name_.clear();
@@ -67,17 +67,17 @@ void Dialogs::begin(const Workbench& workbench)
 }
 
 /// From the folder of the preset in hand, of the kinds that the question is about.
-void Dialogs::begin_files(const Workbench& workbench)
+void Dialogs::begin_files(Workbench& workbench)
 {
   std::vector<std::string> endings{".json"};
   if (shown_ == Question::open_history) endings = {".csv"};
   if (shown_ == Question::save_picture) endings = {".png", ".exr"};
   if (shown_ == Question::save_report) endings = {".html"};
   const std::filesystem::path source = save_target(workbench.preset());
-  files_.begin(source.parent_path(), endings);
+  files_.begin(source.parent_path(), endings, workbench.tasks());
 }
 
-void Dialogs::draw(const Workbench& workbench, Commands& commands)
+void Dialogs::draw(Workbench& workbench, Commands& commands)
 {
   if (workbench.question() == Question::none || workbench.question() == Question::command) {
     shown_ = Question::none;

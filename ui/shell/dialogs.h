@@ -17,14 +17,14 @@ class Workbench;
 
 class Dialogs {
 public:
-  void draw(const Workbench& workbench, Commands& commands);
+  void draw(Workbench& workbench, Commands& commands);
   const FileList& files() const { return files_; }
   /// For tests: the middle of a widget on the screen.
   std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
-  void begin(const Workbench& workbench);
-  void begin_files(const Workbench& workbench);
+  void begin(Workbench& workbench);
+  void begin_files(Workbench& workbench);
   bool pick_file();
   void draw_open(Commands& commands);
   void draw_open_history(Commands& commands);

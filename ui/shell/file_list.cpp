@@ -10,7 +10,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 
 namespace nephroid::ui {
@@ -51,9 +50,10 @@ FileList::Read FileList::read(const fs::path& folder, const std::vector<std::str
   return result;
 }
 
-void FileList::begin(fs::path folder, std::vector<std::string> endings)
+void FileList::begin(fs::path folder, std::vector<std::string> endings, TaskQueue& tasks)
 {
   endings_ = std::move(endings);
+  tasks_ = &tasks;
   go(std::move(folder));
 }
 
@@ -63,19 +63,19 @@ void FileList::go(fs::path folder)
   folder_ = fs::absolute(folder.empty() ? "." : folder, ignored).lexically_normal();
   entries_.clear();
   note_ = "Reading the folder";
-  // A folder that is still being read is waited for here only where its disk hangs while another one is asked for.
-  reading_ = std::async(std::launch::async, [folder = folder_, endings = endings_] { return read(folder, endings); });
+  tasks_->forget(reading_); // a folder whose disk hangs keeps no other one waiting
+  tasks_->start(
+      reading_, {"reading " + folder_.string()}, [folder = folder_, endings = endings_] { return read(folder, endings); },
+      [this](Read of_folder) { take(std::move(of_folder)); });
 }
 
-void FileList::collect()
+void FileList::take(Read folder)
 {
-  if (!reading_.valid() || reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  Read result = reading_.get();
-  entries_ = std::move(result.entries);
+  entries_ = std::move(folder.entries);
   note_.clear();
-  if (!result.error.empty())
-    note_ = "This folder cannot be read: " + result.error;
-  else if (result.cut)
+  if (!folder.error.empty())
+    note_ = "This folder cannot be read: " + folder.error;
+  else if (folder.cut)
     note_ = fmt::format("There are more than {} files here: type the name", most_entries);
   else if (entries_.empty())
     note_ = "Nothing of the kind that is wanted";
@@ -83,7 +83,6 @@ void FileList::collect()
 
 FileList::Picked FileList::draw(float width, float height)
 {
-  collect();
   Picked picked = Picked::nothing;
   fs::path into;
   places_.clear();

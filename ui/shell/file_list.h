@@ -2,12 +2,12 @@
 // The files of a folder to choose from, in a dialog: folders first, then those of the wanted kinds. A folder is read away from the window's
 // thread, because its disk may be slow or gone.
 #pragma once
+#include "ui/state/tasks.h"
 #include "ui/widgets/widgets.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,8 +23,8 @@ public:
   };
   enum class Picked { nothing, file, opened }; ///< one click on a file; a double click on it, or Enter
 
-  /// endings: of files, with their dots, lower case; empty: all files.
-  void begin(std::filesystem::path folder, std::vector<std::string> endings);
+  /// endings: of files, with their dots, lower case; empty: all files. tasks: outlives the list.
+  void begin(std::filesystem::path folder, std::vector<std::string> endings, TaskQueue& tasks);
   /// The folder's name, and its entries in an area of this size.
   Picked draw(float width, float height);
   /// What was picked last.
@@ -45,13 +45,14 @@ private:
   };
   static Read read(const std::filesystem::path& folder, const std::vector<std::string>& endings);
   void go(std::filesystem::path folder);
-  void collect();
+  void take(Read folder);
 
   std::filesystem::path folder_, picked_;
   std::vector<std::string> endings_;
   std::vector<Entry> entries_;
   std::string note_;
-  std::future<Read> reading_;
+  TaskQueue* tasks_ = nullptr;
+  TaskKey reading_;
   WidgetPlaces places_;
 };
 

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where panels are: the layout that a preset's engine begins with, docking panels as a layout says, and reading back what a person made of
-// it.
+// Where panels are: as a preset's engine begins with them, and, in Dear ImGui's own words, as a person left them.
 #pragma once
-#include "ui/state/settings.h"
-
 #include <string>
+#include <vector>
 
 namespace nephroid::ui {
 
 /// Throws bad_input naming the layouts there are: each is named after the panel that is in front of the tabs. Empty is the engine's own.
 void check_layout(const std::string& name);
-/// The picture at the left, the other panels as tabs at the right of a window of this width. engine: of the preset; empty: none is open.
-Layout starting_layout(const std::string& name, const std::string& engine, float width);
-/// Docks every panel that does not float into the dock space of this id (an ImGuiID); those that the layout does not have, as new ones,
-/// become tabs beside the first that it has. Inside of a frame.
-void apply_layout(const Layout& layout, unsigned dock_space, float width, float height);
-/// Has the layout's tabs in front. In the frames after apply_layout: tabs that come up may go before them.
-void bring_to_front(const Dock& dock);
-/// Where a floating panel's window is that begins next.
-void place_next(const Floating& floating);
-/// What is docked into the dock space now, and what floats.
-Layout layout_now(unsigned dock_space);
+
+/// The tabs that are in front, each as ImGuiWindow::TabId.
+using FrontTabs = std::vector<unsigned>;
+/// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right. engine: of the
+/// preset. Inside of a frame, before the panels.
+FrontTabs begin_layout(const std::string& name, const std::string& engine, unsigned dock_space, float width, float height);
+/// As layout_now() had it; panels that it does not know are tabs beside the first one. Inside of a frame, before the dock space.
+FrontTabs restore_layout(const std::string& ini);
+/// In the frames after either: tabs that come up may go before those that shall be in front.
+void bring_to_front(const FrontTabs& tabs);
+/// Where every panel is, as Dear ImGui writes it.
+std::string layout_now();
 
 } // namespace nephroid::ui

@@ -48,8 +48,8 @@ void Palette::search()
       scored.emplace_back(is_name(typed_, entry) ? std::numeric_limits<int>::max() : score, &entry);
   }
   std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  found_.clear();
-  for (const auto& [score, entry] : scored) found_.push_back(entry);
+  matches_.clear();
+  for (const auto& [score, entry] : scored) matches_.push_back(entry);
   selected_ = 0;
 }
 
@@ -78,7 +78,7 @@ void Palette::draw(const Context& context, bool shown)
   const bool entered = input_text("##typed", "what to do", typed_, ImGuiInputTextFlags_EnterReturnsTrue);
   if (typed_ != before) search();
   draw_entries(context);
-  if (entered && selected_ < found_.size()) choose(*found_[selected_], context);
+  if (entered && selected_ < matches_.size()) choose(*matches_[selected_], context);
   if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) context.push(command::Ask{Question::none});
   ImGui::EndPopup();
 }
@@ -87,12 +87,12 @@ void Palette::draw_entries(const Context& context)
 {
   const float em = ImGui::GetFontSize();
   bool moved = false;
-  if (ImGui::IsKeyPressed(ImGuiKey_DownArrow) && selected_ + 1 < found_.size()) moved = ++selected_ > 0;
+  if (ImGui::IsKeyPressed(ImGuiKey_DownArrow) && selected_ + 1 < matches_.size()) moved = ++selected_ > 0;
   if (ImGui::IsKeyPressed(ImGuiKey_UpArrow) && selected_ > 0) moved = --selected_ + 1 > 0;
   // The arrows move in the list while the text field has the keyboard.
   if (ImGui::BeginChild("found", {em * 38, em * 20}, ImGuiChildFlags_None, ImGuiWindowFlags_NoNav)) {
-    for (std::size_t i = 0; i < found_.size(); ++i) {
-      const Entry& entry = *found_[i];
+    for (std::size_t i = 0; i < matches_.size(); ++i) {
+      const Entry& entry = *matches_[i];
       ImGui::PushID(static_cast<int>(i));
       const bool enabled = is_enabled(entry, context);
       ImGui::PushStyleColor(ImGuiCol_Text, enabled ? colour::text : colour::quiet_text);
@@ -108,8 +108,8 @@ void Palette::draw_entries(const Context& context)
     }
   }
   ImGui::EndChild();
-  if (selected_ < found_.size()) draw_wrapped(colour::quiet_text, found_[selected_]->help);
-  if (found_.empty()) draw_wrapped(colour::quiet_text, "Nothing has these letters in this order");
+  if (selected_ < matches_.size()) draw_wrapped(colour::quiet_text, matches_[selected_]->help);
+  if (matches_.empty()) draw_wrapped(colour::quiet_text, "Nothing has these letters in this order");
 }
 
 } // namespace nephroid::ui

@@ -22,7 +22,7 @@ public:
   /// shown: whether it is open (Question::command).
   void draw(const Context& context, bool shown);
   /// Those that fit what is typed, the best first; for tests.
-  const std::vector<const Entry*>& found() const { return found_; }
+  const std::vector<const Entry*>& matches() const { return matches_; }
 
 private:
   void begin();
@@ -33,8 +33,8 @@ private:
   bool shown_ = false;
   std::string typed_;
   std::vector<Entry> entries_; ///< made when it opens
-  std::vector<const Entry*> found_;
-  std::size_t selected_ = 0; ///< of found_
+  std::vector<const Entry*> matches_;
+  std::size_t selected_ = 0; ///< of matches_
 };
 
 } // namespace nephroid::ui

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/shell/panels.h"
 
-#include "preset/settings_type.h"
 #include "ui/error/panel.h"
 #include "ui/inspector/panel.h"
 #include "ui/parameters/panel.h"
@@ -63,7 +62,7 @@ bool is_seen(const PanelEntry& entry)
 bool serves(const PanelEntry& entry, const preset::Preset& preset)
 {
   if (entry.serves) return entry.serves(preset);
-  return entry.engine.empty() || entry.engine == preset.settings.type().name;
+  return entry.engine.empty() || entry.engine == preset.settings.engine();
 }
 
 std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -68,7 +67,7 @@ void StartPage::draw(const Context& context, Panel& presets, bool to_presets)
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
   if (ImGui::Begin("Start", nullptr, flags)) {
     draw_engines(context);
-    draw_devices();
+    draw_devices(context.tasks);
     ImGui::Spacing();
     for (const char* name : {"New scene", "Open...", "Reopen the last session", "Commands..."}) {
       action_button(name, context);
@@ -88,7 +87,7 @@ void StartPage::draw_engines(const Context& context)
   static const std::vector<engine::ShippedExample> cards = examples();
   if (pictures_.empty())
     for (const engine::ShippedExample& card : cards) pictures_.push_back(thumbnail_of(file_of(card), {}));
-  thumbnails_.update();
+  thumbnails_.update(context.tasks);
   const auto count = static_cast<float>(cards.size());
   const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - (count - 1) * gap) / count;
   for (std::size_t i = 0; i < cards.size(); ++i) {
@@ -97,19 +96,22 @@ void StartPage::draw_engines(const Context& context)
   }
 }
 
-void StartPage::draw_devices()
+void StartPage::draw_devices(TaskQueue& tasks)
 {
-  if (!std::exchange(asked_, true))
-    asking_ = std::async(std::launch::async, [] {
-      Devices devices{compute::list_devices(), {}};
-      if (devices.found.empty()) devices.none = compute::no_device_error().line();
-      return devices;
-    });
-  if (asking_.valid() && asking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) devices_ = asking_.get();
-  if (!devices_.none.empty()) return draw_wrapped(colour::error, devices_.none);
-  std::string line = asking_.valid() ? "Looking for devices" : "";
-  for (const compute::DeviceInfo& device : devices_.found)
-    line += fmt::format("{}{}: {} ({}, {}, {:.1f} GB)", line.empty() ? "Devices   " : "   ", device.index, device.name, device.type,
+  const auto look = [] {
+    Devices devices{compute::list_devices(), {}};
+    if (devices.list.empty()) devices.why_none = compute::no_device_error().line();
+    return devices;
+  };
+  if (!devices_) {
+    if (!tasks.busy(asking_))
+      tasks.start(asking_, {"looking for devices"}, look, [this](Devices devices) { devices_ = std::move(devices); });
+    return draw_wrapped(colour::quiet_text, "Looking for devices");
+  }
+  if (!devices_->why_none.empty()) return draw_wrapped(colour::error, devices_->why_none);
+  std::string line = "Devices";
+  for (const compute::DeviceInfo& device : devices_->list)
+    line += fmt::format("   {}: {} ({}, {}, {:.1f} GB)", device.index, device.name, device.type,
                         counted(device.compute_units, "compute unit"), static_cast<double>(device.memory_bytes) * 1e-9);
   draw_wrapped(colour::quiet_text, line);
 }

@@ -8,7 +8,6 @@
 #include "ui/widgets/widgets.h"
 
 #include <array>
-#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,17 +24,16 @@ public:
 
 private:
   struct Devices {
-    std::vector<compute::DeviceInfo> found;
-    std::string none; ///< where none was found: why, and what to do
+    std::vector<compute::DeviceInfo> list;
+    std::string why_none; ///< where none was found: why, and what to do
   };
   void draw_engines(const Context& context);
-  void draw_devices();
+  void draw_devices(TaskQueue& tasks);
 
   Thumbnails thumbnails_;
   std::vector<std::filesystem::path> pictures_; ///< of the cards
-  bool asked_ = false;
-  std::future<Devices> asking_; ///< drivers may take seconds to answer
-  Devices devices_;
+  TaskKey asking_;
+  std::optional<Devices> devices_; ///< nothing before drivers have answered, which may take seconds
   WidgetPlaces places_;
 };
 

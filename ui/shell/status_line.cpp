@@ -11,6 +11,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -27,6 +28,32 @@ void draw_notes(const std::vector<std::string>& notes)
   for (const std::string& note : notes) ImGui::TextUnformatted(note.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+/// What has run for a moment, of which the window says nothing elsewhere; all of it, and how to end it, behind the button.
+void draw_tasks(TaskQueue& tasks)
+{
+  constexpr std::chrono::milliseconds worth_a_word{300};
+  const std::vector<TaskView> running = tasks.running(worth_a_word);
+  const auto text_of = [](const TaskView& task) {
+    return task.progress < 0 ? task.name : fmt::format("{}: {:.0f} %", task.name, 100 * task.progress);
+  };
+  if (running.empty() && !ImGui::IsPopupOpen("tasks")) return;
+  ImGui::SameLine(0, ImGui::GetFontSize());
+  const std::string word = running.size() == 1 ? text_of(running.front()) : counted(running.size(), "task");
+  if (ImGui::SmallButton((word + "###tasks").c_str())) ImGui::OpenPopup("tasks");
+  if (!ImGui::BeginPopup("tasks")) return;
+  for (const TaskView& task : running) {
+    ImGui::PushID(static_cast<int>(task.id));
+    ImGui::BeginDisabled(!task.can_cancel);
+    if (ImGui::SmallButton("Cancel")) tasks.cancel(task.id);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::TextUnformatted(text_of(task).c_str());
+    ImGui::PopID();
+  }
+  if (running.empty()) ImGui::TextDisabled("Nothing runs any more");
+  ImGui::EndPopup();
 }
 
 constexpr std::size_t most_shown = 4; ///< the newest; the others come up when these are dismissed
@@ -88,6 +115,7 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   if (progress.work_seconds > 0) text += fmt::format("    {} of work", duration_text(progress.work_seconds));
   ImGui::SameLine(0, em);
   ImGui::TextUnformatted(text.c_str());
+  draw_tasks(context.tasks);
   draw_notes(notes);
   const char* help = "Mouse and keys: F1";
   const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(help).x - em;

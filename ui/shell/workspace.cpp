@@ -47,11 +47,11 @@ void strip(const char* name, float height, Draw draw)
 }
 
 /// The errors, or the notes.
-std::vector<Message> those(const std::vector<Message>& messages, bool errors)
+std::vector<Message> errors_or_notes(const std::vector<Message>& messages, bool errors)
 {
-  std::vector<Message> found;
-  std::ranges::copy_if(messages, std::back_inserter(found), [errors](const Message& message) { return message.error == errors; });
-  return found;
+  std::vector<Message> chosen;
+  std::ranges::copy_if(messages, std::back_inserter(chosen), [errors](const Message& message) { return message.error == errors; });
+  return chosen;
 }
 
 /// Over the foot of the panels, where they take neither room nor mouse: they go by themselves.
@@ -104,7 +104,7 @@ Commands Workspace::draw(Workbench& workbench)
     strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y, [&] { draw_status_line(context, workbench.notes()); });
   });
   guarded("messages", commands, [&] {
-    const std::vector<Message> errors = those(workbench.messages(), true);
+    const std::vector<Message> errors = errors_or_notes(workbench.messages(), true);
     const float height = errors_height(errors, ImGui::GetMainViewport()->Size.x);
     if (height > 0) strip("messages", height, [&] { draw_errors(errors, context); });
   });
@@ -116,7 +116,7 @@ Commands Workspace::draw(Workbench& workbench)
   for (const Open& open : panels_)
     if (context.preset() && serves(open.entry, *context.preset()) && is_open(open.entry, context))
       guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
-  guarded("notes", commands, [&] { draw_notes_over_panels(those(workbench.messages(), false)); });
+  guarded("notes", commands, [&] { draw_notes_over_panels(errors_or_notes(workbench.messages(), false)); });
   if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
   guarded("commands", commands, [&] { palette_.draw(context, workbench.question() == Question::command); });
@@ -128,11 +128,6 @@ void Workspace::draw_panel(const Open& open, const Context& context)
   // Without NoFocusOnAppearing the last panel to be drawn would come before the one that the layout has in front.
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoFocusOnAppearing;
   if (open.entry.name == to_front_) ImGui::SetNextWindowFocus();
-  std::erase_if(to_place_, [&](const Floating& floating) {
-    if (floating.panel != open.entry.name) return false;
-    place_next(floating);
-    return true;
-  });
   bool stays = true;
   if (ImGui::Begin(open.entry.title, can_close(open.entry) ? &stays : nullptr, flags)) open.panel->draw(context);
   ImGui::End();
@@ -148,35 +143,33 @@ void Workspace::draw_start_page(Workbench& workbench, const Context& context)
 
 void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
 {
-  const ImGuiID id = ImGui::DockSpaceOverViewport(ImGui::GetID("panels"), ImGui::GetMainViewport());
   const std::array<float, 2> size{ImGui::GetMainViewport()->WorkSize.x, ImGui::GetMainViewport()->WorkSize.y};
   const std::string engine = context.engine();
   to_front_ = workbench.take_panel_to_front();
   const bool reset = workbench.take_layout_reset();
-  if (laid_out_for_ != engine || reset) {
-    const auto kept = context.settings.engines.find(engine);
-    const bool has_own = name_.empty() && kept != context.settings.engines.end() && !(kept->second.layout == Layout{});
-    const Layout layout = has_own ? kept->second.layout : starting_layout(name_, engine, size[0]);
-    apply_layout(layout, id, size[0], size[1]);
-    to_place_ = layout.floating;
-    wanted_ = layout.docks;
+  const bool begins = laid_out_for_ != engine || reset;
+  const auto kept = context.settings.engines.find(engine);
+  const bool has_own = name_.empty() && kept != context.settings.engines.end() && !kept->second.ini.empty();
+  if (begins && has_own) front_tabs_ = restore_layout(kept->second.ini);
+  const ImGuiID id = ImGui::DockSpaceOverViewport(ImGui::GetID("panels"), ImGui::GetMainViewport());
+  if (begins && !has_own) front_tabs_ = begin_layout(name_, engine, id, size[0], size[1]);
+  if (begins) {
     laid_out_for_ = engine;
-    frames_since_ = 0;
     frames_laid_out_ = 0;
-  } else if (laid_out_size_ != size)
-    frames_since_ = 0;
+  }
+  if (begins || laid_out_size_ != size) frames_since_ = 0;
   laid_out_size_ = size;
   // A few frames later docks have their sizes. From then on another layout is what the mouse made of it.
   constexpr int settled = 3;
   if (++frames_laid_out_ <= settled) {
-    bring_to_front(wanted_);
+    bring_to_front(front_tabs_);
     // Whatever had the keyboard: its tab would come to the front. A dialog keeps it.
     if (workbench.question() == Question::none) ImGui::SetWindowFocus(panel_table().front().title);
   }
   if (frames_since_ < settled) {
-    if (++frames_since_ == settled) before_ = layout_now(id);
+    if (++frames_since_ == settled) before_ = layout_now();
   } else if (ImGui::IsMouseReleased(ImGuiMouseButton_Left))
-    if (Layout now = layout_now(id); !(now == before_)) {
+    if (std::string now = layout_now(); now != before_) {
       before_ = now;
       context.push(command::KeepLayout{engine, std::move(now)});
     }

@@ -57,9 +57,8 @@ private:
   std::array<float, 2> laid_out_size_{0, 0}; ///< in a window of this size,
   int frames_since_ = 0;                     ///< so many frames ago;
   int frames_laid_out_ = 0;                  ///< since the layout was applied
-  Layout before_;                            ///< what it was before a person touched it
-  Dock wanted_;                              ///< the docks of the layout that was applied last
-  std::vector<Floating> to_place_;           ///< floating panels that were not drawn yet since
+  std::string before_;                       ///< what it was before a person touched it
+  FrontTabs front_tabs_;                     ///< of the layout that was applied last
   std::string to_front_;                     ///< the panel that comes to the front in this frame
   PlotContext plots_;                        ///< before the panels, which plot with it
   WavelengthAxis wavelengths_;               ///< before the panels that share it

@@ -213,7 +213,7 @@ struct ResetLayout {};
 /// What a person made of the layout for the presets of an engine.
 struct KeepLayout {
   std::string engine;
-  Layout layout;
+  std::string ini; ///< EngineLayout::ini
 };
 /// Opens a panel and brings it to the front, or closes it.
 struct ShowPanel {

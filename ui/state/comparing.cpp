@@ -47,7 +47,7 @@ void Comparing::carry_out(const command::ShowDifference& c)
   comparison_.difference = c.on;
   comparison_.metric = c.metric;
   comparison_.scale = c.scale > 0 && std::isfinite(c.scale) ? c.scale : 0;
-  if (!c.on) difference_.forget();
+  if (!c.on) difference_.forget(tasks_);
 }
 
 void Comparing::carry_out(const command::PinRun&)
@@ -100,12 +100,12 @@ HeldPicture Comparing::other_picture() const
   return held(run_.reference(), comparison_.layer, run_.reference()->origin);
 }
 
-void Comparing::update(DifferenceMaker::Clock::time_point now)
+void Comparing::update(NewestDifference::Clock::time_point now)
 {
   if (!comparison_.difference) return;
   const HeldPicture other = other_picture();
   if (!other.owner) return;
-  difference_.want({picture(), other, comparison_.metric, comparison_.scale}, now);
+  want_difference(difference_, tasks_, {picture(), other, comparison_.metric, comparison_.scale}, now);
 }
 
 } // namespace nephroid::ui

@@ -13,8 +13,8 @@ namespace nephroid::ui {
 
 class Comparing {
 public:
-  /// run outlives it.
-  explicit Comparing(const RunInHand& run) : run_(run) {}
+  /// Both outlive it.
+  Comparing(const RunInHand& run, TaskQueue& tasks) : run_(run), tasks_(tasks) {}
 
   const PinnedRuns& pinned() const { return pinned_; }
   const Comparison& comparison() const { return comparison_; }
@@ -40,17 +40,18 @@ public:
   /// The map is of another preset.
   void forget()
   {
-    difference_.forget();
+    difference_.forget(tasks_);
     comparison_.layer.clear();
   }
   /// Once a frame: asks for the map of what is shown now.
-  void update(DifferenceMaker::Clock::time_point now);
+  void update(NewestDifference::Clock::time_point now);
 
 private:
   const RunInHand& run_;
+  TaskQueue& tasks_;
   PinnedRuns pinned_;
   Comparison comparison_;
-  DifferenceMaker difference_;
+  NewestDifference difference_;
 };
 
 } // namespace nephroid::ui

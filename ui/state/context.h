@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where what it asks for goes. Made anew for every frame.
 #pragma once
-#include "preset/settings_type.h"
 #include "ui/state/bookmarks.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
@@ -9,6 +8,7 @@
 #include "ui/state/run_in_hand.h"
 #include "ui/state/settings.h"
 #include "ui/state/sweep_queue.h"
+#include "ui/state/tasks.h"
 #include "ui/state/undo.h"
 
 #include <array>
@@ -43,13 +43,14 @@ struct Context {
   Commands& commands;
   const RecentFiles& recent;
   const SweepQueue& sweep;
+  TaskQueue& tasks; ///< for what takes longer than a frame
 
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
   /// What is selected of it.
   Selection selection() const { return in_preset(chosen.selection, preset()); }
   /// Its engine. Where a preset is open.
-  std::string engine() const { return std::string(edits->current().settings.type().name); }
+  std::string engine() const { return std::string(edits->current().settings.engine()); }
   void push(Command command) const { commands.push_back(std::move(command)); }
   /// The look as the commands of this frame leave it: two keys in one frame must not undo each other.
   Look look() const

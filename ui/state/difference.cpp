@@ -31,7 +31,7 @@ std::vector<unsigned char> coloured(const std::vector<float>& values, double sca
 }
 
 /// known: the values, where they are known from a map with another scale.
-std::shared_ptr<const ShownDifference> make(const DifferenceRequest& request, std::shared_ptr<const std::vector<float>> known)
+std::shared_ptr<const ShownDifference> coloured_map(const DifferenceRequest& request, std::shared_ptr<const std::vector<float>> known)
 {
   auto map = std::make_shared<ShownDifference>();
   map->of = request;
@@ -49,16 +49,20 @@ std::shared_ptr<const ShownDifference> make(const DifferenceRequest& request, st
 
 } // namespace
 
-void DifferenceMaker::want(const DifferenceRequest& request, Clock::time_point now)
+void want_difference(NewestDifference& difference, TaskQueue& tasks, const DifferenceRequest& request,
+                     NewestDifference::Clock::time_point now)
 {
-  if (!maker_.idle(now)) return;
-  const auto& newest = maker_.newest();
-  const bool known = newest && same_values(newest->of, request);
-  if (known && newest->of.scale == request.scale) return;
-  const bool only_picture_changed =
+  const auto& newest = difference.newest();
+  const bool same_form =
       newest && newest->of.other.owner == request.other.owner && newest->of.metric == request.metric && newest->of.scale == request.scale;
-  if (only_picture_changed && maker_.rests(now)) return;
-  maker_.start([request, values = known ? newest->values : nullptr] { return make(request, values); });
+  const bool same_picture = newest && newest->of.picture.owner == request.picture.owner;
+  difference.want(
+      tasks, "difference of pictures",
+      !same_form     ? Request::other
+      : same_picture ? Request::same
+                     : Request::other_picture,
+      [request, values = newest && same_values(newest->of, request) ? newest->values : nullptr] { return coloured_map(request, values); },
+      now);
 }
 
 } // namespace nephroid::ui

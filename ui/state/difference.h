@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// False-colour differences of two pictures, made on a thread of their own: FLIP of a large picture takes seconds, a frame 16 ms.
+// False-colour differences of two pictures, made beside the frames: FLIP of a large picture takes seconds, a frame 16 ms.
 #pragma once
 #include "measure/difference.h"
-#include "ui/state/background_maker.h"
+#include "ui/state/newest_result.h"
 
 #include <memory>
 #include <string>
@@ -30,18 +30,9 @@ struct ShownDifference {
   std::string error;                                ///< why there is no map
 };
 
-class DifferenceMaker {
-public:
-  using Clock = BackgroundMaker<ShownDifference>::Clock;
-  /// Once a frame, returns at once: starts what is wanted where it is not what newest() shows or is in the making. Where only the
-  /// run's picture changed it rests first.
-  void want(const DifferenceRequest& request, Clock::time_point now);
-  /// The newest map; may be of an older request. Null before the first and after forget().
-  const std::shared_ptr<const ShownDifference>& newest() const { return maker_.newest(); }
-  void forget() { maker_.forget(); }
-
-private:
-  BackgroundMaker<ShownDifference> maker_;
-};
+using NewestDifference = NewestResult<ShownDifference>;
+/// Once a frame: NewestResult::want().
+void want_difference(NewestDifference& difference, TaskQueue& tasks, const DifferenceRequest& request,
+                     NewestDifference::Clock::time_point now);
 
 } // namespace nephroid::ui

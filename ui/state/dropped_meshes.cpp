@@ -10,13 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <chrono>
 #include <cmath>
-#include <exception>
 #include <numbers>
-#include <string_view>
 
 namespace nephroid::ui {
 namespace {
@@ -105,30 +100,6 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh)
   scene.objects.push_back(std::move(object));
   preset::check(preset, [&](const std::string& pointer) { return Place(mesh.file.string(), pointer); });
   return {std::move(preset), std::move(note)};
-}
-
-void DroppedMeshes::read(const std::filesystem::path& file)
-{
-  reading_.push_back({std::async(std::launch::async, [file] { return read_dropped_mesh(file); })});
-}
-
-void DroppedMeshes::forget()
-{
-  for (Reading& reading : reading_) reading.wanted = false;
-}
-
-void DroppedMeshes::collect(Messages& messages, const std::function<void(const DroppedMesh&)>& take)
-{
-  for (Reading& reading : reading_) {
-    if (reading.mesh.wait_for(std::chrono::seconds(0)) != std::future_status::ready) continue;
-    try {
-      const DroppedMesh mesh = reading.mesh.get();
-      if (reading.wanted) take(mesh);
-    } catch (const std::exception& error) {
-      messages.error(error);
-    }
-  }
-  std::erase_if(reading_, [](const Reading& reading) { return !reading.mesh.valid(); });
 }
 
 } // namespace nephroid::ui

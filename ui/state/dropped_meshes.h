@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh file that is dropped on the window becomes an object of the scene: read away from the window's thread, made as large as the
-// scene asks for, and put where the camera looks.
+// A mesh file that is dropped on the window becomes an object of the scene: made as large as the scene asks for, and put where
+// the camera looks.
 #pragma once
 #include "preset/preset.h"
 #include "scene/corners.h"
-#include "ui/state/messages.h"
 
 #include <filesystem>
-#include <functional>
-#include <future>
 #include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -31,23 +27,5 @@ struct WithMesh {
   std::string note;
 };
 WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh);
-
-/// The files that are being read.
-class DroppedMeshes {
-public:
-  void read(const std::filesystem::path& file);
-  /// Those on their way are of no use any more: another preset was opened.
-  void forget();
-  bool busy() const { return !reading_.empty(); }
-  /// Once a frame: hands over what was read; an error becomes a message.
-  void collect(Messages& messages, const std::function<void(const DroppedMesh&)>& take);
-
-private:
-  struct Reading {
-    std::future<DroppedMesh> mesh;
-    bool wanted = true;
-  };
-  std::vector<Reading> reading_;
-};
 
 } // namespace nephroid::ui

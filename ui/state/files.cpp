@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/files.h"
 
-#include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/lower_case.h"
 #include "engine/engine.h"
 #include "image/image.h"
 #include "preset/differences.h"
-#include "run/import/import.h"
 #include "run/picture.h"
-#include "ui/state/recent_files.h"
-#include "ui/state/run_report.h"
 #include "ui/state/tone.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <exception>
 #include <fstream>
 #include <string_view>
 
@@ -156,94 +150,25 @@ std::filesystem::path free_name(const std::filesystem::path& path)
   return free;
 }
 
-void FileWork::save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown)
+std::string save_picture(const std::filesystem::path& file, const job::Picture& picture, const PictureToSave& shown)
 {
-  background_.push_back(std::async(std::launch::async, [=] {
-    const std::string extension = lower_case(file.extension().string());
-    if (extension == ".exr")
-      image::write_exr(file, run::with_layers(*picture));
-    else if (extension != ".png")
-      throw bad_input(file.string(), "a picture cannot be saved as \"" + extension + "\"",
-                      "expected .png (as shown) or .exr (linear, with layers)");
-    else
-      return Done{"saved " + file.string() + write_shown(file, shown)};
-    return Done{"saved " + file.string()};
-  }));
+  const std::string extension = lower_case(file.extension().string());
+  if (extension == ".png") return "saved " + file.string() + write_shown(file, shown);
+  if (extension != ".exr")
+    throw bad_input(file.string(), "a picture cannot be saved as \"" + extension + "\"",
+                    "expected .png (as shown) or .exr (linear, with layers)");
+  image::write_exr(file, run::with_layers(picture));
+  return "saved " + file.string();
 }
 
-void FileWork::save_thumbnail(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops)
+std::filesystem::path save_files(const std::filesystem::path& folder, const job::Snapshot& of, TaskControl& control)
 {
-  background_.push_back(std::async(std::launch::async, [=] {
-    try {
-      write_thumbnail(file, *picture, exposure_stops);
-    } catch (const Error& error) { // the preset itself is saved
-      return Done{"the preset is saved without its small picture: " + error.line()};
-    }
-    return Done{};
-  }));
-}
-
-void FileWork::save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open)
-{
-  background_.push_back(std::async(std::launch::async, [=] {
-    const std::filesystem::path made = make_new_folder(folder);
-    for (const job::ExtraFile& file : of->files) write_file_whole(made / file.name, file.write);
-    return Done{fmt::format("saved {} in {}", counted(of->files.size(), "file"), made.string()), {}, made / open};
-  }));
-}
-
-void FileWork::save_report(const std::filesystem::path& file, std::vector<PinnedRun> runs)
-{
-  background_.push_back(std::async(std::launch::async, [file, runs = std::move(runs)] { return Done{write_report(file, runs)}; }));
-}
-
-void FileWork::import_scene(const std::filesystem::path& file)
-{
-  background_.push_back(std::async(std::launch::async, [file] {
-    const std::string stem = file.stem().string();
-    const run::Imported made = run::import_gltf(file, free_name(file.parent_path() / (stem + "-scene")) / (stem + ".json"));
-    return Done{made.summary(), {}, made.preset};
-  }));
-}
-
-void FileWork::pin(const std::filesystem::path& path, const std::optional<PinnedRun>& like)
-{
-  pins_.push_back(std::async(std::launch::async, [=] {
-    PinnedRun run = read_pin(path);
-    if (like) {
-      run.name = like->name;
-      run.colour = like->colour;
-      run.shown = like->shown;
-    }
-    return Done{{}, std::move(run)};
-  }));
-}
-
-void FileWork::wait() const
-{
-  for (const auto* work : {&background_, &pins_})
-    for (const std::future<Done>& future : *work) future.wait();
-}
-
-void FileWork::collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,
-                       const std::function<void(const std::filesystem::path&)>& open)
-{
-  const auto is_taken = [&](std::future<Done>& future) {
-    if (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-    try {
-      Done done = future.get();
-      if (!done.note.empty()) messages.note(done.note);
-      if (done.pin) take_pin(std::move(*done.pin));
-      if (!done.to_open.empty()) open(done.to_open);
-    } catch (const std::exception& error) {
-      messages.error(error);
-    }
-    return true;
-  };
-  for (std::future<Done>& future : background_) is_taken(future);
-  for (std::future<Done>& future : pins_)
-    if (!is_taken(future)) break;
-  for (auto* work : {&background_, &pins_}) std::erase_if(*work, [](const std::future<Done>& f) { return !f.valid(); });
+  const std::filesystem::path new_folder = make_new_folder(folder);
+  for (std::size_t i = 0; i < of.files.size(); ++i) {
+    control.progress(static_cast<double>(i) / static_cast<double>(of.files.size()));
+    write_file_whole(new_folder / of.files[i].name, of.files[i].write);
+  }
+  return new_folder;
 }
 
 } // namespace nephroid::ui

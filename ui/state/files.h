@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which files a person may open, drop and save, and the reading and writing that takes too long for a frame.
+// Which files a person may open, drop and save, and how they are written.
 #pragma once
 #include "job/job.h"
 #include "preset/preset.h"
 #include "ui/state/commands.h"
 #include "ui/state/difference.h"
-#include "ui/state/messages.h"
-#include "ui/state/pinned_runs.h"
+#include "ui/state/tasks.h"
 
 #include <filesystem>
-#include <functional>
-#include <future>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -53,35 +48,9 @@ struct PictureToSave {
   std::string why_not; ///< there is none: a sentence without a full stop
 };
 
-/// Files that are read and written away from the window's thread.
-class FileWork {
-public:
-  /// By the extension of file: .png as shown, .exr the run's picture, linear with every layer.
-  void save_picture(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, PictureToSave shown);
-  /// write_thumbnail(), of which nothing is said unless it fails.
-  void save_thumbnail(const std::filesystem::path& file, std::shared_ptr<const job::Picture> picture, double exposure_stops);
-  /// The files of a run, into a new folder, the free_name() of this one. open: the file to be opened then.
-  void save_files(const std::filesystem::path& folder, std::shared_ptr<const job::Snapshot> of, const std::string& open);
-  /// write_report() of run_report.h.
-  void save_report(const std::filesystem::path& file, std::vector<PinnedRun> runs);
-  /// Makes a preset of a glTF file, in a folder of its own beside it, and then opens that.
-  void import_scene(const std::filesystem::path& file);
-  /// read_pin() of a path; as `like` in name, colour and whether it is shown, where that is given.
-  void pin(const std::filesystem::path& path, const std::optional<PinnedRun>& like = {});
-  bool busy() const { return !background_.empty() || !pins_.empty(); }
-  /// Until all of it is done.
-  void wait() const;
-  /// Once a frame: says what is done, and hands over the files to be opened and the runs that were read, in the order of pin().
-  void collect(Messages& messages, const std::function<void(PinnedRun)>& take_pin,
-               const std::function<void(const std::filesystem::path&)>& open);
-
-private:
-  struct Done {
-    std::string note;                   ///< empty where there is nothing to say
-    std::optional<PinnedRun> pin = {};  ///< that was read
-    std::filesystem::path to_open = {}; ///< empty: nothing
-  };
-  std::vector<std::future<Done>> background_, pins_; ///< what is thrown there becomes a message
-};
+/// By the extension of file: .png as shown, .exr the run's picture, linear with every layer. What there is to say of it, a sentence.
+std::string save_picture(const std::filesystem::path& file, const job::Picture& picture, const PictureToSave& shown);
+/// The files of a run into a new folder, the free_name() of this one, which is returned.
+std::filesystem::path save_files(const std::filesystem::path& folder, const job::Snapshot& of, TaskControl& control);
 
 } // namespace nephroid::ui

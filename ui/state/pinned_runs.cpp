@@ -43,7 +43,7 @@ const PinnedRun* PinnedRuns::find(std::uint64_t id) const
   return found == runs_.end() ? nullptr : &*found;
 }
 
-PinnedRun* PinnedRuns::found(std::uint64_t id) { return const_cast<PinnedRun*>(std::as_const(*this).find(id)); }
+PinnedRun* PinnedRuns::find_mutable(std::uint64_t id) { return const_cast<PinnedRun*>(std::as_const(*this).find(id)); }
 
 std::string PinnedRuns::own_name(const std::string& wanted, std::uint64_t id) const
 {
@@ -72,7 +72,7 @@ const PinnedRun& PinnedRuns::add(PinnedRun run)
 
 void PinnedRuns::change(std::uint64_t id, std::string name, std::uint32_t colour, bool shown)
 {
-  PinnedRun* run = found(id);
+  PinnedRun* run = find_mutable(id);
   if (!run) return;
   if (!name.empty() && name != run->name) run->name = own_name(name, id);
   run->colour = colour;

@@ -36,7 +36,7 @@ public:
   void remove(std::uint64_t id);
 
 private:
-  PinnedRun* found(std::uint64_t id);
+  PinnedRun* find_mutable(std::uint64_t id);
   /// The wanted name, with a number where another run than this has it.
   std::string own_name(const std::string& wanted, std::uint64_t id) const;
   std::uint32_t free_colour() const;

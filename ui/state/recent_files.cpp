@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <exception>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -80,29 +80,6 @@ RecentFiles::RecentFiles(fs::path list, fs::path thumbnails) : list_(std::move(l
   }
 }
 
-RecentFiles::~RecentFiles() { finish(); }
-
-RecentFiles& RecentFiles::operator=(RecentFiles&& other) noexcept
-{
-  if (this == &other) return *this;
-  finish();
-  list_ = std::move(other.list_);
-  thumbnails_ = std::move(other.thumbnails_);
-  files_ = std::move(other.files_);
-  note_ = std::move(other.note_);
-  unwritten_ = std::exchange(other.unwritten_, std::nullopt);
-  writing_ = std::move(other.writing_);
-  return *this;
-}
-
-/// Waits until everything is written.
-void RecentFiles::finish()
-{
-  if (writing_.valid()) writing_.wait();
-  if (unwritten_) write();
-  if (writing_.valid()) writing_.wait();
-}
-
 void RecentFiles::add(const fs::path& file, std::int64_t now)
 {
   std::error_code error;
@@ -111,31 +88,18 @@ void RecentFiles::add(const fs::path& file, std::int64_t now)
   std::erase_if(files_, [&](const RecentFile& entry) { return entry.file == absolute.string(); });
   files_.insert(files_.begin(), {absolute.string(), now});
   if (files_.size() > limit) files_.resize(limit);
-  unwritten_ = files_;
-  update();
 }
 
-void RecentFiles::update()
+std::function<void()> RecentFiles::writer() const
 {
-  if (writing_.valid()) {
-    if (writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    if (std::string wrong = writing_.get(); !wrong.empty()) note_ = wrong + "; recent files are not remembered";
-  }
-  if (unwritten_) write();
-}
-
-void RecentFiles::write()
-{
-  const auto files = std::exchange(unwritten_, std::nullopt);
-  if (list_.empty()) return;
-  writing_ = std::async(std::launch::async, [list = list_, files = *files] {
+  return [list = list_, files = files_] {
+    if (list.empty()) return;
     try {
       write_list(list, files);
-    } catch (const std::exception& error) {
-      return std::string(error.what());
+    } catch (const Error& error) {
+      throw error.noting("recent files are not remembered");
     }
-    return std::string();
-  });
+  };
 }
 
 fs::path thumbnail_of(const fs::path& preset, const fs::path& thumbnails)

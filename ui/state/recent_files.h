@@ -6,8 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <future>
-#include <optional>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,31 +27,22 @@ public:
   RecentFiles() = default;
   /// list: the file of the list, in a folder that is made when needed. thumbnails: the folder of pictures; either may be empty.
   RecentFiles(std::filesystem::path list, std::filesystem::path thumbnails);
-  ~RecentFiles();
-  RecentFiles(RecentFiles&& other) noexcept { *this = std::move(other); }
-  /// What is not written yet is written before.
-  RecentFiles& operator=(RecentFiles&& other) noexcept;
 
   /// The newest first.
   const std::vector<RecentFile>& all() const { return files_; }
-  /// Why the list is empty, or could not be written; empty where nothing went wrong. Once.
+  /// Why the list is empty; empty where nothing went wrong. Once.
   std::string take_note() { return std::exchange(note_, {}); }
-  /// Puts a file first. It is written in the background.
+  /// Puts a file first.
   void add(const std::filesystem::path& file, std::int64_t now);
-  /// Once a frame: begins to write what changed meanwhile.
-  void update();
+  /// Writes the list as it is now. Throws failed.
+  std::function<void()> writer() const;
   /// The folder of pictures; empty: none are kept.
   const std::filesystem::path& thumbnails() const { return thumbnails_; }
 
 private:
-  void write();
-  void finish();
-
   std::filesystem::path list_, thumbnails_;
   std::vector<RecentFile> files_;
   std::string note_;
-  std::optional<std::vector<RecentFile>> unwritten_;
-  std::future<std::string> writing_; ///< what went wrong
 };
 
 /// The picture of a preset's file: presets/thumbnails/NAME.jpg of a shipped one, else one in this folder of thumbnails, which need not be

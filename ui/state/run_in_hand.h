@@ -84,8 +84,8 @@ public:
   template <class T>
   std::shared_ptr<const T> seen() const
   {
-    for (const std::any& one : seen_)
-      if (const auto* found = std::any_cast<std::shared_ptr<const T>>(&one)) return *found;
+    for (const std::any& sight : seen_)
+      if (const auto* found = std::any_cast<std::shared_ptr<const T>>(&sight)) return *found;
     return nullptr;
   }
 

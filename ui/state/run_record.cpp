@@ -8,7 +8,6 @@
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
 #include "preset/read.h"
-#include "preset/settings_type.h"
 #include "run/picture.h"
 #include "run/run.h"
 
@@ -48,7 +47,7 @@ std::string renamed(const std::string& text, const std::string& name)
   return json_text(json, 2) + "\n";
 }
 
-void write_made(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further)
+void write_own_run(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further)
 {
   const RunOrigin& origin = *run.record->origin;
   run::Prepared prepared{*origin.preset, nullptr, origin.plan};
@@ -60,7 +59,7 @@ void write_made(const fs::path& folder, const PinnedRun& run, const std::string&
 }
 
 /// What was read, without what the folder had beside it.
-void write_read(const fs::path& folder, const PinnedRun& run, const std::string& name)
+void write_read_run(const fs::path& folder, const PinnedRun& run, const std::string& name)
 {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -88,7 +87,7 @@ RunRecord figures_now(const RunInHand& run)
   record.work_seconds = progress.work_seconds;
   record.finished = progress.fraction >= 1 && !run.snapshot()->stands_in;
   record.preset = run.snapshot_origin().preset;
-  if (record.preset) record.engine = record.preset->settings.type().name;
+  if (record.preset) record.engine = record.preset->settings.engine();
   return record;
 }
 
@@ -172,9 +171,9 @@ std::string why_no_folder(const PinnedRun& run)
 void write_run_folder(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further)
 {
   if (run.record && run.record->origin)
-    write_made(folder, run, name, further);
+    write_own_run(folder, run, name, further);
   else
-    write_read(folder, run, name);
+    write_read_run(folder, run, name);
 }
 
 } // namespace nephroid::ui

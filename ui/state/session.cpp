@@ -110,8 +110,8 @@ preset::Sweep read_sweep(const Json& value)
   preset::Sweep sweep;
   for (const Json& field : value) {
     sweep.push_back({field.at(0).get<std::string>(), field.at(1).get<std::vector<std::string>>()});
-    for (const std::string& one : sweep.back().values)
-      if (!Json::accept(one)) throw std::out_of_range("a swept value is no JSON");
+    for (const std::string& swept_value : sweep.back().values)
+      if (!Json::accept(swept_value)) throw std::out_of_range("a swept value is no JSON");
   }
   return sweep;
 }
@@ -151,8 +151,8 @@ std::string SessionText::of(const Session& session)
   std::vector<std::shared_ptr<const Known>> used;
   const auto known = [&](const PresetPtr& preset, const std::shared_ptr<const Known>& before) {
     const PresetPtr before_preset = before ? before->preset : nullptr;
-    for (const auto& one : known_)
-      if (one->preset == preset && one->before == before_preset) return used.emplace_back(one);
+    for (const auto& entry : known_)
+      if (entry->preset == preset && entry->before == before_preset) return used.emplace_back(entry);
     Json json = Json::parse(preset::to_json(*preset));
     Json patch = before ? Json::diff(before->json, json) : Json();
     return used.emplace_back(std::make_shared<const Known>(Known{preset, before_preset, std::move(json), std::move(patch)}));

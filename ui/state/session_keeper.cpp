@@ -27,24 +27,16 @@ constexpr std::size_t most_earlier = 10;
 constexpr std::uintmax_t most_bytes = 64u << 20; ///< of a session that somebody may have put there
 constexpr const char *session_name = "session.json", *settings_name = "settings.json", *lock_name = "lock";
 
-/// A file that this process alone holds open; -1 where another one has it, or it cannot be made.
-int lock(const fs::path& file)
-{
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-  ::close(descriptor);
-  return -1;
-}
-
-/// The same, held as long as somebody has it; null instead of -1.
+/// A file that this process alone holds open, as long as somebody has this; null where another one has it, or it cannot be made.
 SessionKeeper::HeldLock hold(const fs::path& file)
 {
-  const int descriptor = lock(file);
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (descriptor < 0) return nullptr;
-  return {new int(descriptor), [](const int* held) {
-            ::close(*held);
-            delete held;
-          }};
+  SessionKeeper::HeldLock held(new int(descriptor), [](const int* open) {
+    ::close(*open);
+    delete open;
+  });
+  return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? held : nullptr;
 }
 
 std::string read_limited(const fs::path& file)
@@ -85,31 +77,39 @@ void write_pin(const fs::path& folder, const PinnedRun& run)
 
 } // namespace
 
+/// The files of this window's session, whose lock it holds.
+struct SessionKeeper::Writer {
+  fs::path folder; ///< of all sessions
+  fs::path own;    ///< of this window's
+  HeldLock lock;
+  SessionText text;
+
+  /// On any thread, one at a time. What went wrong; empty where nothing did.
+  std::string write(const Work& work);
+};
+
 SessionKeeper::SessionKeeper(fs::path folder) : folder_(std::move(folder))
 {
   if (folder_.empty()) return;
+  writer_ = std::make_shared<Writer>();
+  writer_->folder = folder_;
+  fs::path& own = writer_->own;
   const fs::path sessions = folder_ / "sessions";
   const std::string name = fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(std::time(nullptr)), ::getpid());
   std::error_code error;
   fs::create_directories(sessions, error);
   for (int number = 1; !error; ++number) {
-    own_ = sessions / (number == 1 ? name : fmt::format("{}-{}", name, number));
-    if (fs::create_directory(own_, error)) break; // a new one
+    own = sessions / (number == 1 ? name : fmt::format("{}-{}", name, number));
+    if (fs::create_directory(own, error)) break; // a new one
   }
-  if (!error) lock_ = lock(own_ / lock_name);
-  if (lock_ < 0) {
+  if (!error) writer_->lock = hold(own / lock_name);
+  if (!writer_->lock) {
     const std::string reason = error ? error.message() : "its lock cannot be made";
     folder_.clear();
-    throw failed(own_.string(), "the window's session cannot be kept here: " + reason, "",
+    throw failed(own.string(), "the window's session cannot be kept here: " + reason, "",
                  "set XDG_STATE_HOME to a folder that can be written to");
   }
   find_earlier();
-}
-
-SessionKeeper::~SessionKeeper()
-{
-  if (writing_.valid()) writing_.wait();
-  if (lock_ >= 0) ::close(lock_);
 }
 
 void SessionKeeper::find_earlier()
@@ -117,7 +117,7 @@ void SessionKeeper::find_earlier()
   std::error_code error;
   std::vector<fs::path> folders;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "sessions", error))
-    if (entry.path() != own_ && entry.path().extension() != ".unreadable") folders.push_back(entry.path());
+    if (entry.path() != writer_->own && entry.path().extension() != ".unreadable") folders.push_back(entry.path());
   for (const fs::path& folder : folders) {
     SessionKeeper::HeldLock held = hold(folder / lock_name);
     if (!held) continue; // its window is open
@@ -187,7 +187,9 @@ SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
   work.pins = workbench.comparing().pinned().all();
   for (const PinnedRun& run : work.pins) work.session.pins.push_back({fmt::format("pin-{}", run.id), run.name, run.colour, run.shown});
   work.settings = workbench.settings();
-  if (!workbench.works_on_files()) work.replaces = taken_over_; // else its pins may still be being read
+  if (workbench.works_on_files()) return work; // the pins of the session before may still be being read
+  work.replaces = taken_over_;
+  work.lock = taken_over_lock_;
   return work;
 }
 
@@ -196,16 +198,21 @@ bool SessionKeeper::is_kept(const Work& work) const
   return newest_ && newest_->replaces == work.replaces && same_state(newest_->session, work.session) && newest_->settings == work.settings;
 }
 
-void SessionKeeper::write(const Work& work)
+std::string SessionKeeper::Writer::write(const Work& work)
 {
-  for (std::size_t i = 0; i < work.pins.size(); ++i)
-    if (const fs::path folder = own_ / work.session.pins[i].folder; !is_there(folder / "history.csv")) write_pin(folder, work.pins[i]);
-  write_file_whole(own_ / session_name, text_.of(work.session));
-  if (const std::string settings = to_json(work.settings);
-      !is_there(folder_ / settings_name) || read_file(folder_ / settings_name) != settings)
-    write_file_whole(folder_ / settings_name, settings);
-  std::error_code ignored;
-  if (!work.replaces.empty()) fs::remove_all(work.replaces, ignored);
+  try {
+    for (std::size_t i = 0; i < work.pins.size(); ++i)
+      if (const fs::path pin = own / work.session.pins[i].folder; !is_there(pin / "history.csv")) write_pin(pin, work.pins[i]);
+    write_file_whole(own / session_name, text.of(work.session));
+    if (const std::string settings = to_json(work.settings);
+        !is_there(folder / settings_name) || read_file(folder / settings_name) != settings)
+      write_file_whole(folder / settings_name, settings);
+    std::error_code ignored;
+    if (!work.replaces.empty()) fs::remove_all(work.replaces, ignored);
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
 }
 
 void SessionKeeper::say_once(Workbench& workbench, const std::string& error)
@@ -214,48 +221,41 @@ void SessionKeeper::say_once(Workbench& workbench, const std::string& error)
   workbench.apply({command::Report{error + "; the window goes on, but would lose its edits if it ended now: save the preset elsewhere"}});
 }
 
-void SessionKeeper::collect(Workbench& workbench)
+void SessionKeeper::written(Workbench& workbench, const std::string& error)
 {
-  try {
-    writing_.get();
+  if (error.empty()) {
     said_.clear();
     if (!newest_->replaces.empty()) {
       taken_over_.clear();
       taken_over_lock_.reset();
+      newest_->lock.reset();
     }
-  } catch (const std::exception& error) {
-    newest_.reset();
-    next_ = Clock::now() + after_failure;
-    say_once(workbench, error.what());
+    return;
   }
+  newest_.reset();
+  next_ = Clock::now() + after_failure;
+  say_once(workbench, error);
 }
 
 void SessionKeeper::update(Workbench& workbench, Clock::time_point now)
 {
-  if (folder_.empty()) return;
-  if (writing_.valid()) {
-    if (writing_.wait_for(0s) != std::future_status::ready) return;
-    collect(workbench);
-  }
-  if (now < next_) return;
+  if (folder_.empty() || now < next_ || workbench.tasks().busy(writes_)) return;
   next_ = now + period;
   Work work = work_of(workbench);
   if (is_kept(work)) return;
   newest_ = std::move(work);
-  writing_ = std::async(std::launch::async, [this] { write(*newest_); });
+  workbench.tasks().start(
+      writes_, {"keeping the session", TaskKind::write}, [writer = writer_, work = *newest_] { return writer->write(work); },
+      [this, &workbench](const std::string& error) { written(workbench, error); });
 }
 
 void SessionKeeper::close(Workbench& workbench)
 {
   if (folder_.empty()) return;
-  if (writing_.valid()) collect(workbench);
+  workbench.finish(writes_);
   Work work = work_of(workbench);
   work.session.closed = true;
-  try {
-    write(work);
-  } catch (const std::exception& error) {
-    say_once(workbench, error.what());
-  }
+  if (const std::string error = writer_->write(work); !error.empty()) say_once(workbench, error);
 }
 
 } // namespace nephroid::ui

@@ -7,7 +7,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,9 +21,6 @@ public:
 
   /// folder: state_folder(), or another for tests; empty: nothing is kept and nothing found. Throws failed where it cannot be made.
   explicit SessionKeeper(std::filesystem::path folder);
-  ~SessionKeeper();
-  SessionKeeper(const SessionKeeper&) = delete;
-  SessionKeeper& operator=(const SessionKeeper&) = delete;
 
   /// The settings that the last window kept; where they cannot be read, those a window begins with and a message.
   void load_settings(Workbench& workbench) const;
@@ -54,24 +50,23 @@ private:
     std::vector<PinnedRun> pins; ///< of session.pins, in their order
     Settings settings;
     std::filesystem::path replaces; ///< an earlier session that is removed when this one is kept; empty: none
+    HeldLock lock;                  ///< its
   };
+  struct Writer;
   void find_earlier();
   Work work_of(const Workbench& workbench) const;
   bool is_kept(const Work& work) const;
-  /// On any thread, one at a time. Throws failed.
-  void write(const Work& work);
-  void collect(Workbench& workbench);
+  /// error: empty where all of newest_ is kept.
+  void written(Workbench& workbench, const std::string& error);
   void say_once(Workbench& workbench, const std::string& error);
 
-  std::filesystem::path folder_; ///< of all sessions; empty: nothing is kept
-  std::filesystem::path own_;    ///< of this window's
-  int lock_ = -1;
+  std::filesystem::path folder_;     ///< of all sessions; empty: nothing is kept
+  std::shared_ptr<Writer> writer_;   ///< shared with the task that writes
   std::vector<Earlier> earlier_;     ///< the one to go back to first comes first
   std::filesystem::path taken_over_; ///< an earlier session that is not needed once this one is kept
   HeldLock taken_over_lock_;         ///< its
   std::optional<Work> newest_;       ///< what was written last, or is being written
-  std::future<void> writing_;
-  SessionText text_; ///< of the thread that writes
+  TaskKey writes_;
   std::string said_; ///< the error that was said last
   Clock::time_point next_{};
 };

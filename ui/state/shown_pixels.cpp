@@ -14,8 +14,8 @@ unsigned char exact(float value) { return image::shown(value, 1); }
 
 const ByteTable<exact>& table()
 {
-  static const ByteTable<exact> made(1);
-  return made;
+  static const ByteTable<exact> bytes(1);
+  return bytes;
 }
 
 } // namespace

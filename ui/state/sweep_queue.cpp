@@ -19,14 +19,14 @@ void SweepQueue::start(const preset::Preset& preset, const preset::Sweep& sweep)
     throw bad_input(place, fmt::format("gives {:.0f} runs, whose pictures the window would keep", count),
                     fmt::format("expected at most {}", most_runs), "save the preset and use `nephroid run`");
   std::vector<Run> runs;
-  for (preset::SweptRun& made : preset::swept_runs(preset, sweep)) {
+  for (preset::SweptRun& swept : preset::swept_runs(preset, sweep)) {
     Run& run = runs.emplace_back();
-    run.name = std::move(made.name);
-    if (made.preset)
-      run.preset = std::make_shared<const preset::Preset>(*std::move(made.preset));
+    run.name = std::move(swept.name);
+    if (swept.preset)
+      run.preset = std::make_shared<const preset::Preset>(*std::move(swept.preset));
     else {
       run.state = State::failed;
-      run.why = std::move(made.why_not);
+      run.why = std::move(swept.why_not);
     }
   }
   runs_ = std::move(runs);
@@ -50,8 +50,8 @@ void SweepQueue::begin_next(RunInHand& run, const UndoStack* edits)
 void SweepQueue::stop(RunInHand& run, const UndoStack* edits)
 {
   if (!std::exchange(active_, false)) return;
-  for (Run& one : runs_)
-    if (one.state == State::running || one.state == State::waiting) one.state = State::stopped;
+  for (Run& swept : runs_)
+    if (swept.state == State::running || swept.state == State::waiting) swept.state = State::stopped;
   if (std::exchange(lent_, false)) run.take_back(edits);
 }
 

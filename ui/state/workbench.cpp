@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/workbench.h"
 
+#include "base/counted.h"
 #include "base/files.h"
 #include "engine/engine.h"
 #include "preset/differences.h"
-#include "preset/settings_type.h"
 #include "ui/state/dielectrics.h"
 #include "ui/state/run_record.h"
+#include "ui/state/run_report.h"
 #include "ui/state/tone.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 
@@ -59,7 +61,7 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
     return false;
   }
   begin(std::move(read->preset), std::move(read->sweep));
-  recent_.add(edits_->current().source, std::time(nullptr));
+  add_recent(edits_->current().source);
   return true;
 }
 
@@ -83,7 +85,7 @@ void Workbench::let_go()
   chosen_.region.reset();
   carry_out(command::InspectPixel{});
   chosen_.selection = {};
-  meshes_.forget();
+  tasks_.forget(meshes_);
   close_question();
 }
 
@@ -94,15 +96,13 @@ void Workbench::close_question()
   waiting_.reset();
 }
 
-void Workbench::remember(RecentFiles recent) { recent_ = std::move(recent); }
-
 void Workbench::restore(Session session, const std::filesystem::path& folder)
 {
   let_go();
   if (session.edits) edits_.emplace(std::move(*session.edits));
   chosen_ = std::move(session.chosen);
   run_.watch_spectrum(chosen_.pixel);
-  for (const Session::Pin& pin : session.pins) files_.pin(folder / pin.folder, PinnedRun{0, pin.name, pin.colour, pin.shown, {}, {}});
+  for (const Session::Pin& pin : session.pins) this->pin(folder / pin.folder, pin);
   if (edits_) run_.start(*edits_);
 }
 
@@ -131,8 +131,8 @@ void Workbench::carry_out(const command::Open& c)
     return messages_.note(name + " is the environment");
   }
   if (edits_ && kind == FileKind::picture && engine::engine_of(edits_->current()).take_picture) return take_picture(c.name);
-  if (kind == FileKind::scene) return files_.import_scene(c.name);
-  if (edits_ && kind == FileKind::mesh && has_scene(edits_->current())) return meshes_.read(c.name);
+  if (kind == FileKind::scene) return import_scene(c.name);
+  if (edits_ && kind == FileKind::mesh && has_scene(edits_->current())) return read_mesh(c.name);
   if (c.sure || !edits_ || !edits_->modified()) {
     open(c.name);
     return;
@@ -230,7 +230,7 @@ void Workbench::carry_out(const command::SelectRegion& c)
 void Workbench::carry_out(const command::PinFile& c)
 {
   close_question();
-  files_.pin(c.path);
+  pin(c.path);
 }
 
 void Workbench::carry_out(const command::LoadDispersion& c)
@@ -262,10 +262,17 @@ void Workbench::carry_out(const command::SavePreset& c)
   question_ = Question::none;
   messages_.note("saved " + c.file.string());
   if (!text.note.empty()) messages_.note(text.note);
-  recent_.add(c.file, std::time(nullptr));
+  add_recent(c.file);
   const std::filesystem::path thumbnail = thumbnail_of(c.file, recent_.thumbnails());
   if (run_.snapshot() && !thumbnail.empty() && preset::shipped_name(c.file).empty()) // those of shipped presets are shipped
-    files_.save_thumbnail(thumbnail, run_.snapshot()->picture, chosen_.look.exposure_stops);
+    save(thumbnail, [thumbnail, picture = run_.snapshot()->picture, exposure_stops = chosen_.look.exposure_stops] {
+      try {
+        write_thumbnail(thumbnail, *picture, exposure_stops);
+        return std::string();
+      } catch (const Error& error) { // the preset itself is saved
+        return "the preset is saved without its small picture: " + error.line();
+      }
+    });
   if (const auto command = std::exchange(waiting_, std::nullopt)) std::visit([this](const auto& next) { carry_out(next); }, *command);
 }
 
@@ -273,7 +280,8 @@ void Workbench::carry_out(const command::SavePicture& c)
 {
   if (!run_.snapshot()) return;
   close_question();
-  files_.save_picture(c.file, run_.snapshot()->picture, shown_picture());
+  save(c.file,
+       [file = c.file, picture = run_.snapshot()->picture, shown = shown_picture()] { return save_picture(file, *picture, shown); });
 }
 
 PictureToSave Workbench::shown_picture() const
@@ -291,17 +299,24 @@ void Workbench::carry_out(const command::OpenResult& c)
 {
   if (!run_.snapshot() || !edits_) return;
   const std::filesystem::path beside = save_target(&edits_->current()).parent_path();
-  files_.save_files(beside / proposed_name(&edits_->current(), "-object"), run_.snapshot(), c.file);
+  const std::filesystem::path wanted = beside / proposed_name(&edits_->current(), "-object");
+  tasks_.start(
+      writes_, {"saving " + wanted.string(), TaskKind::write},
+      [wanted, of = run_.snapshot()](TaskControl& control) { return save_files(wanted, *of, control); },
+      [this, open = c.file, count = run_.snapshot()->files.size()](const std::filesystem::path& folder) {
+        messages_.note(fmt::format("saved {} in {}", counted(count, "file"), folder.string()));
+        carry_out(command::Open{(folder / open).string()});
+      });
 }
 
 void Workbench::carry_out(const command::WriteReport& c)
 {
   close_question();
-  files_.save_report(c.file, runs_of_table(comparing_, run_));
+  save(c.file, [file = c.file, runs = runs_of_table(comparing_, run_)] { return write_report(file, runs); });
 }
 
 /// What is kept for the presets of the engine in hand.
-EngineLayout& Workbench::engine_layout() { return settings_.engines[std::string(edits_->current().settings.type().name)]; }
+EngineLayout& Workbench::engine_layout() { return settings_.engines[std::string(edits_->current().settings.engine())]; }
 
 void Workbench::carry_out(const command::ResetLayout&)
 {
@@ -353,12 +368,8 @@ void Workbench::update(Clock::time_point now)
   look_at_files();
   run_.update(edits());
   sweep_.update(run_, comparing_, edits());
-  recent_.update();
   if (std::string note = recent_.take_note(); !note.empty()) messages_.note(std::move(note));
-  files_.collect(
-      messages_, [this](PinnedRun run) { comparing_.pin(std::move(run)); },
-      [this](const std::filesystem::path& file) { carry_out(command::Open{file.string()}); });
-  meshes_.collect(messages_, [this](const DroppedMesh& mesh) { add_object(mesh); });
+  tasks_.collect(messages_);
   messages_.expire(now);
   comparing_.update(now);
 }

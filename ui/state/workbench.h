@@ -9,7 +9,9 @@
 #include "ui/state/file_watch.h"
 #include "ui/state/files.h"
 #include "ui/state/session.h"
+#include "ui/state/tasks.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,7 +31,7 @@ public:
   /// Opens a preset with overrides (--set). False, with a message, where it cannot be read.
   bool open(const std::string& name, const preset::Overrides& overrides = {});
   /// From now on presets that are opened or saved are remembered there.
-  void remember(RecentFiles recent);
+  void remember(RecentFiles recent) { recent_ = std::move(recent); }
   /// As a session was; `folder` holds its pinned runs, which are read in the background. The run starts.
   void restore(Session session, const std::filesystem::path& folder);
   /// True once after ReopenSession.
@@ -42,9 +44,9 @@ public:
   void update(Clock::time_point now = Clock::now());
 
   /// For one frame; what is asked for goes to `commands`.
-  Context context(Commands& commands) const
+  Context context(Commands& commands)
   {
-    return {edits(), run_, comparing_, chosen_, settings_, has_earlier_session_, commands, recent_, sweep_};
+    return {edits(), run_, comparing_, chosen_, settings_, has_earlier_session_, commands, recent_, sweep_, tasks_};
   }
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
@@ -55,10 +57,13 @@ public:
   const Chosen& chosen() const { return chosen_; }
   const RecentFiles& recent() const { return recent_; }
   const std::vector<Message>& messages() const { return messages_.all(); }
+  TaskQueue& tasks() { return tasks_; }
+  /// Waits until the tasks of this key are done and delivered.
+  void finish(const TaskKey& key) { tasks_.wait(key, messages_); }
   /// Whether a file is being read or written in the background: its pin or its message is to come.
-  bool works_on_files() const { return files_.busy() || meshes_.busy(); }
+  bool works_on_files() const { return tasks_.busy(writes_) || tasks_.busy(pins_) || tasks_.busy(meshes_); }
   /// Before the end: waits until what is being written is, and has a message of what could not be.
-  void finish_files();
+  void finish_files() { tasks_.finish(messages_); }
   /// What is worth knowing and needs no answer: the program's notes, then those of the newest plan.
   std::vector<std::string> notes() const;
   Question question() const { return question_; }
@@ -114,7 +119,7 @@ private:
     if (!take_over_file()) messages_.note("the file has what is shown");
   }
   void carry_out(const command::ResetLayout&);
-  void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].layout = c.layout; }
+  void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].ini = c.ini; }
   void carry_out(const command::ShowPanel& c);
   void carry_out(const command::SetAppearance& c);
   void carry_out(const command::Report& c);
@@ -132,6 +137,13 @@ private:
   bool take_over_file();
   /// What the View shows now.
   PictureToSave shown_picture() const;
+  /// Writes a file in the background, after those before it; what write() answers becomes a note.
+  void save(const std::filesystem::path& file, std::function<std::string()> write);
+  /// Reads an earlier run and pins it; as `like` in name, colour and whether it is shown, where that is given.
+  void pin(const std::filesystem::path& path, const std::optional<Session::Pin>& like = {});
+  void import_scene(const std::filesystem::path& file);
+  void read_mesh(const std::filesystem::path& file);
+  void add_recent(const std::filesystem::path& file);
   void add_object(const DroppedMesh& mesh);
   /// As the engine of the preset in hand does, which takes pictures.
   void take_picture(const std::string& file);
@@ -146,13 +158,13 @@ private:
   std::uint64_t last_before_commands_ = 0; ///< newer messages are about the commands that are being carried out
   std::uint64_t refused_edit_ = 0;         ///< what was said of the last one that was not done
   RunInHand run_;
-  Comparing comparing_{run_};
+  TaskQueue tasks_;
+  TaskKey writes_, pins_, meshes_, recent_writes_;
+  Comparing comparing_{run_, tasks_};
   SweepQueue sweep_;
   Chosen chosen_;
-  FileWork files_;
   FileWatch watch_;
   std::shared_ptr<const preset::Preset> watched_, watched_from_; ///< whose files are watched, and as it was opened
-  DroppedMeshes meshes_;
   RecentFiles recent_;
   std::vector<std::string> program_notes_;
   Settings settings_;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the workbench does about files that change on disk, and those that are still being written at the end.
+// What the workbench does about files that change on disk, and those that are read and written beside the frames.
 #include "ui/state/workbench.h"
 
 #include "preset/read.h"
+#include "run/import/import.h"
 
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <utility>
@@ -63,11 +65,54 @@ void Workbench::look_at_files()
   if (scene_changed) run_.start_with_new_files(*edits_);
 }
 
-void Workbench::finish_files()
+void Workbench::save(const std::filesystem::path& file, std::function<std::string()> write)
 {
-  files_.wait();
-  files_.collect(
-      messages_, [](const PinnedRun&) {}, [](const std::filesystem::path&) {});
+  tasks_.start(writes_, {"saving " + file.string(), TaskKind::write}, std::move(write), [this](const std::string& note) {
+    if (!note.empty()) messages_.note(note);
+  });
+}
+
+void Workbench::add_recent(const std::filesystem::path& file)
+{
+  recent_.add(file, std::time(nullptr));
+  tasks_.start(recent_writes_, {.name = "writing the list of recent files", .kind = TaskKind::write, .replaces = true}, recent_.writer(),
+               [] {});
+}
+
+void Workbench::pin(const std::filesystem::path& path, const std::optional<Session::Pin>& like)
+{
+  tasks_.start(
+      pins_, {"reading " + path.string(), TaskKind::request}, [path] { return read_pin(path); },
+      [this, like](PinnedRun run) {
+        if (like) {
+          run.name = like->name;
+          run.colour = like->colour;
+          run.shown = like->shown;
+        }
+        comparing_.pin(std::move(run));
+      });
+}
+
+/// In a folder of its own beside the file.
+void Workbench::import_scene(const std::filesystem::path& file)
+{
+  tasks_.start(
+      writes_, {"importing " + file.string(), TaskKind::write},
+      [file] {
+        const std::string stem = file.stem().string();
+        return run::import_gltf(file, free_name(file.parent_path() / (stem + "-scene")) / (stem + ".json"));
+      },
+      [this](const run::Imported& scene) {
+        messages_.note(scene.summary());
+        carry_out(command::Open{scene.preset.string()});
+      });
+}
+
+void Workbench::read_mesh(const std::filesystem::path& file)
+{
+  tasks_.start(
+      meshes_, {"reading " + file.string(), TaskKind::request}, [file] { return read_dropped_mesh(file); },
+      [this](const DroppedMesh& mesh) { add_object(mesh); });
 }
 
 } // namespace nephroid::ui

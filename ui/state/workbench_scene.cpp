@@ -56,11 +56,11 @@ void Workbench::carry_out(const command::DeleteBookmark& c)
 void Workbench::add_object(const DroppedMesh& mesh)
 {
   if (!edits_) return;
-  WithMesh made = with_mesh(edits_->current(), mesh);
-  const std::size_t index = made.preset.scene.objects.size() - 1;
-  carry_out(command::Edit{"add " + mesh.file.filename().string(), std::move(made.preset)});
+  WithMesh with_it = with_mesh(edits_->current(), mesh);
+  const std::size_t index = with_it.preset.scene.objects.size() - 1;
+  carry_out(command::Edit{"add " + mesh.file.filename().string(), std::move(with_it.preset)});
   carry_out(command::Select{{Selection::Kind::object, index}});
-  messages_.note(made.note);
+  messages_.note(with_it.note);
 }
 
 } // namespace nephroid::ui

@@ -105,8 +105,8 @@ ImGuizmo::OPERATION operation(Tool tool, const Grip& grip)
 std::array<float, 3> snap_steps(Tool tool, double unit)
 {
   const double step = tool == Tool::move ? snap_step(unit) / unit : tool == Tool::turn ? snap_deg : snap_factor;
-  const auto one = static_cast<float>(step);
-  return {one, one, one};
+  const auto edge = static_cast<float>(step);
+  return {edge, edge, edge};
 }
 
 /// For the frame. Numbers are drawn here: ImGuizmo's would be in the frame's units.

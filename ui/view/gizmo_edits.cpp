@@ -148,19 +148,19 @@ preset::Vec3 angles_of(const glm::dmat3& r, const preset::Vec3& near)
 {
   // r = Rz(c) Ry(b) Rx(a): its first column is (cos b cos c, cos b sin c, -sin b), its last row (-sin b, cos b sin a, cos b cos a).
   const double cos_b = std::hypot(r[0][0], r[0][1]);
-  std::array<glm::dvec3, 2> found;
+  std::array<glm::dvec3, 2> solutions;
   if (cos_b > 1e-9) {
     const double a = std::atan2(r[1][2], r[2][2]), b = std::atan2(-r[0][2], cos_b), c = std::atan2(r[0][1], r[0][0]);
-    found = {glm::dvec3(a, b, c), glm::dvec3(a + std::numbers::pi, std::numbers::pi - b, c + std::numbers::pi)};
+    solutions = {glm::dvec3(a, b, c), glm::dvec3(a + std::numbers::pi, std::numbers::pi - b, c + std::numbers::pi)};
   } else {
     // The axes of a and c are one: only a - c (b = 90 degrees) or a + c (b = -90) counts, and c stays as it was.
     const double sign = r[0][2] < 0 ? 1 : -1, c = near[2] * std::numbers::pi / 180;
     const double a = std::atan2(sign * r[1][0], r[1][1]) + sign * c;
-    found.fill({a, sign * std::numbers::pi / 2, c});
+    solutions.fill({a, sign * std::numbers::pi / 2, c});
   }
   preset::Vec3 best{};
   double least = -1;
-  for (const glm::dvec3& radians : found) {
+  for (const glm::dvec3& radians : solutions) {
     preset::Vec3 angles{};
     double change = 0;
     for (std::size_t i = 0; i < 3; ++i) {

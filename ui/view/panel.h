@@ -8,11 +8,8 @@
 #include "ui/view/shown_picture.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/picture_texture.h"
-#include "ui/widgets/widgets.h"
 
 #include <memory>
-#include <optional>
-#include <string>
 
 namespace nephroid::ui {
 
@@ -27,9 +24,8 @@ public:
   const Tone& tone() const { return tone_; }
   /// What it showed last; for tests.
   const ShownPicture& shown() const { return shown_; }
-  /// For tests: what is over it, and the middle of a widget of the rows above it (look_bar.h, selection_bar.h).
+  /// For tests: what is over it.
   const SceneOverlay& overlay() const { return overlay_; }
-  std::optional<Point> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   enum class Drag { none, orbit, pan, dolly, move_picture, mark };
@@ -55,7 +51,6 @@ private:
   Tone tone_;                              ///< that it was made with
 
   SceneOverlay overlay_;
-  WidgetPlaces places_;
   BarRows bars_;
 
   Drag drag_ = Drag::none;

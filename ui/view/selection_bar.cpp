@@ -28,7 +28,7 @@ void draw_choice(const Context& context, WidgetPlaces& places)
     places.note("select " + label);
   };
   choice("nothing", {});
-  for (const Selection& one : selectable(preset)) choice(name_of(preset, one), one);
+  for (const Selection& selection : selectable(preset)) choice(name_of(preset, selection), selection);
   ImGui::EndCombo();
 }
 

@@ -34,6 +34,13 @@ PlotArea PlotArea::in_hand()
   return {{corner.x, corner.y, size.x, size.y}, {limits.X.Min, limits.X.Max}, {limits.Y.Min, limits.Y.Max}};
 }
 
+bool follows_after_mouse(bool follows)
+{
+  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) return true;
+  const bool drags = ImGui::IsMouseDragging(ImGuiMouseButton_Left) || ImGui::IsMouseDragging(ImGuiMouseButton_Right);
+  return follows && !drags && ImGui::GetIO().MouseWheel == 0;
+}
+
 std::string in_csv(const std::string& name)
 {
   std::string text = "\"";

@@ -27,6 +27,10 @@ struct PlotArea {
   }
 };
 
+/// Whether axes that follow what they show go on with that, when the mouse is on their plot: the wheel and a drag let them go, a double
+/// click takes them back.
+bool follows_after_mouse(bool follows);
+
 /// A name in quotes, as CSV has it (RFC 4180).
 std::string in_csv(const std::string& name);
 

@@ -12,9 +12,9 @@ ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha};
 
 ImVec4 accent(float alpha)
 {
-  ImVec4 made = ImGui::ColorConvertU32ToFloat4(colour::accent);
-  made.w = alpha;
-  return made;
+  ImVec4 tint = ImGui::ColorConvertU32ToFloat4(colour::accent);
+  tint.w = alpha;
+  return tint;
 }
 
 /// What differs between the themes: greys from the lowest ground to the text, and the colours of words on a panel.

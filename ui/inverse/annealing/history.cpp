@@ -11,7 +11,7 @@ HistoryLines history_lines(const job::Curve& curve, const HistoryLook& look)
   const auto found = std::find(curve.columns.begin(), curve.columns.end(), "seconds");
   const auto seconds = static_cast<std::size_t>(found - curve.columns.begin());
   const std::size_t over = look.seconds && found != curve.columns.end() ? seconds : 0;
-  HistoryLines made{curve.name, curve.columns.at(over), {}};
+  HistoryLines history{curve.name, curve.columns.at(over), {}};
   for (std::size_t column = 1; column < curve.columns.size(); ++column) {
     if (column == seconds) continue;
     HistoryLine line{curve.columns[column], {}, {}};
@@ -20,9 +20,9 @@ HistoryLines history_lines(const job::Curve& curve, const HistoryLook& look)
       line.x.push_back(row[over]);
       line.y.push_back(row[column]);
     }
-    made.lines.push_back(std::move(line));
+    history.lines.push_back(std::move(line));
   }
-  return made;
+  return history;
 }
 
 } // namespace nephroid::ui

@@ -8,7 +8,6 @@
 #include "ui/inverse/annealing/pictures.h"
 #include "ui/inverse/annealing/plot.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
 #include <array>
 #include <map>
@@ -28,7 +27,6 @@ public:
   /// For tests: what was drawn last, and where.
   const std::vector<HistoryLines>& histories() const { return histories_; }
   const std::optional<FacetBeam>& beam() const { return beam_; }
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
   /// x, y, width and height of a picture on the screen; zeros where it was not drawn.
   std::array<double, 4> area_of(const std::string& picture) const;
 
@@ -67,7 +65,6 @@ private:
   std::optional<glm::ivec2> facet_; ///< that was clicked
   std::optional<FacetBeam> beam_;   ///< its own
   Gestures gestures_{title};
-  WidgetPlaces places_;
   std::map<std::string, std::array<double, 4>> areas_;
 };
 

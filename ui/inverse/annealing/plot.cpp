@@ -86,10 +86,7 @@ void HistoryPlot::draw(const HistoryLines& lines, bool log, float height)
   area_ = PlotArea::in_hand();
   const bool hovered = ImPlot::IsPlotHovered();
   ImPlot::EndPlot();
-  if (!hovered) return;
-  if (ImGui::GetIO().MouseWheel != 0 || ImGui::IsMouseDragging(ImGuiMouseButton_Left) || ImGui::IsMouseDragging(ImGuiMouseButton_Right))
-    follows_ = false;
-  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) follows_ = true;
+  if (hovered) follows_ = follows_after_mouse(follows_);
 }
 
 } // namespace nephroid::ui

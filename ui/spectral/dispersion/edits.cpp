@@ -43,11 +43,11 @@ FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t
   FittedPoints fitted;
   fitted.points = {point(0), point(optics::wavelength_count - 1)};
   while (true) {
-    const optics::Spectrum made = optics::sample_n(optics::control_points(fitted.points), optics::Outside::hold);
+    const optics::Spectrum fitted_n = optics::sample_n(optics::control_points(fitted.points), optics::Outside::hold);
     int worst = 0;
     fitted.greatest_deviation = 0;
     for (int i = 0; i < optics::wavelength_count; ++i) {
-      const double deviation = std::fabs(made[static_cast<std::size_t>(i)] - n[static_cast<std::size_t>(i)]);
+      const double deviation = std::fabs(fitted_n[static_cast<std::size_t>(i)] - n[static_cast<std::size_t>(i)]);
       if (deviation > fitted.greatest_deviation) fitted.greatest_deviation = deviation, worst = i;
     }
     if (fitted.greatest_deviation <= tolerance || fitted.points.size() >= std::max<std::size_t>(most, 2)) return fitted;

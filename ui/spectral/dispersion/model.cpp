@@ -38,15 +38,15 @@ std::vector<double> wavelengths_of_line(double low_nm, double high_nm)
   return nm;
 }
 
-void make_lines(const optics::DispersionCurve& data, optics::Outside outside, GlassCurve& made)
+void make_lines(const optics::DispersionCurve& data, optics::Outside outside, GlassCurve& glass_curve)
 {
-  const auto ends = made.points ? made.data_nm : std::array<double, 2>{optics::first_nm, optics::last_nm};
-  made.line_nm = wavelengths_of_line(ends[0], ends[1]);
-  for (const double nm : made.line_nm) {
-    const bool refused = outside == optics::Outside::refuse && (nm < made.data_nm[0] || nm > made.data_nm[1]);
+  const auto ends = glass_curve.points ? glass_curve.data_nm : std::array<double, 2>{optics::first_nm, optics::last_nm};
+  glass_curve.line_nm = wavelengths_of_line(ends[0], ends[1]);
+  for (const double nm : glass_curve.line_nm) {
+    const bool refused = outside == optics::Outside::refuse && (nm < glass_curve.data_nm[0] || nm > glass_curve.data_nm[1]);
     const optics::IndexSample sample = refused ? optics::IndexSample{} : data.sample(nm, outside);
-    made.line_n.push_back(sample.n.value_or(nan));
-    if (data.k) made.line_k.push_back(sample.k.value_or(nan));
+    glass_curve.line_n.push_back(sample.n.value_or(nan));
+    if (data.k) glass_curve.line_k.push_back(sample.k.value_or(nan));
   }
 }
 
@@ -116,23 +116,23 @@ std::vector<Band> bands_of(const spectral::Clustering& clustering)
 
 GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where)
 {
-  GlassCurve made;
-  made.points = dispersion.type == preset::Dispersion::Type::points;
+  GlassCurve glass_curve;
+  glass_curve.points = dispersion.type == preset::Dispersion::Type::points;
   try {
     const FileFinder finder(std::filesystem::path(preset_source).parent_path());
     const optics::DispersionCurve data = scene::make_curve(dispersion, finder, where);
     const optics::Outside outside = scene::outside_policy(dispersion.outside);
-    made.name = data.name;
-    made.data_nm = data.range_nm();
-    make_lines(data, outside, made); // also where it cannot be rendered: the person sees where it goes wrong
-    made.note = optics::outside_note(data, outside);
-    made.has_k = data.k.has_value();
-    made.n = optics::sample_n(data, outside);
-    made.k = optics::sample_k(data, outside);
+    glass_curve.name = data.name;
+    glass_curve.data_nm = data.range_nm();
+    make_lines(data, outside, glass_curve); // also where it cannot be rendered: the person sees where it goes wrong
+    glass_curve.note = optics::outside_note(data, outside);
+    glass_curve.has_k = data.k.has_value();
+    glass_curve.n = optics::sample_n(data, outside);
+    glass_curve.k = optics::sample_k(data, outside);
   } catch (const std::exception& error) {
-    made.error = error.what();
+    glass_curve.error = error.what();
   }
-  return made;
+  return glass_curve;
 }
 
 bool DispersionModel::update_curve(const preset::Preset& preset, const std::string& material)

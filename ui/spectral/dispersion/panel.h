@@ -5,7 +5,6 @@
 #include "ui/spectral/dispersion/model.h"
 #include "ui/spectral/dispersion/plot.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
 #include <string>
 #include <vector>
@@ -19,10 +18,9 @@ public:
   explicit DispersionPanel(WavelengthAxis& axis) : axis_(axis) {}
   void draw(const Context& context) override;
 
-  /// For tests: what was drawn last, and where (the middle on the screen) a widget of this name was.
+  /// For tests: what was drawn last.
   const DispersionModel& model() const { return model_; }
   const DispersionPlot& plot() const { return plot_; }
-  std::array<double, 2> widget(const std::string& name) const { return places_.of(name).value(); }
 
 private:
   void follow(const Context& context);
@@ -49,7 +47,6 @@ private:
   preset::Dispersion fitted_; ///< what "Make editable" made,
   std::string fitted_text_;   ///< and what it said about it
   float below_plot_ = 0;      ///< height of what was drawn there last
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

@@ -41,13 +41,13 @@ LightCurve make_curve(const preset::LightSpectrum& spectrum)
 /// How a light looks to (4.15): where it stands does not matter.
 scene::Light without_place(const preset::Light& light, const LightCurve& curve)
 {
-  scene::Light made;
-  made.type = light.type;
+  scene::Light scene_light;
+  scene_light.type = light.type;
   const bool directional = light.type == preset::Light::Type::directional;
-  made.power_w = directional ? 0 : light.power_w;
-  made.irradiance_w_m2 = directional ? light.irradiance_w_m2 : 0;
-  made.spectrum = curve.spectrum;
-  return made;
+  scene_light.power_w = directional ? 0 : light.power_w;
+  scene_light.irradiance_w_m2 = directional ? light.irradiance_w_m2 : 0;
+  scene_light.spectrum = curve.spectrum;
+  return scene_light;
 }
 
 /// Encoded for the display; what it cannot show is clipped.
@@ -78,10 +78,10 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline)
   for (const preset::Object& object : preset.scene.objects) {
     const auto found = preset.scene.materials.find(object.material);
     if (found == preset.scene.materials.end()) throw bad_input({}, fmt::format("there is no material '{}'", object.material));
-    scene::Object made;
-    made.material = static_cast<int>(std::distance(preset.scene.materials.begin(), found));
-    made.triangle_count = 1; // of those that nobody looks at here
-    outline.objects.push_back(made);
+    scene::Object scene_object;
+    scene_object.material = static_cast<int>(std::distance(preset.scene.materials.begin(), found));
+    scene_object.triangle_count = 1; // of those that nobody looks at here
+    outline.objects.push_back(scene_object);
   }
 }
 
@@ -135,7 +135,7 @@ const Spectra& SpectraMaker::update(const preset::Preset& preset, const std::sha
   make_importance(preset);
   make_clusters(preset);
   preset_ = preset;
-  ++made_;
+  ++updates_;
   return spectra_;
 }
 

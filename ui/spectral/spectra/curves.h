@@ -73,7 +73,7 @@ public:
   const Spectra& update(const preset::Preset& preset, const std::shared_ptr<const SeenByGlass>& seen);
   const Spectra& spectra() const { return spectra_; }
   /// How often anything was made anew.
-  std::uint64_t made() const { return made_; }
+  std::uint64_t updates() const { return updates_; }
 
 private:
   void make_lights(const preset::Scene& now);
@@ -90,7 +90,7 @@ private:
   std::string materials_error_;          ///< why outline_ has no materials; empty where it has them
   std::vector<std::vector<int>> groups_; ///< the clusters of outline_, also of wavelengths that no light has
   std::string groups_error_;             ///< why there are none
-  std::uint64_t made_ = 0;
+  std::uint64_t updates_ = 0;
 };
 
 /// Every curve as CSV: wavelength_nm, a column a light (sums to 1), luminosity, a column a reflectance, u, cluster, iterations.

@@ -61,12 +61,12 @@ double largest_power(const LightSpectrum& spectrum)
 
 LightSpectrum as_table(const LightSpectrum& spectrum)
 {
-  LightSpectrum made;
-  made.type = Type::table;
+  LightSpectrum sampled;
+  sampled.type = Type::table;
   const optics::Spectrum values = values_of(spectrum);
   for (int nm = optics::first_nm; nm <= optics::last_nm; nm += table_step_nm)
-    made.table.push_back({static_cast<double>(nm), relative_power(values, nm)});
-  return made;
+    sampled.table.push_back({static_cast<double>(nm), relative_power(values, nm)});
+  return sampled;
 }
 
 LightSpectrum sorted(LightSpectrum spectrum)

@@ -6,10 +6,7 @@
 #include "ui/spectral/spectra/curves.h"
 #include "ui/spectral/spectra/plot.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
-#include <array>
-#include <optional>
 #include <string>
 
 namespace nephroid::ui {
@@ -24,7 +21,6 @@ public:
   /// For tests: what was drawn last, and the middle of a widget on the screen; nothing where there is no such widget.
   const SpectraMaker& maker() const { return maker_; }
   const SpectraPlot& plot() const { return plot_; }
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   void choose_light(const preset::Preset& preset);
@@ -47,7 +43,6 @@ private:
   std::string source_;             ///< the preset that light_ is of
   std::size_t light_ = 0;          ///< the one that is edited
   preset::LightSpectrum spectrum_; ///< of it, rows sorted
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui
