@@ -2,8 +2,6 @@
 // The program that reads mesh files for nephroid: whatever happens to it, nephroid says so in one line; and it ends within its limits.
 #include "tests/support/program_test.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <bit>
 #include <cmath>
@@ -73,7 +71,10 @@ std::string printed(const T&... values)
 {
   std::string text;
   const auto add = [&](const auto& value) {
-    for (const unsigned char byte : std::bit_cast<std::array<unsigned char, sizeof value>>(value)) text += fmt::format("\\{:03o}", byte);
+    for (const unsigned char byte : std::bit_cast<std::array<unsigned char, sizeof value>>(value)) {
+      text += '\\';
+      for (const int shift : {6, 3, 0}) text += static_cast<char>('0' + (byte >> shift & 7));
+    }
   };
   (add(values), ...);
   return text;
