@@ -64,7 +64,10 @@ std::string printed(const T&... values)
 {
   std::string text;
   const auto add = [&](const auto& value) {
-    for (const unsigned char byte : std::bit_cast<std::array<unsigned char, sizeof value>>(value)) text += fmt::format("\\{:03o}", byte);
+    for (const unsigned char byte : std::bit_cast<std::array<unsigned char, sizeof value>>(value)) {
+      text += '\\';
+      for (const int shift : {6, 3, 0}) text += static_cast<char>('0' + (byte >> shift & 7));
+    }
   };
   (add(values), ...);
   return text;

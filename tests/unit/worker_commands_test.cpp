@@ -129,9 +129,9 @@ private:
       }
       fails_ = command == Command::adopt_failing && !cancelled_; // a job that is made of it does not fail
       // A pause ends with a start; whether it does with an adoption depends on what becomes of it.
-      if (!is_adoption(command) || !paused_)
+      if (!is_adoption(command))
         paused_ = false;
-      else
+      else if (paused_ != false)
         paused_.reset();
       cancelled_ = false;
     }
