@@ -143,7 +143,7 @@ public:
   void open_listed(const std::string& typed, const std::string& title)
   {
     const auto& presets = panel<ui::PresetsPanel>();
-    until_placed("the presets are listed", [&] { return presets.place_of("search") && !presets.catalogue().busy(); });
+    until_placed("the presets are listed", [&] { return presets.place_of("search") && workbench_.tasks().empty(); });
     window_.settle(30);
     click(presets.place_of("search").value());
     type(typed);

@@ -3,7 +3,6 @@
 #include "tests/support/eventually.h"
 #include "tests/support/test.h"
 #include "ui/inspector/region.h"
-#include "ui/inspector/region_maker.h"
 
 namespace nephroid::ui::region_test {
 

@@ -139,9 +139,12 @@ EnvironmentModel::Result EnvironmentModel::take_step(Step step, const WantedMap&
       const SegmentSettings settings{.lights = quality_lights.at(points.size()), .method = static_cast<SegmentMethod>(method)};
       points.push_back(error_of(environment::segment(shown.map->cube, settings)));
     }
-    return {std::move(shown)};
+    return {std::move(shown), false};
   } catch (const std::exception& error) {
-    return {.shown = {.source = wanted.source, .error = error.what()}, .refused = true};
+    shown = {};
+    shown.source = wanted.source;
+    shown.error = error.what();
+    return {std::move(shown), true};
   }
 }
 
