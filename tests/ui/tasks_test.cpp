@@ -2,18 +2,12 @@
 // The queue of what takes longer than a frame: order, newest wins, cancelling, what is thrown, owners that are gone, and the end.
 #include "base/error.h"
 #include "tests/support/eventually.h"
+#include "tests/support/test.h"
 #include "ui/state/tasks.h"
 
-#include <gmock/gmock.h>
-
 #include <future>
-#include <thread>
 
-namespace nephroid::ui {
-namespace {
-
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
+namespace nephroid::ui::tasks_test {
 
 class TasksTest : public ::testing::Test {
 protected:
@@ -164,5 +158,4 @@ TEST_F(TasksTest, TheEndWaitsForWhatIsWrittenAndDeliversNothing)
   EXPECT_EQ(messages.all()[0].line, "b.json: cannot be written");
 }
 
-} // namespace
-} // namespace nephroid::ui
+} // namespace nephroid::ui::tasks_test
