@@ -5,7 +5,6 @@
 #include "ui/state/tasks.h"
 
 #include <future>
-#include <thread>
 
 namespace nephroid::ui::tasks_test {
 

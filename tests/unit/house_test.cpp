@@ -113,6 +113,22 @@ TEST(House, sources_are_one_subject_under_500_lines)
   EXPECT_THAT(longer, IsEmpty());
 }
 
+// Several are compiled as one, and a suite runs in one process: a fixture of the same name elsewhere would be another's.
+TEST(House, tests_are_in_a_namespace_of_their_own_and_suites_in_one_file)
+{
+  std::vector<std::string> wrong;
+  std::map<std::pair<fs::path, std::string>, fs::path> file_of;
+  for (const fs::path& file : project_files()) {
+    if (!file.string().ends_with("_test.cpp")) continue;
+    const std::string text = text_of(root / file), own = "namespace nephroid(::[a-z]+)?::" + file.stem().string() + " \\{";
+    if (!std::regex_search(text, std::regex(own))) wrong.push_back(file.string() + " has no namespace " + file.stem().string());
+    for (const std::string& suite : names_in(text, R"(\nTEST(?:_[FP])?\((\w+),)"))
+      if (!file_of.emplace(std::pair(file.parent_path(), suite), file).second)
+        wrong.push_back(file.string() + " has a suite of another: " + suite);
+  }
+  EXPECT_THAT(wrong, IsEmpty());
+}
+
 TEST(House, no_file_over_a_megabyte)
 {
   std::vector<std::string> large;
