@@ -315,7 +315,7 @@ TEST_F(ParametersTest, ATableOfManyRowsIsDrawnInAFrame)
 {
   Json preset = Json::parse(test::preset_text);
   Json& table = preset["scene"]["lights"][0]["spectrum"] = {{"type", "table"}};
-  for (int i = 0; i < 100000; ++i) table["table"].push_back({300 + 0.005 * i, 1});
+  for (int i = 0; i < 20000; ++i) table["table"].push_back({300 + 0.005 * i, 1});
   open(preset.dump());
   search("scene.lights.0.spectrum.table");
   const double begin = test::thread_ms();
