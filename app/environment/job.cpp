@@ -163,8 +163,11 @@ public:
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
     try {
       if (renderer_) change_picture(preset);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::bad_input) renderer_.reset(); // it is neither as it was nor as it shall be
+      throw;
     } catch (...) {
-      renderer_.reset(); // it is neither as it was nor as it shall be
+      renderer_.reset();
       throw;
     }
     preset_ = preset;

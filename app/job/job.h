@@ -116,7 +116,7 @@ public:
   virtual void load(ByteSource& from) = 0;
   /// Takes on another preset without starting again, and keeps what was computed so far. True only where the engine can do so
   /// (engine::adoptable): a relighting run can where only the light differs. Throws bad_input at FILE#/scene/lights/... for a
-  /// spectrum that cannot be used, failed where the device fails. Where it returns false, nothing has changed. Where it throws, the next
+  /// spectrum that cannot be used. Where it returns false or throws bad_input, nothing has changed. After any other exception the next
   /// adopt() comes before any step() or snapshot(); where the job cannot go on from there, it returns false.
   virtual bool adopt(const preset::Preset&) { return false; }
 };

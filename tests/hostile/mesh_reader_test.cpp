@@ -135,8 +135,8 @@ protected:
 
 TEST_F(MeshReaderLimits, ProcessorTime)
 {
-  write("long.obj", many_triangles(3'000'000));
-  EXPECT_EQ(read("long.obj").signal, SIGXCPU);
+  write("long.obj", many_triangles(9'000'000));
+  EXPECT_EQ(read("long.obj", "8000000000").signal, SIGXCPU);
 }
 
 TEST_F(MeshReaderLimits, Memory)
