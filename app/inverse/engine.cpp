@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/engine.h"
 
-#include "base/counted.h"
 #include "base/error.h"
-#include "inverse/assign/assignment.h"
-#include "inverse/bending.h"
-#include "inverse/describe_settings.h"
 #include "inverse/glass_view.h"
-#include "inverse/pictures/target.h"
-#include "inverse/thesis/pipeline.h"
 
 #include <fmt/format.h>
 
@@ -18,45 +12,6 @@
 
 namespace nephroid::inverse {
 namespace {
-
-/// Bytes a facet, measured: some 14 triangles with their vertices, their tree and the two files of them.
-constexpr std::uint64_t solid_bytes = 3000;
-
-std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
-{
-  const bool blurred = l.sun_radius > 0 || l.scatter > 0 || !l.indices.empty(), straight = l.incoming.empty();
-  const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
-             lens = s.method == Settings::Method::lens;
-  const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
-                                       counted(l.distances.size(), "receiver"), usable_slope(l));
-  const std::string chosen = fmt::format("inverse.method is '{}'", preset::word(s.method));
-  const bool anneals = thesis && s.thesis.cycles > 0, corrects = thesis && s.thesis.corrections > 0;
-  return {{"assign", assign, assign ? what : chosen},
-          {"sampling", thesis, thesis ? what : chosen},
-          {"annealing", anneals,
-           anneals  ? "sizes, then extension and overshoot"
-           : thesis ? "inverse.thesis.cycles is 0"
-                    : chosen},
-          {"correction", corrects,
-           corrects ? "of intensities, cell by cell"
-           : thesis ? "inverse.thesis.corrections is 0"
-                    : chosen},
-          {"blur", blurred,
-           blurred ? "the sun's disc, a rough surface or dispersion, in every footprint"
-                   : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
-          {"smoothing", assign && l.smoothing > 0,
-           !assign           ? "the method 'assign' alone has it"
-           : l.smoothing > 0 ? "facets unlike their neighbours cost something"
-                             : "inverse.smoothing_normals is 0: no term"},
-          {"heights", l.free_heights,
-           l.free_heights ? "facets move along z to where their walls are lowest"
-           : lens         ? "a smooth surface has no walls"
-                          : "inverse.heights is flat: nothing is solved"},
-          {"transport", lens, lens ? what : chosen},
-          {"incoming", !straight,
-           straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
-          {"judge", true, "rays through the finished solid, walls and all"}};
-}
 
 /// A receiver with a drawing casts it now, or else the first one.
 engine::Taken take_picture(preset::Preset& preset, const std::filesystem::path& file)
@@ -87,47 +42,6 @@ constexpr const char* new_scene = R"({
 
 } // namespace
 
-InversePlan make_plan(const preset::Preset& preset)
-{
-  InversePlan plan;
-  plan.layout = make_layout(preset);
-  plan.targets = make_targets(preset, plan.layout);
-  const Layout& l = plan.layout;
-  plan.engine = "inverse";
-  plan.layers = 1;
-  plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
-  plan.passes = passes_of(settings(preset), l);
-  plan.buffers = {{"light on the facets (host)", sizeof(Incoming) * l.incoming.size(), true},
-                  {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
-                  {"what the pictures lack, for each of a batch (host)",
-                   settings(preset).method == Settings::Method::assign ? (1 + Assignment::batch) * lack_bytes(l) : 0, true},
-                  {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},
-                  {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
-  if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
-    plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
-                                     "soft; choose more facets or fewer cells",
-                                     l.facet().x, l.facet().y, l.cell().x, l.cell().y));
-  const std::int64_t trials = Pipeline::trials_of(settings(preset).thesis);
-  if (settings(preset).method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
-    plan.notes.push_back(fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end",
-                                     trials, *preset.stop.passes, trials));
-  return plan;
-}
-
-bool may_go_on(const preset::Preset& before, const preset::Preset& now)
-{
-  if (settings(before).receivers.size() != settings(now).receivers.size()) return false;
-  preset::Preset same = now;
-  same.name = before.name;
-  same.description = before.description;
-  same.scene.camera = before.scene.camera;
-  if (settings(before).method == Settings::Method::assign) {
-    same.stop = before.stop;
-    settings(same).receivers = settings(before).receivers;
-  }
-  return same == before;
-}
-
 std::string receiver_group(std::size_t receiver) { return fmt::format("inverse/receivers/{}", receiver); }
 
 constinit const engine::Engine engine{
@@ -140,7 +54,7 @@ constinit const engine::Engine engine{
               const compute::Context&) { return make_job(preset, dynamic_cast<const InversePlan&>(plan)); },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
     .checks = closed_forms,
-    .adoptable = may_go_on,
+    .adoptable = adoptable,
     .has_scene = false,
     .take_picture = take_picture,
     .introduction =

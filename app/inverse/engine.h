@@ -30,7 +30,7 @@ std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePl
 
 /// Whether a run of `before` may go on as one of `now` and keep its facets' slopes: only distances, weights and pictures of as many
 /// receivers differ, or the stop; or the camera or a name. Methods other than assign begin again for all but the last two.
-bool may_go_on(const preset::Preset& before, const preset::Preset& now);
+bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 /// Where a snapshot has a receiver's figures: its distance and size, what the search believes of its picture and what the judge says.
 std::string receiver_group(std::size_t receiver);

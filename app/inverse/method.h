@@ -35,7 +35,7 @@ public:
   virtual std::vector<Cost> costs() const = 0;                              ///< of that light
   virtual Solid solid() const = 0;                                          ///< whose facets have these slopes
   /// The layout's distances or weights, or the targets, are other ones: facets keep their slopes, and the search goes on from them. Only
-  /// where may_go_on() says so.
+  /// where adoptable() says so.
   virtual void relight() {}
   /// Adds what this method alone has to tell. The job has the cost over steps and seconds.
   virtual void show(job::Snapshot&) const {}

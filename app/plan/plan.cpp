@@ -66,7 +66,8 @@ std::vector<Input> inputs_of(const std::string& plan_json)
 {
   std::vector<Input> inputs;
   try {
-    for (const Json& input : Json::parse(plan_json).at("inputs"))
+    const Json plan = Json::parse(plan_json);
+    for (const Json& input : plan.at("inputs"))
       inputs.push_back({input.at("file").get<std::string>(), input.at("content").get<std::string>()});
   } catch (const Json::exception&) {
     inputs.clear(); // written by something else

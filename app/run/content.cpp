@@ -48,6 +48,9 @@ const plan::Input* find_input(const std::vector<plan::Input>& inputs, const std:
   return found == inputs.end() ? nullptr : &*found;
 }
 
+/// Of a preset that lies elsewhere the same file has its whole path.
+bool may_be_same(const plan::Input& a, const plan::Input& b) { return a.file.ends_with("/" + b.file) || b.file.ends_with("/" + a.file); }
+
 /// The preset without what changes no sum.
 preset::Preset settings_only(preset::Preset preset)
 {
@@ -77,9 +80,13 @@ std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::ve
 
 std::string what_changed(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now)
 {
-  for (const plan::Input& input : now)
-    if (const plan::Input* const then = find_input(before, input.file); then && then->content != input.content)
+  for (const plan::Input& input : now) {
+    const plan::Input* then = find_input(before, input.file);
+    for (auto other = before.begin(); !then && other != before.end(); ++other)
+      if (may_be_same(*other, input)) then = &*other;
+    if (then && then->content != input.content)
       return fmt::format("the file '{}' {} since the run began", input.file, input.content.empty() ? "is gone" : "has changed");
+  }
   return {};
 }
 

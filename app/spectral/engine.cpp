@@ -2,7 +2,6 @@
 #include "spectral/engine.h"
 
 #include "spectral/checks/render.h"
-#include "spectral/relight/layer_light.h"
 
 #include <algorithm>
 
@@ -77,7 +76,7 @@ constinit const engine::Engine engine{
               const compute::Context& context) { return make_job(preset, scene, bvh, dynamic_cast<const RunPlan&>(plan), context); },
     .reference = reference,
     .checks = closed_forms,
-    .adoptable = only_relit,
+    .adoptable = adoptable,
     .introduction =
         {.example =
              {.preset = "first-light",

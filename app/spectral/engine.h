@@ -37,4 +37,8 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
                                    const compute::Context& context);
 
+/// Whether `now` is `before`, which keeps layers, but for the spectra and powers of its lights, its white, its name and its description.
+/// Also true where nothing differs.
+bool adoptable(const preset::Preset& before, const preset::Preset& now);
+
 } // namespace nephroid::spectral

@@ -110,9 +110,19 @@ TEST_F(Resumed, RunsOntoAnotherFileSayWhichItIs)
     EXPECT_THAT(resume(preset).err, HasSubstr("this run is finished")) << "every file is as it was";
     EXPECT_THAT(resume(preset, {"--passes", "2"}).err, HasSubstr("going on in"));
   }
-  fs::remove(folder / "wanted.exr");
-  expect_refused_line(resume("inverse", {"--passes", "2"}),
-                      "out/inverse: this run is finished, but the file 'wanted.exr' is gone since the run began");
+}
+
+// There files have their whole paths.
+TEST_F(Resumed, RunsOfTheirOwnPresetSayWhichItIs)
+{
+  ASSERT_EQ(resume("inverse").exit_code, 0);
+  const std::string wanted = (folder / "wanted.exr").string(), finished = "out/inverse: this run is finished, but the file '" + wanted;
+  const auto resume_own = [&] { return run({"run", "out/inverse/preset.json", "-o", "out/inverse", "--resume"}); };
+  EXPECT_THAT(resume_own().err, HasSubstr("this run is finished\n"));
+  write_picture("wanted.exr", 0.75f);
+  expect_refused_line(resume_own(), finished + "' has changed since the run began");
+  fs::remove(wanted);
+  expect_refused_line(resume_own(), finished + "' is gone since the run began");
 }
 
 // What a file is called does not matter, and neither does where it lies.

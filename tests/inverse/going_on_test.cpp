@@ -99,7 +99,7 @@ TEST(GoingOn, ADraggedDistanceComesNearAFreshRunInFewerSweeps)
   const preset::Preset before = shapes();
   preset::Preset now = before;
   inverse::settings(now).receivers[1].distance_mm = 158;
-  ASSERT_TRUE(inverse::may_go_on(before, now));
+  ASSERT_TRUE(inverse::adoptable(before, now));
   const auto run = job_of(before), fresh = job_of(now);
   finish(*run);
   const std::int64_t sweeps = run->progress().step;
@@ -140,7 +140,7 @@ TEST(GoingOn, IsRefusedWhereFacetsOrReceiversAreOthers)
   const auto refused = [&](const auto& change) {
     preset::Preset now = before;
     change(now, inverse::settings(now));
-    EXPECT_FALSE(inverse::may_go_on(before, now));
+    EXPECT_FALSE(inverse::adoptable(before, now));
     EXPECT_FALSE(run->adopt(now));
   };
   refused([](auto&, inverse::Settings& s) { s.facets = {32, 32}; });

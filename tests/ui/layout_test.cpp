@@ -174,7 +174,7 @@ TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
   open();
   workbench.apply({command::Ask{Question::command}});
   frames(3);
-  EXPECT_EQ(workspace.palette().found().size(), actions().size() + preset::shipped_presets().size());
+  EXPECT_EQ(workspace.palette().matches().size(), actions().size() + preset::shipped_presets().size());
   type("brigh");
   ASSERT_FALSE(workspace.palette().matches().empty());
   EXPECT_EQ(workspace.palette().matches().front()->name, "Brighter");

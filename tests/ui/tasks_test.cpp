@@ -16,10 +16,11 @@ protected:
     ASSERT_TRUE(test::eventually([&] { tasks.collect(messages); }, [&] { return tasks.empty(); }));
   }
   /// A task that waits for `gate`, and then is `number`.
-  void start(const TaskKey& key, int number, TaskAbout about = {"waiting"})
+  void start(const TaskKey& task_key, int number, TaskAbout about = {"waiting"})
   {
     tasks.start(
-        key, std::move(about), [number, open = open] { return open.wait(), number; }, [this](int result) { delivered.push_back(result); });
+        task_key, std::move(about), [number, open = open] { return open.wait(), number; },
+        [this](int result) { delivered.push_back(result); });
   }
 
   std::promise<void> gate;

@@ -33,11 +33,11 @@ TEST(PieceHash, IsOfTheBytesAndNotOfThePieces)
   std::vector<std::byte> bytes;
   for (std::size_t i = 0; i < 100; ++i) bytes.push_back(static_cast<std::byte>((i * 7) % 251));
   const auto hash = [&](std::size_t first) {
-    PieceHash hash;
-    hash.add(std::span(bytes).first(first));
-    hash.add(std::span(bytes).subspan(first, 5));
-    hash.add(std::span(bytes).subspan(first + 5));
-    return hash.value();
+    PieceHash pieces;
+    pieces.add(std::span(bytes).first(first));
+    pieces.add(std::span(bytes).subspan(first, 5));
+    pieces.add(std::span(bytes).subspan(first + 5));
+    return pieces.value();
   };
   const std::uint64_t whole = hash(0);
   for (std::size_t first = 1; first < 96; ++first) EXPECT_EQ(hash(first), whole) << first;

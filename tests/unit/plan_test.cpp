@@ -17,6 +17,7 @@ Plan example()
   plan.buffers = {{"film", 3ull << 20}, {"tree", 5ull << 33}};
   plan.defines = {{"MAX_SURFACES", "32"}};
   plan.notes = {"bunny: 12 open edges"};
+  plan.inputs = {{"bunny.obj", "00ff"}};
   return plan;
 }
 
@@ -29,7 +30,8 @@ TEST(Plan, JsonIsTheContract)
   EXPECT_EQ(json["buffers"][1]["bytes"], 5ull << 33);
   EXPECT_EQ(json["defines"], (nlohmann::json{{"MAX_SURFACES", "32"}}));
   EXPECT_EQ(json["notes"], (nlohmann::json{"bunny: 12 open edges"}));
-  EXPECT_EQ(json.size(), 5u);
+  EXPECT_EQ(json["inputs"], nlohmann::json::parse(R"([{"file":"bunny.obj","content":"00ff"}])"));
+  EXPECT_EQ(json.size(), 6u);
 }
 
 // Lines of a sweep are told apart by their names.

@@ -64,7 +64,7 @@ TEST(PresetMutation, AnyValueOfAWrongTypeIsRefusedWhereItStands)
       }
     }
   }
-  EXPECT_GT(tried, 2000);
+  EXPECT_GT(tried, 1500);
 }
 
 TEST(PresetMutation, APresetThatIsCutOffIsRefused)

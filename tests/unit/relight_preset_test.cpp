@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which edits are another light on the same scene.
-#include "spectral/relight/layer_light.h"
+#include "spectral/engine.h"
 #include "tests/support/presets.h"
 #include "tests/support/test.h"
 
@@ -18,13 +18,13 @@ TEST(OnlyRelit, IsAnotherSpectrumPowerWhiteOrName)
 {
   const preset::Preset before = layered();
   preset::Preset now = before;
-  EXPECT_TRUE(spectral::only_relit(before, now));
+  EXPECT_TRUE(spectral::adoptable(before, now));
   now.scene.lights[1].spectrum.illuminant = "F10";
   now.scene.lights[1].power_w = 0;
   now.scene.lights[0].irradiance_w_m2 = 7;
   now.white = 3;
   now.name = "evening";
-  EXPECT_TRUE(spectral::only_relit(before, now));
+  EXPECT_TRUE(spectral::adoptable(before, now));
 }
 
 TEST(OnlyRelit, IsNothingElse)
@@ -33,7 +33,7 @@ TEST(OnlyRelit, IsNothingElse)
   const auto differs = [&](auto change) {
     preset::Preset now = before;
     change(now);
-    return !spectral::only_relit(before, now);
+    return !spectral::adoptable(before, now);
   };
   EXPECT_TRUE(differs([](preset::Preset& p) { spectral::settings(p).relight = false; }));
   EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.lights.pop_back(); }));
@@ -45,7 +45,7 @@ TEST(OnlyRelit, IsNothingElse)
   EXPECT_TRUE(differs([](preset::Preset& p) { p.stop.passes = 3; }));
   preset::Preset without = before;
   spectral::settings(without).relight = false;
-  EXPECT_FALSE(spectral::only_relit(without, without)) << "a run without layers has nothing to weigh";
+  EXPECT_FALSE(spectral::adoptable(without, without)) << "a run without layers has nothing to weigh";
 }
 
 } // namespace nephroid::relight_preset_test

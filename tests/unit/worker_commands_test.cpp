@@ -82,13 +82,13 @@ public:
     const auto snapshot = worker_.snapshot();
     if (snapshot && picture_of(*snapshot) != seed_of(snapshot->adoption) && picture_of(*snapshot) != started_)
       return "the picture is not of the preset that it counts as";
-    if (cancelled_) return status.state == State::cancelled || fails_at_first() ? "" : "is not cancelled";
-    if (fails_) return status.state != State::failed ? "has not failed" : status.failures != 1 ? "failed more than once" : "";
+    if (cancelled_) return status.state == job::State::cancelled || fails_at_first() ? "" : "is not cancelled";
+    if (fails_) return status.state != job::State::failed ? "has not failed" : status.failures != 1 ? "failed more than once" : "";
     if (status.failures != 0) return "an adoption failed that nobody waited for";
-    if (status.state == State::paused) return paused_ == false ? "does not run" : ""; // perhaps before its first picture
+    if (status.state == job::State::paused) return paused_ == false ? "does not run" : ""; // perhaps before its first picture
     if (!snapshot || picture_of(*snapshot) != newest_) return "the picture is not the newest preset's";
     if (snapshot->adoption != adoptions_) return "the picture does not count as the newest preset's";
-    return status.state != State::running ? "does not run" : paused_ == true ? "is not paused" : "";
+    return status.state != job::State::running ? "does not run" : paused_ == true ? "is not paused" : "";
   }
 
   std::string name() const

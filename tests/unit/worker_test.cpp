@@ -85,12 +85,12 @@ bool tells(const Worker& worker, std::array<int, 2> pixel)
 TEST(Worker, IsIdleAtFirst)
 {
   Worker worker;
-  EXPECT_EQ(worker.status().state, State::idle);
+  EXPECT_EQ(worker.status().state, job::State::idle);
   EXPECT_EQ(worker.snapshot(), nullptr);
   worker.cancel(); // of nothing: must not cancel what is started later
   worker.start(counting(3));
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().state, job::State::finished);
 }
 
 TEST(Worker, FinishesWithTheLastSnapshot)
@@ -101,7 +101,7 @@ TEST(Worker, FinishesWithTheLastSnapshot)
   EXPECT_EQ(worker.status().generation, 1u);
   worker.wait();
   const Status status = worker.status();
-  EXPECT_EQ(status.state, State::finished);
+  EXPECT_EQ(status.state, job::State::finished);
   EXPECT_EQ(status.progress.step, 20);
   EXPECT_EQ(worker.snapshot()->picture->rgb[0], 20);
 }
@@ -111,7 +111,7 @@ TEST(Worker, AJobThatIsFinishedAtOnceIsNeverStepped)
   Worker worker;
   worker.start(counting(0));
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().state, job::State::finished);
   EXPECT_EQ(worker.snapshot()->picture->rgb[0], 0);
 }
 
@@ -182,7 +182,7 @@ TEST(Worker, CancelLeavesTheLastSnapshot)
   ASSERT_TRUE(eventually([&] { return worker.status().progress.step > 5; }));
   worker.cancel();
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::cancelled);
+  EXPECT_EQ(worker.status().state, job::State::cancelled);
   EXPECT_EQ(worker.snapshot()->progress.step, worker.status().progress.step);
   EXPECT_GT(worker.snapshot()->progress.step, 5);
 }
@@ -197,11 +197,11 @@ TEST(Worker, CancelWhilePreparingNeverSteps)
     return std::make_unique<CountingJob>(endless);
   });
   entered.get_future().wait();
-  EXPECT_EQ(worker.status().state, State::preparing);
+  EXPECT_EQ(worker.status().state, job::State::preparing);
   worker.cancel();
   leave.set_value();
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::cancelled);
+  EXPECT_EQ(worker.status().state, job::State::cancelled);
   EXPECT_EQ(worker.snapshot(), nullptr);
 }
 
@@ -216,7 +216,7 @@ TEST(Worker, TheNewestStartWins)
       return std::make_unique<CountingJob>(i == 49 ? 7 : endless, &alive);
     });
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().state, job::State::finished);
   EXPECT_EQ(worker.status().generation, 50u);
   EXPECT_EQ(worker.snapshot()->progress.steps, 7);
   EXPECT_LE(made, 50);
@@ -235,7 +235,7 @@ TEST(Worker, AReplacedJobsErrorIsNotTheNewJobs)
   worker.start(counting(2));
   leave.set_value();
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().state, job::State::finished);
   EXPECT_FALSE(worker.status().error);
 }
 
@@ -243,9 +243,9 @@ TEST(Worker, PausesAndGoesOn)
 {
   Worker worker;
   worker.start(counting(endless));
-  ASSERT_TRUE(eventually([&] { return worker.status().state == State::running; }));
+  ASSERT_TRUE(eventually([&] { return worker.status().state == job::State::running; }));
   worker.pause(true);
-  ASSERT_TRUE(eventually([&] { return worker.status().state == State::paused; }));
+  ASSERT_TRUE(eventually([&] { return worker.status().state == job::State::paused; }));
   const auto step = worker.status().progress.step;
   std::this_thread::sleep_for(5ms);
   EXPECT_EQ(worker.status().progress.step, step);
@@ -254,7 +254,7 @@ TEST(Worker, PausesAndGoesOn)
   worker.pause(true);
   worker.cancel(); // ends a pause too
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::cancelled);
+  EXPECT_EQ(worker.status().state, job::State::cancelled);
 }
 
 class FailingJob : public CountingJob {
@@ -271,17 +271,17 @@ TEST(Worker, ErrorsBecomeAStateAndTheWorkerGoesOn)
   Worker worker;
   worker.start([] { return std::make_unique<FailingJob>(); });
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::failed);
+  EXPECT_EQ(worker.status().state, job::State::failed);
   EXPECT_EQ(worker.status().error->line(), "trace.cl: out of registers");
   worker.start([]() -> std::unique_ptr<Job> { throw std::bad_alloc(); });
   worker.wait();
   EXPECT_EQ(worker.status().error->line(), "out of memory");
   worker.start([]() -> std::unique_ptr<Job> { return nullptr; }); // a maker that found nothing to do
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::cancelled);
+  EXPECT_EQ(worker.status().state, job::State::cancelled);
   worker.start(counting(1));
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().state, job::State::finished);
 }
 
 TEST(Worker, ReadersNeverWaitForAStep)
@@ -302,14 +302,14 @@ TEST(Worker, ReadersNeverWaitForAStep)
   std::promise<void> let_go;
   Worker worker;
   worker.start([&] { return std::make_unique<HeldJob>(let_go.get_future()); });
-  ASSERT_TRUE(eventually([&] { return worker.status().state == State::running; }));
+  ASSERT_TRUE(eventually([&] { return worker.status().state == job::State::running; }));
   for (int i = 0; i < 1000; ++i) {
-    EXPECT_EQ(worker.status().state, State::running); // a reader that waited for the step would wait for ever
+    EXPECT_EQ(worker.status().state, job::State::running); // a reader that waited for the step would wait for ever
     worker.snapshot();
   }
   let_go.set_value();
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().state, job::State::finished);
 }
 
 TEST(Worker, DestructionMidStepCancelsAndFreesTheJob)
@@ -344,7 +344,7 @@ TEST(Worker, ManyReadersAndCommandsAtOnce)
   threads.clear();
   worker.start(counting(2));
   worker.wait();
-  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().state, job::State::finished);
 }
 
 TEST(Worker, TellsTheSpectrumOfThePixelThatIsWatched)
@@ -369,11 +369,11 @@ TEST(Worker, APausedAndAFinishedJobTellSpectraWithoutAnotherPicture)
   worker.start(with_spectra(endless));
   ASSERT_TRUE(eventually([&] { return worker.snapshot() != nullptr; }));
   worker.pause(true);
-  ASSERT_TRUE(eventually([&] { return worker.status().state == State::paused; }));
+  ASSERT_TRUE(eventually([&] { return worker.status().state == job::State::paused; }));
   const auto paused = worker.snapshot();
   worker.watch_spectrum(std::array{3, 3});
   EXPECT_TRUE(tells(worker, {3, 3}));
-  EXPECT_EQ(worker.status().state, State::paused);
+  EXPECT_EQ(worker.status().state, job::State::paused);
   EXPECT_EQ(worker.snapshot(), paused);
   worker.start(with_spectra(5));
   worker.wait();
@@ -383,7 +383,7 @@ TEST(Worker, APausedAndAFinishedJobTellSpectraWithoutAnotherPicture)
   worker.watch_spectrum(std::array{4, 4});
   EXPECT_TRUE(tells(worker, {4, 4}));
   EXPECT_EQ(worker.snapshot(), last);
-  EXPECT_EQ(worker.status().state, State::finished);
+  EXPECT_EQ(worker.status().state, job::State::finished);
 }
 
 TEST(Worker, AJobWithoutSpectraTellsNone)
@@ -401,7 +401,7 @@ TEST(Worker, ASpectrumThatFailsIsTheState)
   worker.start(with_spectra(5));
   worker.wait();
   worker.watch_spectrum(std::array{13, 0});
-  ASSERT_TRUE(eventually([&] { return worker.status().state == State::failed; }));
+  ASSERT_TRUE(eventually([&] { return worker.status().state == job::State::failed; }));
   worker.watch_spectrum(std::array{1, 0});
   worker.start(with_spectra(5));
   worker.wait();

@@ -117,22 +117,6 @@ FlatLight flat_light(const tracing::WavelengthTables& tables)
   return flat;
 }
 
-bool only_relit(const preset::Preset& before, const preset::Preset& now)
-{
-  if (!spectral::settings(before).relight || before.scene.lights.size() != now.scene.lights.size()) return false;
-  preset::Preset same = now;
-  same.name = before.name;
-  same.description = before.description;
-  same.white = before.white;
-  for (std::size_t i = 0; i < same.scene.lights.size(); ++i) {
-    const preset::Light& light = before.scene.lights[i];
-    same.scene.lights[i].spectrum = light.spectrum;
-    same.scene.lights[i].power_w = light.power_w;
-    same.scene.lights[i].irradiance_w_m2 = light.irradiance_w_m2;
-  }
-  return same == before;
-}
-
 namespace {
 
 /// Of each cluster of a light of 1 W.

@@ -45,10 +45,6 @@ struct FlatLight {
 };
 FlatLight flat_light(const tracing::WavelengthTables& tables);
 
-/// Whether `now` is `before`, which keeps layers, but for the spectra and powers of its lights, its white, its name and its description.
-/// Also true where nothing differs.
-bool only_relit(const preset::Preset& before, const preset::Preset& now);
-
 /// make_lit_tables of what a run renders: where it keeps layers, every light has 1 W (W m^-2), none and no wavelength is left out for
 /// being dark, and photons and paths through glass are dealt as layer_emitters and layer_cluster_cdf say. Throws as make_lit_tables.
 RunTables make_run_tables(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, tracing::LeaveOut leave_out);
