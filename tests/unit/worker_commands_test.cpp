@@ -12,7 +12,6 @@
 namespace nephroid::worker_commands_test {
 
 using namespace nephroid::job;
-using job::State;
 using namespace std::chrono_literals;
 
 enum class Command { adopt, adopt_refused, adopt_failing, start, cancel, pause, go_on };

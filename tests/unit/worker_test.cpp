@@ -10,7 +10,6 @@
 namespace nephroid::worker_test {
 
 using namespace nephroid::job;
-using job::State;
 using namespace std::chrono_literals;
 
 /// Counts to `steps`; can be held inside a step. Its picture is one pixel with the count.
