@@ -9,7 +9,7 @@
 
 namespace nephroid::ui::environment_panel_test {
 
-/// Fake jobs of which every other light is hidden by a quarter. A picture of a bake has no layers.
+/// Fake jobs of which every other light is hidden by a quarter. A picture of a bake has no layers and says what it is.
 class LitJob : public test::FakeJob {
 public:
   LitJob(const preset::Preset& preset, test::FakeSettings& runs, int lights, bool bakes)
@@ -26,6 +26,7 @@ public:
       auto sheet = std::make_shared<job::Picture>(*made.picture);
       sheet->layers.clear();
       made.picture = sheet;
+      made.caption = "what is being baked";
     }
     return made;
   }
