@@ -141,6 +141,8 @@ struct Worker::Impl {
     update(generation, [&] {
       std::swap(snapshot, shared);
       status.progress = snapshot->progress;
+      // Together: a job that was finished and took on a preset is not finished with its first picture.
+      if (!job.finished() && (status.state == State::finished || status.state == State::failed)) status.state = State::running;
     });
     tell_spectrum(generation, job);
   }
