@@ -67,10 +67,14 @@ protected:
   }
   bool until(const std::function<bool()>& done)
   {
+    workbench.update(); // what was done before counts no more
     return test::eventually([&] { workbench.update(); }, done);
   }
   job::State state() const { return workbench.run().status().state; }
-  bool is_done() const { return state() == job::State::finished && workbench.run().snapshot_is_current(); }
+  bool is_done() const
+  {
+    return state() == job::State::finished && workbench.run().snapshot_is_current() && workbench.run().snapshot()->progress.fraction == 1;
+  }
   const std::vector<float>& picture() const { return workbench.run().snapshot()->picture->rgb; }
 
   /// Edits and undoes that again and again, with another one of the calls failing each time. How many did.
@@ -78,7 +82,7 @@ protected:
   {
     const std::vector<float> before = picture();
     int failures = 0;
-    for (const int good : {0, 1, 3, 8, 20, 50}) {
+    for (const int good : {0, 1, 5, 20}) {
       left = good;
       preset::Preset edited = *workbench.preset();
       edit(edited);
@@ -91,14 +95,13 @@ protected:
         EXPECT_EQ(workbench.messages().size(), 1u);
         const std::string line = workbench.messages()[0].line;
         EXPECT_THAT(line, AllOf(HasSubstr("buffer "), HasSubstr("CL_MEM_OBJECT_ALLOCATION_FAILURE; the device has"), Not(HasSubstr("\n"))));
-        EXPECT_EQ(picture(), before) << good;
-        EXPECT_FALSE(workbench.run().snapshot_is_current());
+        EXPECT_TRUE(workbench.run().snapshot_is_current() || picture() == before) << good; // current: the new one had begun
       }
       workbench.apply({command::Undo{}});
       EXPECT_TRUE(until([&] { return is_done(); })) << good;
       EXPECT_TRUE(workbench.messages().empty());
-      EXPECT_EQ(picture(), before) << good;
       if (!failed) break;
+      EXPECT_EQ(picture(), before) << good;
     }
     return failures;
   }
@@ -133,7 +136,7 @@ TEST_F(FailingMemory, EnvironmentRunsTakeOnAnEdit)
   open(environment_text);
   for (const Edit& edit : std::initializer_list<Edit>{move_camera, [](preset::Preset& p) { p.scene.environment->rotate_deg += 40; },
                                                       [](preset::Preset& p) { p.scene.objects[1].transform.translate[1] -= 0.3; },
-                                                      [](preset::Preset& p) { environment::settings(p).lights = 5; },
+                                                      [](preset::Preset& p) { environment::settings(p).lights = 12; },
                                                       [](preset::Preset& p) { environment::settings(p).extinction = 0.1; }})
     expect_it_survives(edit);
 }
