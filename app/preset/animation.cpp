@@ -5,11 +5,11 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/monotone_cubic.h"
+#include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "preset/reader_visitor.h"
-#include "preset/writer.h"
+#include "preset/walks.h"
 
 #include <fmt/format.h>
 
@@ -81,7 +81,7 @@ Json as_field(const Json& before, const std::vector<double>& numbers, bool round
 class Stage {
 public:
   explicit Stage(const Preset& preset)
-      : preset_(preset), json_(Writer::json(preset)),
+      : preset_(preset), json_(as_json(value_of(preset))),
         document_(json_, Origin{preset.source, true, std::filesystem::path(preset.source).parent_path()})
   {
   }
@@ -105,7 +105,7 @@ public:
   Preset read() const
   {
     Preset made;
-    Reader::read(document_, document_.value(), "", made);
+    preset::read(document_, made);
     made.source = preset_.source;
     made.provenance = preset_.provenance;
     auto origins = preset_.provenance.origins ? std::make_shared<Origins>(*preset_.provenance.origins) : nullptr;

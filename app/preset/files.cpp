@@ -3,9 +3,9 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "preset/file_names.h"
+#include "preset/describe.h"
 #include "preset/read.h"
-#include "preset/writer.h"
+#include "preset/walks.h"
 
 #include <optional>
 #include <system_error>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Absolute and without links, so that two ways to the same file compare equal.
-std::optional<fs::path> found_from(const fs::path& folder, const std::string& name)
+std::optional<fs::path> file_meant(const fs::path& folder, const std::string& name)
 {
   try {
     return fs::canonical(FileFinder(folder).find(name, ""));
@@ -38,8 +38,8 @@ bool same_folder(const fs::path& a, const fs::path& b)
 std::string name_from(const fs::path& folder, const std::string& name, const fs::path& own_folder)
 {
   if (fs::path(name).is_absolute() || same_folder(folder, own_folder)) return name;
-  const auto meant = found_from(own_folder, name);
-  return meant && found_from(folder, name) != meant ? meant->string() : name;
+  const auto meant = file_meant(own_folder, name);
+  return meant && file_meant(folder, name) != meant ? meant->string() : name;
 }
 
 std::string name_given(const Origin& main, const std::string& name, const Origin& origin)
@@ -51,9 +51,7 @@ std::string name_given(const Origin& main, const std::string& name, const Origin
 
 Preset with_file_names(Preset preset, const std::function<std::string(const std::string& name)>& renamed)
 {
-  const FileNames::Rename rename = [&](std::string& name) { name = renamed(name); };
-  FileNames names(rename);
-  describe(names, preset);
+  for_each_file(Value(preset), [&](std::string& name) { name = renamed(name); });
   return preset;
 }
 
@@ -68,14 +66,13 @@ std::vector<fs::path> files_of(const Preset& preset)
   std::vector<fs::path> files;
   if (!preset.source.empty()) files.emplace_back(preset.source);
   const fs::path folder = fs::path(preset.source).parent_path();
-  with_file_names(preset, [&](const std::string& name) {
-    if (const auto found = found_from(folder, name)) files.push_back(*found);
-    return name;
+  for_each_file(value_of(preset), [&](const std::string& name) {
+    if (const auto file = file_meant(folder, name)) files.push_back(*file);
   });
   return files;
 }
 
-std::string to_json(const Preset& preset) { return pretty(Writer::json(preset)); }
+std::string to_json(const Preset& preset) { return pretty(as_json(value_of(preset))); }
 
 std::string to_json(const Preset& preset, const std::filesystem::path& folder) { return to_json(moved_to(preset, folder)); }
 
