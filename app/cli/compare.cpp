@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "image/image.h"
 #include "measure/difference.h"
@@ -134,26 +134,22 @@ void print_comparison(const CompareOptions& options)
 void add_compare(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* verb = program.add_subcommand("compare", "How far a picture is from a reference, by every metric");
-  verb->footer(examples({{"nephroid run first-light --seed 1 --passes 4 -o out/quick", ""},
-                         {"nephroid run first-light --seed 2 --passes 8 -o out/better", ""},
-                         {"nephroid compare out/quick/image.exr out/better/image.exr -o difference.png", ""}}));
-  verb->add_option("IMAGE", options->image, "A picture: EXR, HDR, PFM (linear), PNG, JPEG, TIFF (sRGB-encoded)")->required();
-  verb->add_option("REFERENCE", options->reference, "The picture that is right, of the same size")->required();
-  verb->add_option("--mask", options->mask, "A picture of the same size: also compare where it is not black alone")->type_name("FILE");
-  verb->add_option("--layer", options->layer, "Compare this layer of both, of image.exr of two runs: caustic, direct, ...")
-      ->type_name("NAME");
-  CLI::Option* difference = verb->add_option("-o,--output", options->difference, "Write a PNG of the difference, with its colour scale");
-  difference->type_name("FILE");
-  verb->add_option("--metric", options->metric, "What -o shows: lab (default), absolute, relative, square, luminance or flip")
-      ->check(CLI::IsMember(std::vector<std::string>(measure::difference_names.begin(), measure::difference_names.end())))
-      ->type_name("METRIC")
-      ->needs(difference);
-  verb->add_option("--scale", options->scale, "Where the colours of -o end; default: a round number that 99 % of the pixels keep to")
-      ->type_name("X")
-      ->needs(difference);
-  verb->add_flag("--json", options->json, "One JSON object instead of text");
-  verb->callback([options] { print_comparison(*options); });
+  Verb verb(program, "compare", "How far a picture is from a reference, by every metric",
+            {{"nephroid run first-light --seed 1 --passes 4 -o out/quick", ""},
+             {"nephroid run first-light --seed 2 --passes 8 -o out/better", ""},
+             {"nephroid compare out/quick/image.exr out/better/image.exr -o difference.png", ""}});
+  verb.argument("IMAGE", options->image, "A picture: EXR, HDR, PFM (linear), PNG, JPEG, TIFF (sRGB-encoded)").required();
+  verb.argument("REFERENCE", options->reference, "The picture that is right, of the same size").required();
+  verb.option("--mask", options->mask, "FILE", "A picture of the same size: also compare where it is not black alone");
+  verb.option("--layer", options->layer, "NAME", "Compare this layer of both, of image.exr of two runs: caustic, direct, ...");
+  const Option difference = verb.option("-o,--output", options->difference, "FILE", "Write a PNG of the difference, with its colour scale");
+  verb.option("--metric", options->metric, "METRIC", "What -o shows: lab (default), absolute, relative, square, luminance or flip")
+      .one_of({measure::difference_names.begin(), measure::difference_names.end()})
+      .needs(difference);
+  verb.option("--scale", options->scale, "X", "Where the colours of -o end; default: a round number that 99 % of the pixels keep to")
+      .needs(difference);
+  verb.flag("--json", options->json, "One JSON object instead of text");
+  verb.work([options] { print_comparison(*options); });
 }
 
 } // namespace nephroid::cli
