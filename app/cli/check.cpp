@@ -15,7 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <stop_token>
 
@@ -115,11 +114,11 @@ void add_check(CLI::App& program, Session&)
   const auto options = std::make_shared<CheckOptions>();
   Verb verb(program, "check", "Numerical self-checks of a device: run it first on a new one", {{"nephroid check --details", ""}},
             "Each check has a figure, how far it is from the truth, and a tolerance. Exit code 1 where one fails.");
-  const Option device = verb.option("--device", options->device.selector, "SEL", "An index or part of a name (see nephroid devices)");
-  verb.flag("--all", options->all, "Every device there is, one after the other").excludes(device);
-  verb.option("--kernels", options->device.kernels, "DIR", "Load kernels from this folder instead of the built-in ones");
-  verb.option("--seed", options->seed, "N", "Of the random numbers (default 1); a right device passes with every one")
-      .from_to(std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
+  verb.option("--device", options->device.selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.flag("--all", options->all, "Every device there is, one after the other", "--device");
+  verb.option("--kernels", options->device.kernels, {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+  verb.option("--seed", options->seed,
+              {.type = "N", .says = "Of the random numbers (default 1); a right device passes with every one", .from = 0});
   verb.flag("--details", options->details, "Say under each line what was compared with what");
   verb.flag("--json", options->json,
             "One object a device: {\"device\",\"checks\":[{\"name\",\"figure\",\"tolerance\",\"unit\",\"pass\",\"detail\"}]}");

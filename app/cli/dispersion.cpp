@@ -111,9 +111,9 @@ void add_dispersion(CLI::App& program, Session& session)
   Verb verb(
       program, "dispersion", "Index of refraction n and extinction coefficient k of dispersion files",
       {{"nephroid dispersion N-BK7 N-SF66", "two glasses at the usual lines"}, {"nephroid dispersion N-SF66 --nm 486.13,656.27", ""}});
-  verb.argument("FILE", options->files, "refractiveindex.info files, or shipped materials by name (N-BK7)").required();
-  verb.option("--nm", options->nm, "L", "Wavelength in nm; may be repeated; default: lines F, e, d, C, and 380 and 780 nm")
-      .separated_by(',');
+  verb.option("FILE", options->files, {.says = "refractiveindex.info files, or shipped materials by name (N-BK7)", .required = true});
+  verb.option("--nm", options->nm,
+              {.type = "L", .says = "Wavelength in nm; may be repeated; default: lines F, e, d, C, and 380 and 780 nm", .separator = ','});
   add_outside_option(verb, options->outside);
   verb.flag("--json", options->json, "One JSON line a file");
   verb.work([options, &session] { print_dispersion(*options, session); });

@@ -72,9 +72,10 @@ void add_outside_option(Verb& verb, std::string& chosen)
   chosen = "automatic";
   std::vector<std::string> names;
   for (const auto& [name, policy] : policies()) names.push_back(name);
-  verb.option("--outside", chosen, "POLICY",
-              "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table")
-      .one_of(names);
+  verb.option("--outside", chosen,
+              {.type = "POLICY",
+               .says = "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table",
+               .words = names});
 }
 
 optics::Outside outside_policy(const std::string& chosen) { return policies().at(chosen); }

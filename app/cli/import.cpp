@@ -25,9 +25,9 @@ void import_scene(const ImportOptions& options)
   const fs::path preset = options.output.empty() ? fs::path(options.file.filename()).replace_extension(".json") : options.output;
   if (!options.replace && is_there(preset))
     throw bad_input(preset.string(), "is there already", {}, "choose another file with -o, or --replace it");
-  const run::Imported made = run::import_gltf(options.file, preset);
-  for (const std::string& note : made.notes) fmt::print(stderr, "note: {}\n", note);
-  fmt::print("{}\n", made.preset.string());
+  const run::Imported imported = run::import_gltf(options.file, preset);
+  for (const std::string& note : imported.notes) fmt::print(stderr, "note: {}\n", note);
+  fmt::print("{}\n", imported.preset.string());
 }
 
 } // namespace
@@ -39,8 +39,9 @@ void add_import(CLI::App& program, Session&)
             {{"nephroid import scene.gltf", "writes scene.json"}, {"nephroid run scene.json --seconds 10", ""}},
             "Takes .gltf and .glb. Meshes become PLY files in a folder beside the preset. What has no counterpart is left out and said\n"
             "on standard error. Standard output has the preset's file: nephroid run takes it.");
-  verb.argument("FILE", options->file, "The scene").required();
-  verb.option("-o,--output", options->output, "PRESET", "The preset; without it FILE's name with .json, in the current folder");
+  verb.option("FILE", options->file, {.says = "The scene", .required = true});
+  verb.option("-o,--output", options->output,
+              {.type = "PRESET", .says = "The preset; without it FILE's name with .json, in the current folder"});
   verb.flag("--replace", options->replace, "Write over a preset that is there");
   verb.work([options] { import_scene(*options); });
 }

@@ -41,8 +41,8 @@ void add_report(CLI::App& program, Session&)
              {"nephroid report out/optimal out/thesis", "writes report.html"}},
             "Compares runs that have a run.json; the folder of a sweep stands for all runs in it. Without -o the page of one\n"
             "folder is report.html in that folder, that of several is report.html in the current folder.");
-  verb.argument("DIR", options->folders, "Folders of finished runs or of sweeps").required();
-  verb.option("-o,--output", options->output, "FILE", "The page's file");
+  verb.option("DIR", options->folders, {.says = "Folders of finished runs or of sweeps", .required = true});
+  verb.option("-o,--output", options->output, {.type = "FILE", .says = "The page's file"});
   verb.work([options] { write_report(*options); });
 }
 

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -92,25 +91,32 @@ void add_run(CLI::App& program, Session&)
       "where the run measures its error history.csv and, once it is finished, report.html.\n"
       "An animation gives frame_0000.png and frame_0000.exr, ..., the other files of each frame in frames/0000, ..., figures of all in\n"
       "frames.csv, and animation.mp4 where ffmpeg is installed.");
-  verb.argument("PRESET", options->preset, "A preset file or the name of a shipped preset").required();
-  verb.option("-o,--output", options->folder, "DIR", "Folder for the run's files (default out/NAME; a sweep's runs in 001, 002, ...)");
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
+  verb.option("-o,--output", options->folder,
+              {.type = "DIR", .says = "Folder for the run's files (default out/NAME; a sweep's runs in 001, 002, ...)"});
   verb.overrides(options->overrides);
-  verb.option("--seconds", options->seconds, "S", "Stop after this much work, instead of where the preset says").from_to(0.001, 1e9);
-  verb.option("--passes", options->passes, "N", "Stop after this many passes, instead of where the preset says")
-      .from_to(1, preset::max_passes);
-  verb.option("--until-error", options->until_error, "E",
-              "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says")
-      .from_to(1e-9, 1e9);
-  verb.option("--seed", options->seed, "N", "Of the random numbers, instead of the preset's")
-      .from_to(std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
-  verb.option("--device", options->device.selector, "SEL", "An index or part of a name (see nephroid devices)");
-  verb.option("--kernels", options->device.kernels, "DIR", "Load kernels from this folder instead of the built-in ones");
-  verb.option("--checkpoint-seconds", options->checkpoint_seconds, "S", "Work between checkpoints (default 10)").from_to(0.0, 1e9);
-  verb.option("--pictures-at", options->pictures_at, "S,S,...",
-              "Also write the picture after this much work, with its error: 2,10,60 gives at-0002s.png and .exr, at-0010s.png, ...")
-      .separated_by(',')
-      .from_to(0.001, 1e9);
-  verb.option("--frames", options->frames, "N or N-M", "Of an animation only these frames: 12, or 3-40");
+  verb.option("--seconds", options->seconds,
+              {.type = "S", .says = "Stop after this much work, instead of where the preset says", .from = 0.001, .to = 1e9});
+  verb.option("--passes", options->passes,
+              {.type = "N", .says = "Stop after this many passes, instead of where the preset says", .from = 1, .to = preset::max_passes});
+  verb.option("--until-error", options->until_error,
+              {.type = "E",
+               .says = "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says",
+               .from = 1e-9,
+               .to = 1e9});
+  verb.option("--seed", options->seed, {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
+  verb.option("--device", options->device.selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.option("--kernels", options->device.kernels, {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+  verb.option("--checkpoint-seconds", options->checkpoint_seconds,
+              {.type = "S", .says = "Work between checkpoints (default 10)", .from = 0.0, .to = 1e9});
+  verb.option(
+      "--pictures-at", options->pictures_at,
+      {.type = "S,S,...",
+       .says = "Also write the picture after this much work, with its error: 2,10,60 gives at-0002s.png and .exr, at-0010s.png, ...",
+       .separator = ',',
+       .from = 0.001,
+       .to = 1e9});
+  verb.option("--frames", options->frames, {.type = "N or N-M", .says = "Of an animation only these frames: 12, or 3-40"});
   verb.flag("--resume", options->resume, "Go on from the folder's checkpoint; of an animation, at the first frame that is missing");
   verb.flag("--json", options->json, "Progress and result as JSON lines on standard output");
   verb.work([options] {

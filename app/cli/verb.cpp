@@ -16,9 +16,33 @@ namespace nephroid::cli {
 namespace {
 
 template <class Value>
-constexpr bool is_vector = false;
+struct ItemOf {
+  using Type = Value;
+};
 template <class Item>
-constexpr bool is_vector<std::vector<Item>> = true;
+struct ItemOf<std::vector<Item>> : ItemOf<Item> {
+};
+template <class Item>
+struct ItemOf<std::optional<Item>> : ItemOf<Item> {
+};
+template <class Item, std::size_t count>
+struct ItemOf<std::array<Item, count>> : ItemOf<Item> {
+};
+
+/// Refuses what is no number, is followed by anything else, or is out of range.
+template <class Number>
+CLI::Validator number_from_to(double from, double to)
+{
+  const auto lowest = static_cast<Number>(from), highest = std::isinf(to) ? std::numeric_limits<Number>::max() : static_cast<Number>(to);
+  const auto check = [=](std::string& text) -> std::string {
+    const std::optional<Number> number = typed_number<Number>(text);
+    if (!number || !(*number >= lowest && *number <= highest))
+      return fmt::format("'{}' is not {} from {} to {}", text, std::integral<Number> ? "a whole number" : "a number", lowest, highest);
+    text = fmt::format("{}", *number); // as CLI11 reads it
+    return {};
+  };
+  return CLI::Validator(check, "");
+}
 
 } // namespace
 
@@ -33,54 +57,6 @@ std::string examples(std::initializer_list<Example> list)
   return text;
 }
 
-const Option& Option::required() const
-{
-  option_.required();
-  return *this;
-}
-
-const Option& Option::one_of(const std::vector<std::string>& words) const
-{
-  option_.check(CLI::IsMember(words));
-  return *this;
-}
-
-template <class Number>
-const Option& Option::from_to(Number lowest, Number highest) const
-{
-  option_.transform(CLI::Validator(
-      [=](std::string& text) -> std::string {
-        const std::optional<Number> number = typed_number<Number>(text);
-        if (!number || !(*number >= lowest && *number <= highest))
-          return fmt::format("'{}' is not {} from {} to {}", text, std::integral<Number> ? "a whole number" : "a number", lowest, highest);
-        text = fmt::format("{}", *number); // as CLI11 reads it
-        return {};
-      },
-      ""));
-  return *this;
-}
-template const Option& Option::from_to(int, int) const;
-template const Option& Option::from_to(std::uint64_t, std::uint64_t) const;
-template const Option& Option::from_to(double, double) const;
-
-const Option& Option::separated_by(char separator) const
-{
-  option_.delimiter(separator);
-  return *this;
-}
-
-const Option& Option::needs(const Option& other) const
-{
-  option_.needs(&other.option_);
-  return *this;
-}
-
-const Option& Option::excludes(const Option& other) const
-{
-  option_.excludes(&other.option_);
-  return *this;
-}
-
 Verb::Verb(CLI::App& program, const char* name, const char* says, std::initializer_list<Example> list, const char* more)
     : app_(*program.add_subcommand(name, says))
 {
@@ -88,44 +64,45 @@ Verb::Verb(CLI::App& program, const char* name, const char* says, std::initializ
 }
 
 template <class Value>
-Option Verb::argument(const char* name, Value& value, const std::string& says)
+void Verb::option(const char* names, Value& value, const Option& o)
 {
-  return Option(*app_.add_option(name, value, says));
-}
-
-template <class Value>
-Option Verb::option(const char* names, Value& value, const char* type, const std::string& says)
-{
-  CLI::Option& option = *app_.add_option(names, value, says)->type_name(type);
+  CLI::Option& option = *app_.add_option(names, value, o.says)->required(o.required);
+  if (o.type) option.type_name(o.type);
   if (group_) option.group(group_);
-  if constexpr (is_vector<Value>) option.expected(1)->take_all();
-  return Option(option);
+  if (o.separator) option.delimiter(o.separator);
+  if (!o.words.empty()) option.check(CLI::IsMember(o.words));
+  if (o.needs) option.needs(app_.get_option(o.needs));
+  using Item = typename ItemOf<Value>::Type;
+  if constexpr (std::is_arithmetic_v<Item>)
+    if (!std::isnan(o.from)) option.transform(number_from_to<Item>(o.from, o.to));
+  if constexpr (std::is_same_v<Value, std::vector<Item>>)
+    if (*names == '-') option.expected(1)->take_all();
 }
 
-#define NEPHROID_OPTION(...) template Option Verb::option(const char*, __VA_ARGS__&, const char*, const std::string&)
-NEPHROID_OPTION(std::string);
-NEPHROID_OPTION(std::filesystem::path);
-NEPHROID_OPTION(int);
-NEPHROID_OPTION(std::uint64_t);
-NEPHROID_OPTION(double);
-NEPHROID_OPTION(std::array<int, 2>);
-NEPHROID_OPTION(std::vector<std::string>);
-NEPHROID_OPTION(std::vector<double>);
-NEPHROID_OPTION(std::optional<int>);
-NEPHROID_OPTION(std::optional<std::uint64_t>);
-NEPHROID_OPTION(std::optional<double>);
-NEPHROID_OPTION(std::optional<std::string>);
-#undef NEPHROID_OPTION
-#define NEPHROID_ARGUMENT(...) template Option Verb::argument(const char*, __VA_ARGS__&, const std::string&)
-NEPHROID_ARGUMENT(std::string);
-NEPHROID_ARGUMENT(std::filesystem::path);
-NEPHROID_ARGUMENT(std::vector<std::string>);
-NEPHROID_ARGUMENT(std::vector<std::filesystem::path>);
-#undef NEPHROID_ARGUMENT
+template void Verb::option(const char*, std::string&, const Option&);
+template void Verb::option(const char*, std::filesystem::path&, const Option&);
+template void Verb::option(const char*, int&, const Option&);
+template void Verb::option(const char*, std::uint64_t&, const Option&);
+template void Verb::option(const char*, double&, const Option&);
+template void Verb::option(const char*, std::array<int, 2>&, const Option&);
+template void Verb::option(const char*, std::vector<std::string>&, const Option&);
+template void Verb::option(const char*, std::vector<std::filesystem::path>&, const Option&);
+template void Verb::option(const char*, std::vector<double>&, const Option&);
+template void Verb::option(const char*, std::optional<int>&, const Option&);
+template void Verb::option(const char*, std::optional<std::uint64_t>&, const Option&);
+template void Verb::option(const char*, std::optional<double>&, const Option&);
+template void Verb::option(const char*, std::optional<std::string>&, const Option&);
 
-Option Verb::flag(const char* name, bool& value, const std::string& says) { return Option(*app_.add_flag(name, value, says)); }
+void Verb::flag(const char* name, bool& value, const std::string& says, const char* excludes)
+{
+  CLI::Option* option = app_.add_flag(name, value, says);
+  if (excludes) option->excludes(app_.get_option(excludes));
+}
 
-void Verb::overrides(std::vector<std::string>& values, const std::string& says) { option("--set", values, "KEY=VALUE", says); }
+void Verb::overrides(std::vector<std::string>& values, const std::string& says)
+{
+  option("--set", values, {.type = "KEY=VALUE", .says = says});
+}
 
 void Verb::work(std::function<void()> work) { app_.callback(std::move(work)); }
 

@@ -4,13 +4,13 @@
 #pragma once
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace CLI {
 class App;
-class Option;
-} // namespace CLI
+}
 
 namespace nephroid::cli {
 
@@ -23,24 +23,15 @@ struct Example {
 /// stands, one after the other.
 std::string examples(std::initializer_list<Example> list);
 
-/// What more there is to say about an option.
-class Option {
-public:
-  explicit Option(CLI::Option& option) : option_(option) {}
-  const Option& required() const;
-  /// The only words that it takes.
-  const Option& one_of(const std::vector<std::string>& words) const;
-  /// The only numbers that it takes. CLI11 by itself reads "nan" as a number in any range, -1 as 2^64 - 1 and 1e30 as the largest whole
-  /// number, and knows no whole number 1e5. Number: int, std::uint64_t or double.
-  template <class Number>
-  const Option& from_to(Number lowest, Number highest) const;
-  /// Several values may stand in one argument, with this between them.
-  const Option& separated_by(char separator) const;
-  const Option& needs(const Option& other) const;
-  const Option& excludes(const Option& other) const;
-
-private:
-  CLI::Option& option_;
+struct Option {
+  const char* type = nullptr; ///< what a value is called in the help
+  std::string says = {};
+  std::vector<std::string> words = {}; ///< the only ones it takes; empty: any
+  bool required = false;
+  char separator = 0; ///< that may stand between several values in one argument
+  /// Of a number. Without `from` any, as CLI11 reads it: "nan", -1 as 2^64 - 1, and 1e30 as the largest whole number.
+  double from = std::numeric_limits<double>::quiet_NaN(), to = std::numeric_limits<double>::infinity();
+  const char* needs = nullptr; ///< another option
 };
 
 /// The values that options are read into must live until the work is done.
@@ -51,12 +42,10 @@ public:
   Verb(CLI::App& program, const char* group) : app_(program), group_(group) {}
 
   /// names: "-o,--output", or of an argument "FILE". Value: a number, a std::string, a path, a std::optional of these; a std::array, or a
-  /// std::vector, for which the option may be repeated. type: what a value is called in the help.
+  /// std::vector, for which the option may be repeated.
   template <class Value>
-  Option option(const char* names, Value& value, const char* type, const std::string& says);
-  template <class Value>
-  Option argument(const char* name, Value& value, const std::string& says);
-  Option flag(const char* name, bool& value, const std::string& says);
+  void option(const char* names, Value& value, const Option& option);
+  void flag(const char* name, bool& value, const std::string& says, const char* excludes = nullptr);
   /// --set KEY=VALUE
   void overrides(std::vector<std::string>& values, const std::string& says = "Change a setting: scene.lights.0.power_w=2; may be repeated");
   void work(std::function<void()> work);

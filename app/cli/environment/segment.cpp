@@ -148,17 +148,19 @@ void add_segment(CLI::App& program, Session&)
   const auto options = std::make_shared<SegmentOptions>();
   Verb verb(program, "segment", "The directional lights that an environment is cut into",
             {{"nephroid segment spectral/three-lamps -q 24 -o lights.png", "24 lights, and where they are on the map"}});
-  verb.argument("ENVIRONMENT", options->environment,
-                "A latitude-longitude picture (EXR, HDR, PNG, ...), or a preset with scene.environment")
-      .required();
-  verb.option("-q", options->lights, "N", "How many lights, at least 6").required().from_to(environment::face_count, most_lights);
-  verb.option("--method", options->method, "METHOD",
-              "variance (default): cut where most is left out; thesis (Algorithm 3.3): halves of equal radiance")
-      .one_of({"variance", "thesis"});
-  verb.option("--weights", options->weights, "WEIGHTS",
-              "A texel of the cube counts as much as its solid angle (default) or as every other texel (as in the thesis)")
-      .one_of({"solid-angle", "texel"});
-  verb.option("-o,--output", options->picture, "FILE", "Write a PNG of the map with the regions' borders and directions");
+  verb.option("ENVIRONMENT", options->environment,
+              {.says = "A latitude-longitude picture (EXR, HDR, PNG, ...), or a preset with scene.environment", .required = true});
+  verb.option("-q", options->lights,
+              {.type = "N", .says = "How many lights, at least 6", .required = true, .from = environment::face_count, .to = most_lights});
+  verb.option("--method", options->method,
+              {.type = "METHOD",
+               .says = "variance (default): cut where most is left out; thesis (Algorithm 3.3): halves of equal radiance",
+               .words = {"variance", "thesis"}});
+  verb.option("--weights", options->weights,
+              {.type = "WEIGHTS",
+               .says = "A texel of the cube counts as much as its solid angle (default) or as every other texel (as in the thesis)",
+               .words = {"solid-angle", "texel"}});
+  verb.option("-o,--output", options->picture, {.type = "FILE", .says = "Write a PNG of the map with the regions' borders and directions"});
   verb.flag("--json", options->json, "One JSON object instead of text");
   verb.work([options] { print_segments(*options); });
 }

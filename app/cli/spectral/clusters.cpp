@@ -140,15 +140,18 @@ void add_clusters(CLI::App& program, Session&)
   const auto options = std::make_shared<ClusterOptions>();
   Verb verb(program, "clusters", "Which wavelengths share one path through a glass",
             {{"nephroid clusters first-light", ""}, {"nephroid clusters --ior N-SF66 --threshold 0.1", "of a glass, without a scene"}});
-  verb.argument("PRESET", options->preset, "A preset file or the name of a shipped preset");
-  verb.option("--ior", options->ior, "FILE", "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset");
-  verb.option("--material", options->material, "NAME", "Which dielectric of the preset, where it has several");
-  verb.option("--threshold", options->threshold_deg, "DEG",
-              "The largest change of the refraction angle inside a cluster, in degrees; default: the preset's, else 0.05");
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset"});
+  verb.option("--ior", options->ior,
+              {.type = "FILE", .says = "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset"});
+  verb.option("--material", options->material, {.type = "NAME", .says = "Which dielectric of the preset, where it has several"});
+  verb.option(
+      "--threshold", options->threshold_deg,
+      {.type = "DEG", .says = "The largest change of the refraction angle inside a cluster, in degrees; default: the preset's, else 0.05"});
   std::vector<std::string> names;
   for (const auto& choice : preset::Choices<ClusterMethod>::all) names.emplace_back(choice.name);
-  verb.option("--method", options->method, "METHOD", "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal")
-      .one_of(names);
+  verb.option(
+      "--method", options->method,
+      {.type = "METHOD", .says = "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal", .words = names});
   verb.overrides(options->overrides, "Change a setting of the preset, as for run; may be repeated");
   add_outside_option(verb, options->outside);
   verb.flag("--json", options->json, "One JSON object instead of text");

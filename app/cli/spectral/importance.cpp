@@ -149,11 +149,12 @@ void add_importance(CLI::App& program, Session&)
   const auto options = std::make_shared<ImportanceOptions>();
   Verb verb(program, "importance", "How much each wavelength matters, and the iterations its cluster gets",
             {{"nephroid importance spectral/prism", ""}});
-  verb.argument("PRESET", options->preset, "A preset file or the name of a shipped preset").required();
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
   verb.overrides(options->overrides, "Change a setting: spectral.importance.geometry=false; may be repeated");
-  verb.option("--method", options->method, "METHOD",
-              "thesis (4.15) or radziszewski; default: thesis, unless the preset's effort is radziszewski")
-      .one_of({"thesis", "radziszewski"});
+  verb.option("--method", options->method,
+              {.type = "METHOD",
+               .says = "thesis (4.15) or radziszewski; default: thesis, unless the preset's effort is radziszewski",
+               .words = {"thesis", "radziszewski"}});
   verb.flag("--json", options->json, "One JSON object a run, a line each, instead of text");
   verb.work([options] { print_importance(*options); });
 }
