@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -46,18 +45,19 @@ CLI::Validator number_from_to(double from, double to)
 
 } // namespace
 
-std::string examples(std::initializer_list<Example> list)
+std::string examples(const std::vector<Example>& list)
 {
   std::size_t width = 0;
   for (const Example& example : list)
-    if (*example.says) width = std::max(width, std::strlen(example.command));
+    if (!example.says.empty()) width = std::max(width, example.command.size());
   std::string text = list.size() == 1 ? "Example:" : "Examples:";
   for (const Example& example : list)
-    text += *example.says ? fmt::format("\n  {:<{}}  # {}", example.command, width, example.says) : fmt::format("\n  {}", example.command);
+    text += example.says.empty() ? fmt::format("\n  {}", example.command)
+                                 : fmt::format("\n  {:<{}}  # {}", example.command, width, example.says);
   return text;
 }
 
-Verb::Verb(CLI::App& program, const char* name, const char* says, std::initializer_list<Example> list, const char* more)
+Verb::Verb(CLI::App& program, const char* name, const char* says, const std::vector<Example>& list, const char* more)
     : app_(*program.add_subcommand(name, says))
 {
   app_.footer(examples(list) + (*more ? std::string("\n\n") + more : std::string()));

@@ -3,7 +3,6 @@
 // file that includes it takes seconds more to compile.
 #pragma once
 #include <functional>
-#include <initializer_list>
 #include <limits>
 #include <string>
 #include <vector>
@@ -15,13 +14,13 @@ class App;
 namespace nephroid::cli {
 
 struct Example {
-  const char* command; ///< with "nephroid"
-  const char* says;    ///< may be empty
+  std::string command; ///< with "nephroid"
+  std::string says;    ///< may be empty
 };
 
 /// "Examples:", then a line each: what says is a comment, so that a line can be pasted into a shell. tests/docs runs each of them as it
 /// stands, one after the other.
-std::string examples(std::initializer_list<Example> list);
+std::string examples(const std::vector<Example>& list);
 
 struct Option {
   const char* type = nullptr; ///< what a value is called in the help
@@ -37,7 +36,7 @@ struct Option {
 /// The values that options are read into must live until the work is done.
 class Verb {
 public:
-  Verb(CLI::App& program, const char* name, const char* says, std::initializer_list<Example> examples, const char* more = "");
+  Verb(CLI::App& program, const char* name, const char* says, const std::vector<Example>& examples, const char* more = "");
   /// The program itself, whose options then stand under `group` in its help.
   Verb(CLI::App& program, const char* group) : app_(program), group_(group) {}
 

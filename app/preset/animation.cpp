@@ -104,15 +104,15 @@ public:
   /// The preset as it now is. Throws bad_input at the origin of a value that its field does not take.
   Preset read() const
   {
-    Preset made;
-    preset::read(document_, made);
-    made.source = preset_.source;
-    made.provenance = preset_.provenance;
+    Preset changed;
+    preset::read(document_, changed);
+    changed.source = preset_.source;
+    changed.provenance = preset_.provenance;
     auto origins = preset_.provenance.origins ? std::make_shared<Origins>(*preset_.provenance.origins) : nullptr;
     for (const auto& [pointer, origin] : pointers_)
       if (origins) origins->set_whole(pointer, std::make_shared<const Origin>(Origin{origin, false, origins->at(pointer).folder}));
-    made.provenance.origins = std::move(origins);
-    return made;
+    changed.provenance.origins = std::move(origins);
+    return changed;
   }
 
 private:
@@ -235,12 +235,12 @@ std::vector<double> value_at(const Track& track, int frame)
 
 Preset at_frame(const Preset& preset, int frame)
 {
-  Preset made = made_at(preset, frame);
-  made.name += fmt::format(",frame={}", frame);
-  made.animation.reset();
-  made.provenance.frame = frame;
-  at_origins(made, [&] { check(made, [&](const std::string& pointer) { return where(made, pointer); }); });
-  return made;
+  Preset frame_preset = made_at(preset, frame);
+  frame_preset.name += fmt::format(",frame={}", frame);
+  frame_preset.animation.reset();
+  frame_preset.provenance.frame = frame;
+  at_origins(frame_preset, [&] { check(frame_preset, [&](const std::string& pointer) { return where(frame_preset, pointer); }); });
+  return frame_preset;
 }
 
 Preset at_start(const Preset& preset)

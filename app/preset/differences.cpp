@@ -143,8 +143,8 @@ bool is_same(Preset a, const Preset& b)
 fs::path absolute_path(const fs::path& file)
 {
   std::error_code ignored;
-  const fs::path made = fs::absolute(file, ignored);
-  return made.empty() ? file : made.lexically_normal();
+  const fs::path absolute = fs::absolute(file, ignored);
+  return absolute.empty() ? file : absolute.lexically_normal();
 }
 
 constexpr const char* save_first = "save the preset first, then copy the command line";

@@ -106,11 +106,11 @@ std::vector<SweptRun> swept_runs(const Preset& preset, const Sweep& sweep)
   document.set({"sweep"}, to_json(sweep), origin);
   std::vector<SweptRun> runs;
   for (const SweptDocument& run : expand_sweep(std::move(document), {})) {
-    SweptRun& made = runs.emplace_back(SweptRun{base_name(run.document) + run.suffix, std::nullopt, {}});
+    SweptRun& swept = runs.emplace_back(SweptRun{base_name(run.document) + run.suffix, std::nullopt, {}});
     try {
-      made.preset = finish(run);
+      swept.preset = finish(run);
     } catch (const Error& error) {
-      made.why_not = error.line();
+      swept.why_not = error.line();
     }
   }
   return runs;

@@ -91,7 +91,8 @@ private:
   void refuse_unknown(const Json& json, const std::string& pointer, const Value& object, const std::vector<Member>& members) const
   {
     const std::vector<std::string> keys = keys_of(members);
-    for (const auto& [key, value] : json.items()) {
+    for (const auto& item : json.items()) {
+      const std::string& key = item.key();
       if (holds(keys, key)) continue;
       if (members.front().role == Role::type) refuse_of_other_type(child(pointer, key), key, object, members.front());
       if (std::ranges::any_of(members, [&](const Member& member) { return member.field.name == key; }))

@@ -2,6 +2,7 @@
 // Settings of an engine made from its struct's description: settings_type<S>() is how an engine tells the preset what its section holds.
 #pragma once
 #include "base/place.h"
+#include "preset/json_text.h"
 #include "preset/settings.h"
 #include "preset/value.h"
 

@@ -65,7 +65,7 @@ struct Member;
 class Value {
 public:
   template <class T>
-  explicit Value(T& value);
+  requires(!std::is_same_v<T, Value>) explicit Value(T& value);
   Value(void* at, const Type& type) : at_(at), type_(&type) {}
 
   const Type& type() const { return *type_; }
@@ -237,9 +237,7 @@ const Type& type_of()
 }
 
 template <class T>
-Value::Value(T& value) : at_(&value), type_(&type_of<T>())
-{
-}
+requires(!std::is_same_v<T, Value>) Value::Value(T& value) : at_(&value), type_(&type_of<T>()) {}
 
 template <class T>
 bool Value::is() const

@@ -4,7 +4,6 @@
 #include "preset/json_text.h"
 #include "preset/value.h"
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,9 +18,6 @@ void read(const Document& document, Preset& preset);
 
 /// Complete, in the order of describe.
 Json as_json(const Value& value);
-
-/// Calls visit(name) with each name of a file in the value.
-void for_each_file(const Value& value, const std::function<void(std::string& name)>& visit);
 
 /// What a field of this type wants, in words: "a number from 0 to 1", "a list of 1 to 16 items, each a string".
 std::string expected(const Field& field, const Type& type);

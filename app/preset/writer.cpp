@@ -30,16 +30,6 @@ Json object_of(const Value& value)
   return object;
 }
 
-void visit_files(const Value& value, const Field& field, const std::function<void(std::string&)>& visit)
-{
-  if (value.kind() == Kind::text && field.text == Text::file) visit(value.as<std::string>());
-  if (value.kind() == Kind::object) {
-    for (const Member& member : value.members())
-      if (member.value.exists()) visit_files(member.value, member.field, visit);
-  } else if (value.type().item && value.type().item->kind != Kind::number)
-    for (std::size_t i = 0; i < value.count(); ++i) visit_files(value[i], field, visit);
-}
-
 } // namespace
 
 Json as_json(const Value& value)
@@ -65,7 +55,5 @@ Json as_json(const Value& value)
     return list_of(value);
   }
 }
-
-void for_each_file(const Value& value, const std::function<void(std::string&)>& visit) { visit_files(value, {}, visit); }
 
 } // namespace nephroid::preset
