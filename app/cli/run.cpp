@@ -84,8 +84,7 @@ void add_run(CLI::App& program, Session&)
   Verb verb(
       program, "run", "Render a preset into a folder",
       {{"nephroid run first-light --passes 8 -o out/quick", "a first look, in seconds"},
-       {"nephroid run first-light -o out/daylight --set scene.lights.0.spectrum=D65", "the same in daylight"},
-       {"nephroid run inverse/shapes", "an object that casts three pictures"}},
+       {"nephroid run first-light -o out/daylight --set scene.lights.0.spectrum=D65", "the same in daylight"}},
       "Ctrl-C saves the image and a checkpoint; `--resume` goes on from there with the same result as an uninterrupted run.\n"
       "Files: image.exr (linear, with layers), image.png (as shown), preset.json (complete), plan.json, run.json, checkpoint.bin, and\n"
       "where the run measures its error history.csv and, once it is finished, report.html.\n"
