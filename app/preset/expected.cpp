@@ -27,7 +27,7 @@ std::string expected_integer(const Bounds& bounds, std::string_view unit)
 }
 
 /// A struct: an object, and whatever else stands for it.
-std::string expected_object(const Type& type)
+std::string expected_object(const ValueType& type)
 {
   std::string text;
   for (const Shorthand& shorthand : type.shorthands) text += shorthand.bare == Bare::number ? "a number, " : "a string, ";
@@ -44,7 +44,7 @@ std::string expected_count(const Count& count)
   return fmt::format("{} to {} items", count.low, count.high);
 }
 
-std::string expected(const Field& f, const Type& type)
+std::string expected(const Field& f, const ValueType& type)
 {
   const auto list = [&](const std::string& item) {
     return fmt::format("a list of {}, each {}", type.size > 0 ? fmt::format("{} items", type.size) : expected_count(f.count), item);

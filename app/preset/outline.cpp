@@ -15,7 +15,7 @@ Outline outline_of(const Member& member)
   o.field = member.field;
   o.chooses = member.chooses();
   o.of_engine = member.role == Role::section || member.role == Role::recipe;
-  const Type* type = &member.value.type();
+  const ValueType* type = &member.value.type();
   o.optional = type->kind == Kind::optional;
   if (o.optional) type = type->item;
   o.kind = type->kind;
@@ -28,7 +28,7 @@ Outline outline_of(const Member& member)
   return o;
 }
 
-std::vector<Outline> outline_of(const Type& type, const Json& object)
+std::vector<Outline> outline_of(const ValueType& type, const Json& object)
 {
   const auto by_default = type.make();
   const Value value(by_default.get(), type);

@@ -123,7 +123,7 @@ private:
 
   void read_value(const Json& json, const std::string& pointer, const Field& f, const Value& value) const
   {
-    const Type& type = value.type();
+    const ValueType& type = value.type();
     switch (type.kind) {
     case Kind::boolean:
       if (!json.is_boolean()) refuse(json, pointer, expected(f, type));
@@ -205,7 +205,7 @@ private:
 
   void read_list(const Json& json, const std::string& pointer, const Field& f, const Value& value) const
   {
-    const Type& type = value.type();
+    const ValueType& type = value.type();
     if (f.bare_number && json.is_number()) {
       value.resize(1);
       read_number(json, pointer, f.bounds, f.unit, value[0]);

@@ -112,7 +112,7 @@ private:
     return schema;
   }
 
-  Json schema_of(const Field& f, const Type& type, Presence presence)
+  Json schema_of(const Field& f, const ValueType& type, Presence presence)
   {
     switch (type.kind) {
     case Kind::boolean:
@@ -145,7 +145,7 @@ private:
     return reference(type, presence);
   }
 
-  Json reference(const Type& type, Presence presence)
+  Json reference(const ValueType& type, Presence presence)
   {
     const std::string name = std::string(type.name) + (presence == Presence::part ? "" : "Item");
     if (!all.contains(name)) {
@@ -155,7 +155,7 @@ private:
     return {{"$ref", "#/$defs/" + name}};
   }
 
-  Json definition(const Type& type, Presence presence)
+  Json definition(const ValueType& type, Presence presence)
   {
     const auto by_default = type.make();
     const Value object(by_default.get(), type);

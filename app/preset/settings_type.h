@@ -26,8 +26,8 @@ struct SettingsType {
   /// What one field cannot say alone, of a preset with these settings. Throws bad_input at where(pointer) of the first contradiction.
   void (*check)(const Preset& preset, const Where& where);
 
-  const Type& (*section)();        ///< of the struct
-  const Type& (*recipe)();         ///< of a std::optional<Settings>, as far as it holds these
+  const ValueType& (*section)();   ///< of the struct
+  const ValueType& (*recipe)();    ///< of a std::optional<Settings>, as far as it holds these
   void* (*of)(Settings& settings); ///< the struct that settings hold; null: that of another engine
   std::any (*make)();
   bool (*equal)(const std::any& a, const std::any& b);
@@ -40,24 +40,24 @@ void* settings_struct(Settings& settings)
 }
 
 template <class S>
-const Type& recipe_type()
+const ValueType& recipe_type()
 {
   using Recipe = std::optional<Settings>;
-  static const Type type{.kind = Kind::optional,
-                         .item = &type_of<S>(),
-                         .count = [](const void* recipe) -> std::size_t {
-                           const auto& settings = *static_cast<const Recipe*>(recipe);
-                           return settings && settings->type().section == type_of<S> ? 1 : 0;
-                         },
-                         .resize =
-                             [](void* recipe, std::size_t count) {
-                               static_cast<Recipe*>(recipe)->reset();
-                               if (count == 0) return;
-                               const auto& types = settings_types();
-                               static_cast<Recipe*>(recipe)->emplace(**std::find_if(
-                                   types.begin(), types.end(), [](const SettingsType* t) { return t->section == type_of<S>; }));
-                             },
-                         .at = [](void* recipe, std::size_t) { return settings_struct<S>(**static_cast<Recipe*>(recipe)); }};
+  static const ValueType type{.kind = Kind::optional,
+                              .item = &type_of<S>(),
+                              .count = [](const void* recipe) -> std::size_t {
+                                const auto& settings = *static_cast<const Recipe*>(recipe);
+                                return settings && settings->type().section == type_of<S> ? 1 : 0;
+                              },
+                              .resize =
+                                  [](void* recipe, std::size_t count) {
+                                    static_cast<Recipe*>(recipe)->reset();
+                                    if (count == 0) return;
+                                    const auto& types = settings_types();
+                                    static_cast<Recipe*>(recipe)->emplace(**std::find_if(
+                                        types.begin(), types.end(), [](const SettingsType* t) { return t->section == type_of<S>; }));
+                                  },
+                              .at = [](void* recipe, std::size_t) { return settings_struct<S>(**static_cast<Recipe*>(recipe)); }};
   return type;
 }
 

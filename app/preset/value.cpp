@@ -25,7 +25,7 @@ std::vector<Member> Value::members() const
 void Fields::settings(Settings& settings)
 {
   for (const SettingsType* type : settings_types()) {
-    const Type& section = type->section();
+    const ValueType& section = type->section();
     members_.push_back({{.name = type->name, .sentence = section.sentence}, {type->of(settings), section}, Role::section});
   }
 }
@@ -38,7 +38,7 @@ void Fields::settings(std::optional<Settings>& settings)
                         Role::recipe});
 }
 
-Type described(Type type)
+ValueType described(ValueType type)
 {
   Fields fields;
   type.describe(fields, type.make().get());
@@ -48,11 +48,11 @@ Type described(Type type)
   return type;
 }
 
-Type make_type(std::string*) { return {.kind = Kind::text}; }
+ValueType make_type(std::string*) { return {.kind = Kind::text}; }
 
-Type make_type(Settings*)
+ValueType make_type(Settings*)
 {
-  Type type{.kind = Kind::word};
+  ValueType type{.kind = Kind::word};
   for (const SettingsType* settings : settings_types()) type.words.push_back({settings->name, settings->sentence});
   type.word = [](const void* settings) {
     const auto& types = settings_types();

@@ -40,11 +40,11 @@ struct Shorthand {
 };
 
 /// A type that values have. `void*` is a value of it.
-struct Type {
+struct ValueType {
   Kind kind = Kind::object;
-  const Type* item = nullptr;   ///< of numbers, texts, tables, lists, maps and optional values
-  std::size_t size = 0;         ///< of numbers: how many there are; 0: any number
-  std::vector<Word> words = {}; ///< of a word, all
+  const ValueType* item = nullptr; ///< of numbers, texts, tables, lists, maps and optional values
+  std::size_t size = 0;            ///< of numbers: how many there are; 0: any number
+  std::vector<Word> words = {};    ///< of a word, all
   std::string_view name = {}, sentence = {};
   std::vector<Shorthand> shorthands = {}; ///< of an object
 
@@ -66,9 +66,9 @@ class Value {
 public:
   template <class T>
   requires(!std::is_same_v<T, Value>) explicit Value(T& value);
-  Value(void* at, const Type& type) : at_(at), type_(&type) {}
+  Value(void* at, const ValueType& type) : at_(at), type_(&type) {}
 
-  const Type& type() const { return *type_; }
+  const ValueType& type() const { return *type_; }
   Kind kind() const { return type_->kind; }
   /// False for settings of another engine than the preset's.
   bool exists() const { return at_ != nullptr; }
@@ -94,7 +94,7 @@ public:
 
 private:
   void* at_;
-  const Type* type_;
+  const ValueType* type_;
 };
 
 /// type: the word that says which further fields its object has. engine: the word that names the preset's engine. section: the settings of
@@ -111,7 +111,7 @@ struct Member {
 };
 
 template <class T>
-const Type& type_of();
+const ValueType& type_of();
 
 /// What describe() of a struct says: describe.h.
 class Fields {
@@ -139,26 +139,26 @@ public:
 
 private:
   friend class Value;
-  friend Type described(Type type);
+  friend ValueType described(ValueType type);
   std::string_view name_, sentence_;
   std::vector<Shorthand> shorthands_;
   std::vector<Member> members_;
 };
 
 /// The type of a struct with what its description says about it.
-Type described(Type type);
-Type make_type(Settings*);
-Type make_type(std::string*);
+ValueType described(ValueType type);
+ValueType make_type(Settings*);
+ValueType make_type(std::string*);
 
-inline Type make_type(bool*) { return {.kind = Kind::boolean}; }
-inline Type make_type(double*) { return {.kind = Kind::number}; }
-inline Type make_type(int*) { return {.kind = Kind::integer}; }
-inline Type make_type(std::uint64_t*) { return {.kind = Kind::integer}; }
+inline ValueType make_type(bool*) { return {.kind = Kind::boolean}; }
+inline ValueType make_type(double*) { return {.kind = Kind::number}; }
+inline ValueType make_type(int*) { return {.kind = Kind::integer}; }
+inline ValueType make_type(std::uint64_t*) { return {.kind = Kind::integer}; }
 
 template <Enumeration E>
-Type make_type(E*)
+ValueType make_type(E*)
 {
-  Type type{.kind = Kind::word};
+  ValueType type{.kind = Kind::word};
   for (const Choice<E>& choice : Choices<E>::all) type.words.push_back({choice.name, choice.sentence});
   type.word = [](const void* value) {
     std::size_t i = 0;
@@ -170,10 +170,10 @@ Type make_type(E*)
 }
 
 template <class T, std::size_t N>
-Type make_type(std::array<T, N>*)
+ValueType make_type(std::array<T, N>*)
 {
   using Array = std::array<T, N>;
-  Type type{.kind = Kind::numbers, .item = &type_of<T>(), .size = N};
+  ValueType type{.kind = Kind::numbers, .item = &type_of<T>(), .size = N};
   type.count = [](const void*) { return N; };
   type.resize = [](void* array, std::size_t) { *static_cast<Array*>(array) = {}; };
   type.at = [](void* array, std::size_t i) -> void* { return &(*static_cast<Array*>(array))[i]; };
@@ -183,10 +183,10 @@ Type make_type(std::array<T, N>*)
 Kind kind_of_list(Kind item);
 
 template <class T>
-Type make_type(std::vector<T>*)
+ValueType make_type(std::vector<T>*)
 {
   using List = std::vector<T>;
-  Type type{.kind = kind_of_list(type_of<T>().kind), .item = &type_of<T>()};
+  ValueType type{.kind = kind_of_list(type_of<T>().kind), .item = &type_of<T>()};
   type.count = [](const void* list) { return static_cast<const List*>(list)->size(); };
   type.resize = [](void* list, std::size_t count) { static_cast<List*>(list)->assign(count, T{}); };
   type.at = [](void* list, std::size_t i) -> void* { return &(*static_cast<List*>(list))[i]; };
@@ -194,10 +194,10 @@ Type make_type(std::vector<T>*)
 }
 
 template <class T>
-Type make_type(std::map<std::string, T>*)
+ValueType make_type(std::map<std::string, T>*)
 {
   using Map = std::map<std::string, T>;
-  Type type{.kind = Kind::map, .item = &type_of<T>()};
+  ValueType type{.kind = Kind::map, .item = &type_of<T>()};
   type.count = [](const void* map) { return static_cast<const Map*>(map)->size(); };
   type.resize = [](void* map, std::size_t) { static_cast<Map*>(map)->clear(); };
   type.at = [](void* map, std::size_t i) -> void* { return &std::next(static_cast<Map*>(map)->begin(), static_cast<int>(i))->second; };
@@ -209,10 +209,10 @@ Type make_type(std::map<std::string, T>*)
 }
 
 template <class T>
-Type make_type(std::optional<T>*)
+ValueType make_type(std::optional<T>*)
 {
   using Optional = std::optional<T>;
-  Type type{.kind = Kind::optional, .item = &type_of<T>()};
+  ValueType type{.kind = Kind::optional, .item = &type_of<T>()};
   type.count = [](const void* value) { return static_cast<const Optional*>(value)->has_value() ? std::size_t{1} : std::size_t{0}; };
   type.resize = [](void* value, std::size_t count) {
     static_cast<Optional*>(value)->reset();
@@ -223,16 +223,16 @@ Type make_type(std::optional<T>*)
 }
 
 template <class S>
-requires std::is_class_v<S> Type make_type(S*)
+requires std::is_class_v<S> ValueType make_type(S*)
 {
   return described({.make = []() -> std::shared_ptr<void> { return std::make_shared<S>(); },
                     .describe = [](Fields& fields, void* object) { describe(fields, *static_cast<S*>(object)); }});
 }
 
 template <class T>
-const Type& type_of()
+const ValueType& type_of()
 {
-  static const Type type = make_type(static_cast<T*>(nullptr));
+  static const ValueType type = make_type(static_cast<T*>(nullptr));
   return type;
 }
 
