@@ -3,10 +3,8 @@
 #include "cli/command_line.h"
 
 #ifdef NEPHROID_UI
-#include "cli/numbers.h"
+#include "cli/verb.h"
 #include "ui/shell/window.h"
-
-#include <CLI/CLI.hpp>
 
 #include <memory>
 
@@ -14,34 +12,20 @@ namespace {
 
 void add_window_options(CLI::App& program, nephroid::ui::Options& options)
 {
-  const char* group = "Window";
-  program.add_option("--set", options.overrides, "Change a setting: scene.lights.0.power_w=2; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->take_all()
-      ->group(group);
-  program.add_option("--device", options.device, "The device to use: an index or part of a name (nephroid devices)")
-      ->type_name("SEL")
-      ->group(group);
-  program.add_option("--kernels", options.kernels, "Load kernels from this folder and rebuild them when they change")
-      ->type_name("DIR")
-      ->group(group);
-  program.add_option("--screenshot", options.screenshot, "Write the window as PNG, then close")->type_name("FILE")->group(group);
-  program.add_option("--frames", options.frames, "Close after this many frames (with --screenshot: 60)")
-      ->transform(nephroid::cli::number_from_to(0, 1 << 30))
-      ->type_name("N")
-      ->group(group);
-  program.add_option("--until", options.until, "Before closing by --frames wait for this part of the run; 1: until it is over")
-      ->transform(nephroid::cli::number_from_to(0.0, 1.0))
-      ->type_name("F")
-      ->group(group);
-  program.add_option("--frame-times", options.frame_times, "Write every frame's time as CSV")->type_name("FILE")->group(group);
-  program.add_option("--layout", options.layout, "Where the panels are")->type_name("NAME")->group(group);
-  program.add_option("--size", options.size, "Width and height of the window's content")
-      ->delimiter('x')
-      ->transform(nephroid::cli::number_from_to(64, 16384))
-      ->type_name("WxH")
-      ->group(group);
+  nephroid::cli::Verb window(program, "Window");
+  window.overrides(options.overrides);
+  window.option("--device", options.device, {.type = "SEL", .says = "The device to use: an index or part of a name (nephroid devices)"});
+  window.option("--kernels", options.kernels, {.type = "DIR", .says = "Load kernels from this folder and rebuild them when they change"});
+  window.option("--screenshot", options.screenshot, {.type = "FILE", .says = "Write the window as PNG, then close"});
+  window.option("--frames", options.frames,
+                {.type = "N", .says = "Close after this many frames (with --screenshot: 60)", .from = 0, .to = 1 << 30});
+  window.option(
+      "--until", options.until,
+      {.type = "F", .says = "Before closing by --frames wait for this part of the run; 1: until it is over", .from = 0.0, .to = 1.0});
+  window.option("--frame-times", options.frame_times, {.type = "FILE", .says = "Write every frame's time as CSV"});
+  window.option("--layout", options.layout, {.type = "NAME", .says = "Where the panels are"});
+  window.option("--size", options.size,
+                {.type = "WxH", .says = "Width and height of the window's content", .separator = 'x', .from = 64, .to = 16384});
 }
 
 } // namespace

@@ -14,7 +14,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
-#include <regex>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -300,8 +299,13 @@ void write_file_whole(const fs::path& path, const std::function<void(ByteSink&)>
 
 bool is_temporary_name(const fs::path& path)
 {
-  static const std::regex form(R"(\..+\.\d+-\d+\.tmp(\.[^.]*)?)"); // as temporary_name makes it
-  return std::regex_match(path.filename().string(), form);
+  const auto has_form = [](const fs::path& name) { // ".FILE.12-3.tmp", as temporary_name makes it
+    const std::string numbers = name.stem().extension().string(), digits = "0123456789";
+    const std::size_t dash = std::min(numbers.find_first_not_of(digits, 1), numbers.size());
+    return name.extension() == ".tmp" && name.string().front() == '.' && name.stem().stem().string().size() > 1 && dash > 1 &&
+           numbers.size() > dash + 1 && numbers[dash] == '-' && numbers.find_first_not_of(digits, dash + 1) == std::string::npos;
+  };
+  return has_form(path.filename()) || has_form(path.filename().stem()); // with the file's own ending behind it
 }
 
 namespace {

@@ -4,8 +4,7 @@
 #include "base/interrupts.h"
 #include "base/json_output.h"
 #include "cli/device_line.h"
-#include "cli/examples.h"
-#include "cli/numbers.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"
 
@@ -113,21 +112,17 @@ void check_devices(const CheckOptions& options)
 void add_check(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* verb = program.add_subcommand("check", "Numerical self-checks of a device: run it first on a new one");
-  verb->footer(examples({{"nephroid check --details", ""}}) +
-               "\n\n"
-               "Each check has a figure, how far it is from the truth, and a tolerance. Exit code 1 where one fails.");
-  CLI::Option* device =
-      verb->add_option("--device", options->device.selector, "An index or part of a name (see nephroid devices)")->type_name("SEL");
-  verb->add_flag("--all", options->all, "Every device there is, one after the other")->excludes(device);
-  verb->add_option("--kernels", options->device.kernels, "Load kernels from this folder instead of the built-in ones")->type_name("DIR");
-  verb->add_option("--seed", options->seed, "Of the random numbers (default 1); a right device passes with every one")
-      ->type_name("N")
-      ->transform(any_seed());
-  verb->add_flag("--details", options->details, "Say under each line what was compared with what");
-  verb->add_flag("--json", options->json,
-                 "One object a device: {\"device\",\"checks\":[{\"name\",\"figure\",\"tolerance\",\"unit\",\"pass\",\"detail\"}]}");
-  verb->callback([options] { check_devices(*options); });
+  Verb verb(program, "check", "Numerical self-checks of a device: run it first on a new one", {{"nephroid check --details", ""}},
+            "Each check has a figure, how far it is from the truth, and a tolerance. Exit code 1 where one fails.");
+  verb.option("--device", options->device.selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.flag("--all", options->all, "Every device there is, one after the other", "--device");
+  verb.option("--kernels", options->device.kernels, {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+  verb.option("--seed", options->seed,
+              {.type = "N", .says = "Of the random numbers (default 1); a right device passes with every one", .from = 0});
+  verb.flag("--details", options->details, "Say under each line what was compared with what");
+  verb.flag("--json", options->json,
+            "One object a device: {\"device\",\"checks\":[{\"name\",\"figure\",\"tolerance\",\"unit\",\"pass\",\"detail\"}]}");
+  verb.work([options] { check_devices(*options); });
 }
 
 } // namespace nephroid::cli

@@ -5,10 +5,11 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "image/image.h"
 #include "measure/difference.h"
@@ -13,7 +13,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -49,27 +48,15 @@ void print_json(const std::vector<Metrics>& of)
   fmt::print("{}\n", json_text(object));
 }
 
-/// What a metric is, in the order of measure::named.
-constexpr std::array<const char*, 10> meanings{"distance in CIELAB, mean of the pixels (0 is equal, about 2.3 just noticeable)",
-                                               "distance in CIELAB, root mean square",
-                                               "distance in CIELAB, largest",
-                                               "(a - b)^2, mean",
-                                               "(a - b)^2 / (b^2 + 0.01), mean",
-                                               "|a - b| / |b|",
-                                               "decibels of the displayed pictures; more is better",
-                                               "structural similarity, 1 is equal; needs 161 pixels a side",
-                                               "what a viewer sees flipping between the displayed pictures, 0..1",
-                                               "the same at every exposure, 0..1"};
-
 void print_text(const std::vector<Metrics>& of)
 {
   const auto cell = [](double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string("-"); };
-  const auto line = [&](const std::string& name, const std::string& all, const std::string& masked, const char* meaning) {
+  const auto line = [&](std::string_view name, const std::string& all, const std::string& masked, std::string_view meaning) {
     fmt::print("{:<9} {:>11}{}  {}\n", name, all, of.size() > 1 ? fmt::format(" {:>11}", masked) : "", meaning);
   };
   if (of.size() > 1) fmt::print("{:>21} {:>11}\n", "all", "mask");
-  const auto all = measure::named(of.front()), masked = measure::named(of.back());
-  for (std::size_t i = 0; i < all.size(); ++i) line(all[i].first, cell(all[i].second), cell(masked[i].second), meanings.at(i));
+  for (const measure::Metric& metric : measure::all_metrics())
+    line(metric.name, cell(metric.of(of.front())), cell(metric.of(of.back())), metric.meaning);
   line("pixels", fmt::format("{}", of.front().pixels), fmt::format("{}", of.back().pixels), "that were compared");
 }
 
@@ -134,26 +121,25 @@ void print_comparison(const CompareOptions& options)
 void add_compare(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* verb = program.add_subcommand("compare", "How far a picture is from a reference, by every metric");
-  verb->footer(examples({{"nephroid run first-light --seed 1 --passes 4 -o out/quick", ""},
-                         {"nephroid run first-light --seed 2 --passes 8 -o out/better", ""},
-                         {"nephroid compare out/quick/image.exr out/better/image.exr -o difference.png", ""}}));
-  verb->add_option("IMAGE", options->image, "A picture: EXR, HDR, PFM (linear), PNG, JPEG, TIFF (sRGB-encoded)")->required();
-  verb->add_option("REFERENCE", options->reference, "The picture that is right, of the same size")->required();
-  verb->add_option("--mask", options->mask, "A picture of the same size: also compare where it is not black alone")->type_name("FILE");
-  verb->add_option("--layer", options->layer, "Compare this layer of both, of image.exr of two runs: caustic, direct, ...")
-      ->type_name("NAME");
-  CLI::Option* difference = verb->add_option("-o,--output", options->difference, "Write a PNG of the difference, with its colour scale");
-  difference->type_name("FILE");
-  verb->add_option("--metric", options->metric, "What -o shows: lab (default), absolute, relative, square, luminance or flip")
-      ->check(CLI::IsMember(std::vector<std::string>(measure::difference_names.begin(), measure::difference_names.end())))
-      ->type_name("METRIC")
-      ->needs(difference);
-  verb->add_option("--scale", options->scale, "Where the colours of -o end; default: a round number that 99 % of the pixels keep to")
-      ->type_name("X")
-      ->needs(difference);
-  verb->add_flag("--json", options->json, "One JSON object instead of text");
-  verb->callback([options] { print_comparison(*options); });
+  Verb verb(program, "compare", "How far a picture is from a reference, by every metric",
+            {{"nephroid run first-light --seed 1 --passes 4 -o out/quick", ""},
+             {"nephroid run first-light --seed 2 --passes 8 -o out/better", ""},
+             {"nephroid compare out/quick/image.exr out/better/image.exr -o difference.png", ""}});
+  verb.option("IMAGE", options->image, {.says = "A picture: EXR, HDR, PFM (linear), PNG, JPEG, TIFF (sRGB-encoded)", .required = true});
+  verb.option("REFERENCE", options->reference, {.says = "The picture that is right, of the same size", .required = true});
+  verb.option("--mask", options->mask, {.type = "FILE", .says = "A picture of the same size: also compare where it is not black alone"});
+  verb.option("--layer", options->layer,
+              {.type = "NAME", .says = "Compare this layer of both, of image.exr of two runs: caustic, direct, ..."});
+  verb.option("-o,--output", options->difference, {.type = "FILE", .says = "Write a PNG of the difference, with its colour scale"});
+  verb.option("--metric", options->metric,
+              {.type = "METRIC",
+               .says = "What -o shows: lab (default), absolute, relative, square, luminance or flip",
+               .words = {measure::difference_names.begin(), measure::difference_names.end()},
+               .needs = "-o"});
+  verb.option("--scale", options->scale,
+              {.type = "X", .says = "Where the colours of -o end; default: a round number that 99 % of the pixels keep to", .needs = "-o"});
+  verb.flag("--json", options->json, "One JSON object instead of text");
+  verb.work([options] { print_comparison(*options); });
 }
 
 } // namespace nephroid::cli

@@ -3,7 +3,7 @@
 #include "base/counted.h"
 #include "base/json_output.h"
 #include "cli/device_line.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "compute/compute.h"
 
@@ -57,11 +57,10 @@ std::string device_line(const compute::DeviceInfo& device)
 
 void add_devices(CLI::App& program, Session&)
 {
-  CLI::App* verb = program.add_subcommand("devices", "The OpenCL devices that --device chooses from");
-  verb->footer(examples({{"nephroid devices", ""}}));
+  Verb verb(program, "devices", "The OpenCL devices that --device chooses from", {{"nephroid devices", ""}});
   const auto json = std::make_shared<bool>(false);
-  verb->add_flag("--json", *json, "One object: {\"devices\":[{\"index\",\"name\",\"type\",...}]}");
-  verb->callback([json] { print_devices(*json); });
+  verb.flag("--json", *json, "One object: {\"devices\":[{\"index\",\"name\",\"type\",...}]}");
+  verb.work([json] { print_devices(*json); });
 }
 
 } // namespace nephroid::cli

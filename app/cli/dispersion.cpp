@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -108,18 +108,15 @@ void print_dispersion(const DispersionOptions& options, Session& session)
 void add_dispersion(CLI::App& program, Session& session)
 {
   const auto options = std::make_shared<DispersionOptions>();
-  CLI::App* verb = program.add_subcommand("dispersion", "Index of refraction n and extinction coefficient k of dispersion files");
-  verb->footer(examples(
-      {{"nephroid dispersion N-BK7 N-SF66", "two glasses at the usual lines"}, {"nephroid dispersion N-SF66 --nm 486.13,656.27", ""}}));
-  verb->add_option("FILE", options->files, "refractiveindex.info files, or shipped materials by name (N-BK7)")->required();
-  verb->add_option("--nm", options->nm, "Wavelength in nm; may be repeated; default: lines F, e, d, C, and 380 and 780 nm")
-      ->type_name("L")
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all();
-  add_outside_option(*verb, options->outside);
-  verb->add_flag("--json", options->json, "One JSON line a file");
-  verb->callback([options, &session] { print_dispersion(*options, session); });
+  Verb verb(
+      program, "dispersion", "Index of refraction n and extinction coefficient k of dispersion files",
+      {{"nephroid dispersion N-BK7 N-SF66", "two glasses at the usual lines"}, {"nephroid dispersion N-SF66 --nm 486.13,656.27", ""}});
+  verb.option("FILE", options->files, {.says = "refractiveindex.info files, or shipped materials by name (N-BK7)", .required = true});
+  verb.option("--nm", options->nm,
+              {.type = "L", .says = "Wavelength in nm; may be repeated; default: lines F, e, d, C, and 380 and 780 nm", .separator = ','});
+  add_outside_option(verb, options->outside);
+  verb.flag("--json", options->json, "One JSON line a file");
+  verb.work([options, &session] { print_dispersion(*options, session); });
 }
 
 } // namespace nephroid::cli

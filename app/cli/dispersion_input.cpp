@@ -67,13 +67,15 @@ bool is_dispersion(const std::string& name)
 
 optics::DispersionCurve find_dispersion(const std::string& name) { return optics::load_dispersion(find_file(name)); }
 
-void add_outside_option(CLI::App& verb, std::string& chosen)
+void add_outside_option(Verb& verb, std::string& chosen)
 {
   chosen = "automatic";
-  verb.add_option("--outside", chosen,
-                  "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table")
-      ->check(CLI::IsMember(policies()))
-      ->type_name("POLICY");
+  std::vector<std::string> names;
+  for (const auto& [name, policy] : policies()) names.push_back(name);
+  verb.option("--outside", chosen,
+              {.type = "POLICY",
+               .says = "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table",
+               .words = names});
 }
 
 optics::Outside outside_policy(const std::string& chosen) { return policies().at(chosen); }

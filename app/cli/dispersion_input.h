@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the verbs that read dispersion files share: finding a file, and the option for wavelengths outside its range.
 #pragma once
+#include "cli/verb.h"
 #include "optics/dispersion.h"
-
-#include <CLI/CLI.hpp>
 
 #include <string>
 
@@ -17,7 +16,7 @@ optics::DispersionCurve find_dispersion(const std::string& name);
 bool is_dispersion(const std::string& name);
 
 /// --outside hold|extrapolate|refuse; chosen is read back by outside_policy after parsing and is "automatic" without the option.
-void add_outside_option(CLI::App& verb, std::string& chosen);
+void add_outside_option(Verb& verb, std::string& chosen);
 optics::Outside outside_policy(const std::string& chosen);
 
 } // namespace nephroid::cli

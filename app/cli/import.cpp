@@ -3,7 +3,7 @@
 #include "run/import/import.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -25,9 +25,9 @@ void import_scene(const ImportOptions& options)
   const fs::path preset = options.output.empty() ? fs::path(options.file.filename()).replace_extension(".json") : options.output;
   if (!options.replace && is_there(preset))
     throw bad_input(preset.string(), "is there already", {}, "choose another file with -o, or --replace it");
-  const run::Imported made = run::import_gltf(options.file, preset);
-  for (const std::string& note : made.notes) fmt::print(stderr, "note: {}\n", note);
-  fmt::print("{}\n", made.preset.string());
+  const run::Imported imported = run::import_gltf(options.file, preset);
+  for (const std::string& note : imported.notes) fmt::print(stderr, "note: {}\n", note);
+  fmt::print("{}\n", imported.preset.string());
 }
 
 } // namespace
@@ -35,16 +35,15 @@ void import_scene(const ImportOptions& options)
 void add_import(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<ImportOptions>();
-  CLI::App* verb = program.add_subcommand("import", "A preset from a glTF scene: meshes, camera, lights, materials");
-  verb->footer(examples({{"nephroid import scene.gltf", "writes scene.json"}, {"nephroid run scene.json --seconds 10", ""}}) +
-               "\n\n"
-               "Takes .gltf and .glb. Meshes become PLY files in a folder beside the preset. What has no counterpart is left out and said\n"
-               "on standard error. Standard output has the preset's file: nephroid run takes it.");
-  verb->add_option("FILE", options->file, "The scene")->required();
-  verb->add_option("-o,--output", options->output, "The preset; without it FILE's name with .json, in the current folder")
-      ->type_name("PRESET");
-  verb->add_flag("--replace", options->replace, "Write over a preset that is there");
-  verb->callback([options] { import_scene(*options); });
+  Verb verb(program, "import", "A preset from a glTF scene: meshes, camera, lights, materials",
+            {{"nephroid import scene.gltf", "writes scene.json"}, {"nephroid run scene.json --seconds 10", ""}},
+            "Takes .gltf and .glb. Meshes become PLY files in a folder beside the preset. What has no counterpart is left out and said\n"
+            "on standard error. Standard output has the preset's file: nephroid run takes it.");
+  verb.option("FILE", options->file, {.says = "The scene", .required = true});
+  verb.option("-o,--output", options->output,
+              {.type = "PRESET", .says = "The preset; without it FILE's name with .json, in the current folder"});
+  verb.flag("--replace", options->replace, "Write over a preset that is there");
+  verb.work([options] { import_scene(*options); });
 }
 
 } // namespace nephroid::cli

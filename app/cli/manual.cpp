@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid manual`: the man page, as roff, from the texts that --help prints. The build writes it to share/man/man1/nephroid.1.
 #include "base/build_info.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <sstream>
@@ -99,9 +100,8 @@ void print_manual(const CLI::App& program)
 
 void add_manual(CLI::App& program, Session&)
 {
-  CLI::App* verb = program.add_subcommand("manual", "The man page of this program, as roff");
-  verb->footer(examples({{"nephroid manual > nephroid.1", "then `man -l nephroid.1`"}}));
-  verb->callback([&program] { print_manual(program); });
+  Verb verb(program, "manual", "The man page of this program, as roff", {{"nephroid manual > nephroid.1", "then `man -l nephroid.1`"}});
+  verb.work([&program] { print_manual(program); });
 }
 
 } // namespace nephroid::cli

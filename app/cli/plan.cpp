@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid plan`: what a preset would run, what is left out and why, and the memory it takes. Renders nothing.
 #include "plan/plan.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "preset/origins.h"
 #include "preset/read.h"
@@ -36,16 +36,13 @@ void print_plans(const PlanOptions& options)
 void add_plan(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<PlanOptions>();
-  CLI::App* verb = program.add_subcommand("plan", "What a preset would run, what is left out and why, and the memory it takes");
-  verb->footer(examples(
-      {{"nephroid plan first-light", ""}, {"nephroid plan first-light --set leave_out=false", "what would run if nothing were left out"}}));
-  verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset")->required();
-  verb->add_option("--set", options->overrides, "Change a setting: scene.lights.0.power_w=2; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->take_all();
-  verb->add_flag("--json", options->json, "One JSON object a run, a line each, instead of text");
-  verb->callback([options] { print_plans(*options); });
+  Verb verb(
+      program, "plan", "What a preset would run, what is left out and why, and the memory it takes",
+      {{"nephroid plan first-light", ""}, {"nephroid plan first-light --set leave_out=false", "what would run if nothing were left out"}});
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
+  verb.overrides(options->overrides);
+  verb.flag("--json", options->json, "One JSON object a run, a line each, instead of text");
+  verb.work([options] { print_plans(*options); });
 }
 
 } // namespace nephroid::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid presets`: what is shipped, with a line each.
 #include "base/json_output.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "preset/read.h"
 
@@ -33,12 +33,11 @@ void print_presets(bool json)
 
 void add_presets(CLI::App& program, Session&)
 {
-  CLI::App* verb = program.add_subcommand("presets", "The shipped presets, with a line each");
-  verb->footer(examples(
-      {{"nephroid presets", "their names; `nephroid run NAME` renders one"}, {"nephroid presets --json", "with the file of each"}}));
+  Verb verb(program, "presets", "The shipped presets, with a line each",
+            {{"nephroid presets", "their names; `nephroid run NAME` renders one"}, {"nephroid presets --json", "with the file of each"}});
   const auto json = std::make_shared<bool>(false);
-  verb->add_flag("--json", *json, "A list of {\"name\",\"description\",\"file\"}");
-  verb->callback([json] { print_presets(*json); });
+  verb.flag("--json", *json, "A list of {\"name\",\"description\",\"file\"}");
+  verb.work([json] { print_presets(*json); });
 }
 
 } // namespace nephroid::cli

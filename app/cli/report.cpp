@@ -2,7 +2,7 @@
 // `nephroid report`: one page over finished runs, error against time first.
 #include "report/report.h"
 #include "base/files.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "plan/plan.h"
 
@@ -35,16 +35,15 @@ void write_report(const ReportOptions& options)
 void add_report(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<ReportOptions>();
-  CLI::App* verb = program.add_subcommand("report", "One page over finished runs: error against time, speed-up at equal error, pictures");
-  verb->footer(examples({{"nephroid run first-light --passes 8 -o out/optimal", ""},
-                         {"nephroid run first-light --passes 8 -o out/thesis --set spectral.method=thesis", ""},
-                         {"nephroid report out/optimal out/thesis", "writes report.html"}}) +
-               "\n\n"
-               "Compares runs that have a run.json; the folder of a sweep stands for all runs in it. Without -o the page of one\n"
-               "folder is report.html in that folder, that of several is report.html in the current folder.");
-  verb->add_option("DIR", options->folders, "Folders of finished runs or of sweeps")->required();
-  verb->add_option("-o,--output", options->output, "The page's file")->type_name("FILE");
-  verb->callback([options] { write_report(*options); });
+  Verb verb(program, "report", "One page over finished runs: error against time, speed-up at equal error, pictures",
+            {{"nephroid run first-light --passes 8 -o out/optimal", ""},
+             {"nephroid run first-light --passes 8 -o out/thesis --set spectral.method=thesis", ""},
+             {"nephroid report out/optimal out/thesis", "writes report.html"}},
+            "Compares runs that have a run.json; the folder of a sweep stands for all runs in it. Without -o the page of one\n"
+            "folder is report.html in that folder, that of several is report.html in the current folder.");
+  verb.option("DIR", options->folders, {.says = "Folders of finished runs or of sweeps", .required = true});
+  verb.option("-o,--output", options->output, {.type = "FILE", .says = "The page's file"});
+  verb.work([options] { write_report(*options); });
 }
 
 } // namespace nephroid::cli

@@ -2,10 +2,9 @@
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
 #include "run/run.h"
 #include "base/interrupts.h"
-#include "cli/examples.h"
-#include "cli/numbers.h"
 #include "cli/run_animation.h"
 #include "cli/run_target.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "preset/origins.h"
 #include "preset/read.h"
@@ -48,11 +47,11 @@ std::vector<Target> targets_of(const RunOptions& options)
 }
 
 /// Rounded to the milliseconds that their files' names have.
-std::vector<double> in_order(const std::vector<double>& times)
+void put_in_order(std::vector<double>& times)
 {
   std::set<double> sorted;
   for (const double time : times) sorted.insert(std::round(time * 1000) / 1000);
-  return {sorted.begin(), sorted.end()};
+  times.assign(sorted.begin(), sorted.end());
 }
 
 void run_preset(const RunOptions& options)
@@ -82,51 +81,47 @@ void run_preset(const RunOptions& options)
 void add_run(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* verb = program.add_subcommand("run", "Render a preset into a folder");
-  verb->footer(
-      examples({{"nephroid run first-light --passes 8 -o out/quick", "a first look, in seconds"},
-                {"nephroid run first-light -o out/daylight --set scene.lights.0.spectrum=D65", "the same in daylight"}}) +
-      "\n\n"
+  Verb verb(
+      program, "run", "Render a preset into a folder",
+      {{"nephroid run first-light --passes 8 -o out/quick", "a first look, in seconds"},
+       {"nephroid run first-light -o out/daylight --set scene.lights.0.spectrum=D65", "the same in daylight"}},
       "Ctrl-C saves the image and a checkpoint; `--resume` goes on from there with the same result as an uninterrupted run.\n"
       "Files: image.exr (linear, with layers), image.png (as shown), preset.json (complete), plan.json, run.json, checkpoint.bin, and\n"
       "where the run measures its error history.csv and, once it is finished, report.html.\n"
       "An animation gives frame_0000.png and frame_0000.exr, ..., the other files of each frame in frames/0000, ..., figures of all in\n"
       "frames.csv, and animation.mp4 where ffmpeg is installed.");
-  verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset")->required();
-  verb->add_option("-o,--output", options->folder, "Folder for the run's files (default out/NAME; a sweep's runs in 001, 002, ...)")
-      ->type_name("DIR");
-  verb->add_option("--set", options->overrides, "Change a setting: scene.lights.0.power_w=2; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->take_all();
-  verb->add_option("--seconds", options->seconds, "Stop after this much work, instead of where the preset says")
-      ->type_name("S")
-      ->transform(number_from_to(0.001, 1e9));
-  verb->add_option("--passes", options->passes, "Stop after this many passes, instead of where the preset says")
-      ->type_name("N")
-      ->transform(number_from_to(1, preset::max_passes));
-  verb->add_option("--until-error", options->until_error,
-                   "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says")
-      ->type_name("E")
-      ->transform(number_from_to(1e-9, 1e9));
-  verb->add_option("--seed", options->seed, "Of the random numbers, instead of the preset's")->type_name("N")->transform(any_seed());
-  verb->add_option("--device", options->device.selector, "An index or part of a name (see nephroid devices)")->type_name("SEL");
-  verb->add_option("--kernels", options->device.kernels, "Load kernels from this folder instead of the built-in ones")->type_name("DIR");
-  verb->add_option("--checkpoint-seconds", options->checkpoint_seconds, "Work between checkpoints (default 10)")
-      ->type_name("S")
-      ->transform(number_from_to(0.0, 1e9));
-  verb->add_option_function<std::vector<double>>(
-          "--pictures-at", [options](const std::vector<double>& times) { options->pictures_at = in_order(times); },
-          "Also write the picture after this much work, with its error: 2,10,60 gives at-0002s.png and .exr, at-0010s.png, ...")
-      ->type_name("S,S,...")
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all()
-      ->transform(number_from_to(0.001, 1e9));
-  verb->add_option("--frames", options->frames, "Of an animation only these frames: 12, or 3-40")->type_name("N or N-M");
-  verb->add_flag("--resume", options->resume, "Go on from the folder's checkpoint; of an animation, at the first frame that is missing");
-  verb->add_flag("--json", options->json, "Progress and result as JSON lines on standard output");
-  verb->callback([options] { run_preset(*options); });
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
+  verb.option("-o,--output", options->folder,
+              {.type = "DIR", .says = "Folder for the run's files (default out/NAME; a sweep's runs in 001, 002, ...)"});
+  verb.overrides(options->overrides);
+  verb.option("--seconds", options->seconds,
+              {.type = "S", .says = "Stop after this much work, instead of where the preset says", .from = 0.001, .to = 1e9});
+  verb.option("--passes", options->passes,
+              {.type = "N", .says = "Stop after this many passes, instead of where the preset says", .from = 1, .to = preset::max_passes});
+  verb.option("--until-error", options->until_error,
+              {.type = "E",
+               .says = "Stop at this error (of stop.metric, CIELAB's mean distance unless set), instead of where the preset says",
+               .from = 1e-9,
+               .to = 1e9});
+  verb.option("--seed", options->seed, {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
+  verb.option("--device", options->device.selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.option("--kernels", options->device.kernels, {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+  verb.option("--checkpoint-seconds", options->checkpoint_seconds,
+              {.type = "S", .says = "Work between checkpoints (default 10)", .from = 0.0, .to = 1e9});
+  verb.option(
+      "--pictures-at", options->pictures_at,
+      {.type = "S,S,...",
+       .says = "Also write the picture after this much work, with its error: 2,10,60 gives at-0002s.png and .exr, at-0010s.png, ...",
+       .separator = ',',
+       .from = 0.001,
+       .to = 1e9});
+  verb.option("--frames", options->frames, {.type = "N or N-M", .says = "Of an animation only these frames: 12, or 3-40"});
+  verb.flag("--resume", options->resume, "Go on from the folder's checkpoint; of an animation, at the first frame that is missing");
+  verb.flag("--json", options->json, "Progress and result as JSON lines on standard output");
+  verb.work([options] {
+    put_in_order(options->pictures_at);
+    run_preset(*options);
+  });
 }
 
 } // namespace nephroid::cli

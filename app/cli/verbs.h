@@ -3,7 +3,10 @@
 // Error; it sets the exit code where that is not 0. Results go to standard output, everything else to standard error.
 // A verb that ends in order on Ctrl-C makes an Interrupts (base/interrupts.h).
 #pragma once
-#include <CLI/CLI.hpp>
+
+namespace CLI {
+class App;
+}
 
 namespace nephroid::cli {
 

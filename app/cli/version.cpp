@@ -2,9 +2,10 @@
 // `nephroid version`: what was built, with what. Loads and initialises nothing.
 #include "base/build_info.h"
 #include "base/json_output.h"
-#include "cli/examples.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 
+#include <CLI/Version.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -41,11 +42,10 @@ void print_version(bool json)
 
 void add_version(CLI::App& program, Session&)
 {
-  CLI::App* verb = program.add_subcommand("version", "The program's version, commit, compiler and libraries");
-  verb->footer(examples({{"nephroid version", ""}}));
+  Verb verb(program, "version", "The program's version, commit, compiler and libraries", {{"nephroid version", ""}});
   const auto json = std::make_shared<bool>(false);
-  verb->add_flag("--json", *json, "One JSON object");
-  verb->callback([json] { print_version(*json); });
+  verb.flag("--json", *json, "One JSON object");
+  verb.work([json] { print_version(*json); });
 }
 
 } // namespace nephroid::cli

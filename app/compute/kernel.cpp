@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdlib>
 #include <map>
-#include <regex>
 
 namespace nephroid::compute {
 
@@ -19,11 +18,12 @@ std::string device_type_name(const std::type_info& type)
                                                         {"unsigned short", "ushort"}, {"unsigned char", "uchar"}};
   const std::unique_ptr<char, void (*)(void*)> demangled(abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr), std::free);
   const std::string name = demangled.get();
-  static const std::regex vector(R"(std::array<([a-z ]+), (\d+)ul>)"); // a vector type
-  std::smatch match;
-  const std::string scalar = std::regex_match(name, match, vector) ? match.str(1) : name;
+  const std::size_t open = name.find('<'), comma = name.rfind(", ");
+  const bool vector = name.starts_with("std::array<") && comma != std::string::npos; // "std::array<float, 4ul>"
+  const std::string scalar = vector ? name.substr(open + 1, comma - open - 1) : name;
   const auto known = names.find(scalar);
-  return (known != names.end() ? known->second : scalar.substr(scalar.rfind(':') + 1)) + (match.empty() ? "" : match.str(2));
+  return (known != names.end() ? known->second : scalar.substr(scalar.rfind(':') + 1)) +
+         (vector ? name.substr(comma + 2, name.find("ul>") - comma - 2) : "");
 }
 
 void Kernel::set(const Argument& argument, std::vector<bool>& given)

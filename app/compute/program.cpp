@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <optional>
 #include <sstream>
 
 namespace nephroid::compute {
@@ -14,8 +17,9 @@ namespace {
 /// Options are one string that every vendor splits at white space in its own way, so a definition holds none.
 void check_define(const std::string& name, const std::string& value)
 {
-  static const std::regex identifier("[A-Za-z_][A-Za-z0-9_]*"), plain("[^\\s\"'\\\\]*");
-  if (!std::regex_match(name, identifier) || !std::regex_match(value, plain))
+  const auto in_name = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+  const bool identifier = !name.empty() && std::all_of(name.begin(), name.end(), in_name) && !(name.front() >= '0' && name.front() <= '9');
+  if (!identifier || value.find_first_of(" \t\n\v\f\r\"'\\") != std::string::npos)
     throw failed("-D" + name + "=" + value, "cannot be passed to a kernel compiler", "a name, and a value without spaces and quotes");
 }
 
@@ -32,18 +36,29 @@ std::string compiler_options(const DeviceInfo& device, const Defines& defines)
   return options;
 }
 
+/// A line of the compiler's log as place and message; nothing where it names no place.
+std::optional<std::pair<Place, std::string>> located(std::string line)
+{
+  for (const std::string_view word : {"fatal error: ", "error: "})
+    if (const std::size_t at = line.find(word); at != std::string::npos) line.erase(at, word.size());
+  std::array<char, 256> file{};
+  unsigned number = 0, column = 0;
+  int end = 0;
+  if (std::sscanf(line.c_str(), " %255[^: \t]:%9u:%u: %n", file.data(), &number, &column, &end) < 3)
+    std::sscanf(line.c_str(), " %255[^: \t]:%9u: %n", file.data(), &number, &end);
+  if (end == 0) return std::nullopt;
+  return std::pair{Place(file.data(), number), line.substr(static_cast<std::size_t>(end))};
+}
+
 /// The first error of the compiler's log as place and message. Compilers write "trace.cl:12:5: error: ...", PoCL 3
 /// "error: trace.cl:12:5: ...".
 BuildError build_error(const std::string& file, const std::string& device, const std::string& log)
 {
-  static const std::regex located(R"(^\s*(?:(?:fatal )?error: )?([^\s:]+):(\d{1,9})(?::\d+)?: (?:(?:fatal )?error: )?(.*)$)");
   std::istringstream lines(log);
   std::string first;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("error: ") == std::string::npos) continue;
-    std::smatch match;
-    if (std::regex_match(line, match, located))
-      return {{match[1], std::stoul(match[2])}, fmt::format("{} (building {} for {})", match[3].str(), file, device), log};
+    if (const auto error = located(line)) return {error->first, fmt::format("{} (building {} for {})", error->second, file, device), log};
     if (first.empty()) first = line;
   }
   return {file, fmt::format("clBuildProgram gave CL_BUILD_PROGRAM_FAILURE for {}: {}", device, first.empty() ? log : first), log};

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <regex>
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -30,6 +30,18 @@ std::string source_text(const fs::path& folder, const std::string& file, const P
   throw failed(where, "there is no kernel source " + file, "there are: " + names);
 }
 
+/// FILE of a line `#include "FILE"`; empty of any other.
+std::string included_file(std::string_view line)
+{
+  for (const std::string_view word : {"#", "include", "\""}) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (!line.starts_with(word)) return {};
+    line.remove_prefix(word.size());
+  }
+  if (line.starts_with("kernels/")) line.remove_prefix(std::string_view("kernels/").size());
+  return std::string(line.substr(0, line.find('"')));
+}
+
 struct Joiner {
   const fs::path& folder;
   std::set<std::string> included = {};
@@ -38,18 +50,17 @@ struct Joiner {
   void add(const std::string& file, const Place& where)
   {
     if (!included.insert(file).second) return;
-    static const std::regex include(R"(^\s*#\s*include\s+"(?:kernels/)?([^"]+)\".*)");
     std::istringstream lines(source_text(folder, file, where));
     text += fmt::format("#line 1 \"{}\"\n", file);
     int number = 0;
     for (std::string line; std::getline(lines, line);) {
       ++number;
-      std::smatch match;
-      if (line.find("include") == std::string::npos || !std::regex_match(line, match, include)) {
+      const std::string other = included_file(line);
+      if (other.empty()) {
         text += line + '\n';
         continue;
       }
-      add(match[1], Place(file, number));
+      add(other, Place(file, number));
       text += fmt::format("#line {} \"{}\"\n", number + 1, file);
     }
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 2 described for visitors: preset/describe.h says what a visitor is.
+// The settings of engine 2 as preset/describe.h says.
 #pragma once
 #include "environment/settings.h"
-#include "preset/field.h"
+#include "preset/value.h"
 
 namespace nephroid::preset {
 
@@ -43,18 +43,13 @@ struct Choices<environment::Settings::Phase> {
       {Phase::rayleigh, "rayleigh", "As clear air does: as much back as on, half of that to the sides."}};
 };
 
-template <>
-struct About<environment::Settings> {
-  static constexpr std::string_view name = "EnvironmentEngine", sentence = "Settings of the engine \"environment\".";
-};
-
 } // namespace nephroid::preset
 
 namespace nephroid::environment {
 
-template <class V, preset::Is<Settings> S>
-void describe(V& v, S& s)
+inline void describe(preset::Fields& v, Settings& s)
 {
+  v.about("EnvironmentEngine", "Settings of the engine \"environment\".");
   using preset::within;
   v.field({.name = "objects",
            .sentence = "Names of the objects whose caustics are baked, all together; without, all of glass and all mirrors.",

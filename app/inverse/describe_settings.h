@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 3 described for visitors: preset/describe.h says what a visitor is.
+// The settings of engine 3 as preset/describe.h says.
 #pragma once
 #include "inverse/settings.h"
 #include "inverse/thesis/describe_thesis.h"
@@ -47,38 +47,16 @@ struct Choices<inverse::Settings::Heights> {
       {Heights::free, "free", "Where the walls between facets are lowest; the relief becomes deeper, as far as the constraints let it."}};
 };
 
-template <>
-struct About<inverse::Picture> {
-  using Type = inverse::Picture::Type;
-  static constexpr std::string_view name = "InversePicture", sentence = "A grey picture that the object casts.";
-  static constexpr Shorthand<Type> shorthands[] = {{Bare::text, Type::file, "file"}};
-};
-
-template <>
-struct About<inverse::Receiver> {
-  static constexpr std::string_view name = "InverseReceiver", sentence = "A screen across the light, and its picture.";
-};
-
-template <>
-struct About<inverse::Light> {
-  using Type = inverse::Light::Type;
-  static constexpr std::string_view name = "InverseLight", sentence = "What falls on the front of the object.";
-};
-
-template <>
-struct About<inverse::Settings> {
-  static constexpr std::string_view name = "Inverse", sentence = "Settings of the engine \"inverse\".";
-};
-
 } // namespace nephroid::preset
 
 namespace nephroid::inverse {
 
 inline constexpr std::string_view receiver_part = "parts of the receiver's shorter side";
 
-template <class V, preset::Is<Picture> S>
-void describe(V& v, S& p)
+inline void describe(preset::Fields& v, Picture& p)
 {
+  v.about("InversePicture", "A grey picture that the object casts.");
+  v.shorthand(preset::Bare::text, Picture::Type::file, "file");
   using Type = Picture::Type;
   const auto part = [&](std::string_view name, std::string_view sentence, auto& value) {
     v.field({.name = name, .sentence = sentence, .unit = receiver_part, .bounds = preset::within(0.001, 2)}, value);
@@ -111,9 +89,9 @@ void describe(V& v, S& p)
           p.background);
 }
 
-template <class V, preset::Is<Receiver> S>
-void describe(V& v, S& r)
+inline void describe(preset::Fields& v, Receiver& r)
 {
+  v.about("InverseReceiver", "A screen across the light, and its picture.");
   v.field({.name = "distance_mm",
            .sentence = "From the object's facets, against which it is parallel and centred.",
            .unit = "mm",
@@ -127,9 +105,9 @@ void describe(V& v, S& r)
           r.weight);
 }
 
-template <class V, preset::Is<Light> S>
-void describe(V& v, S& l)
+inline void describe(preset::Fields& v, Light& l)
 {
+  v.about("InverseLight", "What falls on the front of the object.");
   v.type({.name = "type", .sentence = "Where the light comes from."}, l.type);
   if (l.type == Light::Type::parallel) {
     v.field({.name = "tilt_deg",
@@ -152,9 +130,9 @@ void describe(V& v, S& l)
   }
 }
 
-template <class V, preset::Is<Settings> S>
-void describe(V& v, S& s)
+inline void describe(preset::Fields& v, Settings& s)
 {
+  v.about("Inverse", "Settings of the engine \"inverse\".");
   using preset::within;
   v.field({.name = "method", .sentence = "How the facets' slopes are found."}, s.method);
   v.field({.name = "size_mm", .sentence = "Width and height of the object.", .unit = "mm", .bounds = within(0.1, 1e5)}, s.size_mm);

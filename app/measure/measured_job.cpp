@@ -10,6 +10,9 @@
 #include "preset/choices.h"
 #include "preset/field.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -106,17 +109,19 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 
 using Errors = std::vector<std::pair<std::string, double>>;
 
-/// The metrics that an estimate is made of: those that do not hang on few pixels, as lab_max does, nor on what is right in the darkest
-/// ones, as rel_mse does.
-Errors estimated(const Metrics& m)
-{
-  return {{"estimated_lab_mean", m.lab_mean}, {"estimated_lab_rms", m.lab_rms}, {"estimated_mse", m.mse}, {"estimated_rel_l2", m.rel_l2}};
-}
-
 void add(Errors& errors, const std::string& prefix, const Metrics& metrics, bool perceptual)
 {
-  for (const auto& [name, value] : named(metrics))
-    if (perceptual || (name != "iw_ssim" && name != "flip" && name != "hdr_flip")) errors.emplace_back(prefix + name, value);
+  for (const Metric& metric : all_metrics())
+    if (perceptual || metric.kind != Metric::Kind::perceptual)
+      errors.emplace_back(fmt::format("{}{}", prefix, metric.name), metric.of(metrics));
+}
+
+std::vector<std::string_view> estimated_metrics()
+{
+  std::vector<std::string_view> names;
+  for (const Metric& metric : all_metrics())
+    if (metric.kind == Metric::Kind::estimated) names.push_back(metric.name);
+  return names;
 }
 
 class MeasuredJob final : public job::Job, public job::SpectrumSource {
@@ -139,9 +144,9 @@ public:
         history_.error_column = column;
     if (history_.target && !history_.error_column.ends_with(metric))
       throw bad_input(Place(preset.source) / "stop" / "error", "nothing measures the error of this run in " + metric,
-                      settings_.estimate
-                          ? "expected a 'reference', or a 'stop.metric' that can be estimated: lab_mean, lab_rms, mse, rel_l2"
-                          : "expected a 'reference', or 'measure.estimate' true");
+                      settings_.estimate ? fmt::format("expected a 'reference', or a 'stop.metric' that can be estimated: {}",
+                                                       fmt::join(estimated_metrics(), ", "))
+                                         : "expected a 'reference', or 'measure.estimate' true");
     show();
   }
 
@@ -240,8 +245,8 @@ private:
     if (against_) take("", reference_->noise_floor);
     if (masked_) take("masked_", reference_->masked_noise_floor);
     if (!settings_.estimate) return;
-    for (const auto& [name, value] : estimated({})) {
-      history_.columns.push_back(name);
+    for (const std::string_view name : estimated_metrics()) {
+      history_.columns.push_back(fmt::format("estimated_{}", name));
       history_.noise_floor.push_back(none);
     }
   }
@@ -290,10 +295,11 @@ private:
     if (against_) add(errors, "", of_effort(pixels, {}, *against_), settings_.perceptual);
     if (masked_) add(errors, "masked_", of_effort(pixels, reference_->mask, *masked_), settings_.perceptual);
     if (!settings_.estimate) return errors;
-    Metrics metrics;
     const bool has_draw = !picture.error_draw.empty();
-    if (has_draw) metrics = estimate_error(picture);
-    for (const auto& [name, value] : estimated(metrics)) errors.emplace_back(name, has_draw ? value : none);
+    const Metrics metrics = has_draw ? estimate_error(picture) : Metrics{};
+    for (const Metric& metric : all_metrics())
+      if (metric.kind == Metric::Kind::estimated)
+        errors.emplace_back(fmt::format("estimated_{}", metric.name), has_draw ? metric.of(metrics) : none);
     return errors;
   }
 

@@ -142,19 +142,63 @@ Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Which
   return compare_each(picture, reference, std::span<const Mask>(&mask, 1), which).front();
 }
 
+const std::vector<Metric>& all_metrics()
+{
+  using enum Metric::Kind;
+  static const auto or_none = [](const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); };
+  // A distance falls with the root of the samples, a mean square with their number. FLIP bends small differences upwards by a power.
+  static const std::vector<Metric> metrics{
+      {"lab_mean",
+       "distance in CIELAB, mean of the pixels (0 is equal, about 2.3 just noticeable)",
+       {"mean CIELAB distance", "CIELAB units", -0.5},
+       estimated,
+       [](const Metrics& m) { return m.lab_mean; }},
+      {"lab_rms",
+       "distance in CIELAB, root mean square",
+       {"root mean square CIELAB distance", "CIELAB units", -0.5},
+       estimated,
+       [](const Metrics& m) { return m.lab_rms; }},
+      {"lab_max",
+       "distance in CIELAB, largest",
+       {"largest CIELAB distance", "CIELAB units", -0.5},
+       other,
+       [](const Metrics& m) { return m.lab_max; }},
+      {"mse", "(a - b)^2, mean", {"mean square error", "white²", -1.0}, estimated, [](const Metrics& m) { return m.mse; }},
+      {"rel_mse",
+       "(a - b)^2 / (b^2 + 0.01), mean",
+       {"relative mean square error", "", -1.0},
+       other,
+       [](const Metrics& m) { return m.rel_mse; }},
+      {"rel_l2", "|a - b| / |b|", {"relative L2 error", "", -0.5}, estimated, [](const Metrics& m) { return m.rel_l2; }},
+      {"psnr_db",
+       "decibels of the displayed pictures; more is better",
+       {"peak signal-to-noise ratio", "dB", std::nullopt, false, true},
+       other,
+       [](const Metrics& m) { return or_none(m.psnr_db); }},
+      {"iw_ssim",
+       "structural similarity, 1 is equal; needs 161 pixels a side",
+       {"IW-SSIM", "", std::nullopt, false, true},
+       perceptual,
+       [](const Metrics& m) { return or_none(m.iw_ssim); }},
+      {"flip",
+       "what a viewer sees flipping between the displayed pictures, 0..1",
+       {"FLIP", "", std::nullopt},
+       perceptual,
+       [](const Metrics& m) { return or_none(m.flip); }},
+      {"hdr_flip",
+       "the same at every exposure, 0..1",
+       {"HDR-FLIP", "", std::nullopt},
+       perceptual,
+       [](const Metrics& m) { return or_none(m.hdr_flip); }},
+  };
+  return metrics;
+}
+
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics)
 {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  return {{"lab_mean", metrics.lab_mean},
-          {"lab_rms", metrics.lab_rms},
-          {"lab_max", metrics.lab_max},
-          {"mse", metrics.mse},
-          {"rel_mse", metrics.rel_mse},
-          {"rel_l2", metrics.rel_l2},
-          {"psnr_db", metrics.psnr_db.value_or(none)},
-          {"iw_ssim", metrics.iw_ssim.value_or(none)},
-          {"flip", metrics.flip.value_or(none)},
-          {"hdr_flip", metrics.hdr_flip.value_or(none)}};
+  std::vector<std::pair<std::string, double>> values;
+  for (const Metric& metric : all_metrics()) values.emplace_back(metric.name, metric.of(metrics));
+  return values;
 }
 
 } // namespace nephroid::measure

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,7 +43,30 @@ Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, 
 /// The same for several masks, one after the other, at little more than the cost of one.
 std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, Which which = Which::full);
 
-/// Every metric's name and value in the order of `nephroid compare`, `pixels` left out; NaN where it is none.
+struct MetricText {
+  std::string label; ///< "mean CIELAB distance"
+  std::string unit;  ///< "CIELAB units", "dB"; empty: a ratio without one
+  /// The error of n independent samples is in proportion to n to this power; none where there is no such law.
+  std::optional<double> law;
+  bool falls = true;             ///< an error, drawn on a logarithmic axis; what does not fall is on a linear one
+  bool larger_is_better = false; ///< as psnr_db is
+
+  bool is_mean_square() const { return law == -1.0; }
+};
+
+/// What there is to say about a metric. Files, histories, messages, the report and the window have it from here.
+struct Metric {
+  std::string_view name;    ///< "lab_mean"
+  std::string_view meaning; ///< what it is made of, for who compares pictures
+  MetricText text;
+  /// estimated: a run estimates it from its halves, as it does not hang on few pixels, as lab_max does, nor on what is right in the
+  /// darkest ones, as rel_mse does. perceptual: not among the quick ones.
+  enum class Kind { estimated, other, perceptual } kind;
+  double (*of)(const Metrics& metrics); ///< NaN where it is none
+};
+/// In the order of `nephroid compare`.
+const std::vector<Metric>& all_metrics();
+/// Their names and values.
 std::vector<std::pair<std::string, double>> named(const Metrics& metrics);
 
 /// The quick metrics again and again against one reference, whose share of the work is done once. 512 x 512: about 20 ms a call.

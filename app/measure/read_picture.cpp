@@ -46,10 +46,10 @@ image::Image layer_of(const image::Image& picture, const std::string& layer, con
                     layers.empty() ? "expected a picture with layers" : fmt::format("expected one of {}", fmt::join(layers, ", ")),
                     "compare image.exr of a run");
   const std::size_t stride = picture.channels.size();
-  image::Image made{picture.width, picture.height, {"R", "G", "B"}, {}, picture.attributes, picture.integers};
+  image::Image rgb{picture.width, picture.height, {"R", "G", "B"}, {}, picture.attributes, picture.integers};
   for (std::size_t first = 0; first < picture.data.size(); first += stride)
-    for (const std::size_t c : at) made.data.push_back(picture.data[first + c]);
-  return made;
+    for (const std::size_t c : at) rgb.data.push_back(picture.data[first + c]);
+  return rgb;
 }
 
 LinearPicture linear(image::Image picture, const std::filesystem::path& file)

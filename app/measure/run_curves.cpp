@@ -3,31 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 
 namespace nephroid::measure {
 namespace {
 
 constexpr std::string_view estimated_prefix = "estimated_", masked = "masked_";
-
-const std::map<std::string, MetricText, std::less<>>& texts()
-{
-  // A distance falls with the root of the samples, a mean square with their number. FLIP bends small differences upwards by a power.
-  static const std::map<std::string, MetricText, std::less<>> all{
-      {"lab_mean", {"mean CIELAB distance", "CIELAB units", -0.5}},
-      {"lab_rms", {"root mean square CIELAB distance", "CIELAB units", -0.5}},
-      {"lab_max", {"largest CIELAB distance", "CIELAB units", -0.5}},
-      {"mse", {"mean square error", "white²", -1.0}},
-      {"rel_mse", {"relative mean square error", "", -1.0}},
-      {"rel_l2", {"relative L2 error", "", -0.5}},
-      {"psnr_db", {"peak signal-to-noise ratio", "dB", std::nullopt, false, true}},
-      {"iw_ssim", {"IW-SSIM", "", std::nullopt, false, true}},
-      {"flip", {"FLIP", "", std::nullopt}},
-      {"hdr_flip", {"HDR-FLIP", "", std::nullopt}},
-  };
-  return all;
-}
 
 /// How many times the floor is an error of which the floor, at a right angle to it, makes up `share`: 1 - sqrt(1 - 1/k^2) = share, where
 /// k = 2 gives 13 % and k = 3 gives 6 %. Of mean squares k squared.
@@ -65,8 +45,8 @@ MetricText metric_text(std::string_view metric)
     text.label += ", inside the mask";
     return text;
   }
-  const auto known = texts().find(metric);
-  return known == texts().end() ? MetricText{std::string(metric), "", std::nullopt, false} : known->second;
+  const auto known = std::ranges::find(all_metrics(), metric, &Metric::name);
+  return known == all_metrics().end() ? MetricText{std::string(metric), "", std::nullopt, false} : known->text;
 }
 
 std::vector<std::string> metric_names(const job::History& history)

@@ -3,6 +3,7 @@
 #pragma once
 #include "job/history.h"
 #include "measure/error_curve.h"
+#include "measure/metrics.h"
 
 #include <optional>
 #include <string>
@@ -19,16 +20,6 @@ struct ErrorColumn {
 };
 ErrorColumn error_column_of(std::string_view column);
 
-struct MetricText {
-  std::string label; ///< "mean CIELAB distance"
-  std::string unit;  ///< "CIELAB units", "dB"; empty: a ratio without one
-  /// The error of n independent samples is in proportion to n to this power; none where there is no such law.
-  std::optional<double> law;
-  bool falls = true;             ///< an error, drawn on a logarithmic axis; what does not fall is on a linear one
-  bool larger_is_better = false; ///< as psnr_db is
-
-  bool is_mean_square() const { return law == -1.0; }
-};
 /// Of a metric by its name. A column that an engine adds (cost, temperature) is called by its name and is no error.
 MetricText metric_text(std::string_view metric);
 

@@ -5,11 +5,11 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/monotone_cubic.h"
+#include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "preset/reader_visitor.h"
-#include "preset/writer.h"
+#include "preset/walks.h"
 
 #include <fmt/format.h>
 
@@ -81,7 +81,7 @@ Json as_field(const Json& before, const std::vector<double>& numbers, bool round
 class Stage {
 public:
   explicit Stage(const Preset& preset)
-      : preset_(preset), json_(Writer::json(preset)),
+      : preset_(preset), json_(as_json(value_of(preset))),
         document_(json_, Origin{preset.source, true, std::filesystem::path(preset.source).parent_path()})
   {
   }
@@ -104,15 +104,15 @@ public:
   /// The preset as it now is. Throws bad_input at the origin of a value that its field does not take.
   Preset read() const
   {
-    Preset made;
-    Reader::read(document_, document_.value(), "", made);
-    made.source = preset_.source;
-    made.provenance = preset_.provenance;
+    Preset changed;
+    preset::read(document_, changed);
+    changed.source = preset_.source;
+    changed.provenance = preset_.provenance;
     auto origins = preset_.provenance.origins ? std::make_shared<Origins>(*preset_.provenance.origins) : nullptr;
     for (const auto& [pointer, origin] : pointers_)
       if (origins) origins->set_whole(pointer, std::make_shared<const Origin>(Origin{origin, false, origins->at(pointer).folder}));
-    made.provenance.origins = std::move(origins);
-    return made;
+    changed.provenance.origins = std::move(origins);
+    return changed;
   }
 
 private:
@@ -235,12 +235,12 @@ std::vector<double> value_at(const Track& track, int frame)
 
 Preset at_frame(const Preset& preset, int frame)
 {
-  Preset made = made_at(preset, frame);
-  made.name += fmt::format(",frame={}", frame);
-  made.animation.reset();
-  made.provenance.frame = frame;
-  at_origins(made, [&] { check(made, [&](const std::string& pointer) { return where(made, pointer); }); });
-  return made;
+  Preset frame_preset = made_at(preset, frame);
+  frame_preset.name += fmt::format(",frame={}", frame);
+  frame_preset.animation.reset();
+  frame_preset.provenance.frame = frame;
+  at_origins(frame_preset, [&] { check(frame_preset, [&](const std::string& pointer) { return where(frame_preset, pointer); }); });
+  return frame_preset;
 }
 
 Preset at_start(const Preset& preset)

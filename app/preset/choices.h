@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of every enumeration of the preset, and what each struct is called: the sentences that describe.h does not repeat
-// for every field.
+// The words of every enumeration of the preset.
 #pragma once
 #include "preset/field.h"
 #include "preset/preset.h"
@@ -120,78 +119,11 @@ struct Choices<Preset::Unit> {
 };
 
 template <>
-struct About<Dispersion> {
-  using Type = Dispersion::Type;
-  static constexpr std::string_view name = "Dispersion", sentence = "Index of refraction over wavelength.";
-  static constexpr Shorthand<Type> shorthands[] = {{Bare::number, Type::constant, "n"}, {Bare::text, Type::file, "file"}};
-};
-template <>
-struct About<LightSpectrum> {
-  using Type = LightSpectrum::Type;
-  static constexpr std::string_view name = "LightSpectrum", sentence = "How a light's power is spread over wavelength.";
-  static constexpr Shorthand<Type> shorthands[] = {{Bare::text, Type::illuminant, "illuminant"}};
-};
-template <>
-struct About<Reflectance> {
-  using Type = Reflectance::Type;
-  static constexpr std::string_view name = "Reflectance", sentence = "The part of the light that is reflected, over wavelength.";
-  static constexpr Shorthand<Type> shorthands[] = {{Bare::number, Type::constant, "value"}, {Bare::text, Type::patch, "patch"}};
-};
-template <>
-struct About<Material> {
-  using Type = Material::Type;
-  static constexpr std::string_view name = "Material", sentence = "What a surface does with light.";
-};
-template <>
-struct About<Transform> {
-  static constexpr std::string_view name = "Transform", sentence = "Scale, then rotate (about x, then y, then z), then translate.";
-};
-template <>
-struct About<Shape> {
-  using Type = Shape::Type;
-  static constexpr std::string_view name = "Shape", sentence = "A simple shape, centred on the origin with y up.";
-};
-template <>
-struct About<Object> {
-  static constexpr std::string_view name = "Object", sentence = "A mesh or a shape, put in its place.";
-};
-template <>
-struct About<Light> {
-  using Type = Light::Type;
-  static constexpr std::string_view name = "Light", sentence = "A source of light.";
-};
-template <>
-struct About<Camera> {
-  static constexpr std::string_view name = "Camera", sentence = "A pinhole camera.";
-};
-template <>
-struct About<Scene> {
-  static constexpr std::string_view name = "Scene", sentence = "What there is to see.";
-};
-template <>
-struct About<Environment> {
-  using Type = Environment::Type;
-  static constexpr std::string_view name = "Environment", sentence = "What is behind everything, infinitely far.";
-  static constexpr Shorthand<Type> shorthands[] = {{Bare::text, Type::file, "file"}};
-};
-template <>
-struct About<Stop> {
-  static_assert(default_passes == 64, "the sentence says so");
-  static constexpr std::string_view name = "Stop", sentence = "When a run is done: at the first of these; without any, after 64 passes.";
-};
-template <>
-struct About<Reference> {
-  using Type = Reference::Type;
-  static constexpr std::string_view name = "Reference", sentence = "What a picture is measured against.";
-  static constexpr Shorthand<Type> shorthands[] = {{Bare::text, Type::file, "file"}};
-};
-template <>
-struct About<Measure> {
-  static constexpr std::string_view name = "Measure", sentence = "What a run notes about its error.";
-};
-template <>
-struct About<Preset> {
-  static constexpr std::string_view name = "Preset", sentence = "A Nephroid preset: everything a run depends on.";
+struct Choices<Track::Interpolation> {
+  using Interpolation = Track::Interpolation;
+  static constexpr Choice<Interpolation> all[] = {
+      {Interpolation::linear, "linear", "Straight lines between keys."},
+      {Interpolation::smooth, "smooth", "A smooth curve through the keys that never goes beyond them (monotone cubic)."}};
 };
 
 } // namespace nephroid::preset

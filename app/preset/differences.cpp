@@ -3,9 +3,10 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/files.h"
-#include "preset/writer.h"
+#include "preset/walks.h"
 
 #include <fmt/format.h>
 
@@ -142,8 +143,8 @@ bool is_same(Preset a, const Preset& b)
 fs::path absolute_path(const fs::path& file)
 {
   std::error_code ignored;
-  const fs::path made = fs::absolute(file, ignored);
-  return made.empty() ? file : made.lexically_normal();
+  const fs::path absolute = fs::absolute(file, ignored);
+  return absolute.empty() ? file : absolute.lexically_normal();
 }
 
 constexpr const char* save_first = "save the preset first, then copy the command line";
@@ -182,7 +183,7 @@ Recipe recipe_of(const Preset& preset)
   Recipe recipe{shipped.empty() ? absolute_path(preset.source).string() : shipped, {}};
   const Read on_disk = read_without_sweep(read_file(preset.source), preset.source);
   if (!on_disk.sweep.is_null()) recipe.overrides.emplace_back("sweep=null");
-  for (const Edit& edit : Comparison(true).edits(Writer::json(on_disk.preset), Writer::json(preset), on_disk.document.value()))
+  for (const Edit& edit : Comparison(true).edits(as_json(value_of(on_disk.preset)), as_json(value_of(preset)), on_disk.document.value()))
     recipe.overrides.push_back(override_of(edit));
   std::string why;
   try {
@@ -251,7 +252,7 @@ Json child_of(const Preset& preset, const std::string& parent, const fs::path& f
   if (preset.name != file.stem().string()) child["name"] = preset.name;
   if (!preset.description.empty()) child["description"] = preset.description;
   if (base.sweep != sweep) child["sweep"] = sweep;
-  Json before = Writer::json(base.preset), after = Writer::json(preset);
+  Json before = as_json(value_of(base.preset)), after = as_json(value_of(preset));
   for (Json* json : {&before, &after})
     for (const char* own : {"name", "description"}) json->erase(own);
   for (const Edit& edit : Comparison(false).edits(before, after, base.document.value())) {
@@ -266,7 +267,7 @@ Json child_of(const Preset& preset, const std::string& parent, const fs::path& f
 
 std::vector<Difference> differences(const Preset& before, const Preset& after)
 {
-  Json a = Writer::json(before), b = Writer::json(moved_to_file(after, before.source));
+  Json a = as_json(value_of(before)), b = as_json(value_of(moved_to_file(after, before.source)));
   for (Json* json : {&a, &b})
     for (const char* own : {"name", "description"}) json->erase(own);
   std::vector<Difference> all;
@@ -287,7 +288,7 @@ FileText file_text(const Preset& preset, const std::string& parent, const fs::pa
 {
   const Preset moved = moved_to_file(preset, file);
   const Json sweep_json = to_json(sweep);
-  Json all = Writer::json(moved);
+  Json all = as_json(value_of(moved));
   if (!sweep.empty()) all["sweep"] = sweep_json;
   FileText whole{pretty(all)};
   if (parent.empty()) return whole;

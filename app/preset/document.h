@@ -6,6 +6,8 @@
 #include "preset/origins.h"
 #include "preset/sweep.h"
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preset/expected.h"
+#include "preset/walks.h"
 
 #include <fmt/format.h>
 
@@ -8,41 +8,72 @@
 namespace nephroid::preset {
 namespace {
 
-std::string range(const Bounds& b)
+std::string in_range(const Bounds& b)
 {
   const bool low = std::isfinite(b.low), high = std::isfinite(b.high);
-  const auto ends = [&](const char* l, const char* h) {
-    return low && high ? fmt::format(" {} {} {} {}", l, b.low, h, b.high) : low ? fmt::format(" {} {}", l, b.low) : "";
-  };
-  if (b.without_low && b.without_high) return ends("above", "and below");
+  if (b.without_low && b.without_high)
+    return low && high ? fmt::format(" above {} and below {}", b.low, b.high) : low ? fmt::format(" above {}", b.low) : "";
   return low && high ? fmt::format(" from {} to {}", b.low, b.high) : low ? fmt::format(" of at least {}", b.low) : "";
 }
 
-std::string in(std::string_view unit) { return unit.empty() ? "" : fmt::format(" {}", unit); }
-
-} // namespace
-
-std::string expected_number(const Bounds& bounds, std::string_view unit) { return "a number" + range(bounds) + in(unit); }
+std::string in_unit(std::string_view unit) { return unit.empty() ? "" : fmt::format(" {}", unit); }
 
 std::string expected_integer(const Bounds& bounds, std::string_view unit)
 {
   // Whole numbers read better without an exponent: 16777216, not 1.6777216e+07.
   // 2^64 as a bound stands for the largest 64-bit number, which no double is.
   const std::string high = bounds.high < 18446744073709551615.0 ? fmt::format("{:.0f}", bounds.high) : "18446744073709551615";
-  return fmt::format("a whole number from {:.0f} to {}", bounds.low, high) + in(unit);
+  return fmt::format("a whole number from {:.0f} to {}", bounds.low, high) + in_unit(unit);
 }
 
-std::string expected_list(std::size_t count, const std::string& each) { return fmt::format("a list of {} items, each {}", count, each); }
-
-std::string expected_list(const Count& count, const std::string& each)
+/// A struct: an object, and whatever else stands for it.
+std::string expected_object(const ValueType& type)
 {
-  return fmt::format("a list of {}, each {}", expected_count(count), each);
+  std::string text;
+  for (const Shorthand& shorthand : type.shorthands) text += shorthand.bare == Bare::number ? "a number, " : "a string, ";
+  return text.empty() ? "an object" : text.replace(text.size() - 2, 2, " or an object");
 }
+
+} // namespace
+
+std::string expected_number(const Bounds& bounds, std::string_view unit) { return "a number" + in_range(bounds) + in_unit(unit); }
 
 std::string expected_count(const Count& count)
 {
   if (count.low == 0) return fmt::format("at most {} items", count.high);
   return fmt::format("{} to {} items", count.low, count.high);
+}
+
+std::string expected(const Field& f, const ValueType& type)
+{
+  const auto list = [&](const std::string& item) {
+    return fmt::format("a list of {}, each {}", type.size > 0 ? fmt::format("{} items", type.size) : expected_count(f.count), item);
+  };
+  switch (type.kind) {
+  case Kind::boolean:
+    return "true or false";
+  case Kind::integer:
+    return expected_integer(f.bounds, f.unit);
+  case Kind::number:
+    return expected_number(f.bounds, f.unit);
+  case Kind::text:
+    return f.text == Text::file ? "the name of a file" : "a string";
+  case Kind::word: {
+    std::string words;
+    for (const Word& word : type.words) words += (words.empty() ? "one of " : ", ") + std::string(word.name);
+    return words;
+  }
+  case Kind::table:
+    return list(fmt::format("[{}, {}]", f.columns.first.name, f.columns.second.name));
+  case Kind::map:
+    return fmt::format("an object of names with {}, each {}", expected_count(f.count), expected(f, *type.item));
+  case Kind::optional:
+    return expected(f, *type.item);
+  case Kind::object:
+    return expected_object(type);
+  default:
+    return list(expected(f, *type.item));
+  }
 }
 
 } // namespace nephroid::preset

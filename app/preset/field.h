@@ -82,44 +82,6 @@ constexpr std::string_view word(E value)
   return {};
 }
 
-/// What a bare JSON value in place of a struct may be.
-enum class Bare { number, text };
-
-/// `"dispersion": 1.5` stands for `{"type": "constant", "n": 1.5}`: a bare value is the field `field` of the type `type`.
-template <class E>
-struct Shorthand {
-  Bare bare;
-  E type;
-  std::string_view field;
-};
-
-/// A struct as a whole: name, sentence and, where it has any, `shorthands`. Specialised in choices.h.
-template <class S>
-struct About;
-
-template <class S>
-concept Described = requires
-{
-  About<std::remove_const_t<S>>::name;
-};
-
-/// A struct of which `type` chooses the fields that mean something.
-template <class S>
-concept Variant = Described<S> && requires
-{
-  typename About<std::remove_const_t<S>>::Type;
-};
-
-template <class S>
-concept WithShorthands = Variant<S> && requires
-{
-  About<std::remove_const_t<S>>::shorthands;
-};
-
-/// S is T or const T: describe() serves readers and writers alike.
-template <class S, class T>
-concept Is = std::same_as<std::remove_const_t<S>, T>;
-
 inline constexpr Bounds index_bounds = within(0.01, 100); ///< this and the next: shared by many fields; describe.h says why
 inline constexpr Bounds wavelength_bounds = within(1, 1e6);
 inline constexpr Bounds coefficient_bounds = within(-1e6, 1e6);

@@ -2,95 +2,80 @@
 #include "preset/outline.h"
 
 #include "preset/describe.h"
-#include "preset/expected.h"
-#include "preset/settings_type.h"
-
-#include <fmt/format.h>
+#include "preset/walks.h"
 
 #include <algorithm>
 
 namespace nephroid::preset {
+namespace {
 
-using Kind = Outline::Kind;
-
-void Outliner::engine(const Field& f, const Settings& settings)
+Outline outline_of(const Member& member)
 {
-  Outline& o = fields.emplace_back();
-  o.field = f;
-  o.kind = Kind::word;
-  o.chooses = true;
-  for (const SettingsType* type : settings_types()) o.words.push_back({type->name, type->sentence});
-  o.standard = settings.type().name;
+  Outline o;
+  o.field = member.field;
+  o.chooses = member.chooses();
+  o.of_engine = member.role == Role::section || member.role == Role::recipe;
+  const ValueType* type = &member.value.type();
+  o.optional = type->kind == Kind::optional;
+  if (o.optional) type = type->item;
+  o.kind = type->kind;
+  o.words = type->words;
+  o.size = type->size;
+  o.whole = type->kind == Kind::integer || (type->item && type->item->kind == Kind::integer);
+  o.object = type->make ? type : type->item && type->item->make ? type->item : nullptr;
+  if (o.kind != Kind::object) o.standard = as_json(member.value);
+  o.expected = o.kind == Kind::list || o.kind == Kind::map ? expected_count(o.field.count) : expected(o.field, *type);
+  return o;
 }
 
-void Outliner::sections(bool optional)
+std::vector<Outline> outline_of(const ValueType& type, const Json& object)
 {
-  for (const SettingsType* type : settings_types()) {
-    Outline& o = fields.emplace_back();
-    o.field = {.name = type->name, .sentence = "Settings of the engine."};
-    o.of_engine = true;
-    o.optional = optional;
-    o.fresh = type->fresh;
-    o.fields = type->fields;
+  const auto by_default = type.make();
+  const Value value(by_default.get(), type);
+  std::vector<Member> members = value.members();
+  const auto chooser = std::ranges::find(members, Role::type, &Member::role);
+  if (chooser != members.end()) {
+    const std::vector<Word>& words = chooser->value.type().words;
+    const auto chosen =
+        std::ranges::find_if(words, [&](const Word& word) { return object.value(chooser->field.name, Json()) == word.name; });
+    chooser->value.choose(chosen == words.end() ? 0 : static_cast<std::size_t>(chosen - words.begin()));
+    members = value.members();
   }
+  std::vector<Outline> fields;
+  for (const Member& member : members) fields.push_back(outline_of(member));
+  return fields;
 }
+
+} // namespace
+
+Json Outline::fresh() const { return as_json(Value(object->make().get(), *object)); }
+
+std::vector<Outline> Outline::fields(const Json& value) const { return outline_of(*object, value); }
 
 std::vector<Outline> outline(const Json& preset)
 {
-  std::vector<Outline> fields = fields_of<Preset>(preset);
+  std::vector<Outline> fields = outline_of(type_of<Preset>(), preset);
   std::erase_if(fields, [&](const Outline& o) { return o.of_engine && preset.at("engine") != o.field.name; });
   return fields;
 }
 
-Json as_type(const Json& object, std::vector<Outline> (*fields)(const Json&), const Outline& chooser, std::string_view type)
+Json as_type(const Json& object, const OutlineOf& fields, const Outline& chooser, std::string_view type)
 {
   const std::string key(chooser.field.name);
   const std::vector<Outline> before = fields(object);
-  Json made = Json::object();
-  made[key] = type;
-  for (const Outline& o : fields(Json(made))) {
+  Json changed = Json::object();
+  changed[key] = type;
+  for (const Outline& o : fields(Json(changed))) {
     const std::string name(o.field.name);
     const auto same = [&](const Outline& b) { return b.field.name == o.field.name && b.kind == o.kind; };
     if (name == key) continue;
     const bool stays = object.contains(name) && std::any_of(before.begin(), before.end(), same);
     if (stays)
-      made[name] = object[name];
+      changed[name] = object[name];
     else if (!o.of_engine || !o.optional) // the settings of another engine would be refused
-      made[name] = o.kind == Kind::object && !o.optional ? o.fresh() : o.standard;
+      changed[name] = o.kind == Kind::object && !o.optional ? o.fresh() : o.standard;
   }
-  return made;
-}
-
-std::string expected(const Outline& o)
-{
-  const Field& f = o.field;
-  const std::string number = o.whole ? expected_integer(f.bounds, f.unit) : expected_number(f.bounds, f.unit);
-  switch (o.kind) {
-  case Kind::boolean:
-    return "true or false";
-  case Kind::integer:
-  case Kind::number:
-    return number;
-  case Kind::text:
-    return f.text == Text::file ? "the name of a file" : "a text";
-  case Kind::word: {
-    std::string words;
-    for (const Outline::Word& word : o.words) words += (words.empty() ? "one of " : ", ") + std::string(word.name);
-    return words;
-  }
-  case Kind::numbers:
-    return o.size > 0 ? expected_list(o.size, number) : expected_list(f.count, number);
-  case Kind::texts:
-    return expected_list(f.count, "a text");
-  case Kind::table:
-    return expected_list(f.count, fmt::format("[{}, {}]", f.columns[0].name, f.columns[1].name));
-  case Kind::list:
-  case Kind::map:
-    return expected_count(f.count);
-  case Kind::object:
-    break;
-  }
-  return "an object";
+  return changed;
 }
 
 } // namespace nephroid::preset

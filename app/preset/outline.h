@@ -2,9 +2,12 @@
 // The description of the preset (describe.h) as data: which fields a JSON value of it has, of what kind, with which default. The panel
 // Parameters draws a preset from it, field by field, and names no field itself.
 #pragma once
-#include "preset/field.h"
 #include "preset/json_text.h"
+#include "preset/value.h"
 
+#include <nlohmann/json.hpp>
+
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,35 +15,34 @@ namespace nephroid::preset {
 
 /// One field.
 struct Outline {
-  /// numbers: a list of numbers; texts: of texts; table: rows of two numbers; list and map: of objects.
-  enum class Kind { boolean, integer, number, text, word, numbers, texts, table, object, list, map };
-  struct Word {
-    std::string_view name, sentence;
-  };
+  using Kind = preset::Kind; ///< never optional
+  using Word = preset::Word;
 
   Field field;
   Kind kind = Kind::object;
-  bool chooses = false;    ///< a word that says which other fields its object has
-  bool of_engine = false;  ///< settings of the engine of that name: they mean something where it is the preset's
-  bool optional = false;   ///< may be null, and is by default
-  bool whole = false;      ///< of numbers
-  std::size_t size = 0;    ///< how many numbers a vector has; 0: a list of any length within field.count
-  std::vector<Word> words; ///< of a word, all of them
-  Json standard;           ///< the default; null of an object, whose fields have theirs
-  /// A default-constructed one: of an optional what it holds, of a list or map one item, else the object. Null where there is no struct.
-  Json (*fresh)() = nullptr;
-  /// The fields of that struct as `object`, a JSON value of it, has them by its type.
-  std::vector<Outline> (*fields)(const Json& object) = nullptr;
+  bool chooses = false;              ///< a word that says which other fields its object has
+  bool of_engine = false;            ///< settings of the engine of that name: they mean something where it is the preset's
+  bool optional = false;             ///< may be null, and is by default
+  bool whole = false;                ///< of numbers
+  std::size_t size = 0;              ///< how many numbers a vector has; 0: a list of any length within field.count
+  std::vector<Word> words;           ///< of a word, all of them
+  Json standard;                     ///< the default; null of an object, whose fields have theirs
+  const ValueType* object = nullptr; ///< of an object, an item of a list or a map; null where there is no struct
+  std::string expected;              ///< what the field may be: "a number from 0 to 1 W", "one of point, spot"
+
+  /// A default-constructed `object`.
+  Json fresh() const;
+  /// The fields of `object` as a JSON value of it has them by its type.
+  std::vector<Outline> fields(const Json& value) const;
 };
 
 /// The fields of a preset.
 std::vector<Outline> outline(const Json& preset);
 
+using OutlineOf = std::function<std::vector<Outline>(const Json& object)>;
+
 /// `object` as another type of its struct. What both types have stays, the rest is by default. fields: of the struct. chooser: its field
 /// that chooses the type, as the old type has it.
-Json as_type(const Json& object, std::vector<Outline> (*fields)(const Json&), const Outline& chooser, std::string_view type);
-
-/// What the field may be: "a number from 0 to 1 W", "one of point, spot".
-std::string expected(const Outline& field);
+Json as_type(const Json& object, const OutlineOf& fields, const Outline& chooser, std::string_view type);
 
 } // namespace nephroid::preset

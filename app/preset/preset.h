@@ -238,6 +238,6 @@ struct Preset {
 };
 
 /// Of one unit of length.
-double metres(Preset::Unit unit);
+constexpr double metres(Preset::Unit unit) { return unit == Preset::Unit::mm ? 1e-3 : unit == Preset::Unit::cm ? 1e-2 : 1; }
 
 } // namespace nephroid::preset

@@ -5,8 +5,8 @@
 #include "preset/animation.h"
 #include "preset/document.h"
 #include "preset/origins.h"
-#include "preset/reader_visitor.h"
 #include "preset/sweep.h"
+#include "preset/walks.h"
 
 #include <fmt/format.h>
 
@@ -23,14 +23,6 @@ std::string base_name(const Document& document)
   return is_named ? own->get<std::string>() : std::filesystem::path(document.origins().main().place.name).stem().string();
 }
 
-/// Every field of the preset but `source`.
-Preset read_fields(const Document& document)
-{
-  Preset preset;
-  Reader::read(document, document.value(), "", preset);
-  return preset;
-}
-
 Preset finish(const SweptDocument& run)
 {
   const Document& document = run.document;
@@ -39,7 +31,8 @@ Preset finish(const SweptDocument& run)
   Preset unread;
   unread.provenance = provenance;
   return at_origins(unread, [&] {
-    Preset preset = read_fields(document);
+    Preset preset;
+    read(document, preset);
     preset.name = name;
     preset.source = document.origins().main().place.name;
     preset.provenance = provenance;
@@ -113,11 +106,11 @@ std::vector<SweptRun> swept_runs(const Preset& preset, const Sweep& sweep)
   document.set({"sweep"}, to_json(sweep), origin);
   std::vector<SweptRun> runs;
   for (const SweptDocument& run : expand_sweep(std::move(document), {})) {
-    SweptRun& made = runs.emplace_back(SweptRun{base_name(run.document) + run.suffix, std::nullopt, {}});
+    SweptRun& swept = runs.emplace_back(SweptRun{base_name(run.document) + run.suffix, std::nullopt, {}});
     try {
-      made.preset = finish(run);
+      swept.preset = finish(run);
     } catch (const Error& error) {
-      made.why_not = error.line();
+      swept.why_not = error.line();
     }
   }
   return runs;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nephroid::preset {
@@ -34,9 +35,10 @@ std::string to_json(const Preset& preset, const std::filesystem::path& folder);
 /// JSON Schema (2020-12) of a preset file, from the same descriptions.
 std::string schema();
 
-/// The preset with each name of a file as `renamed` gives it, in the order of the file; so also a way to see all names.
+/// The preset with each name of a file as `renamed` gives it, in the order of the file.
 Preset with_file_names(Preset preset, const std::function<std::string(const std::string& name)>& renamed);
-
+/// Each name of a file in the preset, and the JSON pointer of where it stands, in the order of the file.
+std::vector<std::pair<std::string, std::string>> file_names(const Preset& preset);
 /// The files that a preset names, as far as they are there, and its own.
 std::vector<std::filesystem::path> files_of(const Preset& preset);
 

@@ -1,9 +1,200 @@
 // SPDX-License-Identifier: Apache-2.0
+// The descriptions as a JSON Schema (2020-12), for editors that check and complete while one types. It knows fields one by one; what takes
+// several of them (check.cpp) and file names are left to the program.
+#include "preset/describe.h"
 #include "preset/read.h"
-#include "preset/schema_visitor.h"
+#include "preset/walks.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
 
 namespace nephroid::preset {
 namespace {
+
+/// Presets with a parent may leave out whatever they inherit, but lists replace the parent's lists, so that inside a list
+/// everything that is required must be there.
+enum class Presence { whole, part };
+
+Json or_null(const Json& schema) { return {{"anyOf", {schema, {{"type", "null"}}}}}; }
+
+Json number_schema(const char* type, const Bounds& bounds)
+{
+  Json schema{{"type", type}};
+  const auto limit = [&](const char* closed, const char* open, double value, bool without) {
+    if (!std::isfinite(value)) return;
+    Json& slot = schema[without ? open : closed];
+    // Whole limits without ".0"; 2^64 stands for the largest 64-bit number, which no double is.
+    if (value >= 18446744073709551615.0)
+      slot = std::numeric_limits<std::uint64_t>::max();
+    else if (value == std::trunc(value))
+      slot = static_cast<std::int64_t>(value);
+    else
+      slot = value;
+  };
+  limit("minimum", "exclusiveMinimum", bounds.low, bounds.without_low);
+  limit("maximum", "exclusiveMaximum", bounds.high, bounds.without_high);
+  return schema;
+}
+
+Json list_schema(const Json& items, const Count& count)
+{
+  Json schema{{"type", "array"}, {"items", items}};
+  if (count.low > 0) schema["minItems"] = count.low;
+  if (count.high < std::numeric_limits<std::size_t>::max()) schema["maxItems"] = count.high;
+  return schema;
+}
+
+Json text_schema(Text text)
+{
+  Json schema{{"type", "string"}, {"maxLength", 4096}};
+  if (text == Text::file) schema["minLength"] = 1;
+  if (text != Text::text) schema["pattern"] = "^[^\\u0000-\\u001f\\u007f]*$";
+  return schema;
+}
+
+Json words_schema(const std::vector<Word>& words)
+{
+  Json choices = Json::array();
+  for (const Word& word : words) choices.push_back({{"const", word.name}, {"description", word.sentence}});
+  return {{"oneOf", choices}};
+}
+
+Json row_schema(const Columns& columns)
+{
+  Json items = Json::array();
+  for (const Column& c : {columns.first, columns.second}) {
+    items.push_back({{"title", c.name}});
+    if (!c.unit.empty()) items.back()["unit"] = c.unit;
+    items.back().update(number_schema("number", c.bounds));
+  }
+  return {{"type", "array"}, {"prefixItems", items}, {"items", false}, {"minItems", 2}};
+}
+
+/// The properties of an object of one type, and which of them are required.
+struct Properties {
+  Json properties = Json::object(), required = Json::array();
+
+  Json schema(const std::string& title, std::string_view sentence) const
+  {
+    return {{"title", title}, {"description", sentence}, {"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  }
+};
+
+/// Collects the schemas of all structs, each made at its first use.
+class Definitions {
+public:
+  Properties properties(const Value& object, Presence presence)
+  {
+    Properties properties;
+    for (const Member& member : object.members()) {
+      const Field& f = member.field;
+      Json& slot = properties.properties[std::string(f.name)];
+      slot["description"] = std::string(f.sentence);
+      if (!f.unit.empty()) slot["unit"] = std::string(f.unit);
+      slot.update(schema_of(member, presence));
+      if (f.required || member.chooses()) properties.required.emplace_back(f.name);
+    }
+    return properties;
+  }
+
+  Json all = Json::object();
+
+private:
+  Json schema_of(const Member& member, Presence presence)
+  {
+    if (member.role == Role::type) return {{"const", member.value.word().name}};
+    Json schema = schema_of(member.field, member.value.type(), presence);
+    // A struct's defaults stand at its own fields, and an optional one has none.
+    const bool has_default = !member.field.required && member.role == Role::plain && member.value.kind() != Kind::object;
+    if (const Json standard = has_default ? as_json(member.value) : Json(); !standard.is_object() && !standard.is_null())
+      schema["default"] = standard;
+    return schema;
+  }
+
+  Json schema_of(const Field& f, const ValueType& type, Presence presence)
+  {
+    switch (type.kind) {
+    case Kind::boolean:
+      return {{"type", "boolean"}};
+    case Kind::integer:
+      return number_schema("integer", f.bounds);
+    case Kind::number:
+      return number_schema("number", f.bounds);
+    case Kind::text:
+      return text_schema(f.text);
+    case Kind::word:
+      return words_schema(type.words);
+    case Kind::numbers:
+    case Kind::texts: {
+      const Json item = schema_of(f, *type.item, presence);
+      const Json list = list_schema(item, type.size > 0 ? Count{type.size, type.size} : f.count);
+      return f.bare_number ? Json{{"anyOf", {list, item}}} : list;
+    }
+    case Kind::table:
+      return list_schema(row_schema(f.columns), f.count);
+    case Kind::list:
+      return list_schema(reference(*type.item, Presence::whole), f.count);
+    case Kind::map:
+      return {{"type", "object"}, {"additionalProperties", or_null(reference(*type.item, presence))}, {"maxProperties", f.count.high}};
+    case Kind::optional:
+      return or_null(schema_of(f, *type.item, presence));
+    case Kind::object:
+      break;
+    }
+    return reference(type, presence);
+  }
+
+  Json reference(const ValueType& type, Presence presence)
+  {
+    const std::string name = std::string(type.name) + (presence == Presence::part ? "" : "Item");
+    if (!all.contains(name)) {
+      Json schema = definition(type, presence);
+      all[name] = std::move(schema);
+    }
+    return {{"$ref", "#/$defs/" + name}};
+  }
+
+  Json definition(const ValueType& type, Presence presence)
+  {
+    const auto by_default = type.make();
+    const Value object(by_default.get(), type);
+    if (object.members().front().role == Role::type) return alternatives(object, presence);
+    const Properties own = properties(object, presence);
+    Json schema = own.schema(std::string(type.name), type.sentence);
+    if (presence == Presence::whole && !own.required.empty()) schema["required"] = own.required;
+    return schema;
+  }
+
+  /// The struct's types one by one, then its shorthands; as a part also any of their fields without a type.
+  Json alternatives(const Value& object, Presence presence)
+  {
+    Json choices = Json::array(), bare = Json::array(), any_field = Json::object();
+    const std::vector<Word> words = object.members().front().value.type().words;
+    const std::string key(object.members().front().field.name);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      object.members().front().value.choose(i);
+      const Properties own = properties(object, presence);
+      Json schema = own.schema(std::string(words[i].name), words[i].sentence);
+      schema["required"] = presence == Presence::whole ? own.required : Json::array({key});
+      choices.push_back(std::move(schema));
+      for (const auto& [name, property] : own.properties.items())
+        if (name != key) { // fields of one name and several meanings: anything goes, the program knows
+          const bool clear = !any_field.contains(name) || any_field[name] == property;
+          any_field[name] = clear ? property : Json::object();
+        }
+      for (const Shorthand& shorthand : object.type().shorthands)
+        if (shorthand.type == words[i].name) bare.push_back(own.properties[std::string(shorthand.field)]);
+    }
+    for (Json& schema : bare) choices.push_back(std::move(schema));
+    if (presence == Presence::part) {
+      Properties inherited;
+      inherited.properties = any_field;
+      choices.push_back(inherited.schema("inherited", "Some fields; the type is the parent's."));
+    }
+    return {{"title", object.type().name}, {"description", object.type().sentence}, {"oneOf", choices}};
+  }
+};
 
 /// Keys of a preset file that are not the preset's: they are gone before its fields are read.
 Json file_keys()
@@ -23,21 +214,21 @@ Json file_keys()
 
 std::string schema()
 {
-  Json definitions = Json::object();
-  Properties properties(definitions, Presence::part);
-  const Preset defaults{};
-  describe(properties, defaults);
-  Json all = file_keys();
-  all.update(properties.properties());
-  const Json whole{{"if", {{"not", {{"required", {"parent"}}}}}}, {"then", {{"required", properties.required()}}}};
+  Definitions definitions;
+  Preset defaults;
+  const Value preset(defaults);
+  const Properties own = definitions.properties(preset, Presence::part);
+  Json properties = file_keys();
+  properties.update(own.properties);
   Json document{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-                {"title", About<Preset>::name},
-                {"description", About<Preset>::sentence},
+                {"title", preset.type().name},
+                {"description", preset.type().sentence},
                 {"type", "object"},
-                {"properties", all},
-                {"additionalProperties", false}};
-  document.update(whole);
-  document["$defs"] = definitions;
+                {"properties", properties},
+                {"additionalProperties", false},
+                {"if", {{"not", {{"required", {"parent"}}}}}},
+                {"then", {{"required", own.required}}}};
+  document["$defs"] = definitions.all;
   return pretty(document);
 }
 

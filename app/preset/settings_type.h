@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Settings of an engine made from its struct's description: settings_type<S>() is how an engine tells the preset what its section holds.
-// Included where an engine describes its settings and nowhere else.
 #pragma once
-#include "preset/file_names.h"
-#include "preset/outline_visitor.h"
-#include "preset/reader_visitor.h"
-#include "preset/schema_visitor.h"
+#include "base/place.h"
+#include "preset/json_text.h"
 #include "preset/settings.h"
-#include "preset/writer.h"
+#include "preset/value.h"
 
+#include <algorithm>
 #include <any>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace nephroid::preset {
+
+struct Preset;
 
 /// Where a JSON pointer's value came from, for messages.
 using Where = std::function<Place(const std::string& pointer)>;
@@ -26,35 +26,53 @@ struct SettingsType {
   /// What one field cannot say alone, of a preset with these settings. Throws bad_input at where(pointer) of the first contradiction.
   void (*check)(const Preset& preset, const Where& where);
 
+  const ValueType& (*section)();   ///< of the struct
+  const ValueType& (*recipe)();    ///< of a std::optional<Settings>, as far as it holds these
+  void* (*of)(Settings& settings); ///< the struct that settings hold; null: that of another engine
   std::any (*make)();
   bool (*equal)(const std::any& a, const std::any& b);
-  void (*read)(const Document& document, const Json& json, const std::string& pointer, std::any& settings);
-  Json (*write)(const std::any& settings);
-  Json (*schema)(Json& definitions, Presence presence);
-  Json (*fresh)();                                      ///< by default
-  std::vector<Outline> (*fields)(const Json& settings); ///< as data
-  void (*name_files)(std::any& settings, const FileNames::Rename& rename);
 };
 
-template <Described S>
+template <class S>
+void* settings_struct(Settings& settings)
+{
+  return std::any_cast<S>(&settings.value());
+}
+
+template <class S>
+const ValueType& recipe_type()
+{
+  using Recipe = std::optional<Settings>;
+  static const ValueType type{.kind = Kind::optional,
+                              .item = &type_of<S>(),
+                              .count = [](const void* recipe) -> std::size_t {
+                                const auto& settings = *static_cast<const Recipe*>(recipe);
+                                return settings && settings->type().section == type_of<S> ? 1 : 0;
+                              },
+                              .resize =
+                                  [](void* recipe, std::size_t count) {
+                                    static_cast<Recipe*>(recipe)->reset();
+                                    if (count == 0) return;
+                                    const auto& types = settings_types();
+                                    static_cast<Recipe*>(recipe)->emplace(**std::find_if(
+                                        types.begin(), types.end(), [](const SettingsType* t) { return t->section == type_of<S>; }));
+                                  },
+                              .at = [](void* recipe, std::size_t) { return settings_struct<S>(**static_cast<Recipe*>(recipe)); }};
+  return type;
+}
+
+/// S: described (describe.h).
+template <class S>
 constexpr SettingsType settings_type(std::string_view name, std::string_view sentence, void (*check)(const Preset&, const Where&))
 {
   return {.name = name,
           .sentence = sentence,
           .check = check,
+          .section = type_of<S>,
+          .recipe = recipe_type<S>,
+          .of = settings_struct<S>,
           .make = [] { return std::any(S{}); },
-          .equal = [](const std::any& a, const std::any& b) { return std::any_cast<const S&>(a) == std::any_cast<const S&>(b); },
-          .read = [](const Document& document, const Json& json, const std::string& pointer,
-                     std::any& settings) { Reader::read(document, json, pointer, std::any_cast<S&>(settings)); },
-          .write = [](const std::any& settings) { return Writer::json(std::any_cast<const S&>(settings)); },
-          .schema = [](Json& definitions, Presence presence) { return Properties::reference<S>(definitions, presence); },
-          .fresh = fresh<S>,
-          .fields = fields_of<S>,
-          .name_files =
-              [](std::any& settings, const FileNames::Rename& rename) {
-                FileNames names(rename);
-                describe(names, std::any_cast<S&>(settings));
-              }};
+          .equal = [](const std::any& a, const std::any& b) { return std::any_cast<const S&>(a) == std::any_cast<const S&>(b); }};
 }
 
 } // namespace nephroid::preset

@@ -66,13 +66,13 @@ fs::path frame_picture(const fs::path& folder, int frame) { return folder / fmt:
 void show_frame(const fs::path& folder, int frame)
 {
   for (const char* kind : kinds) {
-    const fs::path made = frame_folder(folder, frame) / (std::string("image") + kind);
+    const fs::path picture = frame_folder(folder, frame) / (std::string("image") + kind);
     const fs::path shown = frame_picture(folder, frame).replace_extension(kind);
     std::error_code error;
-    if (fs::equivalent(made, shown, error)) continue;
+    if (fs::equivalent(picture, shown, error)) continue;
     fs::remove(shown, error);
-    fs::create_hard_link(made, shown, error);
-    if (error) write_file_whole(shown, read_file(made));
+    fs::create_hard_link(picture, shown, error);
+    if (error) write_file_whole(shown, read_file(picture));
   }
 }
 

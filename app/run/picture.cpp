@@ -66,11 +66,11 @@ Json pictures_at(const fs::path& folder)
   Json list = Json::array();
   if (!is_there(folder / pictures_file)) return list;
   try {
-    for (const Json& made : Json::parse(read_file(folder / pictures_file)))
-      list.push_back({{"seconds", made.at("seconds").get<double>()},
-                      {"work_seconds", made.at("work_seconds").get<double>()},
-                      {"picture", fs::path(made.at("picture").get<std::string>()).filename().string()},
-                      {"errors", made.at("errors")}});
+    for (const Json& picture : Json::parse(read_file(folder / pictures_file)))
+      list.push_back({{"seconds", picture.at("seconds").get<double>()},
+                      {"work_seconds", picture.at("work_seconds").get<double>()},
+                      {"picture", fs::path(picture.at("picture").get<std::string>()).filename().string()},
+                      {"errors", picture.at("errors")}});
   } catch (const Json::exception&) {
     // Written by something else: the pictures are there all the same.
   }
@@ -92,25 +92,25 @@ Json write_picture_at(const fs::path& folder, double seconds, const Prepared& pr
   Json errors = Json::object();
   if (const auto& history = snapshot.history; history && !history->rows.empty() && history->rows.back().seconds >= seconds)
     errors = by_column(history->columns, history->rows.back().errors);
-  const Json made{{"seconds", seconds}, {"work_seconds", snapshot.progress.work_seconds}, {"picture", stem + ".png"}, {"errors", errors}};
+  const Json written{{"seconds", seconds}, {"work_seconds", snapshot.progress.work_seconds}, {"picture", stem + ".png"}, {"errors", errors}};
   Json list = pictures_at(folder);
-  list.push_back(made);
+  list.push_back(written);
   write_list(folder, list);
-  return made;
+  return written;
 }
 
 void remove_pictures_after(const fs::path& folder, double work_seconds)
 {
   Json kept = Json::array();
   std::error_code ignored;
-  for (const Json& made : pictures_at(folder)) {
-    if (made["work_seconds"] <= work_seconds) {
-      kept.push_back(made);
+  for (const Json& picture : pictures_at(folder)) {
+    if (picture["work_seconds"] <= work_seconds) {
+      kept.push_back(picture);
       continue;
     }
-    const fs::path picture = folder / made["picture"].get<std::string>();
-    fs::remove(picture, ignored);
-    fs::remove(fs::path(picture).replace_extension(".exr"), ignored);
+    const fs::path file = folder / picture["picture"].get<std::string>();
+    fs::remove(file, ignored);
+    fs::remove(fs::path(file).replace_extension(".exr"), ignored);
   }
   if (kept.empty())
     fs::remove(folder / pictures_file, ignored);

@@ -31,15 +31,15 @@ Place place(const Prepared& prepared, const char* field) { return Place(prepared
 preset::Preset recipe_preset(const preset::Preset& preset, std::uint64_t seed)
 {
   const preset::Reference& recipe = *preset.reference;
-  preset::Preset made = preset;
-  made.seed = seed;
-  made.reference.reset();
-  made.measure = {};
-  made.measure.estimate = false;
-  made.stop = {};
-  made.stop.passes = recipe.passes;
-  made.settings = engine::engine_of(preset).reference(preset, recipe.passes);
-  return made;
+  preset::Preset rendered = preset;
+  rendered.seed = seed;
+  rendered.reference.reset();
+  rendered.measure = {};
+  rendered.measure.estimate = false;
+  rendered.stop = {};
+  rendered.stop.passes = recipe.passes;
+  rendered.settings = engine::engine_of(preset).reference(preset, recipe.passes);
+  return rendered;
 }
 
 fs::path references_folder()

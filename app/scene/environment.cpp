@@ -110,8 +110,6 @@ Environment make_environment(const preset::Environment& environment, const FileF
     check_texels(result.rgb, 1, where / "colour");
   }
   result.radiance = environment.radiance;
-  if (!(result.radiance >= 0 && std::isfinite(result.radiance)))
-    throw bad_input(where / "radiance", fmt::format("the radiance is {}", result.radiance), "0 or more");
   result.lights = environment.lights && !result.is_black();
   return result;
 }

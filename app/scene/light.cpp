@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/error.h"
 #include "scene/directions.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
@@ -12,17 +9,9 @@
 namespace nephroid::scene {
 namespace {
 
-void require(bool good, const Place& where, const std::string& what, double value, const char* expected)
-{
-  if (!good) throw bad_input(where, fmt::format("the {} is {}", what, value), expected);
-}
-
 /// Edges of the rectangle, edge_v along up, so that edge_u x edge_v points along direction.
 void set_edges(const preset::Light& light, const glm::dvec3& direction, const Place& where, Light& result)
 {
-  for (int i = 0; i < 2; ++i)
-    require(light.size[i] > 0 && light.size[i] <= max_coordinate, where / "size" / i, "edge length", light.size[i],
-            "a length greater than 0");
   const glm::dvec3 up = perpendicular_up(light.up, direction, where / "up");
   result.edge_u = light.size[0] * glm::cross(up, direction);
   result.edge_v = light.size[1] * up;
@@ -41,18 +30,11 @@ Light make_light(const preset::Light& light, const Scene& scene, const Place& wh
     result.direction = direction;
     if (light.type == Type::area) set_edges(light, direction, where, result);
   }
-  if (light.type == Type::spot) {
-    require(light.half_angle_deg > 0 && light.half_angle_deg <= 180, where / "half_angle_deg", "half angle", light.half_angle_deg,
-            "more than 0, at most 180 degrees");
-    result.cos_half_angle = std::cos(light.half_angle_deg * std::numbers::pi / 180);
-  }
+  if (light.type == Type::spot) result.cos_half_angle = std::cos(light.half_angle_deg * std::numbers::pi / 180);
   if (light.type == Type::directional) {
-    require(light.irradiance_w_m2 >= 0 && std::isfinite(light.irradiance_w_m2), where / "irradiance_w_m2", "irradiance",
-            light.irradiance_w_m2, "0 or more");
     result.irradiance_w_m2 = light.irradiance_w_m2;
     return result; // comes from far away: inside nothing
   }
-  require(light.power_w >= 0 && std::isfinite(light.power_w), where / "power_w", "power", light.power_w, "0 or more");
   result.power_w = light.power_w;
   const glm::dvec3 position = local_position(light.position, scene, where / "position");
   result.position = position;

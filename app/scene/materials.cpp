@@ -121,8 +121,6 @@ optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const 
     case Type::constant:
       break;
     }
-    if (!(reflectance.value >= 0 && reflectance.value <= 1))
-      throw bad_input(where, fmt::format("the reflectance is {}", reflectance.value), "0 to 1");
     return optics::constant_spectrum(reflectance.value);
   });
 }

@@ -151,18 +151,13 @@ glm::dmat3 rotation(const preset::Vec3& rotate_deg)
   return result;
 }
 
-Placement make_placement(const preset::Transform& transform, const Place& where)
+Placement make_placement(const preset::Transform& transform)
 {
   Placement placement;
   glm::dmat3 scale(1);
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const double factor = transform.scale[i];
-    if (factor == 0 || !std::isfinite(factor))
-      throw bad_input(where / "scale" / axis, fmt::format("the factor is {}", factor), "a number other than 0");
-    if (!std::isfinite(transform.rotate_deg[i])) throw bad_input(where / "rotate_deg" / axis, "is not a finite number");
-    if (!std::isfinite(transform.translate[i])) throw bad_input(where / "translate" / axis, "is not a finite number");
-    scale[axis][axis] = factor;
+    scale[axis][axis] = transform.scale[i];
     placement.offset[axis] = transform.translate[i];
   }
   placement.linear = rotation(transform.rotate_deg) * scale;

@@ -33,8 +33,7 @@ struct Placed {
   std::vector<Damage> damages;
 };
 
-/// Throws bad_input at where/scale for a factor of 0, and where a number is not finite.
-Placement make_placement(const preset::Transform& transform, const Place& where);
+Placement make_placement(const preset::Transform& transform);
 /// In the preset's coordinates. Throws bad_input at where: they leave single precision.
 Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& where);
 

@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/nearest.h"
 #include "scene/directions.h"
 #include "scene/environment_light.h"
 #include "scene/materials.h"
@@ -13,7 +12,6 @@
 #include "scene/shapes.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -24,18 +22,6 @@
 
 namespace nephroid::scene {
 namespace {
-
-int find_material(const Scene& scene, const std::string& name, const Place& where)
-{
-  std::vector<std::string> known;
-  for (const Material& material : scene.materials) known.push_back(material.name);
-  const auto found = std::find(known.begin(), known.end(), name);
-  if (found != known.end()) return static_cast<int>(found - known.begin());
-  const std::string near = nearest(name, known);
-  throw bad_input(where, fmt::format("there is no material '{}'", name),
-                  known.empty() ? "scene.materials is empty" : fmt::format("one of {}", fmt::join(known, ", ")),
-                  near.empty() ? "" : fmt::format("did you mean '{}'?", near));
-}
 
 void check_names(const std::vector<preset::Object>& objects, const Place& where)
 {
@@ -67,10 +53,8 @@ private:
 
 std::shared_ptr<const Mesh> object_mesh(const preset::Object& object, Meshes& meshes, const Place& where)
 {
-  if (object.mesh.has_value() == object.shape.has_value())
-    throw bad_input(where, object.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'", "exactly one of them");
   if (object.mesh) return meshes.get(*object.mesh, where / "mesh");
-  return std::make_shared<const Mesh>(make_shape(*object.shape, where / "shape"));
+  return std::make_shared<const Mesh>(make_shape(*object.shape));
 }
 
 /// An object on its way: still in its own coordinates.
@@ -244,9 +228,9 @@ Scene load_scene(const preset::Preset& preset)
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
     const preset::Object& object = preset.scene.objects[i];
     const Place object_where = where / "objects" / i;
-    const int material = find_material(scene, object.material, object_where / "material");
-    const Placement placement = make_placement(object.transform, object_where / "transform");
-    pending.push_back({object_mesh(object, meshes, object_where), placement, material, object_where});
+    const auto material = std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
+    const Placement placement = make_placement(object.transform);
+    pending.push_back({object_mesh(object, meshes, object_where), placement, static_cast<int>(material), object_where});
   }
   scene.origin = choose_origin(pending, scene, preset.scene.camera);
   for (std::size_t i = 0; i < pending.size(); ++i) {

@@ -3,10 +3,6 @@
 // from above, so sides and caps face outwards when their corners are taken in rising order.
 #include "scene/shapes.h"
 
-#include "base/error.h"
-
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -29,8 +25,6 @@ void add_facet(Mesh& mesh, std::span<const glm::dvec3> corners)
 namespace {
 
 using Quad = std::array<glm::dvec3, 4>;
-
-constexpr int max_segments = 1 << 14;
 
 Mesh make_quad(double x, double z)
 {
@@ -108,30 +102,6 @@ Mesh make_sphere(float radius)
   return mesh;
 }
 
-void require(bool good, const Place& where, const std::string& value, const char* expected)
-{
-  if (!good) throw bad_input(where, fmt::format("{} is out of range", value), expected);
-}
-
-void check(const preset::Shape& shape, const Place& where)
-{
-  using Type = preset::Shape::Type;
-  const auto length = [&](bool used, const Place& place, double value) {
-    require(!used || (value > 0 && value < 1e30), place, fmt::format("{}", value), "a length greater than 0");
-  };
-  const bool flat = shape.type == Type::quad, boxy = shape.type == Type::box || shape.type == Type::plate;
-  length(flat || boxy, where / "size" / 0, shape.size[0]);
-  length(boxy, where / "size" / 1, shape.size[1]);
-  length(flat || boxy, where / "size" / 2, shape.size[2]);
-  length(shape.type == Type::sphere || shape.type == Type::cylinder || shape.type == Type::brilliant, where / "radius", shape.radius);
-  length(shape.type == Type::cylinder || shape.type == Type::prism, where / "height", shape.height);
-  length(shape.type == Type::prism, where / "side", shape.side);
-  require(shape.type != Type::prism || (shape.apex_deg > 0 && shape.apex_deg < 180), where / "apex_deg", fmt::format("{}", shape.apex_deg),
-          "an angle between 0 and 180 degrees");
-  require(shape.type != Type::cylinder || (shape.segments >= 3 && shape.segments <= max_segments), where / "segments",
-          fmt::format("{}", shape.segments), "3 to 16384 segments");
-}
-
 Mesh make_outward(const preset::Shape& shape)
 {
   switch (shape.type) {
@@ -157,9 +127,8 @@ Mesh make_outward(const preset::Shape& shape)
 
 } // namespace
 
-Mesh make_shape(const preset::Shape& shape, const Place& where)
+Mesh make_shape(const preset::Shape& shape)
 {
-  check(shape, where);
   Mesh mesh = make_outward(shape);
   if (shape.inwards) turn_round(mesh);
   return mesh;

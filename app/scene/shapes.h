@@ -2,12 +2,10 @@
 // Surfaces that the program makes itself. Flat facets have vertices of their own, so their normals are exact; curved sides share
 // theirs.
 #pragma once
-#include "base/place.h"
 #include "preset/preset.h"
 #include "scene/mesh.h"
 
 #include <span>
-#include <string>
 
 namespace nephroid::scene {
 
@@ -17,8 +15,7 @@ namespace nephroid::scene {
 /// cylinder: about the y axis, flat ends, a sharp rim.
 /// prism: stands along y; the apex edge at +z, the third side at -z, facing -z.
 /// brilliant: the round brilliant cut, table up: 57 facets and 16 of the girdle (brilliant.cpp).
-/// Throws bad_input at where for sizes that are not positive, an apex angle outside 0..180, segments below 3 or too many.
-Mesh make_shape(const preset::Shape& shape, const Place& where = "shape");
+Mesh make_shape(const preset::Shape& shape);
 
 /// Adds a flat convex polygon, counter-clockwise seen from outside, as a fan with vertices and one normal of its own.
 void add_facet(Mesh& mesh, std::span<const glm::dvec3> corners);

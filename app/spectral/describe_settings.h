@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 1 described for visitors: preset/describe.h says what a visitor is.
+// The settings of engine 1 as preset/describe.h says.
 #pragma once
-#include "preset/field.h"
+#include "preset/value.h"
 #include "spectral/settings.h"
 
 #include <string_view>
@@ -55,35 +55,20 @@ struct Choices<spectral::Importance::Cluster> {
                                             {Cluster::mean, "mean", "The mean of all."}};
 };
 
-template <>
-struct About<spectral::Importance> {
-  static constexpr std::string_view name = "Importance", sentence = "How much a wavelength matters.";
-};
-
-template <>
-struct About<spectral::Sppm> {
-  static constexpr std::string_view name = "Sppm", sentence = "Progressive photon mapping.";
-};
-
-template <>
-struct About<spectral::Settings> {
-  static constexpr std::string_view name = "Spectral", sentence = "Settings of the engine \"spectral\".";
-};
-
 } // namespace nephroid::preset
 
 namespace nephroid::spectral {
 
-template <class V, preset::Is<Importance> S>
-void describe(V& v, S& i)
+inline void describe(preset::Fields& v, Importance& i)
 {
+  v.about("Importance", "How much a wavelength matters.");
   v.field({.name = "cluster", .sentence = "Which of its wavelengths speaks for a cluster."}, i.cluster);
   v.field({.name = "geometry", .sentence = "Weigh materials by how much of them the caustic objects see."}, i.geometry);
 }
 
-template <class V, preset::Is<Sppm> S>
-void describe(V& v, S& s)
+inline void describe(preset::Fields& v, Sppm& s)
 {
+  v.about("Sppm", "Progressive photon mapping.");
   v.field({.name = "radius",
            .sentence = "Radius of the first pass; without, what the camera's pixels suggest.",
            .unit = preset::length_unit,
@@ -95,9 +80,9 @@ void describe(V& v, S& s)
           s.alpha);
 }
 
-template <class V, preset::Is<Settings> S>
-void describe(V& v, S& s)
+inline void describe(preset::Fields& v, Settings& s)
 {
+  v.about("Spectral", "Settings of the engine \"spectral\".");
   v.field({.name = "method", .sentence = "How wavelengths are put into clusters that share a path."}, s.method);
   v.field({.name = "threshold_deg",
            .sentence = "Largest change of the refraction angle inside a cluster.",

@@ -11,20 +11,11 @@
 #include <random>
 #include <span>
 
-namespace nephroid::preset {
-
-template <>
-struct About<gradient::Settings> {
-  static constexpr std::string_view name = "Gradient", sentence = "A picture of a gradient.";
-};
-
-} // namespace nephroid::preset
-
 namespace nephroid::gradient {
 
-template <class V, preset::Is<Settings> S>
-void describe(V& v, S& s)
+void describe(preset::Fields& v, Settings& s)
 {
+  v.about("Gradient", "A picture of a gradient.");
   v.field({.name = "level", .sentence = "Brightness at the right edge.", .bounds = preset::within(0, 10)}, s.level);
   v.field({.name = "noise", .sentence = "Standard deviation of one sample.", .bounds = preset::within(0, 1)}, s.noise);
   v.field({.name = "samples_per_pass", .sentence = "Samples of a pixel in one pass.", .bounds = preset::within(1, 1000)},

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random presets: every field that means something gets a random legal value, by a visitor over the descriptions.
+// Random presets: every field that means something gets a random legal value, by the descriptions.
 #pragma once
 #include "preset/describe.h"
-#include "preset/settings_type.h"
 #include "spectral/describe_settings.h"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 
@@ -16,35 +14,19 @@ class Randomizer {
 public:
   explicit Randomizer(std::uint64_t seed) : random_(seed) {}
 
-  template <class E>
-  void type(const preset::Field&, E& value)
+  void fill_object(const preset::Value& object)
   {
-    choose(value);
-  }
-  template <class T>
-  void field(const preset::Field& f, T& value)
-  {
-    fill(f, value);
-  }
-  void engine(const preset::Field&, preset::Settings&) {} // the first
-  void settings(preset::Settings& settings) { describe(*this, settings.as<spectral::Settings>()); }
-  void settings(std::optional<preset::Settings>& recipe)
-  {
-    recipe.reset();
-    if (random_() % 2) settings(recipe.emplace());
+    std::vector<preset::Member> members = object.members();
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      const preset::Member member = members[i];
+      if (member.role == preset::Role::engine || !member.value.exists()) continue; // the first engine
+      if (member.role == preset::Role::recipe && member.field.name != "spectral") continue;
+      fill(member.field, member.value);
+      if (member.role == preset::Role::type) members = object.members();
+    }
   }
 
 private:
-  template <class T>
-  using Rows = std::vector<std::array<T, 2>>;
-
-  template <class E>
-  void choose(E& value)
-  {
-    const auto& all = preset::Choices<E>::all;
-    value = all[random_() % std::size(all)].value;
-  }
-
   /// Spread over the whole range with all bits of the mantissa in use, sometimes at an end.
   double number(const preset::Bounds& bounds)
   {
@@ -56,67 +38,51 @@ private:
     return bounds.contain(small) ? small : bounds.contain(x) ? x : 0.5 * (low + high);
   }
 
-  void fill(const preset::Field& f, double& value) { value = number(f.bounds); }
-  void fill(const preset::Field&, bool& value) { value = random_() % 2; }
-  void fill(const preset::Field&, std::uint64_t& value) { value = random_(); }
-  void fill(const preset::Field& f, int& value)
-  {
-    value = std::uniform_int_distribution<int>(static_cast<int>(f.bounds.low), static_cast<int>(f.bounds.high))(random_);
-  }
-  template <preset::Enumeration E>
-  void fill(const preset::Field&, E& value)
-  {
-    choose(value);
-  }
-  void fill(const preset::Field&, std::string& value)
+  std::string text()
   {
     static const char* parts[] = {"glass", "\"", "\\", "/", "~", " ", "ü", "光", "1.5", "."};
-    value.clear();
+    std::string value;
     for (std::size_t i = 0; i < 1 + random_() % 5; ++i) value += parts[random_() % std::size(parts)];
+    return value;
   }
-  template <class T, std::size_t N>
-  void fill(const preset::Field& f, std::array<T, N>& value)
+
+  void fill(const preset::Field& f, const preset::Value& value)
   {
-    for (T& x : value) fill(f, x);
-  }
-  std::size_t count(const preset::Count& c) { return c.low + random_() % 3; }
-  void fill(const preset::Field& f, std::vector<double>& value)
-  {
-    value.resize(count(f.count));
-    for (double& x : value) x = number(f.bounds);
-  }
-  void fill(const preset::Field& f, Rows<double>& value)
-  {
-    value.resize(count(f.count));
-    for (auto& row : value) row = {number(f.columns.first.bounds), number(f.columns.second.bounds)};
-  }
-  template <preset::Described S>
-  void fill(const preset::Field&, S& s)
-  {
-    describe(*this, s);
-  }
-  template <preset::Described S>
-  void fill(const preset::Field& f, std::vector<S>& list)
-  {
-    list.resize(count(f.count));
-    for (S& s : list) describe(*this, s);
-  }
-  template <preset::Described S>
-  void fill(const preset::Field& f, std::map<std::string, S>& map)
-  {
-    map.clear();
-    for (std::size_t i = 0; i < 2 + random_() % 3; ++i) {
-      std::string name;
-      fill(f, name);
-      map[name] = S{}; // a name that came before starts anew
-      describe(*this, map[name]);
+    using preset::Kind;
+    switch (value.kind()) {
+    case Kind::boolean:
+      value.as<bool>() = random_() % 2;
+      break;
+    case Kind::integer:
+      if (value.is<int>())
+        value.as<int>() = std::uniform_int_distribution<int>(static_cast<int>(f.bounds.low), static_cast<int>(f.bounds.high))(random_);
+      else
+        value.as<std::uint64_t>() = random_();
+      break;
+    case Kind::number:
+      value.as<double>() = number(f.bounds);
+      break;
+    case Kind::text:
+      value.as<std::string>() = text();
+      break;
+    case Kind::word:
+      value.choose(random_() % value.type().words.size());
+      break;
+    case Kind::object:
+      fill_object(value);
+      break;
+    case Kind::map:
+      value.resize(0);
+      for (std::size_t i = 0; i < 2 + random_() % 3; ++i) fill_object(value.add(text()));
+      break;
+    default:
+      value.resize(value.kind() == Kind::optional ? random_() % 2 : f.count.low + random_() % 3);
+      for (std::size_t i = 0; i < value.count(); ++i)
+        if (value.kind() == Kind::table)
+          for (std::size_t k = 0; k < 2; ++k) value[i][k].as<double>() = number(f.columns[k].bounds);
+        else
+          fill(f, value[i]);
     }
-  }
-  template <class T>
-  void fill(const preset::Field& f, std::optional<T>& value)
-  {
-    value.reset();
-    if (random_() % 2) fill(f, value.emplace());
   }
 
   std::mt19937_64 random_;
@@ -128,7 +94,7 @@ inline preset::Preset random_preset(std::uint64_t seed)
   using namespace preset;
   Preset p;
   Randomizer randomizer(seed);
-  describe(randomizer, p);
+  randomizer.fill_object(Value(p));
   p.source = "random.json";
   for (auto& [name, m] : p.scene.materials) {
     Dispersion& d = m.dispersion;

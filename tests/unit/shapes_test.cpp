@@ -212,35 +212,6 @@ TEST(Shapes, InwardsTurnsEverythingRound)
   }
 }
 
-void expect_refused(const preset::Shape& bad, const char* pointer)
-{
-  EXPECT_THAT(refusal_of([&] { make_shape(bad, Place("p.json", "/scene/objects/0/shape")); }),
-              StartsWith(std::string("p.json#/scene/objects/0/shape/") + pointer + ": "));
-}
-
-TEST(Shapes, RefusesWhatIsNoShape)
-{
-  preset::Shape bad = shape(Type::sphere);
-  bad.radius = 0;
-  expect_refused(bad, "radius");
-  bad.radius = std::nan("");
-  expect_refused(bad, "radius");
-  bad = shape(Type::cylinder);
-  bad.segments = 2;
-  expect_refused(bad, "segments");
-  bad.segments = 1 << 20; // would be 10^12 triangles
-  expect_refused(bad, "segments");
-  bad = shape(Type::box);
-  bad.size = {1, -1, 1};
-  expect_refused(bad, "size/1");
-  bad = shape(Type::prism);
-  bad.apex_deg = 180;
-  expect_refused(bad, "apex_deg");
-  bad = shape(Type::cylinder);
-  bad.height = 0;
-  expect_refused(bad, "height");
-}
-
 TEST(Shapes, CoarsestCylindersAreClosed)
 {
   for (int segments : {3, 4, 5}) {

@@ -5,7 +5,6 @@
 #include "base/files.h"
 #include "base/json_output.h"
 #include "base/place.h"
-#include "preset/outline.h"
 #include "preset/read.h"
 #include "scene/materials.h"
 
@@ -17,31 +16,11 @@ namespace nephroid::ui {
 namespace {
 
 using Pointer = Json::json_pointer;
-using preset::Outline;
 
 std::string parent_of(const std::string& pointer) { return pointer.substr(0, std::min(pointer.rfind('/'), pointer.size())); }
 
-/// Files that `after` names and `before` does not are there. Those of dispersions are read below.
-void check_files(const std::vector<Outline>& fields, const Json& before, const Json& after, const Place& where, const FileFinder& finder)
-{
-  const auto inside = [](const Json& json, const std::string& key) { return json.is_object() ? json.value(key, Json()) : Json(); };
-  for (const Outline& o : fields) {
-    const std::string name(o.field.name);
-    const Place at = where / name;
-    const Json was = inside(before, name);
-    const Json now = inside(after, name);
-    if (now == was || now.is_null()) continue;
-    if (o.kind == Outline::Kind::text && o.field.text == preset::Text::file)
-      finder.find(now.get<std::string>(), at);
-    else if (o.kind == Outline::Kind::object)
-      check_files(o.fields(now), was, now, at, finder);
-    else if (o.kind == Outline::Kind::list)
-      for (std::size_t i = 0; i < now.size(); ++i) check_files(o.fields(now[i]), i < was.size() ? was[i] : Json(), now[i], at / i, finder);
-  }
-}
-
 /// What a run would refuse of what changed, as far as that is known without it: files that are missing, spectra and curves.
-void check_loads(const preset::Preset& before, const preset::Preset& after, const Json& json_before, const Json& json_after)
+void check_loads(const preset::Preset& before, const preset::Preset& after)
 {
   const Place where{after.source, std::string()};
   const FileFinder finder(std::filesystem::path(after.source).parent_path());
@@ -56,7 +35,9 @@ void check_loads(const preset::Preset& before, const preset::Preset& after, cons
     if (i >= before.scene.lights.size() || before.scene.lights[i].spectrum != spectrum)
       scene::make_light_spectrum(spectrum, where / "scene" / "lights" / i / "spectrum");
   }
-  check_files(preset::outline(json_after), json_before, json_after, where, finder);
+  const auto known = preset::file_names(before);
+  for (const auto& file : preset::file_names(after))
+    if (std::find(known.begin(), known.end(), file) == known.end()) finder.find(file.second, {after.source, file.first});
 }
 
 } // namespace
@@ -109,7 +90,7 @@ std::optional<Problem> Draft::problem_of(const Edits& edits, const std::string& 
   try {
     const Json value = with(edits);
     edited = preset::parse_preset(json_text(value), preset_.source);
-    check_loads(preset_, edited, base_, value);
+    check_loads(preset_, edited);
   } catch (const Error& error) {
     const Place& place = error.place();
     const bool known = place.name == preset_.source && place.pointer;

@@ -5,6 +5,8 @@
 #include "preset/json_text.h"
 #include "preset/preset.h"
 
+#include <nlohmann/json.hpp>
+
 #include <map>
 #include <optional>
 #include <string>

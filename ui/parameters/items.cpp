@@ -143,7 +143,7 @@ void ParametersPanel::draw_items(const Outline& o, const Json& value, const std:
     const std::string name = item.value("name", "");
     const bool open = draw_label(name.empty() ? key : fmt::format("{}  {}", key, name), at, false, true);
     ImGui::TableNextColumn();
-    draw_type(o.fields, item, at);
+    draw_type(o, item, at);
     draw_item_buttons(value, key, pointer);
     if (o.kind == Kind::map && open) {
       ImGui::TextDisabled("name");

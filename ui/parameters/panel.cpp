@@ -56,7 +56,7 @@ Json given(const Outline& o)
   if (o.kind == Kind::number) return number;
   if (o.kind == Kind::integer) return static_cast<std::int64_t>(number);
   if (o.size > 0) return std::vector<double>(o.size, number);
-  return o.fresh ? o.fresh() : o.kind == Kind::boolean ? Json(false) : o.kind == Kind::text ? Json("") : Json::array();
+  return o.object ? o.fresh() : o.kind == Kind::boolean ? Json(false) : o.kind == Kind::text ? Json("") : Json::array();
 }
 
 std::string lower(std::string text)
@@ -81,7 +81,7 @@ std::string help_of(const Outline& o, const std::string& pointer)
 {
   std::string text = fmt::format("{}: {}", dotted(pointer), o.field.sentence);
   if (o.kind == Kind::object) return text;
-  text += fmt::format("\nWanted: {}", preset::expected(o));
+  text += fmt::format("\nWanted: {}", o.expected);
   if (o.optional) return text + "; may be left out";
   if (o.field.required || o.chooses || o.standard.size() > 8) return text;
   return text +
@@ -194,7 +194,7 @@ void ParametersPanel::draw_field(const Outline& o, const Json& value, const std:
   else if (leaf)
     draw_value(o, value, pointer);
   else if (o.kind == Kind::object)
-    draw_type(o.fields, value, pointer);
+    draw_type(o, value, pointer);
   else
     draw_add(o, value, pointer);
   if (changed && !value.is_null()) draw_reset(o, value, pointer);
@@ -295,8 +295,8 @@ bool ParametersPanel::is_wanted(const Outline& o, const Json& value, const std::
   if (only_changed_ && !is_changed(o, value)) return false;
   const std::string wanted = lower(search_);
   if (holds(lower(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit)), wanted)) return true;
-  if (!o.fields && wanted.starts_with(lower(dotted(pointer)) + ".")) return true; // a number of it
-  if (value.is_null() || !o.fields) return false;
+  if (!o.object && wanted.starts_with(lower(dotted(pointer)) + ".")) return true; // a number of it
+  if (value.is_null() || !o.object) return false;
   if (o.kind == Kind::object) return any_wanted(o, value, pointer);
   const auto items = value.items();
   return std::any_of(items.begin(), items.end(),

@@ -25,7 +25,6 @@ public:
 private:
   using Outline = preset::Outline;
   using Fields = std::vector<Outline>;
-  using FieldsOf = Fields (*)(const Json&);
   using Problems = std::map<std::string, Problem>;
 
   /// An edit that a widget asks for; made once everything is drawn, as what is drawn is the draft.
@@ -64,7 +63,7 @@ private:
   void draw_number(const Number& number, const Json& value, const std::string& pointer);
   void draw_choice(const std::string& pointer, const std::string& now, const std::vector<Outline::Word>& words,
                    const std::function<void(std::string_view)>& choose, float width);
-  void draw_type(const FieldsOf& fields, const Json& object, const std::string& pointer);
+  void draw_type(const Outline& o, const Json& object, const std::string& pointer);
   void draw_file_choice(const std::string& pointer);
   std::optional<std::string> type_text(const std::string& id, const std::string& before, float width,
                                        const std::function<std::optional<Problem>(const std::string&)>& problem);

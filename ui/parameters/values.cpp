@@ -213,13 +213,14 @@ void ParametersPanel::draw_choice(const std::string& pointer, const std::string&
 }
 
 /// In the row of an object: which type it is, where there are several.
-void ParametersPanel::draw_type(const FieldsOf& fields, const Json& object, const std::string& pointer)
+void ParametersPanel::draw_type(const Outline& o, const Json& object, const std::string& pointer)
 {
-  const Fields all = fields(object);
-  const auto chooser = std::find_if(all.begin(), all.end(), [](const Outline& o) { return o.chooses; });
+  const Fields all = o.fields(object);
+  const auto chooser = std::find_if(all.begin(), all.end(), [](const Outline& field) { return field.chooses; });
   if (chooser == all.end()) return ImGui::Dummy({0, ImGui::GetFrameHeight()});
   const std::string key(chooser->field.name), at = child_of(pointer, key);
   const auto choose = [&](std::string_view word) {
+    const auto fields = [&](const Json& other) { return o.fields(other); };
     ask(dotted(at) + ": " + std::string(word), pointer, preset::as_type(object, fields, *chooser, word));
   };
   draw_choice(at, object.value(key, ""), chooser->words, choose, 8 * ImGui::GetFontSize());

@@ -7,7 +7,6 @@
 #include "base/lower_case.h"
 #include "preset/choices.h"
 #include "preset/differences.h"
-#include "preset/outline.h"
 #include "preset/read.h"
 
 #include <fmt/format.h>
@@ -20,9 +19,6 @@ namespace nephroid::ui {
 namespace fs = std::filesystem;
 namespace {
 
-using preset::Json;
-using preset::Outline;
-
 /// Seconds since 1970; 0 where nobody can tell.
 std::int64_t time_of(const fs::path& file)
 {
@@ -30,28 +26,11 @@ std::int64_t time_of(const fs::path& file)
   return ::stat(file.c_str(), &status) == 0 ? status.st_mtime : 0;
 }
 
-/// The names of files in a value of a preset.
-void add_files(const std::vector<Outline>& fields, const Json& object, std::vector<std::string>& names)
-{
-  for (const Outline& o : fields) {
-    if (!object.is_object() || !object.contains(o.field.name)) continue;
-    const Json& value = object[o.field.name];
-    if (value.is_null()) continue;
-    if (o.kind == Outline::Kind::text && o.field.text == preset::Text::file) {
-      const std::string name = value.get<std::string>();
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    } else if (o.kind == Outline::Kind::object)
-      add_files(o.fields(value), value, names);
-    else if (o.kind == Outline::Kind::list || o.kind == Outline::Kind::map)
-      for (const Json& item : value) add_files(o.fields(item), item, names);
-  }
-}
-
 std::vector<Need> needs_of(const preset::Preset& preset)
 {
-  const Json json = Json::parse(preset::to_json(preset));
   std::vector<std::string> names;
-  add_files(preset::outline(json), json, names);
+  for (auto& [pointer, name] : preset::file_names(preset))
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
   const FileFinder finder(fs::path(preset.source).parent_path());
   std::vector<Need> needs;
   for (std::string& name : names) {

@@ -38,7 +38,7 @@ void collect(const std::vector<Outline>& outline, const Json& object, const std:
     const Json value = object.contains(name) ? object[name] : Json();
     if (o.kind == Kind::number || o.kind == Kind::integer) {
       const double low = std::isfinite(o.field.bounds.low) ? o.field.bounds.low : 0;
-      all.push_back({key, o.kind == Kind::integer, o.field.bounds, std::string(o.field.sentence), preset::expected(o),
+      all.push_back({key, o.kind == Kind::integer, o.field.bounds, std::string(o.field.sentence), o.expected,
                      value.is_number() ? value.get<double>() : low});
     } else if (o.kind == Kind::object && value.is_object())
       collect(o.fields(value), value, key + '.', all);

@@ -4,8 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
-#include "cli/examples.h"
-#include "cli/numbers.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "environment/segment/picture.h"
 #include "environment/segment/quality.h"
@@ -147,26 +146,23 @@ void print_segments(const SegmentOptions& options)
 void add_segment(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<SegmentOptions>();
-  CLI::App* verb = program.add_subcommand("segment", "The directional lights that an environment is cut into");
-  verb->footer(examples({{"nephroid segment spectral/three-lamps -q 24 -o lights.png", "24 lights, and where they are on the map"}}));
-  verb->add_option("ENVIRONMENT", options->environment,
-                   "A latitude-longitude picture (EXR, HDR, PNG, ...), or a preset with scene.environment")
-      ->required();
-  verb->add_option("-q", options->lights, "How many lights, at least 6")
-      ->required()
-      ->transform(number_from_to(environment::face_count, most_lights))
-      ->type_name("N");
-  verb->add_option("--method", options->method,
-                   "variance (default): cut where most is left out; thesis (Algorithm 3.3): halves of equal radiance")
-      ->check(CLI::IsMember(std::vector<std::string>{"variance", "thesis"}))
-      ->type_name("METHOD");
-  verb->add_option("--weights", options->weights,
-                   "A texel of the cube counts as much as its solid angle (default) or as every other texel (as in the thesis)")
-      ->check(CLI::IsMember(std::vector<std::string>{"solid-angle", "texel"}))
-      ->type_name("WEIGHTS");
-  verb->add_option("-o,--output", options->picture, "Write a PNG of the map with the regions' borders and directions")->type_name("FILE");
-  verb->add_flag("--json", options->json, "One JSON object instead of text");
-  verb->callback([options] { print_segments(*options); });
+  Verb verb(program, "segment", "The directional lights that an environment is cut into",
+            {{"nephroid segment spectral/three-lamps -q 24 -o lights.png", "24 lights, and where they are on the map"}});
+  verb.option("ENVIRONMENT", options->environment,
+              {.says = "A latitude-longitude picture (EXR, HDR, PNG, ...), or a preset with scene.environment", .required = true});
+  verb.option("-q", options->lights,
+              {.type = "N", .says = "How many lights, at least 6", .required = true, .from = environment::face_count, .to = most_lights});
+  verb.option("--method", options->method,
+              {.type = "METHOD",
+               .says = "variance (default): cut where most is left out; thesis (Algorithm 3.3): halves of equal radiance",
+               .words = {"variance", "thesis"}});
+  verb.option("--weights", options->weights,
+              {.type = "WEIGHTS",
+               .says = "A texel of the cube counts as much as its solid angle (default) or as every other texel (as in the thesis)",
+               .words = {"solid-angle", "texel"}});
+  verb.option("-o,--output", options->picture, {.type = "FILE", .says = "Write a PNG of the map with the regions' borders and directions"});
+  verb.flag("--json", options->json, "One JSON object instead of text");
+  verb.work([options] { print_segments(*options); });
 }
 
 } // namespace nephroid::cli

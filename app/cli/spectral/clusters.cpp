@@ -6,8 +6,8 @@
 #include "base/files.h"
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
-#include "cli/examples.h"
 #include "cli/spectral/wavelength_runs.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "preset/choices.h"
 #include "preset/origins.h"
@@ -138,28 +138,24 @@ void print_clusters(const ClusterOptions& options)
 void add_clusters(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<ClusterOptions>();
-  CLI::App* verb = program.add_subcommand("clusters", "Which wavelengths share one path through a glass");
-  verb->footer(
-      examples({{"nephroid clusters first-light", ""}, {"nephroid clusters --ior N-SF66 --threshold 0.1", "of a glass, without a scene"}}));
-  verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset");
-  verb->add_option("--ior", options->ior, "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset")
-      ->type_name("FILE");
-  verb->add_option("--material", options->material, "Which dielectric of the preset, where it has several")->type_name("NAME");
-  verb->add_option("--threshold", options->threshold_deg,
-                   "The largest change of the refraction angle inside a cluster, in degrees; default: the preset's, else 0.05")
-      ->type_name("DEG");
+  Verb verb(program, "clusters", "Which wavelengths share one path through a glass",
+            {{"nephroid clusters first-light", ""}, {"nephroid clusters --ior N-SF66 --threshold 0.1", "of a glass, without a scene"}});
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset"});
+  verb.option("--ior", options->ior,
+              {.type = "FILE", .says = "A refractiveindex.info file or a shipped material (N-SF66) instead of a preset"});
+  verb.option("--material", options->material, {.type = "NAME", .says = "Which dielectric of the preset, where it has several"});
+  verb.option(
+      "--threshold", options->threshold_deg,
+      {.type = "DEG", .says = "The largest change of the refraction angle inside a cluster, in degrees; default: the preset's, else 0.05"});
   std::vector<std::string> names;
   for (const auto& choice : preset::Choices<ClusterMethod>::all) names.emplace_back(choice.name);
-  verb->add_option("--method", options->method, "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal")
-      ->check(CLI::IsMember(names))
-      ->type_name("METHOD");
-  verb->add_option("--set", options->overrides, "Change a setting of the preset, as for run; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->take_all();
-  add_outside_option(*verb, options->outside);
-  verb->add_flag("--json", options->json, "One JSON object instead of text");
-  verb->callback([options] { print_clusters(*options); });
+  verb.option(
+      "--method", options->method,
+      {.type = "METHOD", .says = "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal", .words = names});
+  verb.overrides(options->overrides, "Change a setting of the preset, as for run; may be repeated");
+  add_outside_option(verb, options->outside);
+  verb.flag("--json", options->json, "One JSON object instead of text");
+  verb.work([options] { print_clusters(*options); });
 }
 
 } // namespace nephroid::cli

@@ -3,8 +3,8 @@
 #include "spectral/effort/importance.h"
 #include "base/counted.h"
 #include "base/json_output.h"
-#include "cli/examples.h"
 #include "cli/spectral/wavelength_runs.h"
+#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "preset/origins.h"
 #include "preset/read.h"
@@ -147,19 +147,16 @@ void print_importance(const ImportanceOptions& options)
 void add_importance(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<ImportanceOptions>();
-  CLI::App* verb = program.add_subcommand("importance", "How much each wavelength matters, and the iterations its cluster gets");
-  verb->footer(examples({{"nephroid importance spectral/prism", ""}}));
-  verb->add_option("PRESET", options->preset, "A preset file or the name of a shipped preset")->required();
-  verb->add_option("--set", options->overrides, "Change a setting: spectral.importance.geometry=false; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->take_all();
-  verb->add_option("--method", options->method,
-                   "thesis (4.15) or radziszewski; default: thesis, unless the preset's effort is radziszewski")
-      ->check(CLI::IsMember({"thesis", "radziszewski"}))
-      ->type_name("METHOD");
-  verb->add_flag("--json", options->json, "One JSON object a run, a line each, instead of text");
-  verb->callback([options] { print_importance(*options); });
+  Verb verb(program, "importance", "How much each wavelength matters, and the iterations its cluster gets",
+            {{"nephroid importance spectral/prism", ""}});
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
+  verb.overrides(options->overrides, "Change a setting: spectral.importance.geometry=false; may be repeated");
+  verb.option("--method", options->method,
+              {.type = "METHOD",
+               .says = "thesis (4.15) or radziszewski; default: thesis, unless the preset's effort is radziszewski",
+               .words = {"thesis", "radziszewski"}});
+  verb.flag("--json", options->json, "One JSON object a run, a line each, instead of text");
+  verb.work([options] { print_importance(*options); });
 }
 
 } // namespace nephroid::cli

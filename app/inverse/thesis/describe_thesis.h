@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section "inverse.thesis" described for visitors: preset/describe.h says what a visitor is.
+// The section "inverse.thesis" as preset/describe.h says.
 #pragma once
 #include "inverse/thesis/thesis_settings.h"
-#include "preset/field.h"
+#include "preset/value.h"
 
 namespace nephroid::preset {
 
@@ -22,18 +22,13 @@ struct Choices<inverse::Thesis::Adjust> {
       {Adjust::each, "each", "Four numbers a picture: its size, its place across and down, its distance."}};
 };
 
-template <>
-struct About<inverse::Thesis> {
-  static constexpr std::string_view name = "InverseThesis", sentence = "Constants of the method \"thesis\".";
-};
-
 } // namespace nephroid::preset
 
 namespace nephroid::inverse {
 
-template <class V, preset::Is<Thesis> S>
-void describe(V& v, S& t)
+inline void describe(preset::Fields& v, Thesis& t)
 {
+  v.about("InverseThesis", "Constants of the method \"thesis\".");
   using preset::within;
   const auto share = [&](std::string_view name, std::string_view sentence, auto& value, std::string_view unit = {}) {
     v.field({.name = name, .sentence = sentence, .unit = unit, .bounds = within(0, 1)}, value);

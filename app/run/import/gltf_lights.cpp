@@ -37,52 +37,52 @@ LightColour light_colour(const std::array<double, 3>& rgb)
   std::array<double, 3> colour = rgb;
   for (double& c : colour) c = std::clamp(c, 0.0, 1e6);
   const double luminance = optics::linear_srgb_to_xyz(colour)[1];
-  LightColour made; // D65
+  LightColour light; // D65
   const double largest = std::max({colour[0], colour[1], colour[2]}), least = std::min({colour[0], colour[1], colour[2]});
-  if (!(largest > 0)) return made; // black: no watts
+  if (!(largest > 0)) return light; // black: no watts
   if (largest - least < 1e-3 * largest) {
-    made.watts_per_lumen = luminance / lumens_per_watt(optics::illuminant("D65"));
-    return made;
+    light.watts_per_lumen = luminance / lumens_per_watt(optics::illuminant("D65"));
+    return light;
   }
   optics::Spectrum spectrum{};
   for (std::size_t i = 0; i < spectrum.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) spectrum[i] += colour[c] / largest * optics::primary_spectra()[c][i];
-  made.spectrum.type = preset::LightSpectrum::Type::table;
+  light.spectrum.type = preset::LightSpectrum::Type::table;
   for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) // power cannot be negative, so saturated colours become a little paler
-    made.spectrum.table.push_back({static_cast<double>(nm), std::max(0.0, spectrum[static_cast<std::size_t>(nm - optics::first_nm)])});
-  made.watts_per_lumen = luminance / lumens_per_watt(scene::make_light_spectrum(made.spectrum, "spectrum"));
-  return made;
+    light.spectrum.table.push_back({static_cast<double>(nm), std::max(0.0, spectrum[static_cast<std::size_t>(nm - optics::first_nm)])});
+  light.watts_per_lumen = luminance / lumens_per_watt(scene::make_light_spectrum(light.spectrum, "spectrum"));
+  return light;
 }
 
-preset::Light light_of(const GltfValue& light, const glm::dmat4& to_world, const std::string& name, std::vector<std::string>& notes)
+preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const std::string& name, std::vector<std::string>& notes)
 {
-  preset::Light made;
-  const std::string type = light.text("type");
-  const LightColour colour = light_colour(light.numbers<3>("color", {1, 1, 1}));
-  const double intensity = std::max(0.0, light.number("intensity", 1));
-  made.spectrum = colour.spectrum;
-  made.position = vec3(glm::dvec3(to_world[3]));
+  preset::Light light;
+  const std::string type = value.text("type");
+  const LightColour colour = light_colour(value.numbers<3>("color", {1, 1, 1}));
+  const double intensity = std::max(0.0, value.number("intensity", 1));
+  light.spectrum = colour.spectrum;
+  light.position = vec3(glm::dvec3(to_world[3]));
   const glm::dvec3 forward = -glm::dvec3(to_world[2]);
-  made.direction = glm::length(forward) > 0 ? vec3(glm::normalize(forward)) : preset::Vec3{0, 0, -1};
+  light.direction = glm::length(forward) > 0 ? vec3(glm::normalize(forward)) : preset::Vec3{0, 0, -1};
   if (type == "point") {
-    made.power_w = 4 * pi * intensity * colour.watts_per_lumen; // candela over the whole sphere
+    light.power_w = 4 * pi * intensity * colour.watts_per_lumen; // candela over the whole sphere
   } else if (type == "spot") {
-    const GltfValue spot = light.object("spot");
+    const GltfValue spot = value.object("spot");
     const double outer = std::clamp(spot.number("outerConeAngle", pi / 4), 1e-3, pi / 2), inner = spot.number("innerConeAngle", 0);
-    made.type = preset::Light::Type::spot;
-    made.half_angle_deg = outer * 180 / pi;
-    made.power_w = 2 * pi * (1 - std::cos(outer)) * intensity * colour.watts_per_lumen; // candela over the cone's solid angle
+    light.type = preset::Light::Type::spot;
+    light.half_angle_deg = outer * 180 / pi;
+    light.power_w = 2 * pi * (1 - std::cos(outer)) * intensity * colour.watts_per_lumen; // candela over the cone's solid angle
     if (inner < 0.99 * outer)
       notes.push_back(fmt::format("light '{}' fades towards the edge of its cone in the file and does not here", name));
   } else if (type == "directional") {
-    made.type = preset::Light::Type::directional;
-    made.irradiance_w_m2 = intensity * colour.watts_per_lumen;
+    light.type = preset::Light::Type::directional;
+    light.irradiance_w_m2 = intensity * colour.watts_per_lumen;
   } else
-    throw bad_input(light.where() / "type", "is \"" + type + "\"", "expected point, spot or directional");
-  made.power_w = std::min(made.power_w, 1e9);
-  made.irradiance_w_m2 = std::min(made.irradiance_w_m2, 1e9);
-  if (light.has("range")) notes.push_back(fmt::format("light '{}' ends at a range in the file and does not here", name));
-  return made;
+    throw bad_input(value.where() / "type", "is \"" + type + "\"", "expected point, spot or directional");
+  light.power_w = std::min(light.power_w, 1e9);
+  light.irradiance_w_m2 = std::min(light.irradiance_w_m2, 1e9);
+  if (value.has("range")) notes.push_back(fmt::format("light '{}' ends at a range in the file and does not here", name));
+  return light;
 }
 
 double luminous_irradiance(const preset::Light& light, const glm::dvec3& at)

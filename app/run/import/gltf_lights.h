@@ -24,7 +24,7 @@ LightColour light_colour(const std::array<double, 3>& rgb);
 
 /// The light of a node, which shines along its -z axis. light: an item of the extension's list. Intensities in candela, of "directional" in
 /// lux.
-preset::Light light_of(const GltfValue& light, const glm::dmat4& to_world, const std::string& name, std::vector<std::string>& notes);
+preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const std::string& name, std::vector<std::string>& notes);
 
 /// What the light gives a surface that faces it at this point, in luminous watts a square metre: lux / 683.
 double luminous_irradiance(const preset::Light& light, const glm::dvec3& at);

@@ -22,6 +22,6 @@ std::string absorbing_glass_file(const GltfValue& material, const preset::Disper
 preset::Reflectance reflectance_of(const std::array<double, 3>& rgb);
 
 /// name: for notes, which say what has no counterpart.
-preset::Material material_of(const GltfValue& material, const std::string& name, std::vector<std::string>& notes);
+preset::Material material_of(const GltfValue& value, const std::string& name, std::vector<std::string>& notes);
 
 } // namespace nephroid::run

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp and manual.cpp only: each
+// file that includes it takes seconds more to compile.
+#pragma once
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace nephroid::cli {
+
+struct Example {
+  std::string command; ///< with "nephroid"
+  std::string says;    ///< may be empty
+};
+
+/// "Examples:", then a line each: what says is a comment, so that a line can be pasted into a shell. tests/docs runs each of them as it
+/// stands, one after the other.
+std::string examples(const std::vector<Example>& list);
+
+struct Option {
+  const char* type = nullptr; ///< what a value is called in the help
+  std::string says = {};
+  std::vector<std::string> words = {}; ///< the only ones it takes; empty: any
+  bool required = false;
+  char separator = 0; ///< that may stand between several values in one argument
+  /// Of a number. Without `from` any, as CLI11 reads it: "nan", -1 as 2^64 - 1, and 1e30 as the largest whole number.
+  double from = std::numeric_limits<double>::quiet_NaN(), to = std::numeric_limits<double>::infinity();
+  const char* needs = nullptr; ///< another option
+};
+
+/// The values that options are read into must live until the work is done.
+class Verb {
+public:
+  Verb(CLI::App& program, const char* name, const char* says, const std::vector<Example>& examples, const char* more = "");
+  /// The program itself, whose options then stand under `group` in its help.
+  Verb(CLI::App& program, const char* group) : app_(program), group_(group) {}
+
+  /// names: "-o,--output", or of an argument "FILE". Value: a number, a std::string, a path, a std::optional of these; a std::array, or a
+  /// std::vector, for which the option may be repeated.
+  template <class Value>
+  void option(const char* names, Value& value, const Option& option);
+  void flag(const char* name, bool& value, const std::string& says, const char* excludes = nullptr);
+  /// --set KEY=VALUE
+  void overrides(std::vector<std::string>& values, const std::string& says = "Change a setting: scene.lights.0.power_w=2; may be repeated");
+  void work(std::function<void()> work);
+
+private:
+  CLI::App& app_;
+  const char* group_ = nullptr;
+};
+
+} // namespace nephroid::cli

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preset/value.h"
+
+#include "preset/settings_type.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nephroid::preset {
+
+Settings::Settings() : Settings(*settings_types().front()) {}
+Settings::Settings(const SettingsType& type) : type_(&type), value_(type.make()) {}
+
+std::string_view Settings::engine() const { return type_->name; }
+
+bool Settings::operator==(const Settings& other) const { return type_ == other.type_ && type_->equal(value_, other.value_); }
+
+std::vector<Member> Value::members() const
+{
+  Fields fields;
+  type_->describe(fields, at_);
+  return std::move(fields.members_);
+}
+
+void Fields::settings(Settings& settings)
+{
+  for (const SettingsType* type : settings_types()) {
+    const ValueType& section = type->section();
+    members_.push_back({{.name = type->name, .sentence = section.sentence}, {type->of(settings), section}, Role::section});
+  }
+}
+
+void Fields::settings(std::optional<Settings>& settings)
+{
+  for (const SettingsType* type : settings_types())
+    members_.push_back({{.name = type->name, .sentence = "Settings of the engine; without them the run's own, made exact."},
+                        {&settings, type->recipe()},
+                        Role::recipe});
+}
+
+ValueType described(ValueType type)
+{
+  Fields fields;
+  type.describe(fields, type.make().get());
+  type.name = fields.name_;
+  type.sentence = fields.sentence_;
+  type.shorthands = std::move(fields.shorthands_);
+  return type;
+}
+
+ValueType make_type(std::string*) { return {.kind = Kind::text}; }
+
+ValueType make_type(Settings*)
+{
+  ValueType type{.kind = Kind::word};
+  for (const SettingsType* settings : settings_types()) type.words.push_back({settings->name, settings->sentence});
+  type.word = [](const void* settings) {
+    const auto& types = settings_types();
+    const auto own = std::find(types.begin(), types.end(), &static_cast<const Settings*>(settings)->type());
+    return static_cast<std::size_t>(own - types.begin());
+  };
+  type.choose = [](void* settings, std::size_t i) { *static_cast<Settings*>(settings) = Settings(*settings_types()[i]); };
+  return type;
+}
+
+Kind kind_of_list(Kind item)
+{
+  switch (item) {
+  case Kind::number:
+    return Kind::numbers;
+  case Kind::text:
+    return Kind::texts;
+  case Kind::numbers:
+    return Kind::table;
+  default:
+    return Kind::list;
+  }
+}
+
+} // namespace nephroid::preset
