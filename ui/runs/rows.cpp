@@ -6,6 +6,7 @@
 #include "ui/state/run_record.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
