@@ -92,7 +92,8 @@ Json write_picture_at(const fs::path& folder, double seconds, const Prepared& pr
   Json errors = Json::object();
   if (const auto& history = snapshot.history; history && !history->rows.empty() && history->rows.back().seconds >= seconds)
     errors = by_column(history->columns, history->rows.back().errors);
-  const Json written{{"seconds", seconds}, {"work_seconds", snapshot.progress.work_seconds}, {"picture", stem + ".png"}, {"errors", errors}};
+  const Json written{
+      {"seconds", seconds}, {"work_seconds", snapshot.progress.work_seconds}, {"picture", stem + ".png"}, {"errors", errors}};
   Json list = pictures_at(folder);
   list.push_back(written);
   write_list(folder, list);
