@@ -4,6 +4,7 @@
 #include "preset/describe.h"
 #include "spectral/describe_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
