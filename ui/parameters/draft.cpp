@@ -37,7 +37,8 @@ void check_loads(const preset::Preset& before, const preset::Preset& after)
   }
   const auto known = preset::file_names(before);
   for (const auto& file : preset::file_names(after))
-    if (std::find(known.begin(), known.end(), file) == known.end()) finder.find(file.second, {after.source, file.first});
+    if (std::find(known.begin(), known.end(), file) == known.end()) // a file, or a material by its short name
+      scene::find_dispersion(file.second, finder, {after.source, file.first});
 }
 
 } // namespace
