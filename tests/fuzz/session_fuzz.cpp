@@ -23,12 +23,7 @@ void read(std::string_view input)
 std::vector<std::string> seeds()
 {
   ui::Settings settings;
-  ui::EngineLayout& layout = settings.engines["spectral"];
-  layout.closed = {"Plan"};
-  layout.layout.docks.split = ui::Dock::Split::rows;
-  layout.layout.docks.parts.resize(2);
-  layout.layout.docks.parts[0].tabs = {"View"};
-  layout.layout.floating = {{"Error", {0.1, 0.1, 0.2, 0.2}}};
+  settings.engines["spectral"] = {"[Window][View]\nPos=0,20\n", {"Plan"}};
   ui::Session session;
   const preset::Preset preset = preset::read_preset("first-light");
   preset::Preset other = preset;
