@@ -188,7 +188,7 @@ Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, bool ever
 {
   scene::Scene seen = scene;
   seen.environment.reset(); // the largest part of a scene, and no look needs it
-  view_ = std::make_unique<const View>(std::move(seen), bvh);
+  view_ = std::make_unique<const View>(View{std::move(seen), bvh});
 }
 
 void Smoothing::look()
