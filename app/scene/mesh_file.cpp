@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mesh files, read by a small program of its own (reader/main.cpp), which may crash, hang or run out of memory over them. Nothing that it
-// answers is believed before it was looked at: a file that corrupts its memory makes it say anything.
+// Mesh files, read by a small program of its own (reader/main.cpp), which may crash, hang or run out of memory over them.
 #include "base/error.h"
 #include "base/files.h"
 #include "scene/mesh.h"
@@ -11,25 +10,23 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <memory>
+#include <optional>
 #include <spawn.h>
 #include <stdexcept>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <vector>
+#include <utility>
 
 namespace nephroid::scene {
 namespace {
 
 constexpr const char* formats = "a triangle mesh as OBJ, PLY, STL, glTF or 3DS";
-
-std::string nonsense(const std::string& what) { return "the program that reads it answers nonsense: " + what; }
 
 /// The reader at its work. It does not outlive this.
 class Reader {
@@ -63,22 +60,7 @@ public:
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// Fills `items` with the answer's next ones; false where it ends before them. Memory grows with what comes, not with what is promised.
-  /// Throws std::runtime_error where more than `most` are promised.
-  template <class Items>
-  bool take(Items& items, std::uint64_t most)
-  {
-    std::uint64_t count = 0;
-    if (std::fread(&count, sizeof count, 1, answer_.get()) != 1) return false;
-    if (count > most) throw std::runtime_error(nonsense(fmt::format("{} items where {} are the most", count, most)));
-    constexpr std::uint64_t piece = 1 << 20;
-    while (items.size() < count) {
-      const std::size_t before = items.size(), more = std::min(piece, count - before);
-      items.resize(before + more);
-      if (std::fread(static_cast<void*>(items.data() + before), sizeof *items.data(), more, answer_.get()) != more) return false;
-    }
-    return true;
-  }
+  std::FILE* answer() const { return answer_.get(); }
 
   /// Waits for its end; the status as waitpid gives it.
   int wait()
@@ -109,39 +91,13 @@ std::string reason_of_death(int status, unsigned cpu_seconds)
   return fmt::format("crashed ({})", strsignal(signal));
 }
 
-/// Throws std::runtime_error where the rest of the program could not rely on the mesh.
-void check_answer(const Mesh& mesh)
-{
-  const std::size_t vertices = mesh.positions.size();
-  const auto refuse = [](const std::string& what) { throw std::runtime_error(nonsense(what)); };
-  if (!mesh.normals.empty() && mesh.normals.size() != vertices)
-    refuse(fmt::format("{} normals of {} vertices", mesh.normals.size(), vertices));
-  if (mesh.mended_normals > mesh.normals.size()) refuse(fmt::format("{} mended normals of {}", mesh.mended_normals, mesh.normals.size()));
-  for (const glm::vec3& p : mesh.positions)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse("a coordinate that is not finite");
-  for (const glm::vec3& normal : mesh.normals)
-    if (!(std::abs(glm::dot(normal, normal) - 1) < 1e-3f)) refuse("a normal that is no unit vector");
-  for (const glm::uvec3& triangle : mesh.triangles)
-    for (int corner = 0; corner < 3; ++corner)
-      if (triangle[corner] >= vertices) refuse(fmt::format("a triangle with vertex {} of {}", triangle[corner], vertices));
-}
-
 /// The mesh as the reader program has it. Throws std::runtime_error with the reason why there is none.
 Mesh ask_reader(Reader& reader, unsigned cpu_seconds)
 {
-  constexpr std::uint64_t longest_refusal = 1 << 20;
-  Mesh mesh;
-  std::string refusal;
-  std::vector<std::uint32_t> mended;
-  const bool whole = reader.take(refusal, longest_refusal) && reader.take(mesh.positions, 3 * max_triangles) &&
-                     reader.take(mesh.normals, 3 * max_triangles) && reader.take(mesh.triangles, max_triangles) && reader.take(mended, 1);
+  std::optional<MeshAnswer> answer = take_answer(reader.answer());
   const int status = reader.wait();
-  if (!whole || status != 0) throw std::runtime_error(reason_of_death(status, cpu_seconds));
-  if (!refusal.empty()) throw std::runtime_error(refusal);
-  if (mended.empty()) throw std::runtime_error(nonsense("no count of mended normals"));
-  mesh.mended_normals = mended[0];
-  check_answer(mesh);
-  return mesh;
+  if (!answer || status != 0) throw std::runtime_error(reason_of_death(status, cpu_seconds));
+  return mesh_of(std::move(*answer));
 }
 
 } // namespace

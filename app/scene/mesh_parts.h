@@ -5,6 +5,8 @@
 #include "scene/mesh.h"
 
 #include <cstdint>
+#include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +30,17 @@ std::vector<glm::vec3> mean_normals(const Mesh& mesh, const std::vector<std::uin
 /// counted before it sees them (mesh_check.cpp). Throws bad_input at `where` if bytes open like a PLY or GLB file and end before what their
 /// header declares, or if the header makes no sense. Other files pass.
 void check_declared_size(std::string_view bytes, const Place& where);
+
+/// What the reader's program answers (reader/main.cpp), not yet looked at.
+struct MeshAnswer {
+  std::string refusal; ///< why it refuses the file; empty: it does not
+  Mesh mesh;           ///< but for mended_normals
+  std::vector<std::uint32_t> mended;
+};
+/// Nothing where it is cut. Throws std::runtime_error where it promises more than a mesh may have.
+std::optional<MeshAnswer> take_answer(std::FILE* from);
+/// Throws std::runtime_error: the refusal, or why the rest of the program could not rely on the mesh.
+Mesh mesh_of(MeshAnswer answer);
 
 /// Text from a file or its reader as one short line of printable ASCII, without a full stop at its end.
 std::string printable(std::string_view text);

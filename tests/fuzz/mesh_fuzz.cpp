@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the mesh reader's program answers, and what is made of a mesh that is believed; the first bytes of a mesh file.
+#include "scene/bvh.h"
+#include "scene/mesh.h"
+#include "scene/mesh_parts.h"
+#include "tests/fuzz/harness.h"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nephroid::fuzz {
+namespace {
+
+template <class Item>
+std::string list(const std::vector<Item>& items)
+{
+  const std::uint64_t count = items.size();
+  std::string bytes(sizeof count + count * sizeof(Item), '\0');
+  std::memcpy(bytes.data(), &count, sizeof count);
+  if (count > 0) std::memcpy(bytes.data() + sizeof count, static_cast<const void*>(items.data()), count * sizeof(Item));
+  return bytes;
+}
+
+std::string answer(const std::vector<char>& refusal, const std::vector<glm::vec3>& normals)
+{
+  const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<glm::uvec3> triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  return list(refusal) + list(corners) + list(normals) + list(triangles) + list(std::vector<std::uint32_t>{0});
+}
+
+scene::Mesh mesh_of(std::string_view bytes)
+{
+  std::FILE* const stream = fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");
+  try {
+    std::optional<scene::MeshAnswer> answer = scene::take_answer(stream);
+    std::fclose(stream);
+    if (!answer) throw std::runtime_error("it is cut");
+    return scene::mesh_of(std::move(*answer));
+  } catch (const std::runtime_error& refusal) { // load_mesh() says which file
+    throw bad_input("mesh", scene::printable(refusal.what()));
+  }
+}
+
+} // namespace
+
+void read(std::string_view input)
+{
+  if (input.starts_with("ply") || input.starts_with("glTF")) return scene::check_declared_size(input, "mesh.ply");
+  if (input.empty()) return;
+  scene::Mesh mesh = mesh_of(input);
+  scene::inspect(mesh);
+  scene::drop_useless(mesh);
+  if (mesh.triangles.empty()) return; // load_mesh() refuses it
+  scene::compute_smooth_normals(mesh);
+  scene::enclosing_sphere(mesh, mesh.triangles);
+  scene::signed_volume(mesh, 0, static_cast<std::uint32_t>(mesh.triangles.size()));
+  scene::build_bvh(mesh);
+}
+
+std::vector<std::string> seeds()
+{
+  return {answer({}, {}), answer({}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}}), answer({'n', 'o'}, {}),
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+          "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+          "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar short i\nend_header\n\3aabbcc"};
+}
+
+} // namespace nephroid::fuzz
