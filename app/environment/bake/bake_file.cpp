@@ -43,6 +43,14 @@ std::uint64_t length_of(const Header& h)
          texels_of(h) * (h.channels + 1) * sizeof(std::uint16_t) + sizeof(std::uint64_t);
 }
 
+/// Whether a bake can have so many of everything. The length alone does not tell: products wrap around.
+bool is_possible(const Header& h)
+{
+  constexpr std::uint64_t most = 1 << 12; // of spheres, and of texels across
+  return std::ranges::count(direction_counts(), h.directions) == 1 && h.spheres > 0 && h.spheres <= most && h.side > 0 && h.side <= most &&
+         (h.channels == 1 || h.channels == 3);
+}
+
 /// Reads the header. "" where all is right.
 std::string fault_of(ByteSource& file, const BakeIdentity& identity, Header& header)
 {
@@ -54,6 +62,9 @@ std::string fault_of(ByteSource& file, const BakeIdentity& identity, Header& hea
   if (header.format != ours.format || header.program != hash_of(version())) return "was made by another version of the program";
   if (identity.kernels != 0 && header.kernels != identity.kernels) return "was made with other kernels";
   if (header.key != identity.key) return "is of another object or of other settings";
+  if (!is_possible(header))
+    return fmt::format("says that it has {} directions, {} spheres, {} x {} texels and {} channels", header.directions, header.spheres,
+                       header.side, header.side, header.channels);
   if (length != length_of(header)) return fmt::format("has {} bytes, and {} are expected: it was cut short", length, length_of(header));
   return {};
 }
