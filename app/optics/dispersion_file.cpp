@@ -26,6 +26,9 @@ namespace {
 Place place(const std::string& file, int line) { return {file, static_cast<std::size_t>(line + 1)}; }
 Place place(const std::string& file, const YAML::Node& node) { return place(file, node.Mark().line); }
 
+/// The beginning of a text that a file may have of any length.
+std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text.substr(0, 40)); }
+
 std::vector<std::string_view> words(std::string_view text)
 {
   constexpr std::string_view blanks = " \t\r\n";
@@ -46,7 +49,7 @@ double number(std::string_view word, const Place& where)
   double value = 0;
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (code != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    throw bad_input(where, fmt::format("\"{}\" is no number", word.substr(0, 40)), "expected a finite number such as 1.5168 or 2.86E-06");
+    throw bad_input(where, in_quotes(word) + " is no number", "expected a finite number such as 1.5168 or 2.86E-06");
   return value;
 }
 
@@ -71,7 +74,7 @@ Curve formula_curve(const YAML::Node& block, int formula, const std::string& fil
   const YAML::Node range_node = text_of(block, "wavelength_range", file), values = text_of(block, "coefficients", file);
   const std::vector<double> range = numbers(range_node.Scalar(), place(file, range_node));
   if (range.size() != 2 || !(range[0] > 0) || !(range[1] >= range[0]))
-    throw bad_input(place(file, range_node), fmt::format("the wavelength range is \"{}\"", range_node.Scalar()),
+    throw bad_input(place(file, range_node), "the wavelength range is " + in_quotes(range_node.Scalar()),
                     "expected two numbers in micrometres, the lower first, above 0");
 
   std::vector<double> coefficients = numbers(values.Scalar(), place(file, values));
@@ -157,8 +160,7 @@ void read_block(const YAML::Node& block, DispersionCurve& curve, const std::stri
                                               "formula 6",    "formula 7",   "formula 8",  "formula 9", "constant",
                                               "tabulated nk", "tabulated n", "tabulated k"};
   const std::string near = nearest(type, known);
-  throw bad_input(place(file, type_node), fmt::format("the type is \"{}\"", type),
-                  "expected formula 1 to 9, tabulated n, nk or k, or constant",
+  throw bad_input(place(file, type_node), "the type is " + in_quotes(type), "expected formula 1 to 9, tabulated n, nk or k, or constant",
                   near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));
 }
 

@@ -69,6 +69,12 @@ const Malformed cases[] = {
     {"TooManyCoefficients", "DATA:\n  - type: formula 8\n    wavelength_range: 0.3 2.5\n    coefficients: 1 2 3 4 5\n",
      "f.yml:4: formula 8 has 5 coefficients; expected at most 4"},
     {"TableWithoutData", "DATA:\n  - type: tabulated n\n", "f.yml:2: the entry has no \"data\""},
+    {"TypeOfManyLetters", "DATA:\n  - type: fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff\n",
+     "f.yml:2: the type is \"ffffffffffffffffffffffffffffffffffffffff\"; expected formula 1 to 9, tabulated n, nk or k, or constant"},
+    {"RangeOfManyNumbers",
+     "DATA:\n  - type: formula 1\n    wavelength_range: 1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9\n    coefficients: 1\n",
+     "f.yml:3: the wavelength range is \"1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 \"; expected two numbers in micrometres, the lower first, "
+     "above 0"},
     {"TableIsEmpty", "DATA:\n  - type: tabulated n\n    data: \"\"\n", "f.yml:3: the table is empty; expected at least one row of numbers"},
     {"TableOfBlanks", "DATA:\n  - type: tabulated n\n    data: |\n\n\n",
      "f.yml:3: the table is empty; expected at least one row of numbers"},
