@@ -45,7 +45,7 @@ public:
     items(list);
   }
 
-private:
+protected:
   ByteSink* to_ = nullptr;
   ByteSource* from_ = nullptr;
 };

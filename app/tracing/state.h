@@ -1,48 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a checkpoint holds, byte after byte: plain values, and device buffers piece by piece, without the pieces that are all 0. So no
-// second film is held on the host, and an empty film takes no room.
+// What a checkpoint holds of a device: its buffers piece by piece, without the pieces that are all 0. So no second film is held on the
+// host, and an empty film takes no room.
 #pragma once
-#include "base/bytes.h"
+#include "base/state.h"
 #include "compute/compute.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 namespace nephroid::tracing {
 
-/// Writes or reads: what goes into a checkpoint and what comes out of it is said once, by a function state(State&) of whoever has some.
-/// What is read into may be any bytes. Throws bad_input where a checkpoint that is read ends early.
-class State {
+/// nephroid::State with the buffers of a device.
+class State : public nephroid::State {
 public:
-  /// to, from: outlives it.
-  explicit State(ByteSink& to) : to_(&to) {}
-  explicit State(ByteSource& from) : from_(&from) {}
-  bool is_read() const { return from_ != nullptr; }
+  using nephroid::State::State;
 
-  template <class T>
-  void value(T& value)
-  {
-    if constexpr (std::is_same_v<T, bool>) { // not every byte is one
-      std::uint8_t byte = value ? 1 : 0;
-      this->value(byte);
-      value = byte != 0;
-    } else
-      items(std::span(&value, 1));
-  }
-  template <class T>
-  void items(std::span<T> items)
-  {
-    static_assert(std::is_trivially_copyable_v<T>);
-    if (from_)
-      from_->read(std::as_writable_bytes(items));
-    else
-      to_->write(std::as_bytes(items));
-  }
   template <class T>
   void buffer(compute::Buffer<T>& buffer)
   {
@@ -61,8 +36,6 @@ private:
   /// The first byte is 0 and each is as the one before.
   bool all_zero() const { return piece_[0] == std::byte{0} && std::memcmp(piece_.data(), piece_.data() + 1, piece_.size() - 1) == 0; }
 
-  ByteSink* to_ = nullptr;
-  ByteSource* from_ = nullptr;
   std::vector<std::byte> piece_;
 };
 
