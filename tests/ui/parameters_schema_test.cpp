@@ -187,7 +187,7 @@ protected:
       if (HasFatalFailure()) return;
       if (pointer.empty() && !panel().draft().value().contains(name)) continue; // of the file, not of the preset
       // A preset and its reference have settings of the run's engine only; a scene's environment is no settings.
-      if (owner != "Scene" && is_engine(name) && name != drafted("/engine")) continue;
+      if (owner != "Scene" && is_engine(name) && name != drafted("/engine").get<std::string>()) continue;
       visit(property, child_of(pointer, name), owner, owner + "." + name);
     }
   }
