@@ -169,9 +169,10 @@ Image read_image(const fs::path& file)
 
 Image text_picture(const std::string& text, int height, const Place& where)
 {
-  constexpr const char* font = "DejaVuSans-Bold";
+  constexpr const char *font = "DejaVuSans-Bold", *file = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
   Image image;
-  if (const char* reason = module().text(text.c_str(), height, font, take_picture, &image))
+  // OpenImageIO 2.5 finds no name in Debian's folders of fonts.
+  if (const char* reason = module().text(text.c_str(), height, fs::exists(file) ? file : font, take_picture, &image))
     throw bad_input(where, fmt::format("\"{}\" cannot be drawn with the font {}: {}", text, font, reason),
                     "expected words, and the fonts of Debian's fonts-dejavu-core", "install them, or draw a picture file");
   return image;

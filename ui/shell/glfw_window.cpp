@@ -12,6 +12,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace nephroid::ui {
@@ -32,6 +33,9 @@ Error no_window(const std::string& what)
 
 GLFWwindow* open_glfw(const std::string& title, std::array<int, 2> size)
 {
+#ifdef GLFW_PLATFORM // since 3.4, which asks Wayland first; its library then says on standard error that there is none
+  if (!std::getenv("WAYLAND_DISPLAY")) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
   if (!glfwInit()) throw no_window("no display");
   // 3.0 is the oldest that the back end draws with; drivers give the newest that is compatible with it.
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
