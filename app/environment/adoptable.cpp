@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "environment/adoptable.h"
-
 #include "environment/engine.h"
 
 #include <algorithm>

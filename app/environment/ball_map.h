@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a sphere about a ball should get, from rays in double precision: what baked spheres are held against.
 #pragma once
-#include "environment/bake/sphere_map.h"
+#include "environment/bake/bake.h"
 #include "optics/ball.h"
 
 #include <functional>

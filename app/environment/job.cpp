@@ -2,7 +2,6 @@
 // A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
 #include "base/error.h"
 #include "base/hashed_bytes.h"
-#include "environment/adoptable.h"
 #include "environment/bake/bake_file.h"
 #include "environment/bake/own_directions.h"
 #include "environment/engine.h"

@@ -4,7 +4,7 @@
 #include "environment/settings.h"
 
 #include "base/error.h"
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 #include "environment/describe_settings.h"
 #include "preset/settings_type.h"
 

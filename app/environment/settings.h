@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The settings of engine 2: the section "environment" of a preset.
 #pragma once
-#include "environment/light/technique.h"
 #include "environment/segment/segment.h"
 #include "preset/preset.h"
 
@@ -9,6 +8,10 @@
 #include <vector>
 
 namespace nephroid::environment {
+
+/// How caustics on receivers are put together from the spheres of all lights. Those other than eight_sets are the thesis' (3.4.3,
+/// table 3.3) and let all light come from the object's middle: OneByOne.
+enum class Technique { eight_sets, direct, direct_launches, direct_buffers, compiled, compiled_launches, compiled_buffers };
 
 struct Settings {
   enum class Radii { quadratic, uniform };

@@ -2,7 +2,6 @@
 // The settings of engine 3 as preset/describe.h says.
 #pragma once
 #include "inverse/settings.h"
-#include "inverse/thesis/describe_thesis.h"
 #include "preset/describe.h"
 
 namespace nephroid::preset {
@@ -45,6 +44,22 @@ struct Choices<inverse::Settings::Heights> {
   static constexpr Choice<Heights> all[] = {
       {Heights::flat, "flat", "All in one plane: the relief is as shallow as it can be."},
       {Heights::free, "free", "Where the walls between facets are lowest; the relief becomes deeper, as far as the constraints let it."}};
+};
+
+template <>
+struct Choices<inverse::Thesis::Sampling> {
+  using Sampling = inverse::Thesis::Sampling;
+  static constexpr Choice<Sampling> all[] = {
+      {Sampling::exact, "exact", "From the cumulative sum."},
+      {Sampling::rejection, "rejection", "By acceptance and rejection, as printed: the same distribution, with more tries."}};
+};
+
+template <>
+struct Choices<inverse::Thesis::Adjust> {
+  using Adjust = inverse::Thesis::Adjust;
+  static constexpr Choice<Adjust> all[] = {
+      {Adjust::convergence, "convergence", "One number: how wide the light is at the last receiver, over the object."},
+      {Adjust::each, "each", "Four numbers a picture: its size, its place across and down, its distance."}};
 };
 
 } // namespace nephroid::preset
@@ -128,6 +143,48 @@ inline void describe(preset::Fields& v, Light& l)
              .bounds = preset::within(-1e5, 1e5)},
             l.offset_mm);
   }
+}
+
+inline void describe(preset::Fields& v, Thesis& t)
+{
+  v.about("InverseThesis", "Constants of the method \"thesis\".");
+  using preset::within;
+  const auto share = [&](std::string_view name, std::string_view sentence, auto& value, std::string_view unit = {}) {
+    v.field({.name = name, .sentence = sentence, .unit = unit, .bounds = within(0, 1)}, value);
+  };
+  v.field({.name = "sampling", .sentence = "How directions are drawn from the joint probability (5.1)."}, t.sampling);
+  v.field({.name = "directions",
+           .sentence = "Directions across and down that a facet's light is tried in; they cover the receivers as the facet sees them.",
+           .bounds = within(1, 1024)},
+          t.directions);
+  v.field({.name = "draws", .sentence = "Draws of every facet that a cost is the mean of.", .bounds = within(1, 1024)}, t.draws);
+  v.field({.name = "adjust", .sentence = "What the first annealing changes."}, t.adjust);
+  v.field({.name = "cycles", .sentence = "Cycles of each annealing; 0 leaves both out.", .bounds = within(0, 1000)}, t.cycles);
+  v.field({.name = "moves", .sentence = "Moves of a cycle, at one temperature.", .bounds = within(1, 1000)}, t.moves);
+  v.field({.name = "temperature",
+           .sentence = "Temperature of the first cycle: a move that raises the cost by so much is taken with probability 1 / e.",
+           .unit = "of cost",
+           .bounds = within(0, 1)},
+          t.temperature);
+  share("cooling", "The temperature of a cycle over that of the cycle before.", t.cooling);
+  share("size_step", "Largest change in a move of the convergence, or of a picture's size.", t.size_step);
+  v.field({.name = "size_limit", .sentence = "Largest change of that in all.", .bounds = within(0, 0.9)}, t.size_limit);
+  share("shift_step", "Largest change in a move of a picture's place.", t.shift_step, "parts of the receiver");
+  share("shift_limit", "Largest change of that in all.", t.shift_limit, "parts of the receiver");
+  share("distance_step", "Largest change in a move of a picture's distance.", t.distance_step, "parts of the distance");
+  v.field(
+      {.name = "distance_limit", .sentence = "Largest change of that in all.", .unit = "parts of the distance", .bounds = within(0, 0.9)},
+      t.distance_limit);
+  share("extension_step", "Largest change in a move of k, the part of a picture's largest extension.", t.extension_step);
+  share("overshoot_step", "Largest change in a move of o, the part of a picture's largest overshoot.", t.overshoot_step);
+  v.field({.name = "corrections", .sentence = "Rounds of the intensity correction at most; 0 leaves it out.", .bounds = within(0, 1000)},
+          t.corrections);
+  v.field({.name = "patience", .sentence = "Rounds without a gain after which no more follow.", .bounds = within(1, 1000)}, t.patience);
+  v.field({.name = "worth", .sentence = "A gain below this is none.", .unit = "of cost", .bounds = within(0, 1)}, t.worth);
+  v.field({.name = "ratio_limit",
+           .sentence = "A round makes a cell brighter, or darker, by this factor at most, also where no light reached it.",
+           .bounds = within(1, 1000)},
+          t.ratio_limit);
 }
 
 inline void describe(preset::Fields& v, Settings& s)

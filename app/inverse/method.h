@@ -5,13 +5,11 @@
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"
-#include "inverse/settings.h"
 #include "job/job.h"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace nephroid::inverse {
@@ -43,8 +41,5 @@ public:
   /// All that it needs to go on with the same bits.
   virtual void state(State& state) = 0;
 };
-
-/// As the preset says. The layout and the targets outlive it.
-std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets);
 
 } // namespace nephroid::inverse

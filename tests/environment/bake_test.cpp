@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Baked spheres against closed forms and against rays in double precision: a ball of glass, of nothing, a mirror; energy; a turned object;
 // colours.
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 #include "environment/ball_map.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"

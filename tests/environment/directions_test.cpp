@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The directions of a bake and the map of a sphere.
-#include "environment/bake/directions.h"
-#include "environment/bake/sphere_map.h"
+#include "environment/bake/bake.h"
 #include "tests/support/test.h"
 
 namespace nephroid::directions_test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Casters of several objects: which they are, glass in glass against rays in double precision, what their bake and its key depend on.
-#include "environment/bake/placement.h"
+#include "environment/bake/caster.h"
 #include "environment/ball_map.h"
 #include "optics/fresnel.h"
 #include "scene/rotation.h"

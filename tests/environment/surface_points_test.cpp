@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points all over an object, and what they see past a card that goes by: against closed forms of a ball.
-#include "environment/occlusion/surface_points.h"
+#include "environment/occlusion/samples.h"
 #include "tests/support/test.h"
 
 #include "environment/occlusion/occlusion.h"

@@ -3,7 +3,7 @@
 #include "environment/light/turned_sets.h"
 #include "tests/support/test.h"
 
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 #include "scene/ray.h"
 #include "scene/rotation.h"
 

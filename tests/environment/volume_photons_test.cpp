@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Caustics in the air about glass against photons in the same medium (medium_photons.h), as pictures.
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 #include "environment/light/turned_sets.h"
 #include "environment/view/renderer.h"
 #include "image/image.h"

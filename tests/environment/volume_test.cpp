@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light in a medium around an object that sends it evenly to all sides: then what a path from the eye collects is an integral with a closed
 // form.
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 #include "environment/view/renderer.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/test.h"

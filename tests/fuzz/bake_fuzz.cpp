@@ -4,8 +4,8 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/hashed_bytes.h"
+#include "environment/bake/bake.h"
 #include "environment/bake/bake_file.h"
-#include "environment/bake/directions.h"
 #include "tests/fuzz/harness.h"
 
 #include <cstdint>

@@ -4,8 +4,7 @@
 #include "base/files.h"
 #include "image/image.h"
 #include "inverse/bending.h"
-#include "inverse/facets/mesh_files.h"
-#include "inverse/facets/workshop.h"
+#include "inverse/facets/files.h"
 #include "tests/inverse/sound.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words, QR codes, grey levels and tones as light a cell.
 #include "image/image.h"
-#include "inverse/pictures/grey.h"
 #include "inverse/pictures/target.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"

@@ -2,8 +2,8 @@
 // Bakes on disk whose sum is right and whose header makes no sense: refused in one line, before anything is allocated for them.
 #include "base/files.h"
 #include "base/hashed_bytes.h"
+#include "environment/bake/bake.h"
 #include "environment/bake/bake_file.h"
-#include "environment/bake/directions.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,15 +7,40 @@
 // texel goes one way. (The thesis takes all light to come from the middle. Under a low sun
 // `environment/bunny` then has 30 % too much light on its floor.)
 #pragma once
-#include "environment/bake/sphere_map.h"
-
 #include <glm/glm.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
+#include <span>
 #include <vector>
 
 namespace nephroid::environment {
+
+/// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg (2008, "Fast
+/// equal-area mapping of the (hemi)sphere using SIMD"). kernels/environment/sphere_map.h has the same in single precision.
+struct SphereMap {
+  int side = 1; ///< texels across and down
+
+  std::size_t texels() const { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
+  double solid_angle() const { return 4 * std::numbers::pi / static_cast<double>(texels()); } ///< of a texel, in steradians
+  /// Row after row. direction: of any length but 0.
+  std::size_t texel(const glm::dvec3& direction) const;
+  /// The unit direction of a texel's middle.
+  glm::dvec3 direction(std::size_t texel) const;
+};
+
+/// How many directions light may be baked from: points of a cube's surface, towards its middle (thesis 3.1). Each face is a square grid
+/// whose points on edges and corners it shares with its neighbours: 3 x 3 points a face are 26 in all (8 corners, 12 middles of edges, 6 of
+/// faces), 5 x 5 are 98, 9 x 9 are 386.
+std::span<const int> direction_counts();
+
+/// The points of a cube from -m to m, m = 1, 2 or 4, with whole coordinates: of x, y and z the last changes fastest. count: one of
+/// direction_counts().
+std::vector<glm::ivec3> cube_points(int count);
+
+/// Unit, the way the light goes, of each of cube_points(count).
+std::vector<glm::dvec3> light_directions(int count);
 
 /// Where the light of one direction goes. Areas across it, in squares of Bake::size: of the light that meets the object, and of that the
 /// part that leaves it, that is absorbed, and that is lost after too many surfaces.

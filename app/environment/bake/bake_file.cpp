@@ -5,7 +5,7 @@
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/hashed_bytes.h"
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 
 #include <fmt/format.h>
 

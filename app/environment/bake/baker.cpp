@@ -2,9 +2,9 @@
 #include "environment/bake/baker.h"
 
 #include "base/parallel.h"
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
+#include "environment/colours.h"
 #include "environment/to_float4.h"
-#include "environment/white_light.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>

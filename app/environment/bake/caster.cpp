@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#define GLM_ENABLE_EXPERIMENTAL
 #include "environment/bake/caster.h"
 
 #include "base/error.h"
@@ -7,7 +8,6 @@
 #include "scene/corners.h"
 #include "scene/rotation.h"
 
-#define GLM_ENABLE_EXPERIMENTAL
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/gtx/euler_angles.hpp>
@@ -191,6 +191,15 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster)
     for (const optics::Spectrum* spectrum : {&material.n, &material.k, &material.reflectance}) hash = hash_items(*spectrum, hash);
   }
   return hash;
+}
+
+// A point that the object has at p without its rotation R and its translation T is at R p + T in the preset.
+Placement placement(const preset::Preset& preset, const Caster& caster, const scene::Scene& scene)
+{
+  const preset::Transform& transform = preset.scene.objects.at(caster.objects.front()).transform;
+  const glm::dmat3 turn = scene::rotation(transform.rotate_deg);
+  const glm::dvec3 translate(transform.translate[0], transform.translate[1], transform.translate[2]);
+  return {turn, turn * caster.scene.origin + translate - scene.origin};
 }
 
 } // namespace nephroid::environment

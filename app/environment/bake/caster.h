@@ -7,6 +7,8 @@
 #include "preset/preset.h"
 #include "scene/scene.h"
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -35,5 +37,15 @@ std::vector<double> sphere_radii(const Settings& settings, const Caster& caster,
 
 /// Of all that the photons of a bake depend on but the program: geometry, material, settings, seed.
 std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster);
+
+/// Where the baked spheres stand in the scene: from the bake's coordinates (those of Caster::scene and Bake, whose spheres are about (0, 0,
+/// 0)) to the scene's (of scene::Scene::origin). Both are in units of the preset. Directions, of light too, are turned alone.
+struct Placement {
+  glm::dmat3 turn{1};   ///< a rotation; its transpose leads back
+  glm::dvec3 middle{0}; ///< of the spheres, in the scene's coordinates
+};
+
+/// scene: of the preset. caster: of the preset, or of another one in which only objects, lights and cameras are turned and moved.
+Placement placement(const preset::Preset& preset, const Caster& caster, const scene::Scene& scene);
 
 } // namespace nephroid::environment

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smooth part of what an environment sends to a diffuse surface, for any normal at once.
 #pragma once
-#include "environment/segment/cube_map.h"
+#include "environment/segment/cube.h"
 
 #include <glm/glm.hpp>
 

@@ -2,8 +2,8 @@
 // Caustics on receivers, put together set after set in the ways that the thesis compares (table 3.3): kernels/environment/one_by_one.cl.
 #pragma once
 #include "compute/compute.h"
-#include "environment/light/technique.h"
 #include "environment/light/turned_sets.h"
+#include "environment/settings.h"
 #include "kernels/environment/render_types.h"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include "environment/light/turned_sets.h"
 
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where to look for what hides the environment: a few directions of each light's rectangle, each with its part of the light's flux.
+// Where to look for what hides the environment: a few directions of each light's rectangle, each with its part of the light's flux. And
+// where to look from: points of the object, which a shadow's edge passes one after the other.
 #pragma once
 #include "environment/segment/segment.h"
+#include "scene/scene.h"
+
+#include <glm/glm.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -22,5 +26,10 @@ struct LightSample {
 /// one more changes no channel of the light by more than 3/1024. A texel's flux is even in s and t. cube: that the segmentation was made
 /// of.
 std::vector<LightSample> sample_lights(const Segmentation& segmentation, const CubeMap& cube);
+
+/// Points of the surface of some objects of a scene, in its coordinates: in triangles evenly by area, of ellipsoids other than spheres
+/// nearly so. Neighbours in the list are near each other. objects: indices into scene.objects, of which one has a surface. count: at
+/// least 1.
+std::vector<glm::dvec3> surface_points(const scene::Scene& scene, const std::vector<std::size_t>& objects, std::size_t count);
 
 } // namespace nephroid::environment

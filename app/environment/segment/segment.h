@@ -2,7 +2,7 @@
 // The environment as few directional lights: its cube map cut into rectangles, each with one direction and its whole flux (Kartasasmita,
 // Algorithm 3.3; Viriyothai and Debevec 2009, "Variance minimization light probe sampling").
 #pragma once
-#include "environment/segment/cube_map.h"
+#include "environment/segment/cube.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #include "environment/view/render_task.h"
 
 #include "environment/bake/baker.h"
-#include "environment/occlusion/surface_points.h"
+#include "environment/occlusion/samples.h"
 #include "environment/occlusion/surroundings.h"
 #include "environment/settings.h"
 #include "scene/environment_light.h"

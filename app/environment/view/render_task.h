@@ -2,9 +2,9 @@
 // What is to be shown and under which light, worked out once on the host.
 #pragma once
 #include "compute/compute.h"
-#include "environment/bake/placement.h"
+#include "environment/bake/caster.h"
 #include "environment/light/distant_lights.h"
-#include "environment/segment/cube_map.h"
+#include "environment/segment/cube.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"

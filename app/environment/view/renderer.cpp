@@ -2,9 +2,9 @@
 #include "environment/view/renderer.h"
 
 #include "base/parallel.h"
+#include "environment/colours.h"
 #include "environment/occlusion/surroundings.h"
 #include "environment/to_float4.h"
-#include "environment/view/colours.h"
 #include "tracing/sky_tables.h"
 
 #include <algorithm>

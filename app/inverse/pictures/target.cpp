@@ -2,9 +2,10 @@
 #include "inverse/pictures/target.h"
 
 #include "base/error.h"
-#include "inverse/pictures/drawing.h"
-#include "inverse/pictures/grey.h"
+#include "image/image.h"
 #include "inverse/pictures/qr.h"
+
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,84 @@
 
 namespace nephroid::inverse {
 namespace {
+
+bool in_bar(const glm::dvec2& p, double length, double width) { return std::abs(p.x) < length / 2 && std::abs(p.y) < width / 2; }
+
+/// Bars along x, one above the other.
+bool in_bars(const Picture& picture, const glm::dvec2& p)
+{
+  for (int i = 0; i < picture.count; ++i)
+    if (in_bar({p.x, p.y - (2 * i - (picture.count - 1)) * picture.width}, picture.length, picture.width)) return true;
+  return false;
+}
+
+/// Its first point is up. Between a point and the valley beside it the edge is a straight line: with the point at angle 0 and the valley
+/// at beta, p is inside where it is on the middle's side of the line through both.
+bool in_star(const Picture& picture, const glm::dvec2& p)
+{
+  const double beta = glm::pi<double>() / picture.count;
+  const double turned = std::atan2(-p.x, p.y);
+  const double angle = std::abs(turned - 2 * beta * std::round(turned / (2 * beta))), r = glm::length(p);
+  const glm::dvec2 at{r * std::cos(angle), r * std::sin(angle)}, point{picture.radius, 0};
+  const glm::dvec2 along = picture.inner * glm::dvec2(std::cos(beta), std::sin(beta)) - point, to = at - point;
+  return along.x * to.y - along.y * to.x > 0;
+}
+
+/// How much of a spot of this radius is left at p: 1 in its middle, falling as a bell.
+double spot(const glm::dvec2& p, const glm::dvec2& middle, const glm::dvec2& radius)
+{
+  const glm::dvec2 d = (p - middle) / radius;
+  return std::exp(-glm::dot(d, d));
+}
+
+/// A ball of radius 1 in grey levels, lit from the left above as Lambert's law has it, with two eyes and a mouth.
+double face(const glm::dvec2& p)
+{
+  const double r2 = glm::dot(p, p);
+  if (r2 >= 1) return 0;
+  const glm::dvec3 light = glm::normalize(glm::dvec3(-0.5, 0.6, 0.9));
+  const double lit = 0.15 + 0.85 * std::max(0.0, glm::dot(light, glm::dvec3(p, std::sqrt(1 - r2))));
+  const double eyes = spot(p, {-0.35, 0.25}, {0.16, 0.2}) + spot(p, {0.35, 0.25}, {0.16, 0.2});
+  const double mouth = spot({p.x, p.y + 0.55 - 0.5 * p.x * p.x}, {0, 0}, {0.4, 0.1}); // along a parabola: it smiles
+  return lit * (1 - 0.9 * std::min(1.0, eyes + mouth));
+}
+
+/// Where p lies in a drawing that is not turned.
+glm::dvec2 turned_back(const Picture& picture, const glm::dvec2& p)
+{
+  const double turn = glm::radians(picture.turn_deg), c = std::cos(turn), s = std::sin(turn);
+  return {c * p.x + s * p.y, c * p.y - s * p.x};
+}
+
+/// Brightness 0..1 of a drawing at p, without its background; p in parts of the receiver's shorter side from its middle, y up.
+/// half: the receiver's half width and height in the same parts.
+double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2& half)
+{
+  using Type = Picture::Type;
+  const double r = glm::length(p);
+  const glm::dvec2 turned = turned_back(picture, p);
+  switch (picture.type) {
+  case Type::disc:
+    return r < picture.radius ? 1 : 0;
+  case Type::ring:
+    return r < picture.radius && r >= picture.inner ? 1 : 0;
+  case Type::cross:
+    return in_bar(turned, picture.length, picture.width) || in_bar({turned.y, turned.x}, picture.length, picture.width) ? 1 : 0;
+  case Type::bars:
+    return in_bars(picture, turned) ? 1 : 0;
+  case Type::star:
+    return in_star(picture, turned) ? 1 : 0;
+  case Type::gradient: {
+    const double turn = glm::radians(picture.turn_deg);
+    const double reach = half.x * std::abs(std::cos(turn)) + half.y * std::abs(std::sin(turn)); // of the receiver along the gradient
+    return std::clamp((turned.x / reach + 1) / 2, 0.0, 1.0);
+  }
+  case Type::face:
+    return face(turned / picture.radius);
+  default:
+    return 0;
+  }
+}
 
 /// A drawing's edges are as sharp as this many samples along a cell's side.
 constexpr int samples = 8;
@@ -41,13 +120,14 @@ Target draw(const Layout& layout, const F& brightness_at)
 
 Target draw_words(const Picture& picture, const Layout& layout, const Place& where)
 {
-  const Grey words = grey_of_words(picture.text, where / "text");
+  constexpr int height = 256; // finer than any cell, so that the cells' mean is that of the letters
+  const image::Image words = image::text_picture(picture.text, height, where / "text");
   const double pixels = words.width / picture.length; // in the receiver's shorter side
   return draw(layout, [&](const glm::dvec2& p) {
     const glm::dvec2 turned = turned_back(picture, p);
     const double x = std::floor(turned.x * pixels + words.width / 2.0), y = std::floor(words.height / 2.0 - turned.y * pixels);
     const bool inside = x >= 0 && y >= 0 && x < words.width && y < words.height;
-    return inside ? words.at(static_cast<int>(x), static_cast<int>(y)) : 0.0;
+    return inside ? words.data[index_at(static_cast<int>(x), static_cast<int>(y), words.width)] : 0.0;
   });
 }
 
@@ -65,7 +145,7 @@ Target fit(const Grey& grey, const Layout& layout)
       double sum = 0;
       for (int v = std::max(0, static_cast<int>(low.y)); v < grey.height && v < high.y; ++v)
         for (int u = std::max(0, static_cast<int>(low.x)); u < grey.width && u < high.x; ++u)
-          sum += overlap(low.x, high.x, u) * overlap(low.y, high.y, v) * grey.at(u, v);
+          sum += overlap(low.x, high.x, u) * overlap(low.y, high.y, v) * grey.values[index_at(u, v, grey.width)];
       target.push_back(sum / (cell.x * cell.y));
     }
   return target;
@@ -89,6 +169,35 @@ Target brightness_of(const Picture& picture, const Layout& layout, const FileFin
 }
 
 } // namespace
+
+Grey read_grey(const std::filesystem::path& file)
+{
+  const image::Image picture = image::read_image(file);
+  const image::Rgb rgb = image::rgb_of(picture, file.string());
+  const auto alpha = std::find(picture.channels.begin(), picture.channels.end(), "A");
+  const bool transparent = alpha != picture.channels.end() && picture.integers; // colours of floats are multiplied by it already
+  const auto opacity = [&](std::size_t pixel) {
+    return transparent ? picture.data[pixel * picture.channels.size() + static_cast<std::size_t>(alpha - picture.channels.begin())] : 1.0f;
+  };
+  Grey grey{picture.width, picture.height, {}};
+  for (std::size_t i = 0; i < rgb.values.size(); i += 3) {
+    const auto linear = [&](std::size_t channel) {
+      const double value = rgb.values[i + channel];
+      return picture.integers ? image::decoded_srgb(value) : value;
+    };
+    const double y = (0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2)) * opacity(i / 3);
+    if (!std::isfinite(y) || y < 0)
+      throw bad_input(file.string(), "has a pixel that is negative or not a number", "expected a picture of light");
+    grey.values.push_back(y);
+  }
+  const auto [low, high] = std::minmax_element(grey.values.begin(), grey.values.end());
+  if (*high == 0) throw bad_input(file.string(), "is black all over", "expected a picture with some light in it");
+  if (*low == *high)
+    throw bad_input(file.string(), "is one grey all over", "expected a picture with an outline", "for a disc of light use a drawing");
+  const double most = *high;
+  for (double& value : grey.values) value /= most;
+  return grey;
+}
 
 Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where)
 {

@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures that are wanted, as light a cell.
+// The pictures that are wanted, as light a cell: drawings, words and files.
 #pragma once
 #include "base/files.h"
 #include "inverse/layout.h"
 #include "inverse/settings.h"
 
+#include <filesystem>
+#include <vector>
+
 namespace nephroid::inverse {
+
+/// A grey picture of pixels.
+struct Grey {
+  int width = 0, height = 0;
+  std::vector<double> values; ///< 0..1, row 0 at the top
+};
+
+/// Luminance of linear sRGB over its maximum. Throws bad_input naming the file where it cannot be read, has a value that is no light, or
+/// is one grey all over.
+Grey read_grey(const std::filesystem::path& file);
 
 /// A drawing is the part of a cell that it covers; a file keeps its aspect. where: the picture's FILE#/json/pointer. Throws bad_input
 /// there, or naming the file, for a file that cannot be read, has a value that is no light, or is one colour all over; and for a drawing

@@ -5,7 +5,7 @@
 #include "inverse/method.h"
 #include "inverse/thesis/adjust.h"
 #include "inverse/thesis/annealer.h"
-#include "inverse/thesis/trial.h"
+#include "inverse/thesis/sampler.h"
 
 #include <array>
 #include <cstdint>

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a workshop needs beside the mesh: the object's figures, its facets as a list, and a height map of their side.
+// The solid as files: meshes in millimetres, and what a workshop needs beside them: the object's figures, its facets as a list, and a height
+// map of their side.
 #pragma once
 #include "base/bytes.h"
 #include "image/image.h"
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"
+#include "scene/mesh.h"
 
 #include <string>
 
 namespace nephroid::inverse {
+
+void write_obj(const scene::Mesh& mesh, ByteSink& to); ///< Wavefront
+void write_stl(const scene::Mesh& mesh, ByteSink& to); ///< binary
+void write_ply(const scene::Mesh& mesh, ByteSink& to); ///< binary, little-endian
 
 /// The figures as a page of Markdown. material: in words, with its index.
 std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of colours that the view's kernels look up.
+// Tables of colours that kernels look up.
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "tracing/wavelength_tables.h"
@@ -7,6 +7,10 @@
 #include <vector>
 
 namespace nephroid::environment {
+
+/// [401]: what a wavelength of white light is in linear sRGB; all together are (1, 1, 1). An environment's colours stand for spectra of the
+/// three primaries (optics/primary_spectra.h), so white is the sum of these.
+std::vector<shared::float4> white_light();
 
 /// [row of the lights' tables][reflector]: what a reflector sends back of a light, linear sRGB.
 std::vector<shared::float4> lit_colours(const tracing::WavelengthTables& tables);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/facets/workshop.h"
+#include "inverse/facets/files.h"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,14 @@
 #include <iterator>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace nephroid::inverse {
 namespace {
+
+void write_text(std::string_view text, ByteSink& to) { to.write(std::as_bytes(std::span(text))); }
 
 /// Pixels of the height map across a facet.
 int pixels_across(const Layout& layout) { return std::max(4, 1024 / std::max(layout.facets.x, layout.facets.y)); }
@@ -33,9 +36,44 @@ std::string png_scale(const Layout& layout, const Solid& solid)
                      scale_of(layout));
 }
 
-void write_json(std::string_view text, ByteSink& to) { to.write(std::as_bytes(std::span(text))); }
-
 } // namespace
+
+void write_obj(const scene::Mesh& mesh, ByteSink& to)
+{
+  write_text("# millimetres\n", to);
+  for (const glm::vec3& p : mesh.positions) write_text(fmt::format("v {} {} {}\n", p.x, p.y, p.z), to);
+  for (const glm::uvec3& t : mesh.triangles) write_text(fmt::format("f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1), to);
+}
+
+/// 80 bytes of title, the number of triangles, then for each its normal, its corners and two empty bytes; little-endian.
+void write_stl(const scene::Mesh& mesh, ByteSink& to)
+{
+  std::string title = "Nephroid: inverse caustics, millimetres";
+  title.resize(80, ' ');
+  write_text(title, to);
+  to.value(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+    for (const glm::vec3& v :
+         {glm::vec3(glm::normalize(glm::cross(b - a, c - a))), mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]})
+      to.write(std::as_bytes(std::span(&v, 1)));
+    to.value(std::uint16_t{0});
+  }
+}
+
+void write_ply(const scene::Mesh& mesh, ByteSink& to)
+{
+  write_text(fmt::format("ply\nformat binary_little_endian 1.0\ncomment Nephroid: inverse caustics, millimetres\n"
+                         "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+                         "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                         mesh.positions.size(), mesh.triangles.size()),
+             to);
+  to.write(std::as_bytes(std::span(mesh.positions)));
+  for (const glm::uvec3& t : mesh.triangles) {
+    to.value(std::uint8_t{3});
+    to.write(std::as_bytes(std::span(&t, 1)));
+  }
+}
 
 std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material)
 {
@@ -69,20 +107,17 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
 void write_facets(const Layout& layout, const Solid& solid, ByteSink& to)
 {
   const glm::dvec2 facet = layout.facet();
-  write_json(fmt::format("{{\"columns\": {}, \"rows\": {}, \"facet_mm\": [{}, {}],\n"
+  write_text(fmt::format("{{\"columns\": {}, \"rows\": {}, \"facet_mm\": [{}, {}],\n"
                          " \"order\": \"row by row from the top, from -x to +x\",\n"
                          " \"normal\": \"(dz_dx, dz_dy, -1), not of unit length: out of the object\",\n"
                          " \"numbers\": [\"slope_x\", \"slope_y\", \"dz_dx\", \"dz_dy\", \"middle_z_mm\"],\n \"facets\": [",
                          layout.facets.x, layout.facets.y, facet.x, facet.y),
              to);
-  fmt::memory_buffer line;
-  for (const Facet& f : solid.facets) {
-    fmt::format_to(std::back_inserter(line), "{}[{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}]", &f == solid.facets.data() ? "\n" : ",\n", f.slope.x,
-                   f.slope.y, f.gradient.x, f.gradient.y, f.height);
-    write_json({line.data(), line.size()}, to);
-    line.clear();
-  }
-  write_json("\n ]}\n", to);
+  for (const Facet& f : solid.facets)
+    write_text(fmt::format("{}[{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}]", &f == solid.facets.data() ? "\n" : ",\n", f.slope.x, f.slope.y,
+                           f.gradient.x, f.gradient.y, f.height),
+               to);
+  write_text("\n ]}\n", to);
 }
 
 image::Image height_map(const Layout& layout, const Solid& solid)
