@@ -38,10 +38,7 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now)
       may_be_lit(before) != may_be_lit(now))
     return false;
   // What is baked together may not move apart.
-  const auto is_caster = [&](const preset::Object& object) {
-    const auto material = before.scene.materials.find(object.material);
-    return material != before.scene.materials.end() && material->second.type != preset::Material::Type::diffuse;
-  };
+  const auto is_caster = [&](const preset::Object& object) { return casts(before, object); };
   const std::vector<preset::Object>& objects = before.scene.objects;
   const bool alone = std::ranges::count_if(objects, is_caster) == 1;
   for (std::size_t i = 0; i < objects.size(); ++i)

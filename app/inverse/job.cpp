@@ -2,7 +2,7 @@
 // A run of engine 3: slopes, then the solid, then its judgement. All on the host.
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
-#include "inverse/assign/smoothing.h"
+#include "inverse/assign/cost.h"
 #include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "inverse/facets/files.h"
@@ -197,11 +197,15 @@ private:
   /// As judged where that is done, else as believed.
   const std::vector<double>& light(std::size_t receiver) const { return finished() ? judge_->light(receiver) : method_->light(receiver); }
 
+  /// Part of all light, in a cell.
+  double brightest(std::size_t receiver) const { return *std::max_element(targets_[receiver].begin(), targets_[receiver].end()); }
+
   void add_pictures(job::Snapshot& made)
   {
     std::vector<std::vector<std::shared_ptr<const job::Picture>>> columns;
     for (std::size_t j = 0; j < targets_.size(); ++j) {
-      const auto wanted = wanted_picture(targets_[j], layout_), received = received_picture(targets_[j], light(j), layout_);
+      const auto wanted = grey_picture(targets_[j], 1 / brightest(j), layout_.cells),
+                 received = received_picture(light(j), brightest(j), layout_);
       columns.push_back({wanted, received, difference_picture(*wanted, *received)});
       const char* const names[] = {"target", "receiver", "difference"};
       for (std::size_t i = 0; i < 3; ++i) made.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i]});
@@ -219,7 +223,7 @@ private:
     for (std::size_t j = 0; j < targets_.size(); ++j) light.push_back(method_->light(j));
     const std::vector<double> heights = method_->heights();
     const ConflictSearch search(layout_, targets_, method_->slopes(), heights, light);
-    conflict_ = facets_picture(search.of_facets(), layout_);
+    conflict_ = grey_picture(search.of_facets(), 1, layout_.facets);
     conflicts_.reset();
     if (judge_) conflicts_ = search.of_pictures();
   }
@@ -244,23 +248,21 @@ private:
       made.curves.back().rows.push_back({static_cast<double>(number), distance});
       made.pictures.push_back({fmt::format("frame_{:04}", number), received_picture(light, most, layout_)});
     };
-    const auto most = [&](std::size_t j) { return *std::max_element(targets_[j].begin(), targets_[j].end()); };
     const std::size_t gaps = layout_.distances.size() - 1, between = layout_.frames.size() / gaps;
     for (std::size_t j = 0; j < layout_.distances.size(); ++j) {
-      add(layout_.distances[j], judge_->light(j), most(j));
+      add(layout_.distances[j], judge_->light(j), brightest(j));
       for (std::size_t k = 0; k < between && j < gaps; ++k) {
         const double part = static_cast<double>(k + 1) / static_cast<double>(between + 1);
-        add(layout_.frames[j * between + k], judge_->frame(j * between + k), (1 - part) * most(j) + part * most(j + 1));
+        add(layout_.frames[j * between + k], judge_->frame(j * between + k), (1 - part) * brightest(j) + part * brightest(j + 1));
       }
     }
   }
 
-  static void add_costs(job::Snapshot& made, const std::string& group, const std::vector<Cost>& costs)
+  static void add_cost(job::Snapshot& made, const std::string& group, const Cost& c)
   {
-    const Cost all = mean(costs);
     made.scalars.insert(
         made.scalars.end(),
-        {{group, "cost", all.cost}, {group, "cost_all", all.cost_all}, {group, "rel_l2", all.rel_l2}, {group, "missed", all.missed}});
+        {{group, "cost", c.cost}, {group, "cost_all", c.cost_all}, {group, "rel_l2", c.rel_l2}, {group, "missed", c.missed}});
   }
 
   /// judged: empty as long as nothing is.
@@ -273,19 +275,15 @@ private:
                                                {group, "height_mm", layout_.receiver.y},
                                                {group, "believed_cost", believed[j].cost},
                                                {group, "believed_rel_l2", believed[j].rel_l2}});
-      if (judged.empty()) continue;
-      const Cost& c = judged[j];
-      made.scalars.insert(
-          made.scalars.end(),
-          {{group, "cost", c.cost}, {group, "cost_all", c.cost_all}, {group, "rel_l2", c.rel_l2}, {group, "missed", c.missed}});
+      if (!judged.empty()) add_cost(made, group, judged[j]);
     }
   }
 
   void add_scalars(job::Snapshot& made) const
   {
     const std::vector<Cost> believed = method_->costs(), judged = finished() ? judge_->costs(targets_) : std::vector<Cost>();
-    add_costs(made, "believed", believed);
-    if (finished()) add_costs(made, "judged", judged);
+    add_cost(made, "believed", mean(believed));
+    if (finished()) add_cost(made, "judged", mean(judged));
     add_receivers(made, believed, judged);
     if (conflicts_) add_conflicts(made);
     if (!finished()) return;

@@ -27,18 +27,15 @@ constexpr int max_surfaces = 16;
 /// brightest cell scales the cost.
 int rays_along(const Layout& layout) { return std::clamp(1024 / std::max(layout.facets.x, layout.facets.y), 6, 64); }
 
-/// Two independent normal numbers of two of 0..1 (Box and Muller 1958).
-glm::dvec2 normal_pair(double u, double v)
+/// turn: 0..1 of all around.
+glm::dvec2 on_circle(double r, double turn)
 {
-  const double r = std::sqrt(-2 * std::log(1 - u)), phi = 2 * glm::pi<double>() * v;
+  const double phi = 2 * glm::pi<double>() * turn;
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 
-glm::dvec2 in_disc(double u, double v)
-{
-  const double r = std::sqrt(u), phi = 2 * glm::pi<double>() * v;
-  return {r * std::cos(phi), r * std::sin(phi)};
-}
+/// Two independent normal numbers of two of 0..1 (Box and Muller 1958).
+glm::dvec2 normal_pair(double u, double v) { return on_circle(std::sqrt(-2 * std::log(1 - u)), v); }
 
 /// Five numbers of 0..1 for each ray of a facet, more evenly spread than random ones: multiples of the powers of 1 / g, g being the root of
 /// g^6 = g + 1 (Roberts 2018, the golden ratio in five dimensions), from a random begin.
@@ -79,12 +76,6 @@ glm::dvec3 outward_normal(const scene::Mesh& mesh, std::uint32_t triangle)
   return glm::normalize(glm::cross(b - a, c - a));
 }
 
-/// The direction behind a surface whose normal is against the ray; ratio: of the indices before and behind. cos_t: behind.
-glm::dvec3 refracted(const glm::dvec3& d, const glm::dvec3& normal, double ratio, double cos_i, double cos_t)
-{
-  return ratio * d + (ratio * cos_i - cos_t) * normal;
-}
-
 } // namespace
 
 WayOut follow(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 from, glm::dvec3 direction)
@@ -109,7 +100,8 @@ WayOut follow(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 fr
       const double reflected = way.part * optics::fresnel_reflectance(cos_i, before, behind);
       way.reflected += reflected;
       way.part -= reflected;
-      way.direction = glm::normalize(refracted(way.direction, normal, before / behind, cos_i, *cos_t));
+      const double ratio = before / behind;
+      way.direction = glm::normalize(ratio * way.direction + (ratio * cos_i - *cos_t) * normal);
     } else
       way.direction = glm::normalize(way.direction + 2 * cos_i * normal);
   }
@@ -146,7 +138,7 @@ Judge::Row Judge::trace_row(int row) const
       const LightRay light = light_ray(layout_, front);
       const double ray = light.weight / (along * along); // of what falls on a facet
       glm::dvec3 towards = light.direction;
-      if (layout_.sun_radius > 0) towards = beside(towards, layout_.sun_radius * in_disc(numbers[0], numbers[1]));
+      if (layout_.sun_radius > 0) towards = beside(towards, layout_.sun_radius * on_circle(std::sqrt(numbers[0]), numbers[1]));
       const double n = layout_.indices.empty()
                            ? layout_.n
                            : layout_.indices[static_cast<std::size_t>(numbers[4] * static_cast<double>(layout_.indices.size()))];

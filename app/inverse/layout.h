@@ -56,18 +56,14 @@ struct Layout {
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }
   std::size_t cell_count() const { return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y); }
   /// Middle of facet i, row by row from the top.
-  glm::dvec2 middle(std::size_t i) const
+  glm::dvec2 middle(std::size_t i) const { return middle_of(i, facets, size); }
+  glm::dvec2 middle_of_cell(std::size_t i) const { return middle_of(i, cells, receiver); }
+  /// Of part i of a centred rectangle that has so many parts across and down.
+  static glm::dvec2 middle_of(std::size_t i, const glm::ivec2& parts, const glm::dvec2& whole)
   {
-    const auto columns = static_cast<std::size_t>(facets.x);
-    const std::size_t column = i % columns, row = i / columns;
-    return {(static_cast<double>(column) + 0.5) * facet().x - size.x / 2, size.y / 2 - (static_cast<double>(row) + 0.5) * facet().y};
-  }
-  glm::dvec2 middle_of_cell(std::size_t i) const
-  {
-    const auto columns = static_cast<std::size_t>(cells.x);
-    const std::size_t column = i % columns, row = i / columns;
-    const glm::dvec2 at(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
-    return {at.x * cell().x - receiver.x / 2, receiver.y / 2 - at.y * cell().y};
+    const auto columns = static_cast<std::size_t>(parts.x);
+    const glm::dvec2 at = glm::dvec2(i % columns, i / columns) + 0.5, part = whole / glm::dvec2(parts);
+    return {at.x * part.x - whole.x / 2, whole.y / 2 - at.y * part.y};
   }
   glm::dvec2 sines_on(std::size_t facet) const { return incoming.empty() ? glm::dvec2(0) : incoming[facet].sines; }
   /// Of a point of a receiver, in cells from its top left corner.

@@ -7,15 +7,6 @@
 namespace nephroid::inverse {
 namespace {
 
-std::shared_ptr<const job::Picture> grey(std::span<const double> values, double scale, const glm::ivec2& size)
-{
-  auto picture = std::make_shared<job::Picture>();
-  picture->width = size.x;
-  picture->height = size.y;
-  for (const double value : values) picture->rgb.insert(picture->rgb.end(), 3, static_cast<float>(scale * value));
-  return picture;
-}
-
 /// Into a rectangle of pixels, each by the cell that it shows.
 void paste(const job::Picture& from, job::Picture& into, int left, int top, int width, int height)
 {
@@ -29,20 +20,19 @@ void paste(const job::Picture& from, job::Picture& into, int left, int top, int 
 
 } // namespace
 
-std::shared_ptr<const job::Picture> wanted_picture(const Target& target, const Layout& layout)
+std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values, double scale, const glm::ivec2& size)
 {
-  return grey(target, 1 / *std::max_element(target.begin(), target.end()), layout.cells);
-}
-
-std::shared_ptr<const job::Picture> received_picture(const Target& target, std::span<const double> light, const Layout& layout)
-{
-  return received_picture(light, *std::max_element(target.begin(), target.end()), layout);
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = size.x;
+  picture->height = size.y;
+  for (const double value : values) picture->rgb.insert(picture->rgb.end(), 3, static_cast<float>(scale * value));
+  return picture;
 }
 
 std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout)
 {
   const double sum = std::accumulate(light.begin(), light.end(), 0.0);
-  return grey(light, sum > 0 ? 1 / (sum * most) : 0, layout.cells);
+  return grey_picture(light, sum > 0 ? 1 / (sum * most) : 0, layout.cells);
 }
 
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received)
@@ -66,11 +56,6 @@ std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> s
   for (std::size_t i = 0; i < slopes.size(); ++i)
     for (const double value : {slopes[i].x, slopes[i].y, heights[i]}) picture->rgb.push_back(static_cast<float>(value));
   return picture;
-}
-
-std::shared_ptr<const job::Picture> facets_picture(const std::vector<double>& values, const Layout& layout)
-{
-  return grey(values, 1, layout.facets);
 }
 
 std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<std::shared_ptr<const job::Picture>>>& columns, int width,

@@ -10,18 +10,15 @@
 
 namespace nephroid::inverse {
 
-/// Grey: 1 is the brightest that is wanted, where both have the same energy.
-std::shared_ptr<const job::Picture> wanted_picture(const Target& target, const Layout& layout);
-std::shared_ptr<const job::Picture> received_picture(const Target& target, std::span<const double> light, const Layout& layout);
-/// most: the brightest cell that is wanted, as a part of all light.
+/// Grey: scale times the values, row by row from the top.
+std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values, double scale, const glm::ivec2& size);
+/// Grey: 1 is the brightest that is wanted, where both have the same energy. most: that, as a part of all light.
 std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout);
 /// Red: too much light, blue: too little, on the same scale.
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received);
 /// A pixel a facet: slope along x, slope along y, and z of its middle in millimetres.
 std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,
                                                    const Layout& layout);
-/// A pixel a facet: grey.
-std::shared_ptr<const job::Picture> facets_picture(const std::vector<double>& values, const Layout& layout);
 
 /// All in one picture of this size: a column for each receiver; what is wanted, what is there, the difference below each other. Cells are
 /// squares of pixels where they fit.

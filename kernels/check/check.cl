@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of kernels/*.h over arrays, one item each: how `nephroid check` (app/check) and tests hold them against the host.
 // Nothing is computed here that the headers do not compute, but for built_ins, which asks the device's own functions.
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/fresnel.h"
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/attenuation.h"
-#include "kernels/tracing/light.h"
 #include "kernels/tracing/emission.h"
 
 // The order of app/check/arithmetic.cpp.

@@ -5,8 +5,6 @@
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
-#include "kernels/tracing/random.h"
-#include "kernels/tracing/world.h"
 
 static inline DeviceEnd nowhere(void)
 {

@@ -5,7 +5,6 @@
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/background.h"
 #include "kernels/tracing/eye_path.h"
-#include "kernels/tracing/world.h"
 
 // 1: the environment lights surfaces by its smooth part, without shadows.
 #ifndef NEPHROID_COARSE

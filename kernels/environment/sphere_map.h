@@ -6,21 +6,15 @@
 
 #include "kernels/tracing/light.h"
 
-// Place in the unit square of a direction of any length but 0.
-static inline float2 sphere_place(float3 direction)
+// The texel, row after row, of a map of side x side texels, of a direction of any length but 0.
+static inline int sphere_texel(float3 direction, int side)
 {
   const float3 d = fabs(direction) / length(direction);
   // sqrt(1 - |z|) without its cancellation near the poles.
   const float r = sqrt((d.x * d.x + d.y * d.y) / (1.0f + d.z));
   const float v = r * atan2(d.y, d.x) * (2.0f / PI_F), u = r - v;
   const float2 folded = direction.z < 0.0f ? (float2)(1.0f - v, 1.0f - u) : (float2)(u, v);
-  return 0.5f + 0.5f * copysign(folded, direction.xy);
-}
-
-// The texel, row after row, of a map of side x side texels.
-static inline int sphere_texel(float3 direction, int side)
-{
-  const float2 place = sphere_place(direction) * (float)side;
+  const float2 place = (0.5f + 0.5f * copysign(folded, direction.xy)) * (float)side;
   const int column = clamp((int)place.x, 0, side - 1), row = clamp((int)place.y, 0, side - 1);
   return row * side + column;
 }

@@ -5,7 +5,6 @@
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 #include "kernels/tracing/camera.h"
-#include "kernels/tracing/random.h"
 #include "kernels/tracing/world.h"
 
 #define VOLUME_STEPS 128

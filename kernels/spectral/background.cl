@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end at the environment.
 // A path through glass has one wavelength, unless all go the same way: then it has all of them.
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/background.h"
-#include "kernels/tracing/band.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
-#include "kernels/tracing/film.h"
-#include "kernels/tracing/random.h"
-#include "kernels/tracing/world.h"
 
 // 1: no glass bends one wavelength otherwise than another.
 #ifndef NEPHROID_ONE_WAY

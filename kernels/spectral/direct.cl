@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, lit there by what of each light
 // arrives unbent. Glass and mirrors block those shadow rays: what they let through is the caustic layer's.
-#include "kernels/tracing/shared_types.h"
-#include "kernels/tracing/random.h"
 #include "kernels/tracing/camera.h"
-#include "kernels/tracing/film.h"
 #include "kernels/tracing/eye_path.h"
-#include "kernels/tracing/world.h"
 
 // XYZ radiance that a diffuse surface sends back along the path.
 static inline float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector, const Band* band,

@@ -5,7 +5,6 @@
 // Lambertian surface sends 1 / pi per steradian and projected area. The photons within r of a point of a plane lie on A = pi r^2, so
 //   L = sum of F / (pi * pi r^2),
 // and what reaches the eye is L times the path's throughput.
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/film.h"
 #include "kernels/spectral/photon_map.h"
 

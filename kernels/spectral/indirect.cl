@@ -2,13 +2,8 @@
 // The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the lights everywhere,
 // are bent by glass and mirrors and sent on by diffuse surfaces; from the second diffuse surface on, each adds to the pixel that sees it.
 // What a photon carries changes by absorption alone: Fresnel's reflectance, and the reflectance of a diffuse surface, decide by chance.
-#include "kernels/tracing/shared_types.h"
-#include "kernels/tracing/emission.h"
-#include "kernels/tracing/film.h"
 #include "kernels/spectral/photon_path.h"
-#include "kernels/tracing/random.h"
 #include "kernels/spectral/splat.h"
-#include "kernels/tracing/world.h"
 
 // A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area light sends the same
 // power along every cosine-distributed direction; what emit() does, where directions are uniform, would be noisier.

@@ -5,7 +5,6 @@
 #define NEPHROID_PASS_BAND_H
 
 #include "kernels/tracing/camera.h"
-#include "kernels/tracing/random.h"
 #include "kernels/tracing/world.h"
 
 // More than one where clusters are few: a picture of few wavelengths has a cast.

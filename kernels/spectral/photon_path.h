@@ -4,11 +4,9 @@
 #ifndef NEPHROID_PHOTON_PATH_H
 #define NEPHROID_PHOTON_PATH_H
 
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/low_discrepancy.h"
-#include "kernels/tracing/random.h"
 #include "kernels/tracing/world.h"
 
 // Photons that one work item follows.

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caustic layer: photons of each wavelength cluster leave the lights towards the caustic objects, are bent by glass and mirrors, and
 // are splatted into the pixel that sees the diffuse surface they reach.
-#include "kernels/tracing/shared_types.h"
 #include "kernels/spectral/guide.h"
 #include "kernels/spectral/pass_band.h"
-#include "kernels/spectral/photon_path.h"
-#include "kernels/spectral/splat.h"
+#include "kernels/spectral/photon_map.h"
 #include "kernels/spectral/stretch.h"
-#include "kernels/spectral/store.h"
 
 // 1: photons go where they matter, and it is measured where that is.
 #ifndef NEPHROID_MOMENTS
@@ -32,6 +29,26 @@ static inline long squared(float3 xyz, float scale)
               b = dot(q, (float3)(0.0557f, -0.2040f, 1.0570f));
   const float sum = r * r + g * g + b * b;
   return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
+}
+
+// A photon on a diffuse surface is put into its slot of a photon map. band: pass_band.h. xyz: reflected power. scale: quanta of a unit of it.
+// dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot is empty, where a photon carries too much.
+static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band, int object_count, float3 xyz,
+                                float scale, float dither)
+{
+  const float3 quanta = xyz * scale;
+  const bool fits = quanta.x <= PHOTON_LIMIT && quanta.y <= PHOTON_LIMIT && quanta.z <= PHOTON_LIMIT;
+  StoredPhoton photon;
+  photon.group = fits ? photon_group(surface->object, dot(arriving, surface->geometric) < 0.0f, band, object_count) : NO_PHOTON;
+  photon.position[0] = surface->position.x;
+  photon.position[1] = surface->position.y;
+  photon.position[2] = surface->position.z;
+  photon.xyz[0] = convert_int_sat_rte(quanta.x + dither - 0.5f);
+  photon.xyz[1] = convert_int_sat_rte(quanta.y + dither - 0.5f);
+  photon.xyz[2] = convert_int_sat_rte(quanta.z + dither - 0.5f);
+  photon.padding = 0;
+  *slot = photon;
+  return fits;
 }
 
 // Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. energy counts what photons carry, whatever a smooth

@@ -2,12 +2,9 @@
 // The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all wavelengths of a lamp went
 // the same way and share one layer; through glass and mirrors each cluster of each lamp has its own. Before the first pass a survey finds
 // the reflectors that each pixel sees.
-#include "kernels/tracing/shared_types.h"
-#include "kernels/tracing/random.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/spectral/layers.h"
-#include "kernels/tracing/world.h"
 
 // One pixel: which reflector is seen at each of its fixed places, -1 where there is none.
 __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caustic layer for relighting: photons.cl, whose splats go into the layer of their lamp and cluster (layers.h).
-#include "kernels/tracing/shared_types.h"
 #include "kernels/spectral/layers.h"
 #include "kernels/spectral/photon_path.h"
 #include "kernels/spectral/splat.h"

@@ -3,7 +3,6 @@
 #ifndef NEPHROID_SPLAT_H
 #define NEPHROID_SPLAT_H
 
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/world.h"
 

@@ -10,7 +10,6 @@
 #define NEPHROID_STRETCH_H
 
 #include "kernels/spectral/photon_path.h"
-#include "kernels/tracing/shared_types.h"
 #include "kernels/spectral/splat.h"
 
 // The most splats that a photon becomes, and the length in pixels below which it stays one.

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths from the eye through glass and mirrors to the diffuse surface whose photons they gather (gather.cl).
-#include "kernels/tracing/shared_types.h"
-#include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/spectral/pass_band.h"
 #include "kernels/spectral/photon_map.h"
-#include "kernels/tracing/random.h"
-#include "kernels/tracing/world.h"
 
 // What a path's losses leave of the light that it brings to the eye, as factors of X, Y and Z. A wavelength has its own. Photons of a whole
 // cluster carry a sum over its wavelengths that losses cannot be applied to one by one any more: they get the mean over the cluster,

@@ -5,7 +5,6 @@
 #ifndef NEPHROID_BACKGROUND_H
 #define NEPHROID_BACKGROUND_H
 
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/light.h"
 
 typedef struct {

@@ -6,7 +6,6 @@
 #ifndef NEPHROID_EMISSION_H
 #define NEPHROID_EMISSION_H
 
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/light.h"
 
 typedef struct {

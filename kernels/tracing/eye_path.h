@@ -5,9 +5,7 @@
 
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/film.h"
-#include "kernels/tracing/light.h"
 #include "kernels/tracing/low_discrepancy.h"
-#include "kernels/tracing/random.h"
 #include "kernels/tracing/world.h"
 
 // A path through glass follows one cluster and one branch of each reflection, so it is noisy: a pixel that sees glass or a mirror takes

@@ -3,7 +3,6 @@
 #ifndef NEPHROID_INTERFACE_H
 #define NEPHROID_INTERFACE_H
 
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/surface.h"
 

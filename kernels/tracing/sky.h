@@ -11,7 +11,6 @@
 
 #include "kernels/tracing/choice.h"
 #include "kernels/tracing/light.h"
-#include "kernels/tracing/shared_types.h"
 
 typedef struct {
   __global const float* cdf;    // exact_cdf of the rows, then of the texels of each row

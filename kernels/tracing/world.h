@@ -3,15 +3,11 @@
 #ifndef NEPHROID_WORLD_H
 #define NEPHROID_WORLD_H
 
-#include "kernels/tracing/shared_types.h"
-#include "kernels/tracing/bvh.h"
 #include "kernels/tracing/attenuation.h"
 #include "kernels/tracing/band.h"
 #include "kernels/tracing/differential.h"
 #include "kernels/tracing/interface.h"
-#include "kernels/tracing/media.h"
 #include "kernels/tracing/sky.h"
-#include "kernels/tracing/surface.h"
 
 #ifndef NEPHROID_MAX_SURFACES
 #define NEPHROID_MAX_SURFACES 32
@@ -222,10 +218,7 @@ static inline float band_share(const World* world, Source source, const Band* ba
   if (is_of_environment(world, source.light))
     return source.rgb.x * row_share(world, source.light, band) + source.rgb.y * row_share(world, source.light + 1, band) +
            source.rgb.z * row_share(world, source.light + 2, band);
-#if NEPHROID_JITTER
-  if (band->wavelength >= 0) return band->weight * world->tables.light_xyz[source.light * WAVELENGTH_COUNT + band->wavelength].w;
-#endif
-  return cluster_share;
+  return NEPHROID_JITTER && band->wavelength >= 0 ? row_share(world, source.light, band) : cluster_share;
 }
 
 #endif

@@ -61,7 +61,7 @@ public:
   std::vector<glm::dvec3> at(double distance)
   {
     distances_.write(std::vector<float>(count_, static_cast<float>(distance)));
-    caustics.cast({&list_, &distances_, &normals_, &sums_, size_}, 0, static_cast<std::uint32_t>(count_));
+    caustics.cast({&list_, 0, static_cast<std::uint32_t>(count_), &distances_, &normals_, &sums_, size_});
     const std::vector<float> read = sums_.read();
     std::vector<glm::dvec3> values;
     for (std::size_t i = 0; i < count_; ++i) values.emplace_back(read[3 * i], read[3 * i + 1], read[3 * i + 2]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which baked directions stand for a light, and how their spheres are turned.
-#include "environment/light/turned_sets.h"
+#include "environment/light/distant_lights.h"
 #include "tests/support/test.h"
 
 #include "environment/bake/bake.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Caustics in the air about glass against photons in the same medium (medium_photons.h), as pictures.
 #include "environment/bake/bake.h"
-#include "environment/light/turned_sets.h"
+#include "environment/light/distant_lights.h"
 #include "environment/view/renderer.h"
 #include "image/image.h"
 #include "tests/environment/bakes.h"

@@ -2,7 +2,7 @@
 // Smoothing: its figure by hand, what one facet changes, that it makes the object smoother, and that none of it is no term.
 #include "base/files.h"
 #include "inverse/assign/assignment.h"
-#include "inverse/assign/smoothing.h"
+#include "inverse/assign/cost.h"
 #include "inverse/bending.h"
 #include "inverse/pictures/target.h"
 #include "tests/inverse/sound.h"

@@ -22,12 +22,6 @@ namespace {
 
 Place objects_place(const std::string& source) { return Place(source) / "environment" / "objects"; }
 
-bool casts(const preset::Preset& preset, const preset::Object& object)
-{
-  const auto material = preset.scene.materials.find(object.material);
-  return material != preset.scene.materials.end() && material->second.type != preset::Material::Type::diffuse;
-}
-
 [[noreturn]] void refuse_name(const preset::Preset& preset, const std::string& name, const Place& where)
 {
   std::vector<std::string> candidates;
@@ -112,6 +106,12 @@ std::uint64_t hash_items(const T& items, std::uint64_t hash)
 }
 
 } // namespace
+
+bool casts(const preset::Preset& preset, const preset::Object& object)
+{
+  const auto material = preset.scene.materials.find(object.material);
+  return material != preset.scene.materials.end() && material->second.type != preset::Material::Type::diffuse;
+}
 
 std::vector<std::size_t> caster_objects(const preset::Preset& preset)
 {

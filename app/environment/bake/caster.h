@@ -23,6 +23,9 @@ struct Caster {
   Extent extent;                    ///< of their surface
 };
 
+/// Whether an object is of glass or a mirror.
+bool casts(const preset::Preset& preset, const preset::Object& object);
+
 /// The indices into preset.scene.objects, ascending. Throws bad_input at FILE#/environment/objects, with the candidates, where a name there
 /// is of no object of glass and no mirror, or is named twice, and where there is nothing to bake.
 std::vector<std::size_t> caster_objects(const preset::Preset& preset);

@@ -32,10 +32,11 @@ void OwnDirections::want(const std::vector<glm::dvec3>& directions)
     }
     wanted.directions.push_back(direction);
     wanted.baked.push_back(bake_.baked[at]);
-    const auto begin = bake_.halves.begin() + static_cast<std::ptrdiff_t>(at * bake_.direction_items());
-    wanted.halves.insert(wanted.halves.end(), begin, begin + static_cast<std::ptrdiff_t>(bake_.direction_items()));
-    const auto ways = bake_.ways.begin() + static_cast<std::ptrdiff_t>(at * bake_.direction_texels());
-    wanted.ways.insert(wanted.ways.end(), ways, ways + static_cast<std::ptrdiff_t>(bake_.direction_texels()));
+    const auto keep = [&](const std::vector<std::uint16_t>& from, std::size_t items, std::vector<std::uint16_t>& to) {
+      to.insert(to.end(), from.data() + at * items, from.data() + (at + 1) * items);
+    };
+    keep(bake_.halves, bake_.direction_items(), wanted.halves);
+    keep(bake_.ways, bake_.direction_texels(), wanted.ways);
   }
   wanted.directions.insert(wanted.directions.end(), missing.begin(), missing.end());
   if (baker_ && (missing.empty() || missing.front() != task_.directions.front())) {

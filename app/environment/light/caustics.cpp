@@ -212,25 +212,18 @@ void Caustics::compile_air(int side)
   context_.finish();
 }
 
-void Caustics::cast(const CastTexels& texels, std::uint32_t first, std::uint32_t count)
+void Caustics::cast(const CastTexels& texels)
 {
   timed([&] {
-    if (one_by_one_) return one_by_one_->cast(turned(), texels, first, count);
-    cast_.run(count, group,
+    if (one_by_one_) return one_by_one_->cast(turned(), texels);
+    cast_.run(texels.count, group, texels.arguments(),
               {{"stored", stored_},
                {"ways", ways_},
                {"way_of", way_of_},
                {"radii", radii_},
                {"sets", sets_},
                {"eights", used_eights_},
-               {"spheres", spheres_},
-               {"list", *texels.list},
-               {"first", first},
-               {"count", count},
-               {"size", texels.size},
-               {"distances", *texels.distances},
-               {"normals", *texels.normals},
-               {"caustics", *texels.caustics}});
+               {"spheres", spheres_}});
     context_.finish();
   });
 }

@@ -3,8 +3,8 @@
 #pragma once
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
+#include "environment/light/distant_lights.h"
 #include "environment/light/one_by_one.h"
-#include "environment/light/turned_sets.h"
 #include "kernels/environment/render_types.h"
 #include "tracing/step_size.h"
 
@@ -14,13 +14,21 @@
 
 namespace nephroid::environment {
 
-/// Texels of a cube of receivers that are to be lit.
+/// Texels of a cube of receivers that are to be lit: first .. first + count - 1 of a list.
 struct CastTexels {
-  const compute::Buffer<std::uint32_t>* list;     ///< numbers of texels
+  const compute::Buffer<std::uint32_t>* list; ///< numbers of texels
+  std::uint32_t first, count;
   const compute::Buffer<float>* distances;        ///< [texel of the cube]
   const compute::Buffer<shared::float4>* normals; ///< [texel of the cube], unit, on the object's side
   const compute::Buffer<float>* caustics;         ///< [texel of the cube][3], written: E r^2, linear sRGB, W/m^2 of Y times squared units
   int size;                                       ///< of the cube's faces
+
+  /// Of a kernel that lights them.
+  std::vector<compute::Argument> arguments() const
+  {
+    return {{"list", *list},           {"first", first},      {"count", count},       {"size", size},
+            {"distances", *distances}, {"normals", *normals}, {"caustics", *caustics}};
+  }
 };
 
 class Caustics {
@@ -44,8 +52,7 @@ public:
   /// The same by drawn_sets, with a quarter of the work.
   void draw_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, std::uint32_t pass);
 
-  /// Texels first .. first + count - 1 of the list.
-  void cast(const CastTexels& texels, std::uint32_t first, std::uint32_t count);
+  void cast(const CastTexels& texels);
 
   /// Of all calls of set_lights, draw_lights and cast so far.
   double seconds() const { return seconds_; }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // All light that engine 2 knows: parallel light from far away. That is what an environment is cut into (segment/), and the directional
 // lights of a scene.
+// And which baked directions stand for a light, and how their caustic spheres are turned to fit it (thesis 3.2.1).
 #pragma once
 #include "environment/occlusion/occlusion.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace nephroid::environment {
@@ -25,5 +28,46 @@ std::vector<DistantLight> lamps(const scene::Scene& scene);
 
 /// Each light's part that Sight sees from points of the object. surroundings, from: as Sight has them.
 std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const std::vector<glm::dvec3>& from);
+
+/// Caustics that one light makes by one baked direction: its spheres, turned so that they fit the light.
+struct TurnedSet {
+  glm::dmat3 to_bake{1}; ///< from the scene into the coordinates of that direction's spheres
+  glm::dvec3 flux{0};    ///< linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
+  int direction = 0;     ///< of the bake
+  std::size_t light = 0; ///< whose it is, in the list of lights
+};
+
+struct NearDirection {
+  int direction = 0; ///< of light_directions(count), then of the lights' own
+  double weight = 0; ///< above 0; all together 1
+};
+
+/// The baked directions about one that light goes in: where it comes from is a point of a face of the cube (bake.h), and those are
+/// the corners of its cell in the face's grid, with bilinear weights. 1 to 4; just itself of a baked direction. travel: of any length but
+/// 0.
+std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count);
+
+/// The same with directions that were baked for lights of their own, which the nearest of them stands for alone where it is within an
+/// eighth of the way between baked directions (45 degrees of 26, 22.5 of 98); up to a quarter of that it has less and less of the weight.
+std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count, const std::vector<glm::dvec3>& own);
+
+/// Between neighbours of light_directions(count) in the middle of a face of the cube.
+double degrees_between(int count);
+
+/// Where lights go that are worth a direction of their own, the strongest first, at most `most`: those that are narrower than half of the
+/// way between baked directions and have a twentieth of all light. Of lights within a quarter of a degree one. In the bake's coordinates.
+std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, int most);
+
+/// The shortest turn from one unit vector to another; half a turn about some axis across where they are opposite.
+glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
+
+/// The sets of all lights. rotation: from the bake's coordinates to the scene's. count: of baked directions. own: further ones, unit, in
+/// the bake's coordinates. Black lights have none.
+std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
+                                   const std::vector<glm::dvec3>& own = {});
+
+/// The same with one set a light, which stands for all of its near directions: each has its turn in as many passes as its weight asks for.
+std::vector<TurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, std::uint32_t pass,
+                                  const std::vector<glm::dvec3>& own = {});
 
 } // namespace nephroid::environment

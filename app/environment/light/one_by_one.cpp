@@ -63,50 +63,38 @@ void OneByOne::set_lights(const TurnedSpheres& turned, const std::vector<TurnedS
        {"compiled", compiled_}});
 }
 
-void OneByOne::cast(const TurnedSpheres& turned, const CastTexels& texels, std::uint32_t first, std::uint32_t count)
+void OneByOne::cast(const TurnedSpheres& turned, const CastTexels& texels)
 {
-  if (compiles(technique_)) {
-    cast_compiled_.run(count, items_per_group,
-                       {{"compiled", compiled_},
-                        {"radii", turned.radii},
-                        {"spheres", turned.spheres},
-                        {"object_x", turned.object_x},
-                        {"object_y", turned.object_y},
-                        {"object_z", turned.object_z},
-                        {"list", *texels.list},
-                        {"first", first},
-                        {"count", count},
-                        {"size", texels.size},
-                        {"distances", *texels.distances},
-                        {"normals", *texels.normals},
-                        {"caustics", *texels.caustics}});
-    context_.finish();
-    return;
-  }
-  run(cast_, count, turned,
-      {{"list", *texels.list},
-       {"first", first},
-       {"count", count},
-       {"size", texels.size},
-       {"distances", *texels.distances},
-       {"normals", *texels.normals},
-       {"caustics", *texels.caustics}});
+  if (!compiles(technique_)) return run(cast_, texels.count, turned, texels.arguments());
+  cast_compiled_.run(texels.count, items_per_group, texels.arguments(),
+                     {{"compiled", compiled_},
+                      {"radii", turned.radii},
+                      {"spheres", turned.spheres},
+                      {"object_x", turned.object_x},
+                      {"object_y", turned.object_y},
+                      {"object_z", turned.object_z}});
+  context_.finish();
 }
 
-void OneByOne::run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, std::initializer_list<compute::Argument> own)
+void OneByOne::run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, const std::vector<compute::Argument>& own)
 {
   for (const Launch& launch : launches_) {
     const auto set_count = static_cast<int>(launch.directions.size());
     const int anew = &launch == &launches_.front() ? 1 : 0;
-    std::vector<compute::Argument> shared{{"sets", turned.sets},   {"first_set", launch.first_set}, {"set_count", set_count},
-                                          {"radii", turned.radii}, {"spheres", turned.spheres},     {"anew", anew}};
+    std::vector<compute::Argument> shared = own;
     if (!has_buffers(technique_)) shared.emplace_back("stored", turned.stored);
     static constexpr std::array<std::string_view, 4> names{"stored_0", "stored_1", "stored_2", "stored_3"};
     for (std::size_t i = 0; has_buffers(technique_) && i < names.size(); ++i) {
       const std::size_t direction = i < launch.directions.size() ? static_cast<std::size_t>(launch.directions[i]) : 0;
       shared.emplace_back(names[i], of_direction_[direction]);
     }
-    kernel.run(items, items_per_group, shared, own);
+    kernel.run(items, items_per_group, shared,
+               {{"sets", turned.sets},
+                {"first_set", launch.first_set},
+                {"set_count", set_count},
+                {"radii", turned.radii},
+                {"spheres", turned.spheres},
+                {"anew", anew}});
   }
   context_.finish();
 }

@@ -2,13 +2,12 @@
 // Caustics on receivers, put together set after set in the ways that the thesis compares (table 3.3): kernels/environment/one_by_one.cl.
 #pragma once
 #include "compute/compute.h"
-#include "environment/light/turned_sets.h"
+#include "environment/light/distant_lights.h"
 #include "environment/settings.h"
 #include "kernels/environment/render_types.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <vector>
 
 namespace nephroid::environment {
@@ -36,8 +35,8 @@ public:
 
   /// sets: as turned.sets has them.
   void set_lights(const TurnedSpheres& turned, const std::vector<TurnedSet>& sets);
-  /// Texels first .. first + count - 1 of the list. turned: as set_lights had it.
-  void cast(const TurnedSpheres& turned, const CastTexels& texels, std::uint32_t first, std::uint32_t count);
+  /// turned: as set_lights had it.
+  void cast(const TurnedSpheres& turned, const CastTexels& texels);
 
 private:
   struct Launch {
@@ -45,7 +44,7 @@ private:
     std::vector<int> directions; ///< of its sets
   };
   /// As many as it takes for all sets. own: further arguments.
-  void run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, std::initializer_list<compute::Argument> own);
+  void run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, const std::vector<compute::Argument>& own);
 
   Technique technique_;
   compute::Context context_;

@@ -76,8 +76,8 @@ bool Receivers::cast(Caustics& light)
   if (lit_ == known_) return true;
   const auto count = static_cast<std::uint32_t>(
       std::clamp<std::int64_t>(std::llround(texels_a_step_.amount()), 1, static_cast<std::int64_t>(known_ - lit_)));
-  const CastTexels texels{&list_, &distances_, &normals_, &caustics_, size_};
-  texels_a_step_.timed(count, [&] { light.cast(texels, static_cast<std::uint32_t>(lit_), count); });
+  const CastTexels texels{&list_, static_cast<std::uint32_t>(lit_), count, &distances_, &normals_, &caustics_, size_};
+  texels_a_step_.timed(count, [&] { light.cast(texels); });
   lit_ += count;
   return lit_ == known_;
 }

@@ -4,7 +4,6 @@
 #include "environment/bake/baker.h"
 #include "environment/occlusion/samples.h"
 #include "environment/occlusion/surroundings.h"
-#include "environment/settings.h"
 #include "scene/environment_light.h"
 #include "scene/move.h"
 #include "tracing/omissions.h"
@@ -76,14 +75,8 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
 
   task.surroundings = without_caster(scene, caster.objects);
   task.has_surroundings = !task.surroundings.object_of_primitive.empty();
-  const Settings& s = settings(preset);
-  task.refine = s.refine;
-  task.cast = s.cast;
+  const Settings& s = task.settings = settings(preset);
   task.has_medium = s.extinction > 0 && s.albedo > 0;
-  task.extinction = static_cast<float>(s.extinction);
-  task.albedo = static_cast<float>(s.albedo);
-  task.anisotropy = static_cast<float>(s.anisotropy);
-  task.rayleigh = s.phase == Settings::Phase::rayleigh ? 1 : 0;
   if (shines(scene)) {
     task.cube = before && same_light(*before->scene->environment, *scene.environment) ? before->cube : make_cube_map(*scene.environment);
     task.segmentation = segment_by(preset, task.cube);

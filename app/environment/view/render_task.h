@@ -5,6 +5,7 @@
 #include "environment/bake/caster.h"
 #include "environment/light/distant_lights.h"
 #include "environment/segment/cube.h"
+#include "environment/settings.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -31,12 +32,9 @@ struct RenderTask {
   CubeMap cube;              ///< of the environment; empty where there is none
   Segmentation segmentation; ///< of the cube
   std::vector<DistantLight> lamps;
-  bool refine = true; ///< Settings::refine
 
-  bool cast = true;        ///< Settings::cast
+  Settings settings;       ///< the preset's
   bool has_medium = false; ///< whether caustics are seen in the air
-  float extinction = 0, albedo = 0, anisotropy = 0;
-  int rayleigh = 0; ///< 1: the phase function is Rayleigh's
 };
 
 /// What of a task changes when objects move.

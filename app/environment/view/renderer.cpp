@@ -115,7 +115,7 @@ std::vector<DistantLight> Renderer::with_lamps(const std::vector<VisibleLight>& 
 
 void Renderer::light_pass()
 {
-  const bool drawn = pass_ > 0 && occlusion_ && task_.refine;
+  const bool drawn = pass_ > 0 && occlusion_ && task_.settings.refine;
   if (drawn)
     caustics_.draw_lights(with_lamps(occlusion_->drawn_lights(static_cast<std::uint32_t>(pass_))), task_.placement.turn,
                           static_cast<std::uint32_t>(pass_));
@@ -174,7 +174,7 @@ void Renderer::compile_air(int side)
 
 void Renderer::find_wanted(Receivers& receivers)
 {
-  if (!task_.cast) return; // caustics are 0 where nothing has been looked up
+  if (!task_.settings.cast) return; // caustics are 0 where nothing has been looked up
   receivers.find_wanted(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr,
                         task_.placement.middle);
 }
@@ -212,7 +212,7 @@ void Renderer::end_pass()
   stage_ = Stage::see;
   shaded_ = false;
   ++pass_;
-  if (occlusion_ && task_.refine) light_pass(); // else as the pass before
+  if (occlusion_ && task_.settings.refine) light_pass(); // else as the pass before
 }
 
 double Renderer::part() const
@@ -268,6 +268,7 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
 void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
 {
   const Caustics::Air& air = caustics_.air();
+  const Settings& s = task_.settings;
   const int anew = pass_ == 0 ? 1 : 0;
   world_.run(volume_, count, 32,
              {{"air", air.light},
@@ -280,10 +281,10 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
               {"size", around_->size()},
               {"middle", to_float4(task_.placement.middle)},
               {"camera", task_.tables.camera},
-              {"extinction", task_.extinction},
-              {"albedo", task_.albedo},
-              {"rayleigh", task_.rayleigh},
-              {"anisotropy", task_.anisotropy},
+              {"extinction", static_cast<float>(s.extinction)},
+              {"albedo", static_cast<float>(s.albedo)},
+              {"rayleigh", static_cast<int>(s.phase == Settings::Phase::rayleigh)},
+              {"anisotropy", static_cast<float>(s.anisotropy)},
               {"sums", volume_sums_},
               {"seed", world_.seed},
               {"pass", static_cast<std::uint32_t>(pass_)},

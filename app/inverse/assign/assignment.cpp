@@ -2,8 +2,8 @@
 #include "inverse/assign/assignment.h"
 
 #include "base/parallel.h"
+#include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
-#include "inverse/assign/smoothing.h"
 #include "inverse/bending.h"
 #include "inverse/facets/heights.h"
 #include "inverse/uniform.h"

@@ -3,8 +3,8 @@
 // once for all of them, and then each sums a few numbers along x.
 #include "inverse/assign/slope_search.h"
 
+#include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
-#include "inverse/assign/smoothing.h"
 #include "inverse/bending.h"
 
 #include <algorithm>
