@@ -2,7 +2,6 @@
 #include "environment/white_light.h"
 
 #include "optics/colour.h"
-#include "optics/primary_spectra.h"
 
 #include <glm/glm.hpp>
 

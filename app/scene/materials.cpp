@@ -54,21 +54,6 @@ std::filesystem::path find_dispersion(const std::string& name, const FileFinder&
   }
 }
 
-optics::Outside outside_policy(preset::Outside outside)
-{
-  switch (outside) {
-  case preset::Outside::automatic:
-    return optics::Outside::automatic;
-  case preset::Outside::hold:
-    return optics::Outside::hold;
-  case preset::Outside::extrapolate:
-    return optics::Outside::extrapolate;
-  case preset::Outside::refuse:
-    return optics::Outside::refuse;
-  }
-  return optics::Outside::automatic;
-}
-
 optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where)
 {
   using Type = preset::Dispersion::Type;

@@ -2,7 +2,7 @@
 #include "spectral/sight.h"
 
 #include "optics/wavelength.h"
-#include "scene/ray.h"
+#include "scene/bvh.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,8 +4,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/nearest.h"
-#include "scene/corners.h"
-#include "scene/rotation.h"
+#include "scene/scene.h"
 
 #define GLM_ENABLE_EXPERIMENTAL
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/bake/placement.h"
 
-#include "scene/rotation.h"
+#include "scene/scene.h"
 
 namespace nephroid::environment {
 

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "optics/colour.h"
 
-#include "tracing/scene_buffers.h"
+#include "tracing/world.h"
 #include <algorithm>
 
 namespace nephroid::environment {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/occlusion/surface_points.h"
 
-#include "scene/corners.h"
-#include "scene/ray.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
 
 #include <array>
 #include <cmath>

@@ -3,8 +3,7 @@
 
 #include "environment/white_light.h"
 #include "optics/colour.h"
-#include "optics/primary_spectra.h"
-#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 #include "environment/occlusion/surface_points.h"
 #include "environment/occlusion/surroundings.h"
 #include "environment/settings.h"
-#include "scene/environment_light.h"
-#include "scene/move.h"
+#include "scene/environment.h"
+#include "scene/scene.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "optics/colour.h"
-#include "scene/corners.h"
-#include "scene/ray.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
 #include "tracing/omissions.h"
 #include "tracing/targets.h"
 
