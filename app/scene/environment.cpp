@@ -13,7 +13,6 @@
 #include <iterator>
 #include <numbers>
 #include <numeric>
-#include <utility>
 
 namespace nephroid::scene {
 namespace {

@@ -6,7 +6,6 @@
 #include "scene/mesh_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>

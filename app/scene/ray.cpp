@@ -3,7 +3,6 @@
 #include "scene/bvh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>

@@ -14,7 +14,6 @@
 #include <map>
 #include <memory>
 #include <numbers>
-#include <optional>
 
 namespace nephroid::scene {
 namespace {

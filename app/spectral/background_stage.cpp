@@ -3,7 +3,6 @@
 #include "base/counted.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/colour.h"
-#include "preset/preset.h"
 #include "scene/scene.h"
 #include "spectral/eye_stage.h"
 #include "tracing/scales.h"
@@ -12,9 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <span>
 #include <vector>
 
 namespace nephroid::spectral {

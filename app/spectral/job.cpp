@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The job of engine 1: passes, in each of which every stage has its turn, step by step.
-#include "base/error.h"
 #include "spectral/engine.h"
 #include "spectral/relight/relighting.h"
 #include "spectral/sampled_pixels.h"

@@ -4,7 +4,6 @@
 #include "plan/plan.h"
 #include "tracing/scene_tables.h"
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>

@@ -2,7 +2,6 @@
 #include "tracing/targets.h"
 
 #include "scene/bvh.h"
-#include "scene/scene.h"
 #include "tracing/scales.h"
 
 #include <algorithm>

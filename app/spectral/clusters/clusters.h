@@ -9,8 +9,7 @@
 
 namespace nephroid::spectral {
 
-/// optimal: the fewest clusters under the bound, from exact changes of angle. thesis: bicubic patches and Algorithm 4.1 as
-/// printed. brute_force: every wavelength by itself.
+/// thesis: bicubic patches and Algorithm 4.1 as printed; optimal: exact changes of angle.
 using ClusterMethod = Settings::Method;
 
 struct Cluster {

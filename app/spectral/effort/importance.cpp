@@ -7,7 +7,6 @@
 #include "optics/colour.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "tracing/omissions.h"
 #include "tracing/targets.h"
 
 #include <algorithm>
@@ -15,7 +14,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <string>
 
 namespace nephroid::spectral {
 namespace {

@@ -3,7 +3,6 @@
 // of it. A cell is a pixel with one reflector that it sees.
 #pragma once
 #include "compute/compute.h"
-#include "job/job.h"
 #include "kernels/spectral/layer_types.h"
 #include "kernels/tracing/shared_types.h"
 #include "scene/scene.h"

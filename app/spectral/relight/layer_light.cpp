@@ -5,10 +5,7 @@
 #include "spectral/effort/emitters.h"
 #include "tracing/scales.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
