@@ -3,7 +3,7 @@
 // coordinates either side is right (exact_hits.h); nothing else may differ.
 #include "check/check.h"
 #include "check/tracer.h"
-#include "scene/shapes.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 

@@ -74,8 +74,6 @@ public:
   const DeviceInfo& device() const;
   /// Waits until everything queued is done. Throws failed with the first error.
   void finish();
-  /// Sends what is queued to the device and returns.
-  void flush();
   std::shared_ptr<detail::ContextState> state;
 };
 

@@ -1,15 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
-// Running kernels: arguments are checked here, because PoCL checks few of them and crashes on the rest.
+// Device memory; running kernels in it. Arguments are checked here, because PoCL checks few of them and crashes on the rest.
 #include "compute/state.h"
 
 #include <cxxabi.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <map>
 
 namespace nephroid::compute {
+namespace {
+
+/// What clEnqueueFillBuffer writes at a time: allocations are whole multiples of it.
+struct Zeros {
+  cl_ulong low = 0, high = 0;
+};
+
+/// Calls work(), and names the buffer where that fails.
+template <class Work>
+void named(const detail::BufferState& buffer, const Work& work)
+{
+  try {
+    work();
+  } catch (const cl::Error& error) {
+    throw detail::buffers_failed(error, "buffer " + buffer.name, buffer.context->info, {&buffer});
+  }
+}
+
+void check_range(const char* does, std::size_t bytes, std::size_t offset_bytes, const detail::BufferState& buffer)
+{
+  if (offset_bytes > buffer.bytes || bytes > buffer.bytes - offset_bytes)
+    throw failed("buffer " + buffer.name, fmt::format("{} {} bytes at {} of {}", does, bytes, offset_bytes, buffer.bytes));
+}
+
+} // namespace
+
+RawBuffer::RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial)
+    : state(std::make_shared<detail::BufferState>())
+{
+  const DeviceInfo& device = context.device();
+  if (bytes > device.max_buffer_bytes)
+    throw failed("buffer " + name, fmt::format("{} do not fit on {}", detail::megabytes(bytes), device.name),
+                 fmt::format("at most {} a buffer", detail::megabytes(device.max_buffer_bytes)),
+                 "use a smaller image, mesh or number of photons");
+  state->context = context.state;
+  state->name = std::move(name);
+  state->bytes = bytes;
+  const std::size_t allocated = std::max<std::size_t>((bytes + sizeof(Zeros) - 1) / sizeof(Zeros), 1) * sizeof(Zeros);
+  named(*state, [&] { state->buffer = cl::Buffer(context.state->context, CL_MEM_READ_WRITE, allocated); });
+  if (bytes > 0 && initial) write(initial, bytes, 0);
+}
+
+void RawBuffer::write(const void* from, std::size_t bytes, std::size_t offset_bytes)
+{
+  if (bytes == 0) return;
+  check_range("writing", bytes, offset_bytes, *state);
+  named(*state, [&] { state->context->queue.enqueueWriteBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, from); });
+}
+
+void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset_bytes) const
+{
+  if (bytes == 0) return;
+  check_range("reading", bytes, offset_bytes, *state);
+  named(*state, [&] { state->context->queue.enqueueReadBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, to); });
+}
+
+void RawBuffer::fill_zero()
+{
+  named(*state, [&] { state->context->queue.enqueueFillBuffer(state->buffer, Zeros{}, 0, state->buffer.getInfo<CL_MEM_SIZE>()); });
+}
 
 std::string device_type_name(const std::type_info& type)
 {

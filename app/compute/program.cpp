@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Building programs: the one place that composes compiler options and reads the compiler's log.
+// Building programs: the one place that composes compiler options and reads the compiler's log. The compiler gets one text with every
+// include in its place, so that no file is needed at run time and messages still name the file and line that a person edits.
+#include "base/files.h"
+#include "compute/embedded.h"
 #include "compute/state.h"
 
 #include <fmt/format.h>
@@ -9,10 +12,63 @@
 #include <cctype>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <sstream>
 
 namespace nephroid::compute {
 namespace {
+
+namespace fs = std::filesystem;
+
+std::string source_text(const fs::path& folder, const std::string& file, const Place& where)
+{
+  if (!folder.empty()) {
+    if (!fs::exists(folder / file)) throw failed(where, fmt::format("there is no kernel source {}", (folder / file).string()));
+    return read_file(folder / file);
+  }
+  std::string names;
+  for (const EmbeddedSource& source : embedded_sources()) {
+    if (source.name == file) return source.text;
+    names += (names.empty() ? "" : ", ") + source.name;
+  }
+  throw failed(where, "there is no kernel source " + file, "there are: " + names);
+}
+
+/// FILE of a line `#include "FILE"`; empty of any other.
+std::string included_file(std::string_view line)
+{
+  for (const std::string_view word : {"#", "include", "\""}) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (!line.starts_with(word)) return {};
+    line.remove_prefix(word.size());
+  }
+  if (line.starts_with("kernels/")) line.remove_prefix(std::string_view("kernels/").size());
+  return std::string(line.substr(0, line.find('"')));
+}
+
+struct Joiner {
+  const fs::path& folder;
+  std::set<std::string> included = {};
+  std::string text = {};
+
+  void add(const std::string& file, const Place& where)
+  {
+    if (!included.insert(file).second) return;
+    std::istringstream lines(source_text(folder, file, where));
+    text += fmt::format("#line 1 \"{}\"\n", file);
+    int number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      const std::string other = included_file(line);
+      if (other.empty()) {
+        text += line + '\n';
+        continue;
+      }
+      add(other, Place(file, number));
+      text += fmt::format("#line {} \"{}\"\n", number + 1, file);
+    }
+  }
+};
 
 /// Options are one string that every vendor splits at white space in its own way, so a definition holds none.
 void check_define(const std::string& name, const std::string& value)
@@ -120,6 +176,48 @@ Kernel Program::kernel(const std::string& name) const
     throw failed(state->file, "has no kernel " + name, "there are: " + names);
   }
   return kernel;
+}
+
+std::string detail::full_source(const fs::path& folder, const std::string& file)
+{
+  Joiner joiner{folder};
+  joiner.add(file, "kernels");
+  return joiner.text;
+}
+
+std::string kernel_sources(const Context& context, std::string_view folder)
+{
+  const fs::path& kernels = context.state->kernels;
+  const std::string prefix = fmt::format("{}/", folder);
+  std::set<std::string> files;
+  if (kernels.empty()) {
+    for (const EmbeddedSource& source : embedded_sources())
+      if (source.name.starts_with(prefix)) files.insert(source.name);
+  } else {
+    std::error_code error;
+    for (fs::directory_iterator entry(kernels / folder, error), end; !error && entry != end; entry.increment(error))
+      files.insert(prefix + entry->path().filename().string());
+    if (error && error != std::errc::no_such_file_or_directory)
+      throw failed((kernels / folder).string(), "cannot be read: " + error.message());
+  }
+  std::string all;
+  for (const std::string& file : files)
+    if (file.ends_with(".cl")) all += kernel_source(context, file);
+  return all;
+}
+
+std::string kernel_source(const Context& context, const std::string& file) { return detail::full_source(context.state->kernels, file); }
+
+KernelTimes kernel_times(const fs::path& folder)
+{
+  KernelTimes times;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code gone; // a file that an editor replaces may vanish between the two calls
+    const auto time = entry->last_write_time(gone);
+    if (!gone) times[entry->path()] = time;
+  }
+  return times;
 }
 
 } // namespace nephroid::compute

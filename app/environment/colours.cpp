@@ -2,8 +2,7 @@
 #include "environment/colours.h"
 
 #include "optics/colour.h"
-#include "optics/primary_spectra.h"
-#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
 
 #include <glm/glm.hpp>
 

@@ -9,7 +9,7 @@
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
 #include "tracing/omissions.h"
-#include "tracing/scene_buffers.h"
+#include "tracing/world.h"
 
 #include <fmt/format.h>
 

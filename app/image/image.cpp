@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/image.h"
 
-#include "base/error.h"
 #include "base/files.h"
 #include "image/seam.h"
 

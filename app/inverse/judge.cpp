@@ -6,7 +6,7 @@
 #include "inverse/light.h"
 #include "inverse/uniform.h"
 #include "optics/fresnel.h"
-#include "scene/ray.h"
+#include "scene/bvh.h"
 
 #include <glm/gtc/constants.hpp>
 

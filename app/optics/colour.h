@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour: the CIE 1931 2-degree functions, XYZ, linear sRGB, CIELAB. Figures: CIE 015, IEC 61966-2-1.
+// Colour: the CIE 1931 2-degree functions, XYZ, linear sRGB, lightness. Figures: CIE 015, IEC 61966-2-1.
 #pragma once
 #include "optics/wavelength.h"
 
@@ -21,9 +21,13 @@ Colour xyz_to_linear_srgb(const Colour& xyz);
 Colour linear_srgb_to_xyz(const Colour& rgb);
 /// sRGB encoding of one channel; negative values are mirrored.
 double srgb_encode(double linear);
-/// CIELAB with the D65 white of xy .3127 / .3290 and Y = 1.
-Colour xyz_to_lab(const Colour& xyz);
 /// CIE lightness L* (0..100) of a relative luminance Y / Yn.
 double lightness(double relative_luminance);
+
+/// From a colour to a spectrum that has it, for light that is known by its colour alone and meets glass, which bends and absorbs each
+/// wavelength its own way: the smoothest spectra of the three linear sRGB primaries: of all that to_xyz() takes to the primary's XYZ, those
+/// with the smallest sum of squared second differences. Smoothness is linear, so r, g, b times these is the smoothest spectrum of the
+/// colour (r, g, b). They are negative here and there, as every spectrum of a primary would be that is as smooth.
+const std::array<Spectrum, 3>& primary_spectra();
 
 } // namespace nephroid::optics

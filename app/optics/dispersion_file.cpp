@@ -6,8 +6,7 @@
 #include "base/files.h"
 #include "base/nearest.h"
 #include "optics/dispersion.h"
-#include "optics/formulas.h"
-#include "optics/interpolation.h"
+#include "optics/tables.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace nephroid::optics {
 
@@ -24,6 +25,14 @@ double fresnel_reflectance(double cos_i, double n_i, double n_t)
   if (s_sum <= 0 || p_sum <= 0) return n_i == n_t ? 0 : 1;
   const double s = (n_i * cos_i - n_t * *cos_t) / s_sum, p = (n_i * *cos_t - n_t * cos_i) / p_sum;
   return std::min(1.0, (s * s + p * p) / 2);
+}
+
+BallRay ball_ray(double h, double n, int inner)
+{
+  const double i = std::asin(h), t = std::asin(h / n), f = fresnel_reflectance(std::cos(i), 1, n);
+  if (inner < 0) return {-std::cos(i), h, std::numbers::pi - 2 * i, f, 0};
+  const double chord_angle = std::numbers::pi - 2 * t, exit = std::numbers::pi - i - (inner + 1) * chord_angle;
+  return {std::cos(exit), std::sin(exit), -2 * (i - t) - inner * chord_angle, (1 - f) * (1 - f) * std::pow(f, inner), 2 * std::cos(t)};
 }
 
 } // namespace nephroid::optics

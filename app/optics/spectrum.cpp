@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
-#include "optics/interpolation.h"
 #include "optics/tables.h"
 
 #include <fmt/format.h>

@@ -1,13 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour tables that are built into the program (app/optics/data, embedded by EmbedFiles.cmake), as columns of numbers.
+// Rows of (wavelength in nm, value): put in order, and straight lines between them; and the colour tables that are built into the program
+// (app/optics/data, embedded by EmbedFiles.cmake), as columns of numbers.
 #pragma once
-#include "optics/interpolation.h"
+#include "base/place.h"
+#include "optics/dispersion.h"
 
+#include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace nephroid::optics {
+
+using Row = std::array<double, 2>;
+
+/// What to do with a wavelength that is given twice with different values.
+enum class Repeats { refuse, mean };
+
+/// The rows by rising wavelength, each wavelength once. Throws bad_input at `where` for no rows, a number that is not finite,
+/// a wavelength that is not positive, or a repeat that is refused.
+std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const Place& where);
+
+/// The widest step between neighbouring rows that reaches into low..high, where it is a hole in the data and not their usual
+/// step: at least 20 nm of it lie there, and it is five times the median of the steps there, which are four or more. rows: sorted.
+std::optional<std::array<double, 2>> gap_between(std::span<const Row> rows, double low_nm, double high_nm);
+
+/// Straight lines between sorted rows; the end values are held outside.
+class LinearTable {
+public:
+  explicit LinearTable(std::vector<Row> sorted) : rows_(std::move(sorted)) {}
+  double operator()(double nm) const;
+  double low() const { return rows_.front()[0]; }
+  double high() const { return rows_.back()[0]; }
+  std::span<const Row> rows() const { return rows_; }
+
+private:
+  std::vector<Row> rows_;
+};
+
+/// A table as a curve of n or k, with its range and its gap.
+Curve curve_of(LinearTable table);
 
 struct EmbeddedTable {
   std::string_view name; ///< the file's stem, e.g. "illuminants"

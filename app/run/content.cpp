@@ -6,7 +6,7 @@
 #include "engine/engine.h"
 #include "preset/read.h"
 #include "scene/materials.h"
-#include "scene/mesh_cache.h"
+#include "scene/mesh.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

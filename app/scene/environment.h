@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is behind everything, infinitely far away, as a latitude-longitude picture.
+// What is behind everything, infinitely far away, as a latitude-longitude picture; and that as a light: parallel light from every texel, in
+// proportion to the texel's flux.
+//
+// A texel has one colour all over it, and the colour stands for the same spectrum as where it is seen: r, g and b times the fixed spectra
+// of the three sRGB primaries (optics/colour.h), times Environment::radiance. So a white diffuse surface has the colour that the map gives
+// it by its irradiance, and what is seen through glass and what falls through glass are one light.
 #pragma once
 #include "base/files.h"
+#include "optics/colour.h"
 #include "preset/preset.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -29,5 +36,23 @@ struct Environment {
 /// become 0. Appends to warnings where there are such, and where the picture's shape is not 2 : 1.
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Place& where,
                              std::vector<std::string>& warnings);
+
+/// What photons are drawn by: (r + g + b) / 3 of a texel, before Environment::radiance.
+double grey(const Environment& environment, std::size_t texel);
+
+/// Steradians that each texel of a row fills.
+double texel_steradians(const Environment& environment, int row);
+
+/// Of an environment that is not black.
+struct EnvironmentFlux {
+  double grey = 0;       ///< integral of grey() over all directions
+  optics::Colour mean{}; ///< linear sRGB over grey(), a mean over the flux: the three sum to 3
+  /// The root of the mean square over the flux of what a photon carries at each wavelength, summing to 1. A photon of a texel carries its
+  /// colour's spectrum over grey(). That may be negative, where a spectrum of a primary is; this never is. Of one colour it is its
+  /// spectrum.
+  optics::Spectrum spectrum{};
+  double power = 0; ///< by what that was divided, in W m^-2 for grey light of 1 sr and Environment::radiance 1
+};
+EnvironmentFlux flux_of(const Environment& environment);
 
 } // namespace nephroid::scene

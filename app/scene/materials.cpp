@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <optional>
 #include <system_error>
 
@@ -52,21 +50,6 @@ std::filesystem::path find_dispersion(const std::string& name, const FileFinder&
     if (const auto shipped = shipped_material(name)) return *shipped;
     throw;
   }
-}
-
-optics::Outside outside_policy(preset::Outside outside)
-{
-  switch (outside) {
-  case preset::Outside::automatic:
-    return optics::Outside::automatic;
-  case preset::Outside::hold:
-    return optics::Outside::hold;
-  case preset::Outside::extrapolate:
-    return optics::Outside::extrapolate;
-  case preset::Outside::refuse:
-    return optics::Outside::refuse;
-  }
-  return optics::Outside::automatic;
 }
 
 optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where)

@@ -13,8 +13,12 @@
 
 namespace nephroid::scene {
 
-/// The preset's word for it, which knows nothing of optics.
-optics::Outside outside_policy(preset::Outside outside);
+/// The preset's words for it, which knows nothing of optics, are the same in the same order.
+inline optics::Outside outside_policy(preset::Outside outside)
+{
+  static_assert(int(optics::Outside::hold) == int(preset::Outside::hold) && int(optics::Outside::refuse) == int(preset::Outside::refuse));
+  return static_cast<optics::Outside>(outside);
+}
 
 /// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name ("N-SF66"), which means
 /// the same from every folder.

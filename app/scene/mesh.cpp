@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks and repairs of triangle meshes. All sums are in double: positions are floats, so products of two of their differences
+// Checks and repairs of triangle meshes; ellipsoids. All sums are in double: positions are floats, so products of two of their differences
 // are exact or nearly so.
 #include "scene/mesh.h"
 
 #include "scene/mesh_parts.h"
-#include <limits>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <unordered_map>
 
@@ -96,6 +95,20 @@ double six_volumes(const Mesh& mesh, const glm::uvec3& triangle, const glm::dvec
 {
   const auto [a, b, c] = corners(mesh, triangle);
   return glm::dot(a - apex, glm::cross(b - apex, c - apex));
+}
+
+std::array<double, 3> lengths(const Ellipsoid& ellipsoid)
+{
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i) result[i] = glm::length(glm::dvec3(ellipsoid.half_axes[i]));
+  return result;
+}
+
+glm::dvec3 on_unit_sphere(const Ellipsoid& ellipsoid, const glm::dvec3& point)
+{
+  const auto rows = to_unit_sphere(ellipsoid);
+  const glm::dvec3 way = point - glm::dvec3(ellipsoid.centre);
+  return {glm::dot(rows[0], way), glm::dot(rows[1], way), glm::dot(rows[2], way)};
 }
 
 } // namespace
@@ -216,6 +229,44 @@ double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32
   for (std::uint32_t i = first_triangle; i < first_triangle + count; ++i)
     sum += six_volumes(mesh, mesh.triangles[i], mesh.positions[mesh.triangles[first_triangle].x]);
   return sum / 6;
+}
+
+std::array<glm::dvec3, 3> to_unit_sphere(const Ellipsoid& ellipsoid)
+{
+  std::array<glm::dvec3, 3> rows{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 axis = ellipsoid.half_axes[i];
+    rows[i] = axis / glm::dot(axis, axis);
+  }
+  return rows;
+}
+
+bool contains(const Ellipsoid& ellipsoid, const glm::dvec3& point) { return glm::length(on_unit_sphere(ellipsoid, point)) < 1; }
+
+glm::dvec3 half_extent(const Ellipsoid& ellipsoid)
+{
+  // The support function: the largest coordinate of sum of u_i a_i over unit vectors u is the length of the a_i's coordinates.
+  glm::dvec3 squares(0);
+  for (const glm::dvec3 axis : ellipsoid.half_axes) squares += axis * axis;
+  return glm::sqrt(squares);
+}
+
+double longest_half_axis(const Ellipsoid& ellipsoid) { return std::ranges::max(lengths(ellipsoid)); }
+double shortest_half_axis(const Ellipsoid& ellipsoid) { return std::ranges::min(lengths(ellipsoid)); }
+
+double volume_of(const Ellipsoid& ellipsoid)
+{
+  const auto [a, b, c] = lengths(ellipsoid);
+  return 4 * std::numbers::pi / 3 * a * b * c;
+}
+
+// The gradient of |M (p - c)|^2 is 2 M^T M (p - c).
+glm::dvec3 normal_at(const Ellipsoid& ellipsoid, const glm::dvec3& point)
+{
+  const auto rows = to_unit_sphere(ellipsoid);
+  const glm::dvec3 unit = on_unit_sphere(ellipsoid, point);
+  const glm::dvec3 outwards = glm::normalize(unit.x * rows[0] + unit.y * rows[1] + unit.z * rows[2]);
+  return ellipsoid.inwards ? -outwards : outwards;
 }
 
 std::vector<glm::vec3> extreme_points(const Mesh& mesh)

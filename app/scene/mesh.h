@@ -2,16 +2,23 @@
 // Surfaces, which are triangle meshes and ellipsoids: the plain data, reading meshes from files, checks. Shapes made by the program are in
 // shapes.h.
 #pragma once
-#include "scene/ellipsoid.h"
-
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace nephroid::scene {
+
+/// A sphere, or what a scale along its axes makes of it: a surface of its own, not triangles, so that hits and normals are exact.
+struct Ellipsoid {
+  glm::vec3 centre{0};
+  std::array<glm::vec3, 3> half_axes{}; ///< perpendicular to each other, from the centre to the surface
+  bool inwards = false;                 ///< the normals look towards the centre
+};
 
 struct Mesh {
   std::vector<glm::vec3> positions;
@@ -30,6 +37,12 @@ inline constexpr std::uint64_t max_triangles = std::uint64_t{1} << 28;
 /// kept: see drop_useless(). Throws bad_input naming the file: unreadable, no triangle with an area, a coordinate that is not finite, too
 /// many triangles.
 Mesh load_mesh(const std::filesystem::path& file);
+/// The same, but a file with the same bytes as before is not read again, as far as the last meshes take no more than 256 MiB together:
+/// while an object is moved its scene is loaded again and again, and reading a mesh takes longest of that. Safe from several threads. One
+/// that has further files is read each time.
+std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file);
+/// Whether the mesh's data may be in other files, which this one names: a .gltf's.
+bool has_further_files(const std::filesystem::path& file);
 
 /// What is wrong with a mesh. Vertices at equal positions count as one here, whatever their normals.
 struct MeshReport {
@@ -62,6 +75,21 @@ double signed_volume(const Mesh& mesh, std::uint32_t first_triangle, std::uint32
 
 /// The vertices, and the lowest and highest corner of a box about each ellipsoid: what a box about everything has to hold.
 std::vector<glm::vec3> extreme_points(const Mesh& mesh);
+
+/// What takes a point's distance from the centre to the unit sphere: the component along a half axis, in lengths of that.
+std::array<glm::dvec3, 3> to_unit_sphere(const Ellipsoid& ellipsoid);
+
+bool contains(const Ellipsoid& ellipsoid, const glm::dvec3& point);
+
+/// Half the edges of the box along the coordinate axes about it.
+glm::dvec3 half_extent(const Ellipsoid& ellipsoid);
+
+double longest_half_axis(const Ellipsoid& ellipsoid);
+double shortest_half_axis(const Ellipsoid& ellipsoid);
+double volume_of(const Ellipsoid& ellipsoid);
+
+/// The unit normal where the surface is nearest to the point, to first order; outwards unless it is turned inwards.
+glm::dvec3 normal_at(const Ellipsoid& ellipsoid, const glm::dvec3& point);
 
 struct Sphere {
   glm::vec3 centre{0};

@@ -10,7 +10,6 @@
 #include <cctype>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 #include <vector>
 

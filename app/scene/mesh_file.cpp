@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mesh files, read by a small program of its own (reader/main.cpp), which may crash, hang or run out of memory over them.
+// Mesh files, read by a small program of its own (reader/main.cpp), which may crash, hang or run out of memory over them. Nothing that it
+// answers is believed before it was looked at: a file that corrupts its memory makes it say anything.
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hashed_bytes.h"
 #include "scene/mesh.h"
 #include "scene/mesh_parts.h"
 
@@ -10,15 +12,16 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <list>
 #include <memory>
-#include <optional>
+#include <mutex>
 #include <spawn.h>
 #include <stdexcept>
-#include <string>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <utility>
@@ -100,7 +103,70 @@ Mesh ask_reader(Reader& reader, unsigned cpu_seconds)
   return mesh_of(std::move(*answer));
 }
 
+[[noreturn]] void refuse(const std::string& what) { throw std::runtime_error("the program that reads it answers nonsense: " + what); }
+
+/// Fills `items` with the answer's next ones; false where it ends before them. Memory grows with what comes, not with what is promised.
+/// Refuses more than `most`.
+template <class Items>
+bool take_items(std::FILE* from, Items& items, std::uint64_t most)
+{
+  std::uint64_t count = 0;
+  if (std::fread(&count, sizeof count, 1, from) != 1) return false;
+  if (count > most) refuse(fmt::format("{} items where {} are the most", count, most));
+  constexpr std::uint64_t piece = 1 << 20;
+  while (items.size() < count) {
+    const std::size_t before = items.size(), more = std::min(piece, count - before);
+    items.resize(before + more);
+    if (std::fread(static_cast<void*>(items.data() + before), sizeof *items.data(), more, from) != more) return false;
+  }
+  return true;
+}
+
+constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20;
+
+struct Kept {
+  std::filesystem::path file;
+  std::uint64_t bytes = 0, hash = 0; ///< of the file
+  std::shared_ptr<const Mesh> mesh;
+};
+
+std::uint64_t bytes_of(const Mesh& mesh)
+{
+  return mesh.positions.size() * sizeof(glm::vec3) + mesh.normals.size() * sizeof(glm::vec3) + mesh.triangles.size() * sizeof(glm::uvec3);
+}
+
 } // namespace
+
+std::optional<MeshAnswer> take_answer(std::FILE* from)
+{
+  constexpr std::uint64_t longest_refusal = 1 << 20;
+  MeshAnswer answer;
+  Mesh& mesh = answer.mesh;
+  const bool whole = take_items(from, answer.refusal, longest_refusal) && take_items(from, mesh.positions, 3 * max_triangles) &&
+                     take_items(from, mesh.normals, 3 * max_triangles) && take_items(from, mesh.triangles, max_triangles) &&
+                     take_items(from, answer.mended, 1);
+  return whole ? std::optional(std::move(answer)) : std::nullopt;
+}
+
+Mesh mesh_of(MeshAnswer answer)
+{
+  if (!answer.refusal.empty()) throw std::runtime_error(answer.refusal);
+  if (answer.mended.empty()) refuse("no count of mended normals");
+  Mesh mesh = std::move(answer.mesh);
+  mesh.mended_normals = answer.mended[0];
+  const std::size_t vertices = mesh.positions.size();
+  if (!mesh.normals.empty() && mesh.normals.size() != vertices)
+    refuse(fmt::format("{} normals of {} vertices", mesh.normals.size(), vertices));
+  if (mesh.mended_normals > mesh.normals.size()) refuse(fmt::format("{} mended normals of {}", mesh.mended_normals, mesh.normals.size()));
+  for (const glm::vec3& p : mesh.positions)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse("a coordinate that is not finite");
+  for (const glm::vec3& normal : mesh.normals)
+    if (!(std::abs(glm::dot(normal, normal) - 1) < 1e-3f)) refuse("a normal that is no unit vector");
+  for (const glm::uvec3& triangle : mesh.triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      if (triangle[corner] >= vertices) refuse(fmt::format("a triangle with vertex {} of {}", triangle[corner], vertices));
+  return mesh;
+}
 
 Mesh load_mesh(const std::filesystem::path& file)
 {
@@ -126,6 +192,31 @@ Mesh load_mesh(const std::filesystem::path& file)
                   [&mesh](const glm::uvec3& triangle) { return is_degenerate(mesh, triangle); }))
     throw bad_input(where, mesh.triangles.empty() ? "the mesh has no triangles" : "no triangle of the mesh has an area", formats);
   return mesh;
+}
+
+bool has_further_files(const std::filesystem::path& file) { return file.extension() == ".gltf" || file.extension() == ".GLTF"; }
+
+std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file)
+{
+  static std::mutex mutex;
+  static std::list<Kept> all; // the last used first
+  if (has_further_files(file)) return std::make_shared<const Mesh>(load_mesh(file));
+  const std::lock_guard lock(mutex);
+  const std::string bytes = read_file(file);
+  PieceHash hash;
+  hash.add(std::as_bytes(std::span(bytes)));
+  Kept wanted{file, bytes.size(), hash.value(), nullptr};
+  for (auto kept = all.begin(); kept != all.end(); ++kept)
+    if (kept->file == wanted.file && kept->bytes == wanted.bytes && kept->hash == wanted.hash) {
+      all.splice(all.begin(), all, kept);
+      return kept->mesh;
+    }
+  wanted.mesh = std::make_shared<const Mesh>(load_mesh(file));
+  all.remove_if([&](const Kept& kept) { return kept.file == file; });
+  all.push_front(wanted);
+  std::uint64_t sum = 0;
+  all.remove_if([&](const Kept& kept) { return (sum += bytes_of(*kept.mesh)) > most_bytes; });
+  return wanted.mesh;
 }
 
 } // namespace nephroid::scene

@@ -3,8 +3,6 @@
 
 #include "base/counted.h"
 #include "base/error.h"
-#include "scene/directions.h"
-#include "scene/rotation.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #pragma once
 #include "base/place.h"
 #include "preset/preset.h"
-#include "scene/corners.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
@@ -12,6 +11,11 @@
 #include <vector>
 
 namespace nephroid::scene {
+
+/// Beyond this a squared area no longer fits into single precision. In the preset's unit, from Scene::origin.
+inline constexpr double max_coordinate = 1e9;
+
+inline glm::dvec3 to_dvec3(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 /// p -> linear p + offset, from the mesh's coordinates to the preset's.
 struct Placement {
@@ -46,5 +50,8 @@ Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& ori
 /// precision can tell (some 1e-6 of the larger object's coordinates), and says so in scene.warnings. What overlaps is left alone, and so is
 /// an ellipsoid that touches in a point.
 void part_touching(Scene& scene);
+
+/// How far objects reach, in units, from the middle of the scene's coordinates.
+double scene_radius(const Scene& scene);
 
 } // namespace nephroid::scene

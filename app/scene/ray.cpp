@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/ray.h"
+// One ray at a time through the tree of bvh.h. Pictures are traced by kernels/tracing/bvh.h.
+#include "scene/bvh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>

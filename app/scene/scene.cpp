@@ -4,12 +4,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "scene/directions.h"
-#include "scene/environment_light.h"
 #include "scene/materials.h"
-#include "scene/mesh_cache.h"
 #include "scene/place.h"
-#include "scene/shapes.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +14,6 @@
 #include <map>
 #include <memory>
 #include <numbers>
-#include <optional>
 
 namespace nephroid::scene {
 namespace {
@@ -146,14 +141,6 @@ void warn_if_straddling(Scene& scene, const Light& light, std::size_t index)
   }
 }
 
-/// In units, from the middle of the scene's coordinates.
-double scene_radius(const Scene& scene)
-{
-  double radius = 0;
-  for (const Object& object : scene.objects) radius = std::max<double>(radius, glm::length(object.bounds.centre) + object.bounds.radius);
-  return radius;
-}
-
 /// Places on a rectangle are drawn uniformly. Of one much larger than the scene hardly any is near enough to matter.
 void warn_if_wide(Scene& scene, const Light& light, std::size_t index)
 {
@@ -190,6 +177,13 @@ void warn_of_faint_lights(Scene& scene)
 }
 
 } // namespace
+
+double scene_radius(const Scene& scene)
+{
+  double radius = 0;
+  for (const Object& object : scene.objects) radius = std::max<double>(radius, glm::length(object.bounds.centre) + object.bounds.radius);
+  return radius;
+}
 
 std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
 {
@@ -251,6 +245,43 @@ Scene load_scene(const preset::Preset& preset)
   warn_of_faint_lights(scene);
   scene.camera = make_camera(preset.scene.camera, scene);
   return scene;
+}
+
+std::span<const glm::uvec3> triangles_of(const Scene& scene, const Object& object)
+{
+  const std::span<const glm::uvec3> all = scene.geometry.triangles;
+  if (object.first_triangle > all.size() || object.triangle_count > all.size() - object.first_triangle)
+    throw failed(scene.source, fmt::format("object '{}' has triangles that the scene does not hold", object.name),
+                 fmt::format("expected triangles {} to {} among {}", object.first_triangle,
+                             std::uint64_t{object.first_triangle} + object.triangle_count, all.size()));
+  return all.subspan(object.first_triangle, object.triangle_count);
+}
+
+std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& object)
+{
+  const std::span<const Ellipsoid> all = scene.geometry.ellipsoids;
+  if (object.first_ellipsoid + object.ellipsoid_count > all.size())
+    throw failed(scene.source, fmt::format("object '{}' has ellipsoids that the scene does not hold", object.name));
+  return all.subspan(object.first_ellipsoid, object.ellipsoid_count);
+}
+
+Bounds enclosing(const Bounds& a, const Bounds& b) { return {glm::min(a.low, b.low), glm::max(a.high, b.high)}; }
+
+Bounds bounds_of(const Ellipsoid& ellipsoid)
+{
+  const glm::dvec3 centre = ellipsoid.centre, half = half_extent(ellipsoid);
+  return {centre - half, centre + half};
+}
+
+Bounds bounds_of(const Scene& scene, const Object& object)
+{
+  Bounds bounds;
+  for_each_corner_index(scene, object, [&](std::uint32_t vertex) {
+    const glm::dvec3 corner = scene.geometry.positions[vertex];
+    bounds = enclosing(bounds, {corner, corner});
+  });
+  for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) bounds = enclosing(bounds, bounds_of(ellipsoid));
+  return bounds;
 }
 
 } // namespace nephroid::scene

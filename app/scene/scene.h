@@ -12,11 +12,21 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace nephroid::scene {
+
+/// A box along the axes. Without a point in it, as it is made here, low is above high.
+struct Bounds {
+  glm::dvec3 low{std::numeric_limits<double>::max()}, high{std::numeric_limits<double>::lowest()};
+};
+
+Bounds enclosing(const Bounds& a, const Bounds& b);
+Bounds bounds_of(const Ellipsoid& ellipsoid);
 
 struct Material {
   enum class Type { diffuse, dielectric, mirror };
@@ -49,7 +59,7 @@ struct Light {
   double irradiance_w_m2 = 0;     ///< directional
   optics::Spectrum spectrum{};    ///< sums to 1
   std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
-  /// Of the environment, which is directional light of many directions and colours (environment_light.h): what a photon's red, green and
+  /// Of the environment, which is directional light of many directions and colours (environment.h): what a photon's red, green and
   /// blue part each carry at every wavelength; `spectrum` is what photons are dealt by. Empty of a lamp.
   std::vector<optics::Spectrum> primaries;
 
@@ -103,7 +113,59 @@ Camera make_camera(const preset::Camera& camera, const Scene& scene);
 /// where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of range, unknown spectrum.
 Light make_light(const preset::Light& light, const Scene& scene, const Place& where);
 
+/// Directional light of all directions together: its irradiance is that on a sphere, over the area of the sphere's shadow.
+Light make_environment_light(const Environment& environment);
+
 /// The dielectric objects that contain p (scene coordinates), largest volume first: where they are nested, outermost first.
 std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p);
+
+/// Throws failed where the scene does not hold them: a scene of materials and objects alone has no geometry.
+std::span<const glm::uvec3> triangles_of(const Scene& scene, const Object& object);
+
+/// Throws as triangles_of.
+std::span<const Ellipsoid> ellipsoids_of(const Scene& scene, const Object& object);
+
+/// Calls visit(index of a vertex) for every corner of every triangle. Throws as triangles_of.
+template <class Visit>
+void for_each_corner_index(const Scene& scene, const Object& object, const Visit& visit)
+{
+  for (const glm::uvec3& triangle : triangles_of(scene, object))
+    for (int corner = 0; corner < 3; ++corner) visit(triangle[corner]);
+}
+
+/// Calls visit(glm::dvec3) for every corner of every triangle, and of a box about every ellipsoid along its axes: points whose convex hull
+/// holds all of the object. In the scene's coordinates. Throws as triangles_of.
+template <class Visit>
+void for_each_corner(const Scene& scene, const Object& object, const Visit& visit)
+{
+  for_each_corner_index(scene, object, [&](std::uint32_t vertex) { visit(glm::dvec3(scene.geometry.positions[vertex])); });
+  for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object))
+    for (unsigned i = 0; i < 8; ++i) {
+      glm::dvec3 corner = ellipsoid.centre;
+      for (unsigned axis = 0; axis < 3; ++axis) corner += (i >> axis & 1 ? 1.0 : -1.0) * glm::dvec3(ellipsoid.half_axes[axis]);
+      visit(corner);
+    }
+}
+
+/// The smallest along the axes, in the scene's coordinates. Throws as triangles_of.
+Bounds bounds_of(const Scene& scene, const Object& object);
+
+/// The surface of a shape of preset.h, centred by its bounds on the origin, y up, with normals. Flat facets have vertices of
+/// their own, so their normals are exact; curved sides share theirs.
+/// quad: open, size x by z in the plane y = 0, facing +y. box, plate: size x, y, z.
+/// sphere: an exact one, not of triangles.
+/// cylinder: about the y axis, flat ends, a sharp rim.
+/// prism: stands along y; the apex edge at +z, the third side at -z, facing -z.
+/// brilliant: the round brilliant cut, table up: 57 facets and 16 of the girdle.
+Mesh make_shape(const preset::Shape& shape);
+
+/// Of preset::Transform::rotate_deg: about x, then y, then z, each counter-clockwise seen from the axis' positive end.
+glm::dmat3 rotation(const preset::Vec3& rotate_deg);
+
+/// The scene with objects and camera where another preset has them. loaded: of `before`, from which `now` differs by the turns and
+/// translations of objects and by the camera. Scene::origin stays, so places differ from those of load_scene(now) by what single precision
+/// leaves; so do those of the gaps between things that touch. Nothing where objects go so far that load_scene would have to choose another
+/// origin: beyond twice the distance that they had. Throws bad_input as make_camera.
+std::optional<Scene> move_objects(const Scene& loaded, const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::scene

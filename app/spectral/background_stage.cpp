@@ -3,20 +3,15 @@
 #include "base/counted.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/colour.h"
-#include "optics/primary_spectra.h"
-#include "preset/preset.h"
 #include "scene/scene.h"
 #include "spectral/eye_stage.h"
-#include "tracing/exact_cdf.h"
 #include "tracing/scales.h"
-#include "tracing/sky_tables.h"
+#include "tracing/scene_tables.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <span>
 #include <vector>
 
 namespace nephroid::spectral {

@@ -2,13 +2,11 @@
 // Whether a run has caustics, and how their photons are sent: what its plan says of both. photon_stage.cpp splats them, map_stage.cpp and
 // sppm_stage.cpp gather them.
 #include "base/counted.h"
-#include "spectral/effort/effort.h"
+#include "spectral/effort/importance.h"
 #include "spectral/plan_part.h"
 #include "tracing/stretch.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace nephroid::spectral {
 namespace {

@@ -4,8 +4,6 @@
 #include "preset/value.h"
 #include "spectral/settings.h"
 
-#include <string_view>
-
 namespace nephroid::preset {
 
 template <>

@@ -6,9 +6,31 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace nephroid::spectral {
+namespace {
+
+struct Part {
+  const char* name;
+  std::size_t outcome;
+  double EnergyBalance::*watts;
+};
+constexpr Part parts[] = {
+    {"emitted_w", OUTCOME_EMITTED, &EnergyBalance::emitted_w}, {"deposited_w", OUTCOME_DEPOSITED, &EnergyBalance::deposited_w},
+    {"missed_w", OUTCOME_MISSED, &EnergyBalance::missed_w},    {"absorbed_w", OUTCOME_ABSORBED, &EnergyBalance::absorbed_w},
+    {"escaped_w", OUTCOME_ESCAPED, &EnergyBalance::escaped_w}, {"lost_w", OUTCOME_LOST, &EnergyBalance::lost_w}};
+
+void add_parts(const std::string& group, const EnergyBalance& energy, job::Snapshot& snapshot)
+{
+  double accounted = 0;
+  for (const Part& part : parts) {
+    if (group == "indirect_energy" && (part.outcome == OUTCOME_DEPOSITED || part.outcome == OUTCOME_MISSED)) continue;
+    snapshot.scalars.push_back({group, part.name, energy.*part.watts});
+    if (part.outcome != OUTCOME_EMITTED) accounted += energy.*part.watts;
+  }
+  snapshot.scalars.push_back({group, "unaccounted_w", energy.emitted_w - accounted});
+}
+
+} // namespace
 
 OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_per_watt, double passes)
 {
@@ -20,59 +42,32 @@ OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_p
 
 EnergyBalance balance_of(const OutcomeWatts& watts)
 {
-  return {watts[OUTCOME_EMITTED],
-          watts[OUTCOME_DEPOSITED],
-          watts[OUTCOME_MISSED],
-          watts[OUTCOME_ABSORBED],
-          watts[OUTCOME_ESCAPED],
-          watts[OUTCOME_LOST],
-          static_cast<std::uint64_t>(watts[OUTCOME_REFUSED])};
+  EnergyBalance energy;
+  for (const Part& part : parts) energy.*part.watts = watts[part.outcome];
+  energy.refused_contributions = static_cast<std::uint64_t>(watts[OUTCOME_REFUSED]);
+  return energy;
 }
 
 void add_energy(const Energy& energy, job::Snapshot& snapshot)
 {
-  const EnergyBalance& e = energy.caustics;
-  const double accounted = e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w;
-  const std::string group = "energy", indirect = "indirect_energy";
-  snapshot.scalars.insert(snapshot.scalars.end(), {{group, "emitted_w", e.emitted_w},
-                                                   {group, "deposited_w", e.deposited_w},
-                                                   {group, "missed_w", e.missed_w},
-                                                   {group, "absorbed_w", e.absorbed_w},
-                                                   {group, "escaped_w", e.escaped_w},
-                                                   {group, "lost_w", e.lost_w},
-                                                   {group, "unaccounted_w", e.emitted_w - accounted},
-                                                   {group, "refused_contributions", static_cast<double>(e.refused_contributions)}});
-  if (const auto& i = energy.indirect)
-    snapshot.scalars.insert(snapshot.scalars.end(), {{indirect, "emitted_w", i->emitted_w},
-                                                     {indirect, "absorbed_w", i->absorbed_w},
-                                                     {indirect, "escaped_w", i->escaped_w},
-                                                     {indirect, "lost_w", i->lost_w},
-                                                     {indirect, "unaccounted_w", i->emitted_w - i->absorbed_w - i->escaped_w - i->lost_w}});
-  if (e.refused_contributions > 0)
+  const std::uint64_t refused = energy.caustics.refused_contributions;
+  add_parts("energy", energy.caustics, snapshot);
+  snapshot.scalars.push_back({"energy", "refused_contributions", static_cast<double>(refused)});
+  if (energy.indirect) add_parts("indirect_energy", *energy.indirect, snapshot);
+  if (refused > 0)
     snapshot.warnings.push_back(
         fmt::format("{} too bright for the film and missing from the picture; move the camera or the light away from the "
                     "surface, or take fewer pixel_samples",
-                    counted(e.refused_contributions, "sample was", "samples were")));
+                    counted(refused, "sample was", "samples were")));
 }
 
-EnergyBalance energy_of(const job::Snapshot& snapshot)
+EnergyBalance energy_of(const job::Snapshot& snapshot, const char* group)
 {
-  const auto of = [&](const char* name) { return job::scalar(snapshot, "energy", name); };
-  const double refused = of("refused_contributions");
-  return {of("emitted_w"),
-          of("deposited_w"),
-          of("missed_w"),
-          of("absorbed_w"),
-          of("escaped_w"),
-          of("lost_w"),
-          refused > 0 ? static_cast<std::uint64_t>(refused) : 0};
-}
-
-std::optional<IndirectBalance> indirect_energy_of(const job::Snapshot& snapshot)
-{
-  const auto of = [&](const char* name) { return job::scalar(snapshot, "indirect_energy", name); };
-  if (std::isnan(of("emitted_w"))) return std::nullopt;
-  return IndirectBalance{of("emitted_w"), of("absorbed_w"), of("escaped_w"), of("lost_w")};
+  EnergyBalance energy;
+  for (const Part& part : parts) energy.*part.watts = job::scalar(snapshot, group, part.name);
+  const double refused = job::scalar(snapshot, group, "refused_contributions");
+  energy.refused_contributions = refused > 0 ? static_cast<std::uint64_t>(refused) : 0;
+  return energy;
 }
 
 } // namespace nephroid::spectral

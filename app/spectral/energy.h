@@ -17,14 +17,11 @@ struct EnergyBalance {
   std::uint64_t refused_contributions = 0; ///< film contributions too large for its fixed point: 0 in a sound run
 };
 
-/// The same of the photons of a layer of interreflection: emitted = absorbed (by any surface, or inside glass) + escaped + lost.
-struct IndirectBalance {
-  double emitted_w = 0, absorbed_w = 0, escaped_w = 0, lost_w = 0;
-};
-
 struct Energy {
   EnergyBalance caustics;
-  std::optional<IndirectBalance> indirect; ///< where there is such a layer
+  /// Of the photons of the layer of interreflection, where there is one: emitted = absorbed (by any surface, or inside glass) + escaped +
+  /// lost; nothing is deposited or missed.
+  std::optional<EnergyBalance> indirect;
 };
 
 /// [OUTCOME_*]: W by the counters of so many passes; of refused contributions their number.
@@ -34,8 +31,7 @@ EnergyBalance balance_of(const OutcomeWatts& watts);
 
 /// Adds the scalars of the groups "energy" and "indirect_energy", and a warning where contributions were refused.
 void add_energy(const Energy& energy, job::Snapshot& snapshot);
-/// What add_energy added to a snapshot.
-EnergyBalance energy_of(const job::Snapshot& snapshot);
-std::optional<IndirectBalance> indirect_energy_of(const job::Snapshot& snapshot);
+/// What add_energy added to a snapshot; of "indirect_energy" NaN where there is no such layer.
+EnergyBalance energy_of(const job::Snapshot& snapshot, const char* group = "energy");
 
 } // namespace nephroid::spectral

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spectral/glass_pixels.h"
-
-#include "scene/corners.h"
+#include "spectral/sampled_pixels.h"
 
 #include <algorithm>
 #include <array>

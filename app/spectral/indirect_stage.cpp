@@ -5,7 +5,6 @@
 #include "spectral/effort/emitters.h"
 #include "spectral/stage.h"
 #include "spectral/tables/run_tables.h"
-#include "tracing/exact_cdf.h"
 #include "tracing/film.h"
 #include "tracing/scales.h"
 #include "tracing/step_size.h"
@@ -117,9 +116,8 @@ public:
   void report(std::int64_t passes, bool done, Energy& energy) override
   {
     const double passes_done = static_cast<double>(passes) + (done ? 1 : part());
-    const EnergyBalance e = balance_of(outcome_watts(energy_.read(), tables_.energy_scale, passes_done));
-    energy.indirect = {e.emitted_w, e.absorbed_w, e.escaped_w, e.lost_w};
-    energy.caustics.refused_contributions += e.refused_contributions;
+    energy.indirect = balance_of(outcome_watts(energy_.read(), tables_.energy_scale, passes_done));
+    energy.caustics.refused_contributions += energy.indirect->refused_contributions;
   }
 
   void state(tracing::State& state) override

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The job of engine 1: passes, in each of which every stage has its turn, step by step.
-#include "base/error.h"
 #include "spectral/engine.h"
-#include "spectral/glass_pixels.h"
-#include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
+#include "spectral/sampled_pixels.h"
 #include "spectral/smoothing.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"

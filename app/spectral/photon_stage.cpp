@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons that are splatted into the pixel that sees them: kernels/spectral/photons.cl.
 #include "spectral/effort/emission_guide.h"
-#include "spectral/effort/variance_deal.h"
+#include "spectral/effort/emitters.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"

@@ -6,7 +6,7 @@
 #include "spectral/plan_part.h"
 #include "spectral/relight/layer_light.h"
 #include "tracing/omissions.h"
-#include "tracing/scene_buffers.h"
+#include "tracing/world.h"
 
 #include <fmt/format.h>
 

@@ -8,8 +8,8 @@
 #include "scene/scene.h"
 #include "spectral/settings.h"
 #include "spectral/tables/run_tables.h"
-#include "tracing/leave_out.h"
 #include "tracing/omissions.h"
+#include "tracing/scene_tables.h"
 
 #include <cstdint>
 #include <map>

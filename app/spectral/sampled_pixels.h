@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which pixels a stage samples from the eye: all of them until they have enough, then those that may show glass or a mirror, as long as the
-// run goes on.
+// run goes on: what those show takes as many samples as a run can give, for each path from the eye there has one wavelength and one branch
+// of each reflection.
 #pragma once
 #include "preset/preset.h"
+#include "scene/scene.h"
 #include "spectral/tables/device_world.h"
 #include "tracing/step_size.h"
 
@@ -11,8 +13,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace nephroid::spectral {
+
+/// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch, whatever stands before
+/// it; all of them for a camera inside glass. Every path that meets glass or a mirror first is of one of these.
+std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene);
 
 class SampledPixels {
 public:

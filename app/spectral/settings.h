@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The settings of engine 1: the section "spectral" of a preset.
+// The settings of engine 1: the section "spectral" of a preset. describe_settings.h says what each choice is.
 #pragma once
 #include "preset/preset.h"
 
@@ -25,14 +25,8 @@ struct Sppm {
 /// Engine 1.
 struct Settings {
   enum class Method { optimal, thesis, brute_force };
-  /// Where caustics are estimated. automatic: splats where the camera sees the receiver directly, photon maps elsewhere.
   enum class Estimator { automatic, splat, sppm };
-  /// How the work is dealt to the clusters. automatic: variance while that gains enough, else power; power: by what the eye makes of their
-  /// light; equal: the same for each; importance: u of (4.15); radziszewski: that of Radziszewski et al. 2009; variance: by the variance
-  /// that is measured, which also guides the directions in which photons leave a light (not with sppm); random: one cluster a pass, drawn
-  /// at random (sppm only).
   enum class Effort { automatic, power, equal, importance, radziszewski, variance, random };
-  /// Spreading caustics over pixels around until their noise is small; not with sppm. automatic: where the film's halves say that it helps.
   enum class Smoothing { automatic, on, off };
   Method method = Method::optimal;
   double threshold_deg = 0.05; ///< alpha: the largest change of the refraction angle inside a cluster

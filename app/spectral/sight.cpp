@@ -2,7 +2,6 @@
 #include "spectral/sight.h"
 
 #include "optics/wavelength.h"
-#include "scene/ray.h"
 
 #include <algorithm>
 #include <limits>

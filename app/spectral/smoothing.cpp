@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/summed_area.h"
 #include "spectral/plan_part.h"
-#include "tracing/scene_buffers.h"
+#include "tracing/world.h"
 
 #include <fmt/format.h>
 

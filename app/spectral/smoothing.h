@@ -10,8 +10,6 @@
 #include "scene/scene.h"
 #include "spectral/sight.h"
 
-#include <glm/glm.hpp>
-
 #include <cstdint>
 #include <memory>
 #include <span>

@@ -3,7 +3,6 @@
 
 #include "optics/colour.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::tracing {

@@ -3,8 +3,7 @@
 
 #include "base/counted.h"
 #include "preset/choices.h"
-#include "scene/corners.h"
-#include "tracing/scene_tables.h"
+#include "scene/scene.h"
 #include "tracing/targets.h"
 
 #include <fmt/format.h>

@@ -2,10 +2,8 @@
 // What a scene does not need: the facts that decide it, and the plan's passes that say so.
 #pragma once
 #include "plan/plan.h"
-#include "scene/scene.h"
-#include "tracing/leave_out.h"
+#include "tracing/scene_tables.h"
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>

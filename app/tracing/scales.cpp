@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace nephroid::tracing {
 
@@ -11,14 +12,18 @@ double power_of_two_below(double value) { return std::isfinite(value) && value >
 
 scene::Sphere scene_bounds(const scene::Scene& scene)
 {
-  glm::vec3 low{0}, high{0};
-  const std::vector<glm::vec3> points = extreme_points(scene.geometry);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const glm::vec3& p = points[i];
-    low = i == 0 ? p : glm::min(low, p);
-    high = i == 0 ? p : glm::max(high, p);
-  }
+  const auto [low, high] = box_about(extreme_points(scene.geometry));
   return {0.5f * (low + high), 0.5f * glm::length(high - low)};
+}
+
+std::array<glm::vec3, 2> box_about(const std::vector<glm::vec3>& points)
+{
+  glm::vec3 low{0}, high{0};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    low = i == 0 ? points[i] : glm::min(low, points[i]);
+    high = i == 0 ? points[i] : glm::max(high, points[i]);
+  }
+  return {low, high};
 }
 
 double splat_scale(const scene::Scene& scene, unsigned photons, double watts)
@@ -35,6 +40,30 @@ double energy_scale(double watts) { return power_of_two_below(std::exp2(40) / wa
 double mean_watts(std::int64_t quanta, double quanta_per_watt, double passes)
 {
   return passes > 0 ? static_cast<double>(quanta) / (quanta_per_watt * passes) : 0;
+}
+
+std::vector<float> exact_cdf(const std::vector<double>& weights)
+{
+  constexpr double quanta = 0x1p24;
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (!weights.empty() && !(total > 0)) return exact_cdf(std::vector<double>(weights.size(), 1.0));
+  // One quantum each, so that nothing is left out by rounding, and the rest in proportion.
+  const auto positive = static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+  std::vector<float> cdf;
+  double sum = 0, ones = 0;
+  for (const double weight : weights) {
+    sum += weight;
+    ones += weight > 0 ? 1 : 0;
+    cdf.push_back(static_cast<float>((ones + std::round((quanta - positive) * std::min(sum / total, 1.0))) / quanta));
+  }
+  return cdf;
+}
+
+std::vector<float> exact_cdf_from_zero(const std::vector<double>& weights)
+{
+  std::vector<float> cdf = exact_cdf(weights);
+  cdf.insert(cdf.begin(), 0.0f);
+  return cdf;
 }
 
 } // namespace nephroid::tracing

@@ -4,15 +4,41 @@
 #include "kernels/tracing/shared_types.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
-#include "tracing/leave_out.h"
-#include "tracing/sky_tables.h"
 #include "tracing/stretch.h"
 #include "tracing/wavelength_tables.h"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace nephroid::tracing {
+
+/// What a run may do without where its scene does not need it; omissions.h says where. A preset leaves out all of that or nothing.
+/// Tests turn one thing back on and show that the picture stays the same.
+struct LeaveOut {
+  bool all = true;              ///< what the others are where nothing else is said
+  bool direct = all;            ///< the layer "direct" where no surface is diffuse
+  bool photons = all;           ///< photons where no object bends light or no surface is diffuse
+  bool photon_maps = all;       ///< photon maps where the camera sees every diffuse surface directly
+  bool stray_photons = all;     ///< photons that start towards anything but glass and mirrors
+  bool unreached_targets = all; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
+  bool dark_lights = all;       ///< lights without power
+  bool unlit_wavelengths = all; ///< wavelengths that no light has
+  bool occlusion = all;         ///< the look from a caustic back to the camera where nothing can stand between them
+  bool light_types = all;       ///< kernels without the code of types of light that the scene does not have
+  bool mirrors = all;           ///< kernels without mirrors
+  bool bending = all;           ///< kernels without Snell and Fresnel where all glass has n = 1
+  bool attenuation = all;       ///< kernels without absorption where no glass absorbs and no mirror is coloured
+  bool smooth_normals = all;    ///< kernels without interpolated normals
+};
+
+/// The environment as a light, as kernels/tracing/sky.h reads it.
+struct SkyTables {
+  shared::DeviceBackground size{};
+  std::vector<float> cdf;       ///< exact_cdf of the rows' flux, then of the texels of each row
+  std::vector<float> colour;    ///< [row][column][3]: what a photon of the texel carries of each primary, about rgb over grey
+  shared::float4 mean_colour{}; ///< of all photons
+};
 
 struct SceneTables {
   shared::DeviceScene scene{}; ///< but for its root, which is the tree's
@@ -40,5 +66,15 @@ int device_light_type(const scene::Light& light);
 /// clusters: of the 401 wavelengths, each in exactly one. Throws bad_input at FILE#/pointer where the camera or a light is inside more than
 /// MEDIA_DEPTH dielectrics.
 SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const LeaveOut& leave_out);
+
+/// Where texels are looked up: of what is seen, too.
+shared::DeviceBackground picture_size(const scene::Environment& environment);
+
+/// Of an environment that is not black. A texel of less than 2^-24 of its row is drawn more often than its flux asks for; its photons
+/// carry less then, so that nothing is too bright.
+SkyTables make_sky_tables(const scene::Environment& environment);
+
+/// Bytes on the device.
+std::uint64_t bytes_of(const SkyTables& tables);
 
 } // namespace nephroid::tracing

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/targets.h"
 
-#include "scene/corners.h"
-#include "scene/ray.h"
+#include "scene/bvh.h"
+#include "tracing/scales.h"
 
 #include <algorithm>
 #include <array>
@@ -93,11 +93,7 @@ scene::Sphere everything(const scene::Scene& scene)
     if (light.type != preset::Light::Type::directional)
       for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
         points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
-  glm::vec3 low{0}, high{0};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    low = i == 0 ? points[i] : glm::min(low, points[i]);
-    high = i == 0 ? points[i] : glm::max(high, points[i]);
-  }
+  const auto [low, high] = box_about(points);
   // Larger than need be, so that rounding leaves no light on its surface or outside; not a point where there is only one.
   return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};
 }

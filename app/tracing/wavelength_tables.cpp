@@ -2,7 +2,7 @@
 #include "tracing/wavelength_tables.h"
 
 #include "optics/colour.h"
-#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
 
 #include <algorithm>
 #include <cmath>

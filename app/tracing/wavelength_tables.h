@@ -24,8 +24,7 @@ struct WavelengthTables {
   std::vector<shared::float4> reflected_xyz_all; ///< [row of light_xyz][reflector]
   std::vector<float> cluster_cdf;                ///< exact_cdf_from_zero: what paths through glass are worth in each cluster
   std::vector<std::vector<double>> share;        ///< [light][cluster]: of the light's power
-  std::vector<std::vector<double>>
-      seen; ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3: see worth() in exact_cdf.h
+  std::vector<std::vector<double>> seen; ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3: see worth() in scales.h
   int attenuator_count = 0, reflector_count = 0;
 };
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment as a latitude-longitude picture at infinity: its colour in a direction, and what the eye makes of one wavelength of it.
 // The picture knows colours; glass bends and absorbs wavelengths. So a colour stands for a spectrum: the sum of fixed spectra of the three
-// sRGB primaries (app/optics/primary_spectra.h).
+// sRGB primaries (app/optics/colour.h).
 #ifndef NEPHROID_BACKGROUND_H
 #define NEPHROID_BACKGROUND_H
 
 #include "kernels/tracing/light.h"
+#include "kernels/tracing/shared_types.h"
 
 typedef struct {
-  __global const float* texels;           // [row][column][3]: linear sRGB
-  __global const float4* primary_xyz;     // [401, all of them at the end][primary]: XYZ of the primary's spectrum
+  __global const float* texels;       // [row][column][3]: linear sRGB
+  __global const float4* primary_xyz; // [401, all of them at the end][primary]: XYZ of the primary's spectrum
   DeviceBackground size;
 } Background;
 
@@ -32,7 +33,8 @@ static inline float3 background_rgb(const Background* b, float3 direction)
   const int row = (int)top, next_row = min(row + 1, b->size.height - 1);
   // a + t (b - a) is exact where a and b are the same.
   const float3 a = texel_at(b, row, column), c = texel_at(b, next_row, column);
-  const float3 upper = a + right_part * (texel_at(b, row, next_column) - a), lower = c + right_part * (texel_at(b, next_row, next_column) - c);
+  const float3 upper = a + right_part * (texel_at(b, row, next_column) - a),
+               lower = c + right_part * (texel_at(b, next_row, next_column) - c);
   return upper + lower_part * (lower - upper);
 }
 

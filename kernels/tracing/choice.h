@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One of several things by one random number. A cdf is as app/spectral/effort/exact_cdf.h makes it: [count], the last 1.
+// One of several things by one random number. A cdf is as app/tracing/scales.h makes it: [count], the last 1.
 #ifndef NEPHROID_CHOICE_H
 #define NEPHROID_CHOICE_H
 

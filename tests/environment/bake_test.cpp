@@ -5,7 +5,6 @@
 #include "environment/ball_map.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"
-#include "optics/primary_spectra.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/temporary_folder.h"
 

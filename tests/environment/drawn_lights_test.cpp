@@ -2,7 +2,7 @@
 // The lights that passes draw of a sky: they cover each light's region evenly, and leave out what is hidden.
 #include "environment/occlusion/occlusion.h"
 #include "environment/occlusion/surroundings.h"
-#include "scene/ray.h"
+#include "scene/bvh.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 #include "tests/support/test.h"

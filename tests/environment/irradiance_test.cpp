@@ -4,8 +4,8 @@
 #include "tests/support/test.h"
 
 #include "environment/segment/quality.h"
-#include "scene/ray.h"
-#include "scene/rotation.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
 #include "tests/environment/maps.h"
 
 namespace nephroid::irradiance_test {

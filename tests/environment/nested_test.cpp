@@ -3,7 +3,7 @@
 #include "environment/bake/caster.h"
 #include "environment/ball_map.h"
 #include "optics/fresnel.h"
-#include "scene/rotation.h"
+#include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/errors.h"
 

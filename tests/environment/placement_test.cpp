@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where baked objects stand in the scene: their vertices there are those of the bake, turned and moved.
 #include "environment/bake/caster.h"
+#include "environment/bake/placement.h"
 #include "scene/corners.h"
+#include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/temporary_folder.h"
 

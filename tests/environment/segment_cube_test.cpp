@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cube's geometry against closed forms, and its light against sums over the texels of the map.
 #include "environment/segment/cube.h"
+#include "environment/segment/cube_map.h"
+#include "scene/bvh.h"
 #include "scene/ray.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"

@@ -54,7 +54,7 @@ TEST_P(Without, TheRestIsWhatAPresetWithoutItMakes)
     EXPECT_EQ(rest.objects[i].material, expected.objects[i].material);
     const std::vector<glm::dvec3> a = corners(rest, rest.objects[i]), b = corners(expected, expected.objects[i]);
     ASSERT_EQ(a.size(), b.size());
-    // Glass that touches what is taken away is shrunk by some 3e-5 in the whole scene (scene/contact.cpp).
+    // Glass that touches what is taken away is shrunk by some 3e-5 in the whole scene (scene/move.cpp).
     for (std::size_t k = 0; k < a.size(); ++k) EXPECT_LT(glm::distance(a[k], b[k]), 1e-4) << k;
   }
 }

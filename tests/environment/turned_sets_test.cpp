@@ -4,8 +4,11 @@
 #include "tests/support/test.h"
 
 #include "environment/bake/bake.h"
+#include "environment/bake/directions.h"
+#include "scene/bvh.h"
 #include "scene/ray.h"
 #include "scene/rotation.h"
+#include "scene/scene.h"
 
 namespace nephroid::turned_sets_test {
 

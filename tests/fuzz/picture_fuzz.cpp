@@ -5,7 +5,6 @@
 #include "inverse/pictures/target.h"
 #include "measure/read_picture.h"
 #include "scene/environment.h"
-#include "scene/environment_light.h"
 #include "tests/fuzz/harness.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 // Spheres and ellipsoids of kernels/tracing/bvh.h, and of the host's rays, against the plain quadratic in long double.
 #include "check/tracer.h"
 #include "scene/bvh.h"
-#include "scene/ray.h"
 #include "tests/support/ellipsoids.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"

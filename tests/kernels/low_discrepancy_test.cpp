@@ -6,7 +6,7 @@
 #include "tests/support/statistics.h"
 #include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-#include "tracing/scene_buffers.h"
+#include "tracing/world.h"
 
 namespace nephroid::low_discrepancy_test {
 

@@ -5,7 +5,7 @@
 #include "tests/support/statistics.h"
 #include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
-#include "tracing/sky_tables.h"
+#include "tracing/scene_tables.h"
 
 #include <glm/glm.hpp>
 

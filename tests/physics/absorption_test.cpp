@@ -5,7 +5,7 @@
 // and the ball absorbs as a disc of area Q pi R^2 does, Q = integral of absorbed 2 sin(i) cos(i) di: the absorption efficiency of
 // geometrical optics (van de Hulst, Light Scattering by Small Particles, 12.3). For n = 1 the chords are distributed like l / (2 R^2), and
 //   Q = 1 - 2 (1 - (1 + tau) exp(-tau)) / tau^2, tau = 2 R a.
-#include "optics/ball.h"
+#include "optics/fresnel.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/temporary_folder.h"
 

@@ -2,8 +2,8 @@
 // The layer "background" against closed forms: exact colours, which way up and round a map is, radiance that glass keeps, Beer's law in a
 // plate, and Snell's law in a prism that takes white light apart.
 #include "image/image.h"
+#include "optics/colour.h"
 #include "optics/fresnel.h"
-#include "optics/primary_spectra.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/temporary_folder.h"

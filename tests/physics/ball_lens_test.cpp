@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glass ball as a lens: its focus, and what it makes of parallel light on a screen.
-#include "optics/ball.h"
+#include "optics/fresnel.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::ball_lens_test {
@@ -40,8 +40,8 @@ std::vector<double> truth(const Screen& screen, double distance, double aperture
       ray.x = x * std::cos(tilt) - y * std::sin(tilt);
       ray.y = x * std::sin(tilt) + y * std::cos(tilt);
       ray.angle += tilt;
-      const double r = optics::height_on_screen(ray, distance);
-      if (std::isnan(r)) continue;
+      if (std::cos(ray.angle) <= 0) continue; // it goes the other way
+      const double r = ray.y + (distance - ray.x) * std::tan(ray.angle);
       const double power = M_PI * aperture * aperture / rings / each * ray.share;
       for (int j = 0; j < each; ++j) {
         const auto k = static_cast<std::size_t>((j * directions / each + ring * 2531) % directions); // 2531 / 4096: the golden ratio

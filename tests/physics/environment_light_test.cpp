@@ -2,7 +2,7 @@
 // The environment as a light: colours and irradiance of a map against sums over its texels, one hot texel against directional light of the
 // same irradiance, the balance of energy, and runs that go on with the same bits. White furnaces under a sky: white_furnace_test.cpp.
 #include "image/image.h"
-#include "optics/primary_spectra.h"
+#include "optics/colour.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the camera sees through glass gets samples as long as a run goes on, and its share of the work by what that gains; other pixels end
 // at spectral.pixel_samples.
-#include "spectral/glass_pixels.h"
+#include "spectral/sampled_pixels.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/render.h"
 #include "tests/support/saved_jobs.h"

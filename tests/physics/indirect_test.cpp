@@ -99,9 +99,9 @@ TEST_P(DiffuseFurnace, IsEvenlyLit)
   spectral::settings(p).indirect_photons_per_pass = 1 << 14;
   p.stop.passes = 64;
 
-  spectral::IndirectBalance energy;
+  spectral::EnergyBalance energy;
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
-    energy = *spectral::indirect_energy_of(snapshot);
+    energy = spectral::energy_of(snapshot, "indirect_energy");
     return squares_of(layer(snapshot, "indirect"), pixels, group);
   });
   const double irradiance = power / (4 * M_PI * radius * radius) * reflectance / (1 - reflectance);
@@ -242,8 +242,7 @@ TEST(Indirect, AccountsForItsEnergy)
   TemporaryFolder temporary;
   const preset::Preset p = open_room(temporary.path());
   const job::Snapshot snapshot = render(p);
-  ASSERT_TRUE(spectral::indirect_energy_of(snapshot));
-  const spectral::IndirectBalance e = *spectral::indirect_energy_of(snapshot);
+  const spectral::EnergyBalance e = spectral::energy_of(snapshot, "indirect_energy");
   expect_truth("indirect, energy: accounted for / emitted", (e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1, 1e-12);
   EXPECT_GT(e.absorbed_w, 0.1 * e.emitted_w);
   EXPECT_GT(e.escaped_w, 0.1 * e.emitted_w);
@@ -269,7 +268,7 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   while (!job->finished()) job->step();
   const job::Snapshot resumed = job->snapshot();
   EXPECT_EQ(layer(resumed, "indirect").rgb, layer(whole, "indirect").rgb);
-  EXPECT_EQ(spectral::indirect_energy_of(resumed)->escaped_w, spectral::indirect_energy_of(whole)->escaped_w);
+  EXPECT_EQ(spectral::energy_of(resumed, "indirect_energy").escaped_w, spectral::energy_of(whole, "indirect_energy").escaped_w);
 }
 
 } // namespace nephroid::indirect_test

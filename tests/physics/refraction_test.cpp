@@ -2,7 +2,7 @@
 // Photons through plates and prisms, against Snell's and Fresnel's closed forms.
 #include "optics/dispersion.h"
 #include "optics/fresnel.h"
-#include "spectral/checks/closed_forms.h"
+#include "spectral/checks/render.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::refraction_test {

@@ -2,7 +2,7 @@
 // Newton's prism over a receiver that its light grazes: splats stretched along the wavelength make one rainbow of 401 lines, each colour
 // where Snell puts it, and no light is made or lost at the receiver's edge.
 #include "optics/fresnel.h"
-#include "spectral/checks/closed_forms.h"
+#include "spectral/checks/render.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::spectral_differentials_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays and ellipsoids by the plain quadratic, in long double: what the tracers' own way of solving it is judged by.
 #pragma once
-#include "scene/ellipsoid.h"
+#include "scene/mesh.h"
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "preset/preset.h"
 #include "spectral/settings.h"
 #include "tests/support/presets.h"
-#include "tracing/leave_out.h"
+#include "tracing/scene_tables.h"
 
 #include <ostream>
 #include <string>

@@ -2,7 +2,6 @@
 // What the tests of scene loading start from and ask of a loaded scene.
 #pragma once
 #include "preset/preset.h"
-#include "scene/corners.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/support/errors.h"

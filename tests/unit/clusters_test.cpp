@@ -116,7 +116,7 @@ TEST(Clusters, RefractionIntegralAboveAtAndBelowOne)
   EXPECT_NEAR(refraction_integral_deg2(1e9), 0, 1e-3);
 }
 
-// (A.3) as derived in clusters_patches.cpp, against differences of (4.3) along a curve n(lambda) with known n' and n''.
+// (A.3) as derived in clusters.cpp, against differences of (4.3) along a curve n(lambda) with known n' and n''.
 TEST(Clusters, MixedDerivativeOfAppendixA)
 {
   const auto n = [](double l) { return 1.9 - 0.2 * std::sin(l); };

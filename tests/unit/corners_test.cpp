@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The corners of an object's triangles, the box about them, and objects whose triangles the scene does not hold.
-#include "scene/corners.h"
-#include "spectral/clusters/scene_clusters.h"
+#include "scene/scene.h"
+#include "spectral/clusters/clusters.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
 

@@ -4,8 +4,6 @@
 #include "optics/spectrum.h"
 #include "plan/plan.h"
 #include "scene/bvh.h"
-#include "scene/corners.h"
-#include "scene/ray.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
 #include "spectral/tables/run_tables.h"

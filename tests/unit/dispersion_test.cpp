@@ -2,7 +2,6 @@
 // Dispersion against published figures, hand-computed values of every formula, and the oddities of the refractiveindex.info
 // database. Malformed files are in dispersion_file_test.cpp.
 #include "optics/dispersion.h"
-#include "optics/formulas.h"
 #include "tests/support/errors.h"
 
 namespace nephroid::dispersion_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cdf in single precision whose differences are the chances to the bit.
 #include "tests/support/test.h"
-#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
 
 namespace nephroid::exact_cdf_test {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // No path from the eye may meet glass or a mirror first in a pixel that is not on the list; and the list is not the whole picture.
 #include "scene/bvh.h"
-#include "scene/ray.h"
-#include "spectral/glass_pixels.h"
+#include "spectral/sampled_pixels.h"
 #include "tests/support/loaded_scenes.h"
 
 namespace nephroid::glass_pixels_test {

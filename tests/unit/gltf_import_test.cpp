@@ -9,7 +9,7 @@
 #include "run/import/gltf_nodes.h"
 #include "run/import/import.h"
 #include "scene/mesh.h"
-#include "scene/rotation.h"
+#include "scene/scene.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which cells a film of layers has for what a survey saw, how many are promised, and how photons are dealt for lights to come.
 #include "scene/scene.h"
-#include "spectral/relight/layer_cells.h"
+#include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
 #include "tests/support/presets.h"
 #include "tests/support/test.h"

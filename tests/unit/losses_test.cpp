@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which wavelengths glass and mirrors take alike: the bound against a search, and that parts keep it and are as few as can be.
 #include "scene/scene.h"
-#include "spectral/clusters/scene_clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "tests/support/presets.h"
 #include "tests/support/temporary_folder.h"
 #include "tracing/wavelength_tables.h"

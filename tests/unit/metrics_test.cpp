@@ -139,6 +139,14 @@ TEST(Metrics, TheLargestFloatsStayFinite)
   EXPECT_NEAR(m.rel_l2, 2, 1e-12);
 }
 
+/// CIELAB of CIE 015 with the white of xy = .3127 / .3290, Y = 1; lightness() has its root.
+optics::Colour exact_lab(const optics::Colour& xyz)
+{
+  const auto root = [](double t) { return (optics::lightness(t) + 16) / 116; };
+  const double x = root(xyz[0] * 0.3290 / 0.3127), y = root(xyz[1]), z = root(xyz[2] * 0.3290 / (1 - 0.3127 - 0.3290));
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
 // optics/colour.h is the truth; this folder's faster way is held to 1e-12 of it, far outside the gamut too.
 TEST(Metrics, FastColourIsTheColourOfOptics)
 {
@@ -146,7 +154,7 @@ TEST(Metrics, FastColourIsTheColourOfOptics)
     const double range = std::exp2(40 * (test::hashed(i, 0, 3, 9) - 0.5));
     float rgb[3];
     for (int c = 0; c < 3; ++c) rgb[c] = static_cast<float>(range * (test::hashed(i, 0, c, 9) - 0.2));
-    const optics::Colour truth = optics::xyz_to_lab(optics::linear_srgb_to_xyz({rgb[0], rgb[1], rgb[2]}));
+    const optics::Colour truth = exact_lab(optics::linear_srgb_to_xyz({rgb[0], rgb[1], rgb[2]}));
     const auto lab = lab_of(rgb);
     const double size = 1e-12 * (1000 + std::fabs(truth[0]) + std::fabs(truth[1]) + std::fabs(truth[2]));
     for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(lab[c], truth[c], size) << rgb[0] << " " << rgb[1] << " " << rgb[2];
@@ -155,6 +163,15 @@ TEST(Metrics, FastColourIsTheColourOfOptics)
   EXPECT_EQ(encode_clipped(-1), 0);
   EXPECT_EQ(encode_clipped(0), 0);
   EXPECT_EQ(encode_clipped(1), 1);
+}
+
+// Lab of the sRGB primaries as every converter prints them (D65).
+TEST(Metrics, LabOfKnownColours)
+{
+  const std::array<float, 3> colours[] = {{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+  const std::array<double, 3> labs[] = {{100, 0, 0}, {53.24, 80.09, 67.20}, {87.73, -86.18, 83.18}, {32.30, 79.19, -107.86}, {0, 0, 0}};
+  for (std::size_t i = 0; i < std::size(labs); ++i)
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(lab_of(colours[i].data())[c], labs[i][c], 0.05) << i << " " << c;
 }
 
 TEST(Metrics, SomeAreSymmetric)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The spectra of the sRGB primaries: the right colour, and nothing smoother has it.
 #include "optics/colour.h"
-#include "optics/primary_spectra.h"
 #include "tests/support/test.h"
 
 namespace nephroid::primary_spectra_test {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Host rays through the tree against every triangle on its own, along edges, and past triangles that do not count.
 #include "scene/bvh.h"
-#include "scene/ray.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
 

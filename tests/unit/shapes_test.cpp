@@ -2,7 +2,7 @@
 // Shapes against their closed forms: volume, area, closedness, normals; the brilliant against the angles of its cut.
 #include "preset/preset.h"
 #include "scene/mesh.h"
-#include "scene/shapes.h"
+#include "scene/scene.h"
 #include "tests/support/errors.h"
 
 namespace nephroid::scene::shapes_test {

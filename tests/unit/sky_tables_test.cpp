@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment as a light, on the host: its flux, its spectrum, and the tables that photons are drawn by.
-#include "optics/primary_spectra.h"
-#include "scene/environment_light.h"
+#include "optics/colour.h"
+#include "scene/environment.h"
 #include "tests/support/test.h"
-#include "tracing/sky_tables.h"
+#include "tracing/scene_tables.h"
 
 namespace nephroid::sky_tables_test {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dealing photons by measured variance: the optimum of a case worked out by hand, and what must never be lost on the way.
 #include "spectral/effort/emitters.h"
-#include "spectral/effort/variance_deal.h"
 #include "tests/support/saved_jobs.h"
 #include "tests/support/test.h"
 

@@ -3,7 +3,7 @@
 // the camera looks.
 #pragma once
 #include "preset/preset.h"
-#include "scene/corners.h"
+#include "scene/scene.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/gizmo_edits.h"
 
-#include "scene/rotation.h"
+#include "scene/scene.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

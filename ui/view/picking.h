@@ -3,7 +3,7 @@
 #pragma once
 #include "preset/preset.h"
 #include "run/run.h"
-#include "scene/corners.h"
+#include "scene/scene.h"
 #include "ui/view/sight.h"
 
 #include <any>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/scene_overlay.h"
 
-#include "scene/rotation.h"
+#include "scene/scene.h"
 #include "ui/widgets/theme.h"
 
 #include <imgui.h>

@@ -8,7 +8,7 @@
 #include "cli/verbs.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "spectral/clusters/scene_clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "tracing/omissions.h"
 
 #include <fmt/format.h>

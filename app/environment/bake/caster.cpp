@@ -5,8 +5,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/nearest.h"
-#include "scene/corners.h"
-#include "scene/rotation.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,8 +2,7 @@
 #include "environment/bake/extent.h"
 
 #include "scene/bvh.h"
-#include "scene/corners.h"
-#include "scene/ray.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "environment/to_float4.h"
-#include "tracing/scene_buffers.h"
+#include "tracing/world.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -6,10 +6,9 @@
 #include "environment/bake/bake.h"
 #include "optics/colour.h"
 #include "tracing/scene_buffers.h"
-
+#include "tracing/world.h"
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "environment/occlusion/surroundings.h"
 
 #include "optics/wavelength.h"
-#include "scene/corners.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cstdint>

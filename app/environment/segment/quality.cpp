@@ -2,7 +2,7 @@
 #include "environment/segment/quality.h"
 
 #include "base/parallel.h"
-#include "scene/ray.h"
+#include "scene/bvh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,11 @@
 #include "environment/bake/baker.h"
 #include "environment/occlusion/samples.h"
 #include "environment/occlusion/surroundings.h"
+#include "environment/settings.h"
+#include "scene/environment.h"
 #include "scene/environment_light.h"
 #include "scene/move.h"
+#include "scene/scene.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>

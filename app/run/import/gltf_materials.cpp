@@ -2,7 +2,6 @@
 #include "run/import/gltf_materials.h"
 
 #include "optics/colour.h"
-#include "optics/primary_spectra.h"
 #include "optics/spectrum.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pencils of light through plates, a prism and a ball lens by the real engine, against Fresnel and Snell.
 #include "check/device_arrays.h"
-#include "spectral/checks/closed_forms.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
 

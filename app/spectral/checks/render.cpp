@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/checks/render.h"
 
+#include "optics/fresnel.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "spectral/engine.h"
 
+#include <glm/glm.hpp>
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace nephroid::check {
 namespace {
@@ -21,7 +26,52 @@ void share_programs(compute::Defines& defines)
   at_least("NEPHROID_ELLIPSOIDS", 1);
 }
 
+using Point = glm::dvec2; // (x, z)
+
+/// Where a ray crosses the line through a and b.
+Point crossing(const Point& o, const Point& d, const Point& a, const Point& b)
+{
+  const Point e = b - a;
+  const double t = ((a.x - o.x) * e.y - (a.y - o.y) * e.x) / (d.x * e.y - d.y * e.x);
+  return o + t * d;
+}
+
+/// Snell's law in the plane: unit direction d, unit normal n against it.
+Point refracted(const Point& d, const Point& n, double eta)
+{
+  const double c = -glm::dot(d, n), t = std::sqrt(1 - eta * eta * (1 - c * c));
+  return eta * d + (eta * c - t) * n;
+}
+
 } // namespace
+
+double plate_transmittance(double theta, double n)
+{
+  const double r = optics::fresnel_reflectance(std::cos(theta), 1, n);
+  return (1 - r) / (1 + r);
+}
+
+PrismPath prism_path(double side, double incidence, double n, double screen_z)
+{
+  const double c = std::cos(std::numbers::pi / 6), s = 0.5;
+  const Point apex{0, side * c / 2}, left{-side / 2, -side * c / 2}, right{side / 2, -side * c / 2};
+  const Point into{c, -s}, right_normal{c, s}; // into: against the entry face's normal
+  // Turned by the angle of incidence towards the apex.
+  const Point direction{into.x * std::cos(incidence) - into.y * std::sin(incidence),
+                        into.x * std::sin(incidence) + into.y * std::cos(incidence)};
+  const Point entry = (apex + left) / 2.0, from = entry - 2 * side * direction;
+  const Point inside = refracted(direction, -into, 1 / n), exit = crossing(entry, inside, apex, right);
+  const Point out = refracted(inside, -right_normal, n);
+  return {from.x, from.y, direction.x, direction.y, exit.x + (screen_z - exit.y) / out.y * out.x};
+}
+
+double ball_lens_landing(double radius, double height, double n, double screen_z)
+{
+  const double a = std::asin(height / radius), b = std::asin(height / radius / n), d = 2 * (a - b);
+  if (d == 0) return height;
+  const double focus = radius * std::sin(a) / std::sin(d);
+  return (focus + screen_z) * std::tan(d);
+}
 
 spectral::RunTables device_tables(const preset::Preset& preset)
 {

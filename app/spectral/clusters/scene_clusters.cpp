@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spectral/clusters/scene_clusters.h"
-
-#include "scene/corners.h"
 #include "spectral/clusters/clusters.h"
 #include "tracing/stretch.h"
 #include "tracing/wavelength_tables.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace nephroid::spectral {
@@ -40,19 +36,6 @@ std::vector<std::vector<int>> refraction_clusters(const Settings& settings, cons
   return common_refinement(clusterings);
 }
 
-} // namespace
-
-std::vector<std::vector<int>> scene_clusters(const Settings& settings, const scene::Scene& scene)
-{
-  std::vector<std::vector<int>> clusters = refraction_clusters(settings, scene);
-  if (settings.relight) return split_by_losses(std::move(clusters), scene, settings.max_surfaces, largest_loss_difference);
-  if (settings.differentials && tracing::stretch_parameter(scene) == tracing::StretchParameter::wavelength)
-    clusters = tracing::split_into_runs(clusters);
-  return clusters;
-}
-
-namespace {
-
 /// Of the box about all objects of a material, in metres.
 double diagonal_m(const scene::Scene& scene, std::size_t material)
 {
@@ -79,6 +62,15 @@ void split(std::vector<int> cluster, const std::vector<double>& coefficients, do
 }
 
 } // namespace
+
+std::vector<std::vector<int>> scene_clusters(const Settings& settings, const scene::Scene& scene)
+{
+  std::vector<std::vector<int>> clusters = refraction_clusters(settings, scene);
+  if (settings.relight) return split_by_losses(std::move(clusters), scene, settings.max_surfaces, largest_loss_difference);
+  if (settings.differentials && tracing::stretch_parameter(scene) == tracing::StretchParameter::wavelength)
+    clusters = tracing::split_into_runs(clusters);
+  return clusters;
+}
 
 double largest_difference(double a, double b, double longest)
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spectral/effort/effort.h"
-
+// How the work of a pass is dealt to lights and clusters.
 #include "spectral/effort/importance.h"
-#include "tracing/exact_cdf.h"
+
 #include "tracing/omissions.h"
+#include "tracing/scales.h"
 
 #include <fmt/format.h>
 

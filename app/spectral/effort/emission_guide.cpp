@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/effort/emission_guide.h"
 
-#include "tracing/exact_cdf.h"
+#include "tracing/scales.h"
 
 #include <algorithm>
 #include <cmath>

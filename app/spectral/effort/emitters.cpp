@@ -2,8 +2,10 @@
 #include "spectral/effort/emitters.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace nephroid::spectral {
 
@@ -73,6 +75,71 @@ void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons)
   const std::uint64_t at = (std::uint64_t{emitter.sequence_start_high} << 32 | emitter.sequence_start) + photons;
   emitter.sequence_start = static_cast<std::uint32_t>(at);
   emitter.sequence_start_high = static_cast<std::uint32_t>(at >> 32);
+}
+
+VarianceDeal::VarianceDeal(std::vector<shared::DeviceEmitter> emitters)
+    : emitters_(std::move(emitters)), squares_(emitters_.size(), 0), photons_(emitters_.size(), 0)
+{
+  const double photons = count_photons(emitters_);
+  for (const shared::DeviceEmitter& emitter : emitters_) {
+    first_counts_.push_back(emitter.photon_count);
+    first_deal_.push_back(emitter.photon_count / photons);
+  }
+}
+
+bool VarianceDeal::is_due(std::int64_t pass) const
+{
+  return pass >= 2 && pass > first_pass_ && std::has_single_bit(static_cast<std::uint64_t>(pass));
+}
+
+// A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a pass is Phi^2 E[f^2] / n, and n times
+// that estimates V = Phi^2 E[f^2].
+void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves)
+{
+  // The part of the photons that stays as it was dealt first, whatever was measured: a variance that few photons measured may be far off.
+  constexpr double first_part = 0.1;
+  const double passes = static_cast<double>(pass - first_pass_);
+  std::vector<double> deviation(emitters_.size());
+  unsigned photons_per_pass = 0;
+  for (std::size_t e = 0; e < emitters_.size(); ++e) {
+    const double count = emitters_[e].photon_count;
+    squares_[e] += count * count * static_cast<double>(moments[e]);
+    photons_[e] += count * passes;
+    deviation[e] = std::sqrt(squares_[e] / photons_[e]);
+    photons_per_pass += emitters_[e].photon_count;
+  }
+  last_variance_ = std::accumulate(moments.begin(), moments.end(), 0.0) / passes;
+  if (first_pass_ == 0) first_variance_ = last_variance_;
+  const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
+  std::vector<double> weights = first_deal_;
+  if (total > 0)
+    for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = first_part * first_deal_[e] + (1 - first_part) * deviation[e] / total;
+  give_out(pass, deal_out(weights, photons_per_pass), halves);
+}
+
+void VarianceDeal::deal_as_first(std::int64_t pass, unsigned halves) { give_out(pass, first_counts_, halves); }
+
+double VarianceDeal::gain() const { return last_variance_ > 0 ? first_variance_ / last_variance_ : 1; }
+
+void VarianceDeal::give_out(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves)
+{
+  for (std::size_t e = 0; e < emitters_.size(); ++e) {
+    shared::DeviceEmitter& emitter = emitters_[e];
+    advance_sequence(emitter, static_cast<std::uint64_t>(pass - first_pass_) / halves * emitter.light_photon_count);
+    emitter.photon_count = counts[e];
+  }
+  number_photons(emitters_);
+  first_pass_ = pass;
+}
+
+void VarianceDeal::state(tracing::State& state)
+{
+  state.value(first_pass_);
+  state.value(first_variance_);
+  state.value(last_variance_);
+  state.items(std::span(emitters_));
+  state.items(std::span(squares_));
+  state.items(std::span(photons_));
 }
 
 } // namespace nephroid::spectral

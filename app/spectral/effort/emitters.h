@@ -2,8 +2,10 @@
 // Photons of a pass are dealt to emitters: pairs of a light and a wavelength cluster.
 #pragma once
 #include "kernels/tracing/shared_types.h"
+#include "tracing/state.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nephroid::spectral {
@@ -31,5 +33,41 @@ unsigned count_photons(const std::vector<shared::DeviceEmitter>& emitters);
 
 /// Moves an emitter's place in its low-discrepancy sequence on.
 void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons);
+
+/// Deals the photons of a pass to the emitters by the variance that they had in earlier passes: among all ways to deal n photons, n_e in
+/// proportion to sqrt(V_e) gives the sum of the emitters' variances V_e / n_e its smallest value, where V_e is the variance of one photon
+/// that carries all of the emitter's power.
+class VarianceDeal {
+public:
+  /// emitters: as dealt for the first passes, each with at least one photon.
+  explicit VarianceDeal(std::vector<shared::DeviceEmitter> emitters);
+
+  const std::vector<shared::DeviceEmitter>& emitters() const { return emitters_; }
+  /// The pass from which on emitters() are dealt so.
+  std::int64_t first_pass() const { return first_pass_; }
+  /// Whether photons are dealt anew before a pass: before passes 2, 4, 8, 16, ...
+  bool is_due(std::int64_t pass) const;
+  /// moments: [emitter], summed since first_pass() over its photons: the square of what each added to the picture, in any unit; they are
+  /// taken for the variance, which is right where a pixel gets few photons a pass. halves: of the film, each with its own low-discrepancy
+  /// sequence. A tenth of the photons stays as it was dealt first, and every emitter keeps at least one.
+  void deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
+  /// The first deal again from this pass on.
+  void deal_as_first(std::int64_t pass, unsigned halves);
+  /// What dealing has gained: the variance of a pass as dealt first over that of a pass as dealt last, of those that deal() was told of; 1
+  /// before there were two deals, or nothing to see.
+  double gain() const;
+
+  void state(tracing::State& state);
+
+private:
+  std::vector<shared::DeviceEmitter> emitters_;
+  std::vector<unsigned> first_counts_;            ///< [emitter] photons of a pass at the start
+  std::vector<double> first_deal_;                ///< [emitter] share of the photons at the start
+  std::vector<double> squares_, photons_;         ///< [emitter] sum over deals of n^2 moments and of n passes: their ratio estimates V_e
+  double first_variance_ = 0, last_variance_ = 0; ///< of a pass, in the unit of `moments`; 0: not known yet
+  std::int64_t first_pass_ = 0;
+
+  void give_out(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves);
+};
 
 } // namespace nephroid::spectral

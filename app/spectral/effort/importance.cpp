@@ -5,9 +5,8 @@
 
 #include "base/error.h"
 #include "optics/colour.h"
-#include "scene/corners.h"
-#include "scene/ray.h"
-#include "tracing/omissions.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
 #include "tracing/targets.h"
 
 #include <algorithm>
@@ -15,7 +14,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <string>
 
 namespace nephroid::spectral {
 namespace {

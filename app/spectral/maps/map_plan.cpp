@@ -14,7 +14,6 @@
 #include <cmath>
 
 namespace nephroid::spectral {
-
 namespace {
 
 /// Of the pixels, the share that shows glass or a mirror first, by some four thousand of them.
@@ -30,6 +29,13 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
       bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type != scene::Material::Type::diffuse;
     }
   return static_cast<double>(bent) / looks;
+}
+
+/// Width of what a pixel covers at the distance of the scene's middle.
+double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds)
+{
+  const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
+  return 2 * distance * camera.tan_y / camera.height;
 }
 
 } // namespace
@@ -58,17 +64,6 @@ PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t p
   if (const std::string note = map_radius_note(input.settings, input.scene); !note.empty()) part.notes = {note};
   return part;
 }
-
-namespace {
-
-/// Width of what a pixel covers at the distance of the scene's middle.
-double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds)
-{
-  const double distance = std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
-  return 2 * distance * camera.tan_y / camera.height;
-}
-
-} // namespace
 
 double first_map_radius(const Settings& settings, const scene::Scene& scene)
 {

@@ -9,7 +9,6 @@
 #include "spectral/maps/map_plan.h"
 #include "spectral/maps/photon_map.h"
 #include "spectral/stage.h"
-#include "tracing/exact_cdf.h"
 #include "tracing/scales.h"
 #include "tracing/step_size.h"
 

@@ -3,13 +3,9 @@
 
 #include "scene/materials.h"
 #include "spectral/effort/emitters.h"
-#include "tracing/exact_cdf.h"
 #include "tracing/scales.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -23,6 +19,38 @@ std::size_t reflectors(const tracing::WavelengthTables& tables) { return static_
 double reflectance(const tracing::WavelengthTables& tables, std::size_t reflector, int wavelength)
 {
   return static_cast<double>(tables.reflectance[reflector * optics::wavelength_count + static_cast<std::size_t>(wavelength)]);
+}
+
+/// Of each cluster of a light of 1 W.
+std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracing::WavelengthTables& tables)
+{
+  const optics::ColourMatching& eye = optics::cie_1931();
+  std::vector<double> power;
+  for (const std::vector<int>& cluster : tables.clusters) {
+    double sum = 0;
+    for (const int index : cluster) {
+      const auto w = static_cast<std::size_t>(index);
+      sum += tracing::worth(spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, spectrum[w]);
+    }
+    power.push_back(sum);
+  }
+  return power;
+}
+
+/// The parts become half of what they are of their sum, and get an equal part of the other half each; those that are `never` get nothing.
+std::vector<double> half_evenly(std::vector<double> parts, const std::vector<bool>& never)
+{
+  const double total = std::accumulate(parts.begin(), parts.end(), 0.0);
+  const auto count = static_cast<double>(std::count(never.begin(), never.end(), false));
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = never[i] ? 0 : (total > 0 ? parts[i] / total : 0) + 1 / count;
+  return parts;
+}
+
+scene::Scene with_unit_lights(const scene::Scene& scene)
+{
+  scene::Scene unit = scene;
+  for (scene::Light& light : unit.lights) (light.type == preset::Light::Type::directional ? light.irradiance_w_m2 : light.power_w) = 1;
+  return unit;
 }
 
 } // namespace
@@ -116,42 +144,6 @@ FlatLight flat_light(const tracing::WavelengthTables& tables)
   }
   return flat;
 }
-
-namespace {
-
-/// Of each cluster of a light of 1 W.
-std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracing::WavelengthTables& tables)
-{
-  const optics::ColourMatching& eye = optics::cie_1931();
-  std::vector<double> power;
-  for (const std::vector<int>& cluster : tables.clusters) {
-    double sum = 0;
-    for (const int index : cluster) {
-      const auto w = static_cast<std::size_t>(index);
-      sum += tracing::worth(spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, spectrum[w]);
-    }
-    power.push_back(sum);
-  }
-  return power;
-}
-
-/// The parts become half of what they are of their sum, and get an equal part of the other half each; those that are `never` get nothing.
-std::vector<double> half_evenly(std::vector<double> parts, const std::vector<bool>& never)
-{
-  const double total = std::accumulate(parts.begin(), parts.end(), 0.0);
-  const auto count = static_cast<double>(std::count(never.begin(), never.end(), false));
-  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = never[i] ? 0 : (total > 0 ? parts[i] / total : 0) + 1 / count;
-  return parts;
-}
-
-scene::Scene with_unit_lights(const scene::Scene& scene)
-{
-  scene::Scene unit = scene;
-  for (scene::Light& light : unit.lights) (light.type == preset::Light::Type::directional ? light.irradiance_w_m2 : light.power_w) = 1;
-  return unit;
-}
-
-} // namespace
 
 std::vector<shared::DeviceEmitter> layer_emitters(const LayerLight& light, const RunTables& tables, unsigned photons)
 {

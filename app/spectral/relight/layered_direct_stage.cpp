@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer, kept as layers: kernels/spectral/relight_direct.cl.
-#include "spectral/relight/layer_film.h"
-#include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"

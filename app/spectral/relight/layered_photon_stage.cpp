@@ -2,8 +2,6 @@
 // The caustic layer, kept as layers: kernels/spectral/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt
 // anew when the light changes, and what was sent before stays as good as it was.
 #include "spectral/effort/emitters.h"
-#include "spectral/relight/layer_film.h"
-#include "spectral/relight/layer_light.h"
 #include "spectral/relight/relighting.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"

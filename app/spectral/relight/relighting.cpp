@@ -2,7 +2,7 @@
 #include "spectral/relight/relighting.h"
 
 #include "base/counted.h"
-#include "spectral/clusters/scene_clusters.h"
+#include "spectral/clusters/clusters.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // What the stages of a run that keeps layers share: the light as it is now, and which cells the films have (thesis 6.2.2).
 #pragma once
 #include "spectral/plan_part.h"
-#include "spectral/relight/layer_cells.h"
+#include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
 #include "spectral/tables/device_world.h"
 

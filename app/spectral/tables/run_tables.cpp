@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/tables/run_tables.h"
 
-#include "spectral/clusters/scene_clusters.h"
-#include "spectral/effort/effort.h"
+#include "spectral/clusters/clusters.h"
 #include "spectral/effort/emitters.h"
+#include "spectral/effort/importance.h"
 #include "spectral/maps/map_plan.h"
 #include "tracing/scales.h"
 

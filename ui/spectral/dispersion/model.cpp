@@ -5,7 +5,7 @@
 #include "optics/dispersion.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
-#include "spectral/clusters/scene_clusters.h"
+#include "spectral/clusters/clusters.h"
 #include "ui/state/dielectrics.h"
 
 #include <algorithm>

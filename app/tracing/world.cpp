@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tracing/scene_buffers.h"
+#include "tracing/world.h"
 
 namespace nephroid::tracing {
 namespace {
@@ -70,6 +70,21 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   b.sky_colour = upload_vector(context, "environment as a light", sky.colour);
   b.reflected_xyz_all = upload_vector(context, "reflected colours", w.reflected_xyz_all);
   return b;
+}
+
+World make_world(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
+                 const compute::Defines& defines, std::uint64_t seed)
+{
+  World world{context,
+              upload(context, scene, bvh, tables),
+              tables.scene,
+              tables.sky ? tables.sky->size : shared::DeviceBackground{},
+              tables.wavelengths.reflector_count,
+              defines,
+              {}};
+  world.scene.root = bvh.root;
+  world.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+  return world;
 }
 
 } // namespace nephroid::tracing
