@@ -2,8 +2,8 @@
 // When to measure, what goes into a row, when the error is small enough.
 #include "measure/measured_job.h"
 
-#include "base/bytes.h"
 #include "base/error.h"
+#include "base/state.h"
 #include "job/history.h"
 #include "job/spectrum.h"
 #include "measure/error_estimate.h"
@@ -26,64 +26,34 @@
 namespace nephroid::measure {
 namespace {
 
-Error is_cut() { return bad_input("checkpoint", "is cut", "", "delete it and start again"); }
-
-/// A count of items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes all memory.
-std::size_t load_count(ByteSource& from, std::size_t bytes_each)
-{
-  std::uint64_t count = 0;
-  from.value(count);
-  if (count > from.left() / bytes_each) throw is_cut();
-  return static_cast<std::size_t>(count);
-}
-
-struct SavedHistory {
-  job::History history; ///< columns, rows and measuring_seconds only
-  double wall_seconds = 0;
-};
-
 /// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history: wall and measuring seconds,
-/// column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp).
-void save_history(const job::History& history, double wall_seconds, ByteSink& to)
+/// column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp). from: what is read; null where the
+/// history is written. Throws bad_input where the checkpoint is cut.
+void history_state(State state, const ByteSource* from, job::History& history, double& wall_seconds)
 {
-  to.value(wall_seconds);
-  to.value(history.measuring_seconds);
-  to.value(std::uint64_t{history.columns.size()});
-  for (const std::string& column : history.columns) {
-    to.value(std::uint64_t{column.size()});
-    to.write(std::as_bytes(std::span(column)));
+  /// Items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes all memory.
+  const auto sized = [&](auto& items, std::size_t bytes_each) {
+    std::uint64_t count = items.size();
+    state.value(count);
+    if (from && count > from->left() / bytes_each) throw bad_input("checkpoint", "is cut", "", "delete it and start again");
+    items.resize(static_cast<std::size_t>(count));
+  };
+  state.value(wall_seconds);
+  state.value(history.measuring_seconds);
+  sized(history.columns, sizeof(std::uint64_t));
+  for (std::string& column : history.columns) {
+    sized(column, 1);
+    state.items(std::span(column));
   }
-  to.value(std::uint64_t{history.rows.size()});
-  for (const job::HistoryRow& row : history.rows) {
-    to.value(row.seconds);
-    to.value(row.wall_seconds);
-    to.value(row.step);
-    to.value(row.work);
-    to.write(std::as_bytes(std::span(row.errors)));
+  sized(history.rows, (4 + history.columns.size()) * sizeof(double));
+  for (job::HistoryRow& row : history.rows) {
+    state.value(row.seconds);
+    state.value(row.wall_seconds);
+    state.value(row.step);
+    state.value(row.work);
+    row.errors.resize(history.columns.size());
+    state.items(row.errors);
   }
-}
-
-/// Throws bad_input where the checkpoint is cut.
-SavedHistory load_history(ByteSource& from)
-{
-  SavedHistory saved;
-  from.value(saved.wall_seconds);
-  from.value(saved.history.measuring_seconds);
-  saved.history.columns.resize(load_count(from, sizeof(std::uint64_t)));
-  for (std::string& column : saved.history.columns) {
-    column.resize(load_count(from, 1));
-    from.read(std::as_writable_bytes(std::span(column)));
-  }
-  saved.history.rows.resize(load_count(from, (4 + saved.history.columns.size()) * sizeof(double)));
-  for (job::HistoryRow& row : saved.history.rows) {
-    from.value(row.seconds);
-    from.value(row.wall_seconds);
-    from.value(row.step);
-    from.value(row.work);
-    row.errors.resize(saved.history.columns.size());
-    from.read(std::as_writable_bytes(std::span(row.errors)));
-  }
-  return saved;
 }
 
 /// The rows with other columns: what a row has no value of is NaN. A resumed run may have got a reference that it had not before.
@@ -189,7 +159,8 @@ public:
 
   void save(ByteSink& to) override
   {
-    save_history(history_, wall_seconds(), to);
+    double wall = wall_seconds();
+    history_state(State(to), nullptr, history_, wall);
     job_->save(to);
   }
 
@@ -220,12 +191,12 @@ public:
 
   void load(ByteSource& from) override
   {
-    const SavedHistory saved = load_history(from);
+    job::History saved;
+    history_state(State(from), &from, saved, wall_before_);
     job_->load(from);
-    wall_before_ = saved.wall_seconds;
     began_ = Clock::now();
-    history_.measuring_seconds = saved.history.measuring_seconds;
-    history_.rows = rows_in_columns(saved.history, history_.columns);
+    history_.measuring_seconds = saved.measuring_seconds;
+    history_.rows = rows_in_columns(saved, history_.columns);
     for (const job::HistoryRow& row : history_.rows) last_seconds_ = row.seconds;
     plan_next();
     show();
