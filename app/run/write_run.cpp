@@ -79,7 +79,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
            {std::string(progress.units.steps), progress.step},
            {"fraction", progress.fraction},
            {std::string(progress.units.works), progress.work},
-           {"units", {{"steps", progress.units.steps}, {"work", progress.units.works}}},
+           {"units", {{"step", progress.units.step}, {"steps", progress.units.steps}, {"work", progress.units.works}}},
            {"work_seconds", progress.work_seconds},
            {"phase_seconds", phases},
            {"notes", prepared.plan->notes}};
