@@ -4,26 +4,17 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"
+#include "scene/materials.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <vector>
 
 namespace nephroid::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::map<std::string, optics::Outside>& policies()
-{
-  static const std::map<std::string, optics::Outside> names{{"automatic", optics::Outside::automatic},
-                                                            {"hold", optics::Outside::hold},
-                                                            {"extrapolate", optics::Outside::extrapolate},
-                                                            {"refuse", optics::Outside::refuse}};
-  return names;
-}
 
 /// The names of the shipped materials.
 std::vector<std::string> shipped_materials()
@@ -70,14 +61,12 @@ optics::DispersionCurve find_dispersion(const std::string& name) { return optics
 void add_outside_option(Verb& verb, std::string& chosen)
 {
   chosen = "automatic";
-  std::vector<std::string> names;
-  for (const auto& [name, policy] : policies()) names.push_back(name);
   verb.option("--outside", chosen,
               {.type = "POLICY",
                .says = "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table",
-               .words = names});
+               .words = words_of<preset::Outside>()});
 }
 
-optics::Outside outside_policy(const std::string& chosen) { return policies().at(chosen); }
+optics::Outside outside_policy(const std::string& chosen) { return scene::outside_policy(chosen_of<preset::Outside>(chosen)); }
 
 } // namespace nephroid::cli
