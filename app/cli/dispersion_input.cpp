@@ -32,15 +32,9 @@ std::vector<std::string> shipped_materials()
 
 fs::path find_file(const std::string& name)
 {
-  std::error_code ignored;
-  if (fs::exists(name, ignored)) return name;
-  const FileFinder finder;
-  if (!name.empty() && !fs::path(name).is_absolute())
-    for (const fs::path& folder : finder.folders())
-      for (const std::string& candidate : {name, name + ".yml"})
-        if (const fs::path path = folder / "materials" / candidate; fs::is_regular_file(path, ignored)) return path;
+  if (is_there(name)) return name;
   try {
-    return finder.find(name, name);
+    return scene::find_dispersion(name, FileFinder(), name);
   } catch (const FileNotFound& error) {
     const std::string material = nearest(name, shipped_materials());
     if (material.empty()) throw;

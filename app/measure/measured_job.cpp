@@ -77,21 +77,21 @@ constexpr double spacing = 1.2;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-using Errors = std::vector<std::pair<std::string, double>>;
-
-void add(Errors& errors, const std::string& prefix, const Metrics& metrics, bool perceptual)
+/// The metrics of which a run has columns: those that it estimates, or those against a reference.
+std::vector<const Metric*> noted_metrics(bool are_estimates, bool perceptual)
 {
+  std::vector<const Metric*> metrics;
   for (const Metric& metric : all_metrics())
-    if (perceptual || metric.kind != Metric::Kind::perceptual)
-      errors.emplace_back(fmt::format("{}{}", prefix, metric.name), metric.of(metrics));
+    if (are_estimates ? metric.kind == Metric::Kind::estimated : perceptual || metric.kind != Metric::Kind::perceptual)
+      metrics.push_back(&metric);
+  return metrics;
 }
 
-std::vector<std::string_view> estimated_metrics()
+std::string names_of_estimates()
 {
   std::vector<std::string_view> names;
-  for (const Metric& metric : all_metrics())
-    if (metric.kind == Metric::Kind::estimated) names.push_back(metric.name);
-  return names;
+  for (const Metric* metric : noted_metrics(true, false)) names.push_back(metric->name);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 class MeasuredJob final : public job::Job, public job::SpectrumSource {
@@ -114,8 +114,7 @@ public:
         history_.error_column = column;
     if (history_.target && !history_.error_column.ends_with(metric))
       throw bad_input(Place(preset.source) / "stop" / "error", "nothing measures the error of this run in " + metric,
-                      settings_.estimate ? fmt::format("expected a 'reference', or a 'stop.metric' that can be estimated: {}",
-                                                       fmt::join(estimated_metrics(), ", "))
+                      settings_.estimate ? "expected a 'reference', or a 'stop.metric' that can be estimated: " + names_of_estimates()
                                          : "expected a 'reference', or 'measure.estimate' true");
     show();
   }
@@ -205,21 +204,15 @@ public:
 private:
   void name_columns()
   {
-    const auto take = [&](const std::string& prefix, const std::optional<Metrics>& floor) {
-      Errors columns;
-      add(columns, prefix, floor.value_or(Metrics{}), settings_.perceptual);
-      for (const auto& [name, value] : columns) {
-        history_.columns.push_back(name);
-        history_.noise_floor.push_back(floor ? value : none);
+    const auto add = [&](const char* prefix, const std::optional<Metrics>& floor, bool are_estimates) {
+      for (const Metric* metric : noted_metrics(are_estimates, settings_.perceptual)) {
+        history_.columns.push_back(fmt::format("{}{}", prefix, metric->name));
+        history_.noise_floor.push_back(floor ? metric->of(*floor) : none);
       }
     };
-    if (against_) take("", reference_->noise_floor);
-    if (masked_) take("masked_", reference_->masked_noise_floor);
-    if (!settings_.estimate) return;
-    for (const std::string_view name : estimated_metrics()) {
-      history_.columns.push_back(fmt::format("estimated_{}", name));
-      history_.noise_floor.push_back(none);
-    }
+    if (against_) add("", reference_->noise_floor, false);
+    if (masked_) add("masked_", reference_->masked_noise_floor, false);
+    if (settings_.estimate) add("estimated_", {}, true);
   }
 
   double wall_seconds() const { return wall_before_ + seconds_since(began_); }
@@ -243,8 +236,7 @@ private:
       last_seconds_ = progress.work_seconds;
       return;
     }
-    job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, {}};
-    for (const auto& [name, value] : errors_of(*snapshot.picture)) row.errors.push_back(value);
+    job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, errors_of(*snapshot.picture)};
     row.wall_seconds = wall_seconds();
     history_.rows.push_back(std::move(row));
     last_seconds_ = progress.work_seconds;
@@ -259,18 +251,18 @@ private:
     if (!history_.columns.empty()) shown_ = std::make_shared<const job::History>(history_);
   }
 
-  Errors errors_of(const job::Picture& picture) const
+  /// One a column, in their order.
+  std::vector<double> errors_of(const job::Picture& picture) const
   {
     const Pixels pixels{picture.width, picture.height, picture.rgb, "the run"};
-    Errors errors;
-    if (against_) add(errors, "", of_effort(pixels, {}, *against_), settings_.perceptual);
-    if (masked_) add(errors, "masked_", of_effort(pixels, reference_->mask, *masked_), settings_.perceptual);
-    if (!settings_.estimate) return errors;
-    const bool has_draw = !picture.error_draw.empty();
-    const Metrics metrics = has_draw ? estimate_error(picture) : Metrics{};
-    for (const Metric& metric : all_metrics())
-      if (metric.kind == Metric::Kind::estimated)
-        errors.emplace_back(fmt::format("estimated_{}", metric.name), has_draw ? metric.of(metrics) : none);
+    std::vector<double> errors;
+    const auto add = [&](const std::optional<Metrics>& metrics, bool are_estimates) {
+      for (const Metric* metric : noted_metrics(are_estimates, settings_.perceptual))
+        errors.push_back(metrics ? metric->of(*metrics) : none);
+    };
+    if (against_) add(of_effort(pixels, {}, *against_), false);
+    if (masked_) add(of_effort(pixels, reference_->mask, *masked_), false);
+    if (settings_.estimate) add(picture.error_draw.empty() ? std::nullopt : std::optional(estimate_error(picture)), true);
     return errors;
   }
 
