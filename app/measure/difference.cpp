@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -51,27 +52,21 @@ double value(const float* a, const float* b, DifferenceMetric metric)
   return 0;
 }
 
-/// ColorBrewer's RdBu of 11 classes, from blue to red (Cynthia Brewer, colorbrewer2.org).
-constexpr std::array<std::array<int, 3>, 11> blue_to_red{{{5, 48, 97},
-                                                          {33, 102, 172},
-                                                          {67, 147, 195},
-                                                          {146, 197, 222},
-                                                          {209, 229, 240},
-                                                          {247, 247, 247},
-                                                          {253, 219, 199},
-                                                          {244, 165, 130},
-                                                          {214, 96, 77},
-                                                          {178, 24, 43},
-                                                          {103, 0, 31}}};
+/// ColorBrewer's RdBu of 11 classes, red, green and blue of each, from blue to red (Cynthia Brewer, colorbrewer2.org).
+constexpr int blue_to_red[] = {5,   48,  97,  33,  102, 172, 67,  147, 195, 146, 197, 222, 209, 229, 240, 247, 247,
+                               247, 253, 219, 199, 244, 165, 130, 214, 96,  77,  178, 24,  43,  103, 0,   31};
 
 std::array<float, 3> diverging(double position)
 {
-  const double entry = position * (blue_to_red.size() - 1);
-  const auto below = static_cast<std::size_t>(std::min(entry, static_cast<double>(blue_to_red.size() - 2)));
+  constexpr std::size_t last = std::size(blue_to_red) / 3 - 1;
+  const double entry = position * last;
+  const auto below = std::min(static_cast<std::size_t>(entry), last - 1);
   const double share = entry - static_cast<double>(below);
   std::array<float, 3> colour{};
-  for (std::size_t c = 0; c < 3; ++c)
-    colour[c] = static_cast<float>(std::lerp(static_cast<double>(blue_to_red[below][c]), blue_to_red[below + 1][c], share) / 255);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const int *const low = blue_to_red + 3 * below, *const high = low + 3;
+    colour[c] = static_cast<float>(std::lerp(static_cast<double>(low[c]), high[c], share) / 255);
+  }
   return colour;
 }
 

@@ -17,7 +17,9 @@
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <iterator>
 #include <spawn.h>
+#include <sstream>
 #include <string_view>
 #include <sys/wait.h>
 #include <system_error>
@@ -71,30 +73,14 @@ constexpr const char* unfinished = "animation.part.mp4";
 constexpr const char* filters = "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709,format=yuv420p,"
                                 "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709";
 
+/// Words without blanks in them.
 std::vector<std::string> command(int frames, double fps)
 {
-  return {"ffmpeg",
-          "-nostdin",
-          "-loglevel",
-          "error",
-          "-y",
-          "-framerate",
-          fmt::format("{}", fps),
-          "-start_number",
-          "0",
-          "-i",
-          "frame_%04d.png",
-          "-frames:v",
-          std::to_string(frames),
-          "-vf",
-          filters,
-          "-c:v",
-          "libx264",
-          "-crf",
-          "16",
-          "-movflags",
-          "+faststart",
-          unfinished};
+  std::istringstream words(
+      fmt::format("ffmpeg -nostdin -loglevel error -y -framerate {} -start_number 0 -i frame_%04d.png -frames:v {} -vf {} "
+                  "-c:v libx264 -crf 16 -movflags +faststart {}",
+                  fps, frames, filters, unfinished));
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 /// What a program that ran said on standard error, and how it ended, as waitpid gives it.
