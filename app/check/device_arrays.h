@@ -33,11 +33,12 @@ compute::Buffer<T> zeros(const compute::Context& context, const char* name, std:
   return buffer;
 }
 
-/// Kernel `name` of check.cl over `count` items, which is its argument "count"; the others are given.
-inline void run_over(const compute::Context& context, const char* name, std::size_t count, std::initializer_list<compute::Argument> own)
+/// Kernel `name` of a file over `count` items, which is its argument "count"; the others are given.
+inline void run_over(const compute::Context& context, const char* name, std::size_t count, std::initializer_list<compute::Argument> own,
+                     const char* file = "check/check.cl", const compute::Defines& defines = {})
 {
   const auto items = static_cast<std::uint32_t>(count);
-  compute::Program(context, "check/check.cl").kernel(name).run(count, local_size, std::array{compute::Argument("count", items)}, own);
+  compute::Program(context, file, defines).kernel(name).run(count, local_size, std::array{compute::Argument("count", items)}, own);
 }
 
 } // namespace nephroid::check

@@ -83,13 +83,9 @@ Result sums(const compute::Context& context, std::uint64_t seed, bool halves)
   }
   const compute::Defines defines = halves ? compute::Defines{{"NEPHROID_CHECK_HALVES", "1"}} : compute::Defines{};
   const compute::Buffer<std::int64_t> out = zeros<std::int64_t>(context, "sums", places);
-  compute::Program(context, "check/check_sums.cl", defines)
-      .kernel("add_all")
-      .run(count, local_size,
-           {{"values", on_device(context, "values", values)},
-            {"places", on_device(context, "places", where)},
-            {"sums", out},
-            {"count", static_cast<std::uint32_t>(count)}});
+  run_over(context, "add_all", count,
+           {{"values", on_device(context, "values", values)}, {"places", on_device(context, "places", where)}, {"sums", out}},
+           "check/check_sums.cl", defines);
   const std::vector<std::int64_t> got = out.read();
   double worst = 0;
   for (std::size_t i = 0; i < places; ++i) worst = std::max(worst, std::abs(static_cast<double>(got[i]) - static_cast<double>(truth[i])));
@@ -119,13 +115,8 @@ Result film_limit(const compute::Context& context, std::uint64_t)
   for (const Case& c : cases) in.push_back(c.xyz_scale);
   const compute::Buffer<std::int64_t> film = zeros<std::int64_t>(context, "film", 3 * in.size());
   const compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
-  compute::Program(context, "check/check_sums.cl")
-      .kernel("add_to_film")
-      .run(in.size(), local_size,
-           {{"xyz_scale", on_device(context, "in", in)},
-            {"film", film},
-            {"accepted", accepted},
-            {"count", static_cast<std::uint32_t>(in.size())}});
+  run_over(context, "add_to_film", in.size(), {{"xyz_scale", on_device(context, "in", in)}, {"film", film}, {"accepted", accepted}},
+           "check/check_sums.cl");
   const auto sums = film.read();
   const auto answers = accepted.read();
   double wrong = 0;

@@ -32,29 +32,17 @@ void KernelTracer::set_rays(const std::vector<Ray>& rays)
   found_ = {context_, "found", rays.size()};
 }
 
-void KernelTracer::run_closest()
+void KernelTracer::run(compute::Kernel& kernel, const compute::Argument& answers)
 {
-  closest_.run(rays_.size(), rays_per_group,
-               {{"nodes", nodes_},
-                {"blocks", blocks_},
-                {"root", bvh_.root},
-                {"rays", rays_},
-                {"hits", hits_},
-                {"count", static_cast<std::uint32_t>(rays_.size())}});
+  const auto count = static_cast<std::uint32_t>(rays_.size());
+  kernel.run(count, rays_per_group,
+             {{"nodes", nodes_}, {"blocks", blocks_}, {"root", bvh_.root}, {"rays", rays_}, {"count", count}, answers});
   context_.finish();
 }
 
-void KernelTracer::run_any()
-{
-  any_.run(rays_.size(), rays_per_group,
-           {{"nodes", nodes_},
-            {"blocks", blocks_},
-            {"root", bvh_.root},
-            {"rays", rays_},
-            {"hit", found_},
-            {"count", static_cast<std::uint32_t>(rays_.size())}});
-  context_.finish();
-}
+void KernelTracer::run_closest() { run(closest_, {"hits", hits_}); }
+
+void KernelTracer::run_any() { run(any_, {"hit", found_}); }
 
 std::vector<Hit> KernelTracer::closest(const std::vector<Ray>& rays)
 {

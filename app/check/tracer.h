@@ -53,6 +53,8 @@ public:
   const scene::Bvh& bvh() const { return bvh_; }
 
 private:
+  void run(compute::Kernel& kernel, const compute::Argument& answers);
+
   scene::Bvh bvh_;
   compute::Context context_;
   compute::Buffer<float> nodes_, blocks_;

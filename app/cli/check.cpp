@@ -3,7 +3,6 @@
 #include "check/check.h"
 #include "base/interrupts.h"
 #include "base/json_output.h"
-#include "cli/device_line.h"
 #include "cli/verb.h"
 #include "cli/verbs.h"
 #include "engine/engine.h"

@@ -4,26 +4,17 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"
+#include "scene/materials.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <vector>
 
 namespace nephroid::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::map<std::string, optics::Outside>& policies()
-{
-  static const std::map<std::string, optics::Outside> names{{"automatic", optics::Outside::automatic},
-                                                            {"hold", optics::Outside::hold},
-                                                            {"extrapolate", optics::Outside::extrapolate},
-                                                            {"refuse", optics::Outside::refuse}};
-  return names;
-}
 
 /// The names of the shipped materials.
 std::vector<std::string> shipped_materials()
@@ -41,15 +32,9 @@ std::vector<std::string> shipped_materials()
 
 fs::path find_file(const std::string& name)
 {
-  std::error_code ignored;
-  if (fs::exists(name, ignored)) return name;
-  const FileFinder finder;
-  if (!name.empty() && !fs::path(name).is_absolute())
-    for (const fs::path& folder : finder.folders())
-      for (const std::string& candidate : {name, name + ".yml"})
-        if (const fs::path path = folder / "materials" / candidate; fs::is_regular_file(path, ignored)) return path;
+  if (is_there(name)) return name;
   try {
-    return finder.find(name, name);
+    return scene::find_dispersion(name, FileFinder(), name);
   } catch (const FileNotFound& error) {
     const std::string material = nearest(name, shipped_materials());
     if (material.empty()) throw;
@@ -70,14 +55,12 @@ optics::DispersionCurve find_dispersion(const std::string& name) { return optics
 void add_outside_option(Verb& verb, std::string& chosen)
 {
   chosen = "automatic";
-  std::vector<std::string> names;
-  for (const auto& [name, policy] : policies()) names.push_back(name);
   verb.option("--outside", chosen,
               {.type = "POLICY",
                .says = "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table",
-               .words = names});
+               .words = words_of<preset::Outside>()});
 }
 
-optics::Outside outside_policy(const std::string& chosen) { return policies().at(chosen); }
+optics::Outside outside_policy(const std::string& chosen) { return scene::outside_policy(chosen_of<preset::Outside>(chosen)); }
 
 } // namespace nephroid::cli

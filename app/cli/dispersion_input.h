@@ -3,8 +3,11 @@
 #pragma once
 #include "cli/verb.h"
 #include "optics/dispersion.h"
+#include "preset/choices.h"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace nephroid::cli {
 
@@ -14,6 +17,21 @@ optics::DispersionCurve find_dispersion(const std::string& name);
 
 /// Whether a person who says this means a dispersion file: it ends in ".yml" or is the name of a shipped material.
 bool is_dispersion(const std::string& name);
+
+/// The words of an enumeration of presets, as an option takes them.
+template <preset::Enumeration E>
+std::vector<std::string> words_of()
+{
+  std::vector<std::string> words;
+  for (const auto& choice : preset::Choices<E>::all) words.emplace_back(choice.name);
+  return words;
+}
+/// word: one of them.
+template <preset::Enumeration E>
+E chosen_of(const std::string& word)
+{
+  return std::ranges::find(preset::Choices<E>::all, word, &preset::Choice<E>::name)->value;
+}
 
 /// --outside hold|extrapolate|refuse; chosen is read back by outside_policy after parsing and is "automatic" without the option.
 void add_outside_option(Verb& verb, std::string& chosen);

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <utility>
 
 namespace nephroid::cli {
 namespace {
@@ -95,17 +96,17 @@ std::string progress_json(const ProgressSubject& subject, const job::Progress& n
   return json_text(all);
 }
 
-void ActivityLine::show(const char* doing)
+void LiveLine::show(const std::string& text)
 {
-  if (style_ != ProgressStyle::live || std::exchange(is_shown_, true)) return;
-  fmt::print(stderr, "\r{}  {}\033[K", label_, doing);
+  fmt::print(stderr, "\r{}\033[K", text);
   std::fflush(stderr);
+  is_shown_ = true;
 }
 
-void ActivityLine::clear()
+void LiveLine::clear()
 {
   if (!std::exchange(is_shown_, false)) return;
-  std::fputs("\r\033[K", stderr);
+  fmt::print(stderr, "\r\033[K");
   std::fflush(stderr);
 }
 
@@ -113,8 +114,6 @@ ProgressDisplay::ProgressDisplay(ProgressStyle style, ProgressSubject subject, c
     : style_(style), subject_(std::move(subject)), start_(start), next_(Clock::now() + rhythm(style))
 {
 }
-
-ProgressDisplay::~ProgressDisplay() { clear(); }
 
 void ProgressDisplay::update(const job::Progress& now)
 {
@@ -129,14 +128,6 @@ void ProgressDisplay::finish(const job::Progress& now)
   if (style_ == ProgressStyle::json) show(now);
 }
 
-void ProgressDisplay::clear()
-{
-  if (!line_is_shown_) return;
-  fmt::print(stderr, "\r\033[K");
-  std::fflush(stderr);
-  line_is_shown_ = false;
-}
-
 void ProgressDisplay::show(const job::Progress& now)
 {
   const job::Pace pace = job::pace_between(start_, now);
@@ -146,9 +137,7 @@ void ProgressDisplay::show(const job::Progress& now)
   } else if (style_ == ProgressStyle::lines) {
     fmt::print(stderr, "{}\n", progress_line(subject_.label, now, pace, 200));
   } else {
-    fmt::print(stderr, "\r{}\033[K", progress_line(subject_.label, now, pace, terminal_columns() - 1));
-    std::fflush(stderr);
-    line_is_shown_ = true;
+    line_.show(progress_line(subject_.label, now, pace, terminal_columns() - 1));
   }
 }
 

@@ -4,9 +4,7 @@
 #include "job/pace.h"
 
 #include <chrono>
-#include <memory>
 #include <string>
-#include <utility>
 
 namespace nephroid::cli {
 
@@ -27,19 +25,17 @@ std::string progress_line(const std::string& label, const job::Progress& now, co
 /// {"type":"progress","name","stage","fraction","step","steps","photons","work_seconds","photons_per_second","seconds_left"}
 std::string progress_json(const ProgressSubject& subject, const job::Progress& now, const job::Pace& pace);
 
-/// The live line while there are no figures yet; nothing where there is no live line.
-class ActivityLine {
+/// A line on standard error that is written again and again.
+class LiveLine {
 public:
-  ActivityLine(ProgressStyle style, std::string label) : style_(style), label_(std::move(label)) {}
-  ~ActivityLine() { clear(); }
-  ActivityLine(const ActivityLine&) = delete;
-  ActivityLine& operator=(const ActivityLine&) = delete;
-  void show(const char* doing);
+  LiveLine() = default;
+  ~LiveLine() { clear(); }
+  LiveLine(const LiveLine&) = delete;
+  LiveLine& operator=(const LiveLine&) = delete;
+  void show(const std::string& text);
   void clear();
 
 private:
-  ProgressStyle style_;
-  std::string label_;
   bool is_shown_ = false;
 };
 
@@ -47,14 +43,11 @@ private:
 class ProgressDisplay {
 public:
   ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start);
-  ~ProgressDisplay();
-  ProgressDisplay(const ProgressDisplay&) = delete;
-  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
   void update(const job::Progress& now);
   /// The last state at once, whatever the rhythm.
   void finish(const job::Progress& now);
   /// Takes the live line away, so that something else can be printed.
-  void clear();
+  void clear() { line_.clear(); }
 
 private:
   void show(const job::Progress& now);
@@ -64,7 +57,7 @@ private:
   ProgressSubject subject_;
   job::Progress start_;
   Clock::time_point next_;
-  bool line_is_shown_ = false;
+  LiveLine line_;
 };
 
 } // namespace nephroid::cli

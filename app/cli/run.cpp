@@ -2,7 +2,6 @@
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
 #include "run/run.h"
 #include "base/interrupts.h"
-#include "cli/run_animation.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
 #include "cli/verbs.h"

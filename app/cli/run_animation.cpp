@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/run_animation.h"
-
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/json_output.h"
 #include "cli/numbers.h"
+#include "cli/run_target.h"
 #include "preset/animation.h"
 #include "preset/origins.h"
 #include "run/animation.h"
-#include "run/video.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

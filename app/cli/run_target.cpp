@@ -98,10 +98,12 @@ public:
     for (const std::string& note : prepared.plan->notes)
       if (!is_frame() || shared.notes.insert(note).second) fmt::print(stderr, "note: {}\n", note);
     const compute::Context& context = device_of(options_, shared);
-    compute::tell_of_compiling(context, [this] { activity_.show("compiling kernels"); });
+    compute::tell_of_compiling(context, [this] {
+      if (progress_style(options_.json) == ProgressStyle::live) activity_.show(target_.label + "  compiling kernels");
+    });
     std::unique_ptr<job::Job> job = taken_on(shared);
     if (!job) run::require_memory(prepared, context); // a run that cannot be leaves no folder
-    run::claim_folder(target_.folder);
+    const bool is_new_folder = run::claim_folder(target_.folder);
     try {
       reference_ = reference(prepared, context);
       if (!job) {
@@ -118,7 +120,7 @@ public:
       save(prepared, context, *job);
       if (is_frame()) shared.job = std::move(job);
     } catch (...) {
-      run::release_folder(target_.folder);
+      if (is_new_folder) run::release_folder(target_.folder);
       throw;
     }
   }
@@ -324,7 +326,7 @@ private:
   const Target& target_;
   std::stop_token interrupted_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  ActivityLine activity_{progress_style(options_.json), target_.label};
+  LiveLine activity_; ///< while there are no figures yet
   std::shared_ptr<const measure::Reference> reference_;
   std::size_t rows_written_ = 0; ///< of the history
   std::size_t next_picture_ = 0; ///< of RunOptions::pictures_at

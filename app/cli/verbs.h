@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verbs of the command line: one file a verb, each adding its subcommand here. A verb's callback does the work and throws
-// Error; it sets the exit code where that is not 0. Results go to standard output, everything else to standard error.
-// A verb that ends in order on Ctrl-C makes an Interrupts (base/interrupts.h).
+// The verbs of the command line: one file a verb, each adding its subcommand here; those that only list what there is are in lists.cpp. A
+// verb's callback does the work and throws Error; it sets the exit code where that is not 0. Results go to standard output, everything else
+// to standard error. A verb that ends in order on Ctrl-C makes an Interrupts (base/interrupts.h).
 #pragma once
+#include <string>
 
 namespace CLI {
 class App;
+}
+namespace nephroid::compute {
+struct DeviceInfo;
 }
 
 namespace nephroid::cli {
@@ -29,5 +33,8 @@ void add_check(CLI::App& program, Session& session);
 void add_manual(CLI::App& program, Session& session);
 void add_schema(CLI::App& program, Session& session);
 void add_version(CLI::App& program, Session& session);
+
+/// "0  NAME  (cpu, 2 compute units, 8.1 GB, PLATFORM DRIVER, no fp64)"
+std::string device_line(const compute::DeviceInfo& device);
 
 } // namespace nephroid::cli

@@ -51,61 +51,41 @@ inline void describe(preset::Fields& v, Settings& s)
 {
   v.about("EnvironmentEngine", "Settings of the engine \"environment\".");
   using preset::within;
-  v.field({.name = "objects",
-           .sentence = "Names of the objects whose caustics are baked, all together; without, all of glass and all mirrors.",
-           .count = {0, 100},
-           .text = preset::Text::line},
-          s.objects);
-  v.field({.name = "directions",
-           .sentence = "How many directions light is baked from: 26, 98 or 386 points of a cube's faces.",
-           .bounds = within(26, 386)},
-          s.directions);
-  v.field({.name = "spheres", .sentence = "Caustic spheres about the object, for each direction.", .bounds = within(2, 64)}, s.spheres);
-  v.field({.name = "radii", .sentence = "How the radii of the spheres grow."}, s.radii);
-  v.field({.name = "reach",
-           .sentence = "Radius of the largest sphere; beyond it light goes on by the inverse square of the distance.",
-           .unit = "largest sides of the box about the object",
-           .bounds = within(0.5, 1000)},
-          s.reach);
-  v.field(
-      {.name = "resolution",
-       .sentence = "Texels across and down the square map of a sphere, which all have the same solid angle: 360 are as many as 512 x 256.",
-       .bounds = within(8, 1024)},
-      s.resolution);
-  v.field({.name = "photons", .sentence = "Photons from each direction.", .bounds = within(1, 1 << 30)}, s.photons);
-  v.field({.name = "own_directions",
-           .sentence =
-               "How many of the strongest narrow lights are baked from just where they shine from, after the first pass; 0: all light "
-               "is put together from 'directions', as in the thesis.",
-           .bounds = within(0, 16)},
-          s.own_directions);
-  v.field({.name = "lights", .sentence = "Directional lights that the environment is cut into.", .bounds = within(6, 4096)}, s.lights);
-  v.field({.name = "segmentation", .sentence = "How the environment is cut into lights."}, s.segmentation);
-  v.field({.name = "threshold",
-           .sentence = "A region with no more than this part of the environment's light is no light of its own.",
-           .bounds = within(0, 1)},
-          s.threshold);
-  v.field({.name = "refine",
-           .sentence = "Whether passes take other directions of each light's region, so that the picture goes towards that of the whole "
-                       "environment; false: a light keeps its one direction, as in the thesis."},
+  v.field("objects", "Names of the objects whose caustics are baked, all together; without, all of glass and all mirrors.", s.objects,
+          {.count = {0, 100}, .text = preset::Text::line});
+  v.field("directions", "How many directions light is baked from: 26, 98 or 386 points of a cube's faces.", s.directions,
+          {.bounds = within(26, 386)});
+  v.field("spheres", "Caustic spheres about the object, for each direction.", s.spheres, {.bounds = within(2, 64)});
+  v.field("radii", "How the radii of the spheres grow.", s.radii);
+  v.field("reach", "Radius of the largest sphere; beyond it light goes on by the inverse square of the distance.", s.reach,
+          {.unit = "largest sides of the box about the object", .bounds = within(0.5, 1000)});
+  v.field("resolution",
+          "Texels across and down the square map of a sphere, which all have the same solid angle: 360 are as many as 512 x 256.",
+          s.resolution, {.bounds = within(8, 1024)});
+  v.field("photons", "Photons from each direction.", s.photons, {.bounds = within(1, 1 << 30)});
+  v.field("own_directions",
+          "How many of the strongest narrow lights are baked from just where they shine from, after the first pass; 0: all light "
+          "is put together from 'directions', as in the thesis.",
+          s.own_directions, {.bounds = within(0, 16)});
+  v.field("lights", "Directional lights that the environment is cut into.", s.lights, {.bounds = within(6, 4096)});
+  v.field("segmentation", "How the environment is cut into lights.", s.segmentation);
+  v.field("threshold", "A region with no more than this part of the environment's light is no light of its own.", s.threshold,
+          {.bounds = within(0, 1)});
+  v.field("refine",
+          "Whether passes take other directions of each light's region, so that the picture goes towards that of the whole "
+          "environment; false: a light keeps its one direction, as in the thesis.",
           s.refine);
-  v.field({.name = "technique",
-           .sentence =
-               "How caustics on surfaces are put together from spheres. All but the first are there for the comparison of table 3.3: "
-               "they let light come from the object's middle, and have no own directions."},
+  v.field("technique",
+          "How caustics on surfaces are put together from spheres. All but the first are there for the comparison of table 3.3: "
+          "they let light come from the object's middle, and have no own directions.",
           s.technique);
-  v.field({.name = "cast", .sentence = "Whether caustics fall on surfaces."}, s.cast);
-  v.field({.name = "extinction",
-           .sentence = "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",
-           .unit = "1 / unit",
-           .bounds = within(0, 1000)},
-          s.extinction);
-  v.field({.name = "albedo", .sentence = "Which part of that light the medium scatters.", .bounds = within(0, 1)}, s.albedo);
-  v.field({.name = "phase", .sentence = "Where the medium scatters light."}, s.phase);
-  v.field({.name = "anisotropy",
-           .sentence = "Mean cosine between light's ways before and after scattering: 0 all around, towards 1 straight on.",
-           .bounds = within(-0.95, 0.95)},
-          s.anisotropy);
+  v.field("cast", "Whether caustics fall on surfaces.", s.cast);
+  v.field("extinction", "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",
+          s.extinction, {.unit = "1 / unit", .bounds = within(0, 1000)});
+  v.field("albedo", "Which part of that light the medium scatters.", s.albedo, {.bounds = within(0, 1)});
+  v.field("phase", "Where the medium scatters light.", s.phase);
+  v.field("anisotropy", "Mean cosine between light's ways before and after scattering: 0 all around, towards 1 straight on.", s.anisotropy,
+          {.bounds = within(-0.95, 0.95)});
 }
 
 } // namespace nephroid::environment

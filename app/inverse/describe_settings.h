@@ -74,74 +74,52 @@ inline void describe(preset::Fields& v, Picture& p)
   v.shorthand(preset::Bare::text, Picture::Type::file, "file");
   using Type = Picture::Type;
   const auto part = [&](std::string_view name, std::string_view sentence, auto& value) {
-    v.field({.name = name, .sentence = sentence, .unit = receiver_part, .bounds = preset::within(0.001, 2)}, value);
+    v.field(name, sentence, value, {.unit = receiver_part, .bounds = preset::within(0.001, 2)});
   };
-  v.type({.name = "type", .sentence = "What it shows."}, p.type);
+  v.type("type", "What it shows.", p.type);
   const bool round = p.type == Type::disc || p.type == Type::ring || p.type == Type::star || p.type == Type::face;
   const bool words = p.type == Type::text || p.type == Type::qr;
   const bool straight = p.type == Type::cross || p.type == Type::bars;
-  if (p.type == Type::file) v.field({.name = "file", .sentence = "A picture file.", .text = preset::Text::file, .required = true}, p.file);
+  if (p.type == Type::file) v.field("file", "A picture file.", p.file, {.text = preset::Text::file, .required = true});
   if (p.type == Type::file)
-    v.field({.name = "tone",
-             .sentence = "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.",
-             .bounds = preset::within(0.1, 10)},
-            p.tone);
-  if (words) v.field({.name = "text", .sentence = "What it says.", .required = true}, p.text);
+    v.field("tone", "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.", p.tone,
+            {.bounds = preset::within(0.1, 10)});
+  if (words) v.field("text", "What it says.", p.text, {.required = true});
   if (round) part("radius", "The outer radius.", p.radius);
   if (p.type == Type::ring || p.type == Type::star) part("inner", "The inner radius.", p.inner);
   if (straight) part("length", "Length of a bar.", p.length);
   if (p.type == Type::text) part("length", "Width of the words.", p.length);
   if (straight) part("width", "Width of a bar, and of the gap to the next one.", p.width);
   if (p.type == Type::bars || p.type == Type::star)
-    v.field({.name = "count", .sentence = "How many bars, or points of the star.", .bounds = preset::within(1, 100)}, p.count);
+    v.field("count", "How many bars, or points of the star.", p.count, {.bounds = preset::within(1, 100)});
   if (p.type != Type::file && p.type != Type::qr && p.type != Type::disc && p.type != Type::ring)
-    v.field({.name = "turn_deg",
-             .sentence = "How far it is turned, counterclockwise.",
-             .unit = "degrees",
-             .bounds = preset::within(-3600, 3600)},
-            p.turn_deg);
-  v.field({.name = "background", .sentence = "Brightness where nothing is drawn; the drawing has 1.", .bounds = preset::within(0, 0.99)},
-          p.background);
+    v.field("turn_deg", "How far it is turned, counterclockwise.", p.turn_deg, {.unit = "degrees", .bounds = preset::within(-3600, 3600)});
+  v.field("background", "Brightness where nothing is drawn; the drawing has 1.", p.background, {.bounds = preset::within(0, 0.99)});
 }
 
 inline void describe(preset::Fields& v, Receiver& r)
 {
   v.about("InverseReceiver", "A screen across the light, and its picture.");
-  v.field({.name = "distance_mm",
-           .sentence = "From the object's facets, against which it is parallel and centred.",
-           .unit = "mm",
-           .bounds = preset::within(0.01, 1e6),
-           .required = true},
-          r.distance_mm);
-  v.field({.name = "picture", .sentence = "What the object casts there: a file, or an object.", .required = true}, r.picture);
-  v.field({.name = "weight",
-           .sentence = "How much its picture counts beside the others'; the costs that are reported are of all pictures alike.",
-           .bounds = preset::within(0.01, 100)},
-          r.weight);
+  v.field("distance_mm", "From the object's facets, against which it is parallel and centred.", r.distance_mm,
+          {.unit = "mm", .bounds = preset::within(0.01, 1e6), .required = true});
+  v.field("picture", "What the object casts there: a file, or an object.", r.picture, {.required = true});
+  v.field("weight", "How much its picture counts beside the others'; the costs that are reported are of all pictures alike.", r.weight,
+          {.bounds = preset::within(0.01, 100)});
 }
 
 inline void describe(preset::Fields& v, Light& l)
 {
   v.about("InverseLight", "What falls on the front of the object.");
-  v.type({.name = "type", .sentence = "Where the light comes from."}, l.type);
+  v.type("type", "Where the light comes from.", l.type);
   if (l.type == Light::Type::parallel) {
-    v.field({.name = "tilt_deg",
-             .sentence = "Between the light and the front's normal; receivers stay where they are.",
-             .unit = "degrees",
-             .bounds = preset::within(-360, 360)},
-            l.tilt_deg);
-    v.field({.name = "turn_deg",
-             .sentence = "The side to which tilted light goes: 0 is to the right, 90 up.",
-             .unit = "degrees",
-             .bounds = preset::within(-360, 360)},
-            l.turn_deg);
+    v.field("tilt_deg", "Between the light and the front's normal; receivers stay where they are.", l.tilt_deg,
+            {.unit = "degrees", .bounds = preset::within(-360, 360)});
+    v.field("turn_deg", "The side to which tilted light goes: 0 is to the right, 90 up.", l.turn_deg,
+            {.unit = "degrees", .bounds = preset::within(-360, 360)});
   } else {
-    v.field({.name = "distance_mm", .sentence = "From the front.", .unit = "mm", .bounds = preset::within(-1e6, 1e6)}, l.distance_mm);
-    v.field({.name = "offset_mm",
-             .sentence = "Beside the middle of the object: to the right and up.",
-             .unit = "mm",
-             .bounds = preset::within(-1e5, 1e5)},
-            l.offset_mm);
+    v.field("distance_mm", "From the front.", l.distance_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
+    v.field("offset_mm", "Beside the middle of the object: to the right and up.", l.offset_mm,
+            {.unit = "mm", .bounds = preset::within(-1e5, 1e5)});
   }
 }
 
@@ -191,64 +169,37 @@ inline void describe(preset::Fields& v, Settings& s)
 {
   v.about("Inverse", "Settings of the engine \"inverse\".");
   using preset::within;
-  v.field({.name = "method", .sentence = "How the facets' slopes are found."}, s.method);
-  v.field({.name = "size_mm", .sentence = "Width and height of the object.", .unit = "mm", .bounds = within(0.1, 1e5)}, s.size_mm);
-  v.field(
-      {.name = "thickness_mm", .sentence = "From the middle of the relief to the flat front.", .unit = "mm", .bounds = within(0.01, 1e5)},
-      s.thickness_mm);
-  v.field({.name = "heights", .sentence = "Where the middles of the facets are."}, s.heights);
-  v.field({.name = "min_thickness_mm", .sentence = "No part of the object may be thinner.", .unit = "mm", .bounds = within(0.001, 1e5)},
-          s.min_thickness_mm);
-  v.field({.name = "max_relief_mm",
-           .sentence = "From the lowest corner of a facet to the highest, at most.",
-           .unit = "mm",
-           .bounds = within(0.001, 1e5)},
-          s.max_relief_mm);
-  v.field({.name = "max_slope_deg",
-           .sentence = "How far a facet may be tilted against the front.",
-           .unit = "degrees",
-           .bounds = within(0.01, 90)},
-          s.max_slope_deg);
-  v.field({.name = "smoothing_normals",
-           .sentence = "Weight of facets that are unlike their neighbours, over 'smoothing_pictures': alpha_N of the thesis' (6.1).",
-           .bounds = within(0, 1000)},
-          s.smoothing_normals);
-  v.field({.name = "smoothing_pictures",
-           .sentence = "Weight of the pictures' error, where 'smoothing_normals' is above 0: alpha_P of (6.1).",
-           .bounds = within(0.001, 1000)},
-          s.smoothing_pictures);
-  v.field({.name = "facets", .sentence = "Facets across and down.", .bounds = within(1, 1024)}, s.facets);
-  v.field({.name = "index", .sentence = "Index of refraction: a number, a file or an object."}, s.index);
-  v.field({.name = "wavelength_nm", .sentence = "The wavelength that the index is taken at.", .unit = "nm", .bounds = within(380, 780)},
-          s.wavelength_nm);
-  v.field({.name = "band_nm",
-           .sentence = "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",
-           .unit = "nm",
-           .bounds = within(0, 400)},
-          s.band_nm);
-  v.field({.name = "light", .sentence = "What falls on the front."}, s.light);
-  v.field({.name = "sun_deg",
-           .sentence = "Diameter of the light's disc, which blurs the pictures; the sun's own is 0.53.",
-           .unit = "degrees",
-           .bounds = within(0, 20)},
-          s.sun_deg);
-  v.field({.name = "scatter_deg",
-           .sentence = "How far a rough surface turns light, as a standard deviation; it blurs the pictures.",
-           .unit = "degrees",
-           .bounds = within(0, 10)},
-          s.scatter_deg);
-  v.field({.name = "receiver_mm",
-           .sentence = "Width and height of every receiver; without, the object's.",
-           .unit = "mm",
-           .bounds = within(0.1, 1e6)},
-          s.receiver_mm);
-  v.field({.name = "cells", .sentence = "Cells of every picture, across and down.", .bounds = within(2, 1024)}, s.cells);
-  v.field({.name = "frames",
-           .sentence = "How many pictures the judge takes between each receiver and the next one, as a screen that moves would show them.",
-           .bounds = within(0, 64)},
-          s.frames);
-  v.field({.name = "receivers", .sentence = "The screens that light reaches, the nearest first.", .count = {1, 16}}, s.receivers);
-  v.field({.name = "thesis", .sentence = "Constants of the method \"thesis\"."}, s.thesis);
+  v.field("method", "How the facets' slopes are found.", s.method);
+  v.field("size_mm", "Width and height of the object.", s.size_mm, {.unit = "mm", .bounds = within(0.1, 1e5)});
+  v.field("thickness_mm", "From the middle of the relief to the flat front.", s.thickness_mm, {.unit = "mm", .bounds = within(0.01, 1e5)});
+  v.field("heights", "Where the middles of the facets are.", s.heights);
+  v.field("min_thickness_mm", "No part of the object may be thinner.", s.min_thickness_mm, {.unit = "mm", .bounds = within(0.001, 1e5)});
+  v.field("max_relief_mm", "From the lowest corner of a facet to the highest, at most.", s.max_relief_mm,
+          {.unit = "mm", .bounds = within(0.001, 1e5)});
+  v.field("max_slope_deg", "How far a facet may be tilted against the front.", s.max_slope_deg,
+          {.unit = "degrees", .bounds = within(0.01, 90)});
+  v.field("smoothing_normals",
+          "Weight of facets that are unlike their neighbours, over 'smoothing_pictures': alpha_N of the thesis' (6.1).",
+          s.smoothing_normals, {.bounds = within(0, 1000)});
+  v.field("smoothing_pictures", "Weight of the pictures' error, where 'smoothing_normals' is above 0: alpha_P of (6.1).",
+          s.smoothing_pictures, {.bounds = within(0.001, 1000)});
+  v.field("facets", "Facets across and down.", s.facets, {.bounds = within(1, 1024)});
+  v.field("index", "Index of refraction: a number, a file or an object.", s.index);
+  v.field("wavelength_nm", "The wavelength that the index is taken at.", s.wavelength_nm, {.unit = "nm", .bounds = within(380, 780)});
+  v.field("band_nm", "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",
+          s.band_nm, {.unit = "nm", .bounds = within(0, 400)});
+  v.field("light", "What falls on the front.", s.light);
+  v.field("sun_deg", "Diameter of the light's disc, which blurs the pictures; the sun's own is 0.53.", s.sun_deg,
+          {.unit = "degrees", .bounds = within(0, 20)});
+  v.field("scatter_deg", "How far a rough surface turns light, as a standard deviation; it blurs the pictures.", s.scatter_deg,
+          {.unit = "degrees", .bounds = within(0, 10)});
+  v.field("receiver_mm", "Width and height of every receiver; without, the object's.", s.receiver_mm,
+          {.unit = "mm", .bounds = within(0.1, 1e6)});
+  v.field("cells", "Cells of every picture, across and down.", s.cells, {.bounds = within(2, 1024)});
+  v.field("frames", "How many pictures the judge takes between each receiver and the next one, as a screen that moves would show them.",
+          s.frames, {.bounds = within(0, 64)});
+  v.field("receivers", "The screens that light reaches, the nearest first.", s.receivers, {.count = {1, 16}});
+  v.field("thesis", "Constants of the method \"thesis\".", s.thesis);
 }
 
 } // namespace nephroid::inverse

@@ -282,9 +282,4 @@ std::vector<std::optional<double>> iw_ssim_each(const Pixels& picture, const Pix
   return results;
 }
 
-std::optional<double> iw_ssim(const Pixels& picture, const Pixels& reference, Mask mask)
-{
-  return iw_ssim_each(picture, reference, std::span<const Mask>(&mask, 1)).front();
-}
-
 } // namespace nephroid::measure

@@ -27,44 +27,46 @@ std::size_t reflected(std::ptrdiff_t position, std::size_t n)
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(position, 0)); // n = 2 mirrors twice
 }
 
+/// fill(row, y): of the plane's rows, which are 0 at first.
+template <class Fill>
+Plane plane_of(std::size_t width, std::size_t height, const Fill& fill)
+{
+  Plane plane(width, height);
+  for_ranges(height, pyramid_block_rows, [&](std::size_t, Range rows) {
+    for (std::size_t y = rows.begin; y < rows.end; ++y) fill(plane.row(y), y);
+  });
+  return plane;
+}
+
 Plane transposed(const Plane& plane)
 {
-  Plane result(plane.height, plane.width);
-  for_ranges(result.height, pyramid_block_rows, [&](std::size_t, Range rows) {
-    for (std::size_t y = rows.begin; y < rows.end; ++y)
-      for (std::size_t x = 0; x < result.width; ++x) result.row(y)[x] = plane.row(x)[y];
+  return plane_of(plane.height, plane.width, [&](double* row, std::size_t y) {
+    for (std::size_t x = 0; x < plane.height; ++x) row[x] = plane.row(x)[y];
   });
-  return result;
 }
 
 /// Filters along the columns and keeps every second row.
 Plane rows_halved(const Plane& plane)
 {
-  Plane result(plane.width, (plane.height + 1) / 2);
-  for_ranges(result.height, pyramid_block_rows, [&](std::size_t, Range rows) {
-    for (std::size_t y = rows.begin; y < rows.end; ++y)
-      for (std::size_t tap = 0; tap < 5; ++tap) {
-        const double* const from = plane.row(reflected(static_cast<std::ptrdiff_t>(2 * y + tap) - 2, plane.height));
-        for (std::size_t x = 0; x < plane.width; ++x) result.row(y)[x] += binomial[tap] * from[x];
-      }
+  return plane_of(plane.width, (plane.height + 1) / 2, [&](double* row, std::size_t y) {
+    for (std::size_t tap = 0; tap < 5; ++tap) {
+      const double* const from = plane.row(reflected(static_cast<std::ptrdiff_t>(2 * y + tap) - 2, plane.height));
+      for (std::size_t x = 0; x < plane.width; ++x) row[x] += binomial[tap] * from[x];
+    }
   });
-  return result;
 }
 
 /// Puts a row of zeros after every row (but the last where height is odd) and filters along the columns.
 Plane rows_doubled(const Plane& plane, std::size_t height)
 {
-  Plane result(plane.width, height);
-  for_ranges(height, pyramid_block_rows, [&](std::size_t, Range rows) {
-    for (std::size_t y = rows.begin; y < rows.end; ++y)
-      for (std::size_t tap = 0; tap < 5; ++tap) {
-        const std::size_t stuffed = reflected(static_cast<std::ptrdiff_t>(y + tap) - 2, height);
-        if (stuffed % 2 != 0) continue;
-        const double* const from = plane.row(stuffed / 2);
-        for (std::size_t x = 0; x < plane.width; ++x) result.row(y)[x] += binomial[tap] * from[x];
-      }
+  return plane_of(plane.width, height, [&](double* row, std::size_t y) {
+    for (std::size_t tap = 0; tap < 5; ++tap) {
+      const std::size_t stuffed = reflected(static_cast<std::ptrdiff_t>(y + tap) - 2, height);
+      if (stuffed % 2 != 0) continue;
+      const double* const from = plane.row(stuffed / 2);
+      for (std::size_t x = 0; x < plane.width; ++x) row[x] += binomial[tap] * from[x];
+    }
   });
-  return result;
 }
 
 Plane low_pass(const Plane& plane) { return transposed(rows_halved(transposed(rows_halved(plane)))); }
@@ -100,13 +102,10 @@ struct EnlargedLine {
 
 Plane rows_enlarged(const Plane& plane, std::size_t height)
 {
-  Plane result(plane.width, height);
   const EnlargedLine line{plane.height};
-  for_ranges(height, pyramid_block_rows, [&](std::size_t, Range rows) {
-    for (std::size_t y = rows.begin; y < rows.end; ++y)
-      for (std::size_t x = 0; x < plane.width; ++x) result.row(y)[x] = line(y, [&](std::size_t i) { return plane.row(i)[x]; });
+  return plane_of(plane.width, height, [&](double* row, std::size_t y) {
+    for (std::size_t x = 0; x < plane.width; ++x) row[x] = line(y, [&](std::size_t i) { return plane.row(i)[x]; });
   });
-  return result;
 }
 
 } // namespace

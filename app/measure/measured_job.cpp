@@ -2,8 +2,8 @@
 // When to measure, what goes into a row, when the error is small enough.
 #include "measure/measured_job.h"
 
-#include "base/bytes.h"
 #include "base/error.h"
+#include "base/state.h"
 #include "job/history.h"
 #include "job/spectrum.h"
 #include "measure/error_estimate.h"
@@ -26,64 +26,34 @@
 namespace nephroid::measure {
 namespace {
 
-Error is_cut() { return bad_input("checkpoint", "is cut", "", "delete it and start again"); }
-
-/// A count of items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes all memory.
-std::size_t load_count(ByteSource& from, std::size_t bytes_each)
-{
-  std::uint64_t count = 0;
-  from.value(count);
-  if (count > from.left() / bytes_each) throw is_cut();
-  return static_cast<std::size_t>(count);
-}
-
-struct SavedHistory {
-  job::History history; ///< columns, rows and measuring_seconds only
-  double wall_seconds = 0;
-};
-
 /// A history in a checkpoint, before the job's own bytes, so that a resumed run goes on with one history: wall and measuring seconds,
-/// column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp).
-void save_history(const job::History& history, double wall_seconds, ByteSink& to)
+/// column names, rows. How they lie there is part of the checkpoint's format (run/checkpoint.cpp). from: what is read; null where the
+/// history is written. Throws bad_input where the checkpoint is cut.
+void history_state(State state, const ByteSource* from, job::History& history, double& wall_seconds)
 {
-  to.value(wall_seconds);
-  to.value(history.measuring_seconds);
-  to.value(std::uint64_t{history.columns.size()});
-  for (const std::string& column : history.columns) {
-    to.value(std::uint64_t{column.size()});
-    to.write(std::as_bytes(std::span(column)));
+  /// Items of at least so many bytes each, which the rest of the checkpoint has to hold: so that no wrong count takes all memory.
+  const auto sized = [&](auto& items, std::size_t bytes_each) {
+    std::uint64_t count = items.size();
+    state.value(count);
+    if (from && count > from->left() / bytes_each) throw bad_input("checkpoint", "is cut", "", "delete it and start again");
+    items.resize(static_cast<std::size_t>(count));
+  };
+  state.value(wall_seconds);
+  state.value(history.measuring_seconds);
+  sized(history.columns, sizeof(std::uint64_t));
+  for (std::string& column : history.columns) {
+    sized(column, 1);
+    state.items(std::span(column));
   }
-  to.value(std::uint64_t{history.rows.size()});
-  for (const job::HistoryRow& row : history.rows) {
-    to.value(row.seconds);
-    to.value(row.wall_seconds);
-    to.value(row.step);
-    to.value(row.work);
-    to.write(std::as_bytes(std::span(row.errors)));
+  sized(history.rows, (4 + history.columns.size()) * sizeof(double));
+  for (job::HistoryRow& row : history.rows) {
+    state.value(row.seconds);
+    state.value(row.wall_seconds);
+    state.value(row.step);
+    state.value(row.work);
+    row.errors.resize(history.columns.size());
+    state.items(row.errors);
   }
-}
-
-/// Throws bad_input where the checkpoint is cut.
-SavedHistory load_history(ByteSource& from)
-{
-  SavedHistory saved;
-  from.value(saved.wall_seconds);
-  from.value(saved.history.measuring_seconds);
-  saved.history.columns.resize(load_count(from, sizeof(std::uint64_t)));
-  for (std::string& column : saved.history.columns) {
-    column.resize(load_count(from, 1));
-    from.read(std::as_writable_bytes(std::span(column)));
-  }
-  saved.history.rows.resize(load_count(from, (4 + saved.history.columns.size()) * sizeof(double)));
-  for (job::HistoryRow& row : saved.history.rows) {
-    from.value(row.seconds);
-    from.value(row.wall_seconds);
-    from.value(row.step);
-    from.value(row.work);
-    row.errors.resize(saved.history.columns.size());
-    from.read(std::as_writable_bytes(std::span(row.errors)));
-  }
-  return saved;
 }
 
 /// The rows with other columns: what a row has no value of is NaN. A resumed run may have got a reference that it had not before.
@@ -107,21 +77,21 @@ constexpr double spacing = 1.2;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-using Errors = std::vector<std::pair<std::string, double>>;
-
-void add(Errors& errors, const std::string& prefix, const Metrics& metrics, bool perceptual)
+/// The metrics of which a run has columns: those that it estimates, or those against a reference.
+std::vector<const Metric*> noted_metrics(bool are_estimates, bool perceptual)
 {
+  std::vector<const Metric*> metrics;
   for (const Metric& metric : all_metrics())
-    if (perceptual || metric.kind != Metric::Kind::perceptual)
-      errors.emplace_back(fmt::format("{}{}", prefix, metric.name), metric.of(metrics));
+    if (are_estimates ? metric.kind == Metric::Kind::estimated : perceptual || metric.kind != Metric::Kind::perceptual)
+      metrics.push_back(&metric);
+  return metrics;
 }
 
-std::vector<std::string_view> estimated_metrics()
+std::string names_of_estimates()
 {
   std::vector<std::string_view> names;
-  for (const Metric& metric : all_metrics())
-    if (metric.kind == Metric::Kind::estimated) names.push_back(metric.name);
-  return names;
+  for (const Metric* metric : noted_metrics(true, false)) names.push_back(metric->name);
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 class MeasuredJob final : public job::Job, public job::SpectrumSource {
@@ -144,8 +114,7 @@ public:
         history_.error_column = column;
     if (history_.target && !history_.error_column.ends_with(metric))
       throw bad_input(Place(preset.source) / "stop" / "error", "nothing measures the error of this run in " + metric,
-                      settings_.estimate ? fmt::format("expected a 'reference', or a 'stop.metric' that can be estimated: {}",
-                                                       fmt::join(estimated_metrics(), ", "))
+                      settings_.estimate ? "expected a 'reference', or a 'stop.metric' that can be estimated: " + names_of_estimates()
                                          : "expected a 'reference', or 'measure.estimate' true");
     show();
   }
@@ -189,7 +158,8 @@ public:
 
   void save(ByteSink& to) override
   {
-    save_history(history_, wall_seconds(), to);
+    double wall = wall_seconds();
+    history_state(State(to), nullptr, history_, wall);
     job_->save(to);
   }
 
@@ -220,12 +190,12 @@ public:
 
   void load(ByteSource& from) override
   {
-    const SavedHistory saved = load_history(from);
+    job::History saved;
+    history_state(State(from), &from, saved, wall_before_);
     job_->load(from);
-    wall_before_ = saved.wall_seconds;
     began_ = Clock::now();
-    history_.measuring_seconds = saved.history.measuring_seconds;
-    history_.rows = rows_in_columns(saved.history, history_.columns);
+    history_.measuring_seconds = saved.measuring_seconds;
+    history_.rows = rows_in_columns(saved, history_.columns);
     for (const job::HistoryRow& row : history_.rows) last_seconds_ = row.seconds;
     plan_next();
     show();
@@ -234,21 +204,15 @@ public:
 private:
   void name_columns()
   {
-    const auto take = [&](const std::string& prefix, const std::optional<Metrics>& floor) {
-      Errors columns;
-      add(columns, prefix, floor.value_or(Metrics{}), settings_.perceptual);
-      for (const auto& [name, value] : columns) {
-        history_.columns.push_back(name);
-        history_.noise_floor.push_back(floor ? value : none);
+    const auto add = [&](const char* prefix, const std::optional<Metrics>& floor, bool are_estimates) {
+      for (const Metric* metric : noted_metrics(are_estimates, settings_.perceptual)) {
+        history_.columns.push_back(fmt::format("{}{}", prefix, metric->name));
+        history_.noise_floor.push_back(floor ? metric->of(*floor) : none);
       }
     };
-    if (against_) take("", reference_->noise_floor);
-    if (masked_) take("masked_", reference_->masked_noise_floor);
-    if (!settings_.estimate) return;
-    for (const std::string_view name : estimated_metrics()) {
-      history_.columns.push_back(fmt::format("estimated_{}", name));
-      history_.noise_floor.push_back(none);
-    }
+    if (against_) add("", reference_->noise_floor, false);
+    if (masked_) add("masked_", reference_->masked_noise_floor, false);
+    if (settings_.estimate) add("estimated_", {}, true);
   }
 
   double wall_seconds() const { return wall_before_ + seconds_since(began_); }
@@ -272,8 +236,7 @@ private:
       last_seconds_ = progress.work_seconds;
       return;
     }
-    job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, {}};
-    for (const auto& [name, value] : errors_of(*snapshot.picture)) row.errors.push_back(value);
+    job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, errors_of(*snapshot.picture)};
     row.wall_seconds = wall_seconds();
     history_.rows.push_back(std::move(row));
     last_seconds_ = progress.work_seconds;
@@ -288,18 +251,18 @@ private:
     if (!history_.columns.empty()) shown_ = std::make_shared<const job::History>(history_);
   }
 
-  Errors errors_of(const job::Picture& picture) const
+  /// One a column, in their order.
+  std::vector<double> errors_of(const job::Picture& picture) const
   {
     const Pixels pixels{picture.width, picture.height, picture.rgb, "the run"};
-    Errors errors;
-    if (against_) add(errors, "", of_effort(pixels, {}, *against_), settings_.perceptual);
-    if (masked_) add(errors, "masked_", of_effort(pixels, reference_->mask, *masked_), settings_.perceptual);
-    if (!settings_.estimate) return errors;
-    const bool has_draw = !picture.error_draw.empty();
-    const Metrics metrics = has_draw ? estimate_error(picture) : Metrics{};
-    for (const Metric& metric : all_metrics())
-      if (metric.kind == Metric::Kind::estimated)
-        errors.emplace_back(fmt::format("estimated_{}", metric.name), has_draw ? metric.of(metrics) : none);
+    std::vector<double> errors;
+    const auto add = [&](const std::optional<Metrics>& metrics, bool are_estimates) {
+      for (const Metric* metric : noted_metrics(are_estimates, settings_.perceptual))
+        errors.push_back(metrics ? metric->of(*metrics) : none);
+    };
+    if (against_) add(of_effort(pixels, {}, *against_), false);
+    if (masked_) add(of_effort(pixels, reference_->mask, *masked_), false);
+    if (settings_.estimate) add(picture.error_draw.empty() ? std::nullopt : std::optional(estimate_error(picture)), true);
     return errors;
   }
 

@@ -1,17 +1,124 @@
 // SPDX-License-Identifier: Apache-2.0
+// Strict in what it reads: a curve with a wrong row in it would be believed.
 #include "measure/run_files.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "measure/history_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <iterator>
+#include <system_error>
 
 namespace nephroid::measure {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr std::string_view fixed_columns[] = {"seconds", "wall_seconds", "step", "work"};
+constexpr std::string_view fixed_header = "seconds,wall_seconds,step,work";
+/// Years of measurements; a larger file is something else.
+constexpr std::uintmax_t max_bytes = std::uintmax_t(256) << 20;
+
+std::vector<std::string_view> cells_of(std::string_view line)
+{
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// A cell as a message may show it: short, on one line, without control characters.
+std::string quoted(std::string_view cell)
+{
+  std::string shown(cell.substr(0, 40));
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, '?');
+  return fmt::format("'{}{}'", shown, cell.size() > 40 ? "..." : "");
+}
+
+template <class Number>
+Number number(std::string_view cell, std::string_view column, const Place& place)
+{
+  Number value{};
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size())
+    throw bad_input(place, fmt::format("{} {} is no number", column, quoted(cell)));
+  return value;
+}
+
+/// A time in seconds: finite, not negative.
+double seconds(std::string_view cell, std::string_view column, const Place& place)
+{
+  const double value = number<double>(cell, column, place);
+  if (!std::isfinite(value) || value < 0) throw bad_input(place, fmt::format("{} is {}", column, cell), "expected seconds from 0");
+  return value;
+}
+
+/// psnr_db falls below 0 where a picture is far off, so only NaN is refused: the file has an empty cell for it.
+double error_value(std::string_view cell, std::string_view column, const Place& place)
+{
+  if (cell.empty()) return std::nan("");
+  const double value = number<double>(cell, column, place);
+  if (std::isnan(value)) throw bad_input(place, fmt::format("{} is {}", column, cell), "an undefined error is an empty cell");
+  return value;
+}
+
+bool is_column_name(std::string_view name)
+{
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  return !name.empty() && name.find_first_not_of(letters) == std::string_view::npos;
+}
+
+std::vector<std::string> columns_of(std::string_view line, const Place& place)
+{
+  const std::vector<std::string_view> cells = cells_of(line);
+  const std::string expected = fmt::format("expected '{}', then a column a metric", fixed_header);
+  if (cells.size() < std::size(fixed_columns) || !std::equal(std::begin(fixed_columns), std::end(fixed_columns), cells.begin()))
+    throw bad_input(place, "this is no history of a run", expected);
+  std::vector<std::string> columns;
+  for (std::size_t i = std::size(fixed_columns); i < cells.size(); ++i) {
+    if (!is_column_name(cells[i]))
+      throw bad_input(place, fmt::format("column {} has the name {}", i + 1, quoted(cells[i])), "expected a metric's name");
+    if (std::find(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(i), cells[i]) !=
+        cells.begin() + static_cast<std::ptrdiff_t>(i))
+      throw bad_input(place, fmt::format("two columns have the name {}", quoted(cells[i])));
+    columns.emplace_back(cells[i]);
+  }
+  return columns;
+}
+
+job::HistoryRow row_of(std::string_view line, const std::vector<std::string>& columns, const Place& place)
+{
+  const std::vector<std::string_view> cells = cells_of(line);
+  const std::size_t expected = std::size(fixed_columns) + columns.size();
+  if (cells.size() != expected)
+    throw bad_input(place, "the row has " + counted(cells.size(), "cell"), fmt::format("expected {}", expected));
+  job::HistoryRow row;
+  row.seconds = seconds(cells[0], fixed_columns[0], place);
+  row.wall_seconds = seconds(cells[1], fixed_columns[1], place);
+  row.step = number<std::int64_t>(cells[2], fixed_columns[2], place);
+  row.work = number<std::uint64_t>(cells[3], fixed_columns[3], place);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    row.errors.push_back(error_value(cells[std::size(fixed_columns) + i], columns[i], place));
+  return row;
+}
+
+std::string text_of(const fs::path& file)
+{
+  std::error_code ignored; // read_file says what is wrong with a file that has no size
+  const std::uintmax_t bytes = fs::is_regular_file(file, ignored) ? fs::file_size(file, ignored) : 0;
+  if (!ignored && bytes > max_bytes)
+    throw bad_input(file.string(), fmt::format("has {} MiB", bytes >> 20), fmt::format("no history has more than {}", max_bytes >> 20));
+  return read_file(file);
+}
 
 using Json = nlohmann::ordered_json;
 using Type = RunDocument::Type;
@@ -54,6 +161,47 @@ const char* complaint(const Json& value, Type type)
 }
 
 } // namespace
+
+std::string to_csv(const job::History& history)
+{
+  std::string csv(fixed_header);
+  for (const std::string& column : history.columns) csv += "," + column;
+  csv += '\n';
+  for (const job::HistoryRow& row : history.rows) { // {} is the shortest text that reads back as the same bits
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{}", row.seconds, row.wall_seconds, row.step, row.work);
+    for (const double error : row.errors)
+      if (std::isnan(error))
+        csv += ',';
+      else
+        fmt::format_to(std::back_inserter(csv), ",{}", error);
+    csv += '\n';
+  }
+  return csv;
+}
+
+job::History read_history(const std::filesystem::path& file)
+{
+  const std::string text = text_of(file);
+  if (text.empty()) throw bad_input(file.string(), "the file is empty", fmt::format("expected '{},...'", fixed_header));
+  job::History history;
+  std::string_view rest = text;
+  for (std::size_t line = 1; !rest.empty(); ++line) {
+    const Place place(file.string(), line);
+    const std::size_t end = rest.find('\n');
+    const std::string_view row = rest.substr(0, end);
+    if (line == 1)
+      history.columns = columns_of(row, place);
+    else
+      history.rows.push_back(row_of(row, history.columns, place));
+    // A cut number is a number as well, so the end of the last line is looked for; after the line, which may show a better reason.
+    if (end == std::string_view::npos) throw bad_input(place, "the file is cut in this line", "every line ends with a line feed");
+    const std::size_t count = history.rows.size();
+    if (count > 1 && history.rows[count - 1].seconds < history.rows[count - 2].seconds)
+      throw bad_input(place, fmt::format("seconds fall from {} to {}", history.rows[count - 2].seconds, history.rows[count - 1].seconds));
+    rest.remove_prefix(end + 1);
+  }
+  return history;
+}
 
 RunDocument::RunDocument(const fs::path& file) : place_(file.string() + "#"), json_(parsed(file)) {}
 

@@ -12,44 +12,32 @@ void describe(Fields& v, Dispersion& d)
   v.shorthand(Bare::number, Dispersion::Type::constant, "n");
   v.shorthand(Bare::text, Dispersion::Type::file, "file");
   using Type = Dispersion::Type;
-  v.type({.name = "type", .sentence = "Where n comes from."}, d.type);
+  v.type("type", "Where n comes from.", d.type);
   const Column nm{"wavelength", "nm", wavelength_bounds}, n{"n", "", index_bounds};
   switch (d.type) {
   case Type::constant:
-    v.field({.name = "n", .sentence = "Index of refraction.", .bounds = index_bounds, .required = true}, d.n);
+    v.field("n", "Index of refraction.", d.n, {.bounds = index_bounds, .required = true});
     return; // a constant has no range to leave
   case Type::file:
-    v.field({.name = "file", .sentence = "A YAML file of refractiveindex.info.", .text = Text::file, .required = true}, d.file);
+    v.field("file", "A YAML file of refractiveindex.info.", d.file, {.text = Text::file, .required = true});
     break;
   case Type::sellmeier:
-    v.field({.name = "b", .sentence = "Strength of each term.", .bounds = coefficient_bounds, .count = term_count, .required = true}, d.b);
-    v.field({.name = "c_um2",
-             .sentence = "Resonance of each term: its wavelength squared.",
-             .unit = "square micrometres",
-             .bounds = coefficient_bounds,
-             .count = term_count,
-             .required = true},
-            d.c_um2);
+    v.field("b", "Strength of each term.", d.b, {.bounds = coefficient_bounds, .count = term_count, .required = true});
+    v.field("c_um2", "Resonance of each term: its wavelength squared.", d.c_um2,
+            {.unit = "square micrometres", .bounds = coefficient_bounds, .count = term_count, .required = true});
     break;
   case Type::cauchy:
-    v.field({.name = "coefficients",
-             .sentence = "c0, c1, c2, ...: c_i in micrometres to the power 2 i.",
-             .bounds = coefficient_bounds,
-             .count = term_count,
-             .required = true},
-            d.coefficients);
+    v.field("coefficients", "c0, c1, c2, ...: c_i in micrometres to the power 2 i.", d.coefficients,
+            {.bounds = coefficient_bounds, .count = term_count, .required = true});
     break;
   case Type::table:
-    v.field({.name = "table", .sentence = "Rows of wavelength and n.", .count = {1, max_rows}, .columns = {nm, n}, .required = true},
-            d.table);
+    v.field("table", "Rows of wavelength and n.", d.table, {.count = {1, max_rows}, .columns = {nm, n}, .required = true});
     break;
   case Type::points:
-    v.field(
-        {.name = "table", .sentence = "Control points: wavelength and n.", .count = {2, max_rows}, .columns = {nm, n}, .required = true},
-        d.table);
+    v.field("table", "Control points: wavelength and n.", d.table, {.count = {2, max_rows}, .columns = {nm, n}, .required = true});
     break;
   }
-  v.field({.name = "outside", .sentence = "What n is at wavelengths outside the data's own range."}, d.outside);
+  v.field("outside", "What n is at wavelengths outside the data's own range.", d.outside);
 }
 
 void describe(Fields& v, LightSpectrum& s)
@@ -57,36 +45,21 @@ void describe(Fields& v, LightSpectrum& s)
   v.about("LightSpectrum", "How a light's power is spread over wavelength.");
   v.shorthand(Bare::text, LightSpectrum::Type::illuminant, "illuminant");
   using Type = LightSpectrum::Type;
-  v.type({.name = "type", .sentence = "Where the spectrum comes from."}, s.type);
+  v.type("type", "Where the spectrum comes from.", s.type);
   const Column nm{"wavelength", "nm", wavelength_bounds}, power{"relative power", "", power_bounds};
   switch (s.type) {
   case Type::illuminant:
-    v.field({.name = "illuminant",
-             .sentence = "A, D50, D65, E or F1 to F12.",
-             .text = Text::line,
-             .names = Names::illuminant,
-             .required = true},
-            s.illuminant);
+    v.field("illuminant", "A, D50, D65, E or F1 to F12.", s.illuminant, {.text = Text::line, .names = Names::illuminant, .required = true});
     break;
   case Type::blackbody:
-    v.field({.name = "temperature_k", .sentence = "Temperature.", .unit = "K", .bounds = within(300, 1e6), .required = true},
-            s.temperature_k);
+    v.field("temperature_k", "Temperature.", s.temperature_k, {.unit = "K", .bounds = within(300, 1e6), .required = true});
     break;
   case Type::lines:
-    v.field({.name = "table",
-             .sentence = "Wavelength and relative power of each line.",
-             .count = {1, max_rows},
-             .columns = {nm, power},
-             .required = true},
-            s.table);
+    v.field("table", "Wavelength and relative power of each line.", s.table,
+            {.count = {1, max_rows}, .columns = {nm, power}, .required = true});
     break;
   case Type::table:
-    v.field({.name = "table",
-             .sentence = "Rows of wavelength and relative power.",
-             .count = {2, max_rows},
-             .columns = {nm, power},
-             .required = true},
-            s.table);
+    v.field("table", "Rows of wavelength and relative power.", s.table, {.count = {2, max_rows}, .columns = {nm, power}, .required = true});
     break;
   }
 }
@@ -97,26 +70,20 @@ void describe(Fields& v, Reflectance& r)
   v.shorthand(Bare::number, Reflectance::Type::constant, "value");
   v.shorthand(Bare::text, Reflectance::Type::patch, "patch");
   using Type = Reflectance::Type;
-  v.type({.name = "type", .sentence = "Where the reflectance comes from."}, r.type);
+  v.type("type", "Where the reflectance comes from.", r.type);
   switch (r.type) {
   case Type::constant:
-    v.field({.name = "value", .sentence = "Reflectance.", .bounds = within(0, 1), .required = true}, r.value);
+    v.field("value", "Reflectance.", r.value, {.bounds = within(0, 1), .required = true});
     break;
   case Type::patch:
-    v.field({.name = "patch",
-             .sentence = "Name of a ColorChecker patch, such as \"blue sky\".",
-             .text = Text::line,
-             .names = Names::patch,
-             .required = true},
-            r.patch);
+    v.field("patch", "Name of a ColorChecker patch, such as \"blue sky\".", r.patch,
+            {.text = Text::line, .names = Names::patch, .required = true});
     break;
   case Type::table:
-    v.field({.name = "table",
-             .sentence = "Rows of wavelength and reflectance.",
-             .count = {1, max_rows},
+    v.field("table", "Rows of wavelength and reflectance.", r.table,
+            {.count = {1, max_rows},
              .columns = {{"wavelength", "nm", wavelength_bounds}, {"reflectance", "", within(0, 1)}},
-             .required = true},
-            r.table);
+             .required = true});
     break;
   }
 }
@@ -124,21 +91,20 @@ void describe(Fields& v, Reflectance& r)
 void describe(Fields& v, Material& m)
 {
   v.about("Material", "What a surface does with light.");
-  v.type({.name = "type", .sentence = "What kind of surface."}, m.type);
+  v.type("type", "What kind of surface.", m.type);
   if (m.type == Material::Type::dielectric) {
-    v.field({.name = "dispersion", .sentence = "Index of refraction: a number, a file or an object.", .required = true}, m.dispersion);
-    v.field({.name = "absorption", .sentence = "Absorb light inside where the dispersion file has k."}, m.absorption);
+    v.field("dispersion", "Index of refraction: a number, a file or an object.", m.dispersion, {.required = true});
+    v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);
   } else
-    v.field({.name = "reflectance", .sentence = "Part of the light that is reflected: a number, a ColorChecker patch or an object."},
-            m.reflectance);
+    v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.", m.reflectance);
 }
 
 void describe(Fields& v, Transform& t)
 {
   v.about("Transform", "Scale, then rotate (about x, then y, then z), then translate.");
-  v.field({.name = "scale", .sentence = "Factors along x, y and z; not 0, negative ones mirror.", .bounds = within(-1e6, 1e6)}, t.scale);
-  v.field({.name = "rotate_deg", .sentence = "Angles about x, y and z.", .unit = "degrees", .bounds = within(-3600, 3600)}, t.rotate_deg);
-  v.field({.name = "translate", .sentence = "Where the origin goes.", .unit = length_unit, .bounds = position_bounds}, t.translate);
+  v.field("scale", "Factors along x, y and z; not 0, negative ones mirror.", t.scale, {.bounds = within(-1e6, 1e6)});
+  v.field("rotate_deg", "Angles about x, y and z.", t.rotate_deg, {.unit = "degrees", .bounds = within(-3600, 3600)});
+  v.field("translate", "Where the origin goes.", t.translate, {.unit = length_unit, .bounds = position_bounds});
 }
 
 void describe(Fields& v, Shape& s)
@@ -146,9 +112,9 @@ void describe(Fields& v, Shape& s)
   v.about("Shape", "A simple shape, centred on the origin with y up.");
   using Type = Shape::Type;
   const auto length = [&](std::string_view name, std::string_view sentence, auto& value) {
-    v.field({.name = name, .sentence = sentence, .unit = length_unit, .bounds = length_bounds}, value);
+    v.field(name, sentence, value, {.unit = length_unit, .bounds = length_bounds});
   };
-  v.type({.name = "type", .sentence = "Which shape."}, s.type);
+  v.type("type", "Which shape.", s.type);
   switch (s.type) {
   case Type::quad:
     length("size", "Edge lengths along x and z; the middle number is not used.", s.size);
@@ -162,116 +128,92 @@ void describe(Fields& v, Shape& s)
     length("radius", "Radius.", s.radius);
     if (s.type == Type::sphere) break;
     length("height", "Length along y.", s.height);
-    v.field({.name = "segments", .sentence = "Facets around.", .bounds = within(3, 4096)}, s.segments);
+    v.field("segments", "Facets around.", s.segments, {.bounds = within(3, 4096)});
     break;
   case Type::prism:
     length("height", "Length along y.", s.height);
-    v.field({.name = "apex_deg",
-             .sentence = "Angle between the two equal sides; their edge is at +z.",
-             .unit = "degrees",
-             .bounds = within(0.1, 179)},
-            s.apex_deg);
+    v.field("apex_deg", "Angle between the two equal sides; their edge is at +z.", s.apex_deg,
+            {.unit = "degrees", .bounds = within(0.1, 179)});
     length("side", "Length of the two equal sides.", s.side);
     break;
   case Type::brilliant:
     length("radius", "Radius of the girdle.", s.radius);
     break;
   }
-  v.field({.name = "inwards", .sentence = "Turn the shape inside out, for a room."}, s.inwards);
+  v.field("inwards", "Turn the shape inside out, for a room.", s.inwards);
 }
 
 void describe(Fields& v, Object& o)
 {
   v.about("Object", "A mesh or a shape, put in its place.");
-  v.field({.name = "name", .sentence = "What messages call it.", .text = Text::line}, o.name);
-  v.field({.name = "mesh", .sentence = "A mesh file (OBJ, PLY, STL, glTF, ...); give either this or a shape.", .text = Text::file}, o.mesh);
-  v.field({.name = "shape", .sentence = "A simple shape; give either this or a mesh."}, o.shape);
-  v.field({.name = "material",
-           .sentence = "One of the names in scene.materials.",
-           .text = Text::line,
-           .names = Names::material,
-           .required = true},
-          o.material);
-  v.field({.name = "transform", .sentence = "Its size, turn and place."}, o.transform);
-  v.field({.name = "normals", .sentence = "Flat or smooth."}, o.normals);
-  v.field({.name = "priority",
-           .sentence = "Where two dielectrics overlap the higher one is there; of equals the one entered last.",
-           .bounds = within(-1000000, 1000000)},
-          o.priority);
+  v.field("name", "What messages call it.", o.name, {.text = Text::line});
+  v.field("mesh", "A mesh file (OBJ, PLY, STL, glTF, ...); give either this or a shape.", o.mesh, {.text = Text::file});
+  v.field("shape", "A simple shape; give either this or a mesh.", o.shape);
+  v.field("material", "One of the names in scene.materials.", o.material, {.text = Text::line, .names = Names::material, .required = true});
+  v.field("transform", "Its size, turn and place.", o.transform);
+  v.field("normals", "Flat or smooth.", o.normals);
+  v.field("priority", "Where two dielectrics overlap the higher one is there; of equals the one entered last.", o.priority,
+          {.bounds = within(-1000000, 1000000)});
 }
 
 void describe(Fields& v, Light& l)
 {
   v.about("Light", "A source of light.");
   using Type = Light::Type;
-  v.type({.name = "type", .sentence = "What kind of source."}, l.type);
-  v.field({.name = "spectrum", .sentence = "A CIE illuminant by name, or an object."}, l.spectrum);
+  v.type("type", "What kind of source.", l.type);
+  v.field("spectrum", "A CIE illuminant by name, or an object.", l.spectrum);
   if (l.type == Type::directional)
-    v.field({.name = "irradiance_w_m2",
-             .sentence = "Irradiance of 380 to 780 nm on a plane that faces the light.",
-             .unit = "W/m^2",
-             .bounds = power_bounds},
-            l.irradiance_w_m2);
+    v.field("irradiance_w_m2", "Irradiance of 380 to 780 nm on a plane that faces the light.", l.irradiance_w_m2,
+            {.unit = "W/m^2", .bounds = power_bounds});
   else {
-    v.field({.name = "power_w", .sentence = "Radiant power of 380 to 780 nm.", .unit = "W", .bounds = power_bounds}, l.power_w);
-    v.field({.name = "position", .sentence = "Where it is; of an area light its centre.", .unit = length_unit, .bounds = position_bounds},
-            l.position);
+    v.field("power_w", "Radiant power of 380 to 780 nm.", l.power_w, {.unit = "W", .bounds = power_bounds});
+    v.field("position", "Where it is; of an area light its centre.", l.position, {.unit = length_unit, .bounds = position_bounds});
   }
-  if (l.type != Type::point)
-    v.field({.name = "direction", .sentence = "The way the light goes; any length but 0.", .bounds = position_bounds}, l.direction);
+  if (l.type != Type::point) v.field("direction", "The way the light goes; any length but 0.", l.direction, {.bounds = position_bounds});
   if (l.type == Type::spot)
-    v.field({.name = "half_angle_deg",
-             .sentence = "Between the cone's axis and its edge: constant intensity inside, none outside.",
-             .unit = "degrees",
-             .bounds = within(0.01, 180)},
-            l.half_angle_deg);
+    v.field("half_angle_deg", "Between the cone's axis and its edge: constant intensity inside, none outside.", l.half_angle_deg,
+            {.unit = "degrees", .bounds = within(0.01, 180)});
   if (l.type == Type::area) {
-    v.field({.name = "size", .sentence = "Edge lengths.", .unit = length_unit, .bounds = length_bounds}, l.size);
-    v.field({.name = "up", .sentence = "Along the second edge, as far as the direction allows.", .bounds = position_bounds}, l.up);
+    v.field("size", "Edge lengths.", l.size, {.unit = length_unit, .bounds = length_bounds});
+    v.field("up", "Along the second edge, as far as the direction allows.", l.up, {.bounds = position_bounds});
   }
 }
 
 void describe(Fields& v, Camera& c)
 {
   v.about("Camera", "A pinhole camera.");
-  v.field({.name = "position", .sentence = "Where it stands.", .unit = length_unit, .bounds = position_bounds}, c.position);
-  v.field({.name = "target", .sentence = "What it looks at.", .unit = length_unit, .bounds = position_bounds}, c.target);
-  v.field({.name = "up", .sentence = "What is up in the picture.", .bounds = position_bounds}, c.up);
-  v.field({.name = "fov_deg", .sentence = "Vertical field of view.", .unit = "degrees", .bounds = within(0.001, 179.9)}, c.fov_deg);
-  v.field({.name = "resolution", .sentence = "Width and height of the picture.", .unit = "pixels", .bounds = within(1, 16384)},
-          c.resolution);
+  v.field("position", "Where it stands.", c.position, {.unit = length_unit, .bounds = position_bounds});
+  v.field("target", "What it looks at.", c.target, {.unit = length_unit, .bounds = position_bounds});
+  v.field("up", "What is up in the picture.", c.up, {.bounds = position_bounds});
+  v.field("fov_deg", "Vertical field of view.", c.fov_deg, {.unit = "degrees", .bounds = within(0.001, 179.9)});
+  v.field("resolution", "Width and height of the picture.", c.resolution, {.unit = "pixels", .bounds = within(1, 16384)});
 }
 
 void describe(Fields& v, Environment& e)
 {
   v.about("Environment", "What is behind everything, infinitely far.");
   v.shorthand(Bare::text, Environment::Type::file, "file");
-  v.type({.name = "type", .sentence = "Where the surroundings come from."}, e.type);
+  v.type("type", "Where the surroundings come from.", e.type);
   if (e.type == Environment::Type::file)
-    v.field({.name = "file", .sentence = "A latitude-longitude picture.", .text = Text::file, .required = true}, e.file);
+    v.field("file", "A latitude-longitude picture.", e.file, {.text = Text::file, .required = true});
   else
-    v.field({.name = "colour", .sentence = "Linear sRGB.", .bounds = within(0, 1e6), .required = true}, e.colour);
-  v.field({.name = "radiance", .sentence = "Luminance Y of the colour (1, 1, 1).", .unit = "W/(m^2 sr)", .bounds = within(0, 1e9)},
-          e.radiance);
+    v.field("colour", "Linear sRGB.", e.colour, {.bounds = within(0, 1e6), .required = true});
+  v.field("radiance", "Luminance Y of the colour (1, 1, 1).", e.radiance, {.unit = "W/(m^2 sr)", .bounds = within(0, 1e9)});
   if (e.type == Environment::Type::file)
-    v.field({.name = "rotate_deg",
-             .sentence = "Turns the surroundings about +y, counterclockwise as seen from above.",
-             .unit = "degrees",
-             .bounds = within(-3600, 3600)},
-            e.rotate_deg);
-  v.field({.name = "lights", .sentence = "Whether it lights the scene, where the engine leaves that open; if not, it is only seen."},
-          e.lights);
+    v.field("rotate_deg", "Turns the surroundings about +y, counterclockwise as seen from above.", e.rotate_deg,
+            {.unit = "degrees", .bounds = within(-3600, 3600)});
+  v.field("lights", "Whether it lights the scene, where the engine leaves that open; if not, it is only seen.", e.lights);
 }
 
 void describe(Fields& v, Scene& s)
 {
   v.about("Scene", "What there is to see.");
-  v.field({.name = "camera", .sentence = "The camera."}, s.camera);
-  v.field({.name = "materials", .sentence = "Materials by name.", .count = {0, 1000}}, s.materials);
-  v.field({.name = "objects", .sentence = "Everything that light can hit.", .count = {0, 10000}}, s.objects);
-  v.field({.name = "lights", .sentence = "The lights.", .count = {0, 1000}}, s.lights);
-  v.field({.name = "environment", .sentence = "What is behind everything, and may light it."}, s.environment);
-  v.field({.name = "damaged_meshes", .sentence = "What is done about glass whose mesh has a hole or is inside out."}, s.damaged_meshes);
+  v.field("camera", "The camera.", s.camera);
+  v.field("materials", "Materials by name.", s.materials, {.count = {0, 1000}});
+  v.field("objects", "Everything that light can hit.", s.objects, {.count = {0, 10000}});
+  v.field("lights", "The lights.", s.lights, {.count = {0, 1000}});
+  v.field("environment", "What is behind everything, and may light it.", s.environment);
+  v.field("damaged_meshes", "What is done about glass whose mesh has a hole or is inside out.", s.damaged_meshes);
 }
 
 } // namespace nephroid::preset

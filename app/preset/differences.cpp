@@ -5,7 +5,6 @@
 #include "base/files.h"
 #include "preset/describe.h"
 #include "preset/document.h"
-#include "preset/files.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>

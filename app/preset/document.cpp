@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <set>
 
 namespace nephroid::preset {
 namespace {
@@ -32,6 +34,110 @@ Json& item(Json& list, const std::string& key, const std::string& path, const Or
   if (error == std::errc() && end == key.data() + key.size() && index < list.size()) return list[index];
   const std::string range = list.empty() ? "it is empty" : fmt::format("its items are 0 to {}", list.size() - 1);
   throw bad_input(origin.place, fmt::format("{} is a list and has no item {}", in_quotes(path), in_quotes(key)), range);
+}
+
+struct Axis {
+  std::string key; ///< as written
+  std::vector<std::string> path;
+  Json values;
+  std::vector<std::string> labels;
+  Origin origin;
+  Place where; ///< for messages
+};
+
+bool starts_with(const std::vector<std::string>& path, const std::vector<std::string>& start)
+{
+  return path.size() >= start.size() && std::equal(start.begin(), start.end(), path.begin());
+}
+
+/// Numbers and words say what they are; they must do in the name of a folder.
+std::string label(const Json& value)
+{
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '_' && c != '-' && c != '+') c = '-';
+  return text.substr(0, 40);
+}
+
+std::vector<std::string> labels(const Json& values)
+{
+  std::vector<std::string> all;
+  for (const Json& value : values) all.push_back(label(value));
+  const bool plain = std::none_of(values.begin(), values.end(), [](const Json& v) { return v.is_structured(); });
+  if (!plain || std::set<std::string>(all.begin(), all.end()).size() < all.size())
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::to_string(i);
+  return all;
+}
+
+Axis make_axis(const std::string& key, Json values, const Document& document)
+{
+  const std::string pointer = child("/sweep", key);
+  Axis axis{key, split_path(key), std::move(values), {}, document.origins().at(pointer), document.where(pointer)};
+  if (axis.path.empty())
+    throw bad_input(axis.where, in_quotes(key) + " is no path", "expected keys joined by dots, for instance scene.lights.0.power_w");
+  if (axis.path.front() == "sweep" || axis.path.front() == "parent") throw bad_input(axis.where, in_quotes(key) + " cannot be swept");
+  if (!axis.values.is_array() || axis.values.empty())
+    throw bad_input(axis.where, "is " + shown(axis.values), "expected a list of at least one value");
+  axis.labels = labels(axis.values);
+  return axis;
+}
+
+void refuse_overlaps(const std::vector<Axis>& axes)
+{
+  for (const Axis& a : axes)
+    for (const Axis& b : axes)
+      if (&a != &b && starts_with(b.path, a.path))
+        throw bad_input(b.where, fmt::format("{} lies inside {}, which is swept too", in_quotes(b.key), in_quotes(a.key)),
+                        "expected keys apart from each other");
+}
+
+/// An override of a swept key fixes it; one inside a swept value would be overwritten in every run.
+bool is_fixed(const Axis& axis, const std::vector<std::string>& overrides)
+{
+  bool fixed = false;
+  for (const std::string& text : overrides) {
+    const std::vector<std::string> path = split_path(std::string_view(text).substr(0, text.find('=')));
+    if (path == axis.path)
+      fixed = true;
+    else if (starts_with(path, axis.path))
+      throw bad_input("--set " + text, fmt::format("the preset sweeps {}, which would overwrite it", in_quotes(axis.key)), {},
+                      fmt::format("set {} as a whole", axis.key));
+  }
+  return fixed;
+}
+
+/// The last part of the path where that is enough to tell the axes apart.
+void append_suffix(std::string& suffix, const Axis& axis, const std::vector<Axis>& axes, std::size_t index)
+{
+  const auto same = [&](const Axis& other) { return other.path.back() == axis.path.back(); };
+  const bool clear = std::count_if(axes.begin(), axes.end(), same) == 1;
+  suffix += fmt::format(",{}={}", label(clear ? axis.path.back() : axis.key), axis.labels[index]);
+}
+
+std::vector<Axis> read_axes(Document& document, const std::vector<std::string>& overrides)
+{
+  const Place where = document.where("/sweep");
+  const Json sweep = document.take("sweep");
+  if (sweep.is_null()) return {};
+  if (!sweep.is_object()) throw bad_input(where, "is " + shown(sweep), "expected an object of lists, for instance {\"seed\": [1, 2]}");
+  std::vector<Axis> axes;
+  for (const auto& [key, values] : sweep.items()) axes.push_back(make_axis(key, values, document));
+  refuse_overlaps(axes);
+  std::erase_if(axes, [&](const Axis& axis) { return is_fixed(axis, overrides); });
+  double runs = 1;
+  for (const Axis& axis : axes) runs *= static_cast<double>(axis.values.size());
+  if (runs > static_cast<double>(max_runs))
+    throw bad_input(where, fmt::format("gives {:.0f} runs", runs), fmt::format("expected at most {}", max_runs));
+  return axes;
+}
+
+/// "FILE#/sweep/seed/0"; of a sweep that an override gave, the override.
+Origin origin_of_value(const Axis& axis, std::size_t index)
+{
+  Origin origin = axis.origin;
+  if (origin.is_file) origin.place = axis.where / index;
+  origin.is_file = false;
+  return origin;
 }
 
 } // namespace
@@ -132,6 +238,56 @@ void apply_override(Document& document, const std::string& text)
   else if (value.starts_with('{') || value.starts_with('[') || value.starts_with('"'))
     parsed = parse_json(value, origin.place.name); // throws, at the column as typed
   document.set(path, std::move(parsed), origin);
+}
+
+Sweep take_sweep(Document& document, const std::vector<std::string>& overrides)
+{
+  Sweep sweep;
+  for (const Axis& axis : read_axes(document, overrides)) {
+    SweptField& field = sweep.emplace_back(SweptField{axis.key, {}});
+    for (const Json& value : axis.values) field.values.push_back(value.dump());
+  }
+  return sweep;
+}
+
+Document first_run(Document document, const std::vector<std::string>& overrides)
+{
+  for (const Axis& axis : read_axes(document, overrides)) document.set(axis.path, axis.values[0], origin_of_value(axis, 0));
+  return document;
+}
+
+Json to_json(const Sweep& sweep)
+{
+  Json json;
+  for (const SweptField& field : sweep) {
+    Json& values = json[field.key] = Json::array();
+    for (const std::string& value : field.values) values.push_back(Json::parse(value));
+  }
+  return json;
+}
+
+double count_runs(const Sweep& sweep)
+{
+  double runs = 1;
+  for (const SweptField& field : sweep) runs *= static_cast<double>(field.values.size());
+  return runs;
+}
+
+std::vector<SweptDocument> expand_sweep(Document document, const std::vector<std::string>& overrides)
+{
+  const std::vector<Axis> axes = read_axes(document, overrides);
+  std::vector<SweptDocument> runs{{std::move(document), ""}};
+  for (const Axis& axis : axes) {
+    std::vector<SweptDocument> longer;
+    for (const SweptDocument& run : runs)
+      for (std::size_t i = 0; i < axis.values.size(); ++i) {
+        SweptDocument& next = longer.emplace_back(run);
+        next.document.set(axis.path, axis.values[i], origin_of_value(axis, i));
+        append_suffix(next.suffix, axis, axes, i);
+      }
+    runs = std::move(longer);
+  }
+  return runs;
 }
 
 } // namespace nephroid::preset

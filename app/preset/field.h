@@ -48,13 +48,13 @@ enum class Names { nothing, material, illuminant, patch };
 
 /// One field. Its default is not here: it is what a default-constructed struct holds.
 struct Field {
-  std::string_view name;      ///< the key in JSON
-  std::string_view sentence;  ///< for a person: the schema's description, the editor's tooltip
-  std::string_view unit = {}; ///< as it reads after a number: "degrees", "nm"; empty for pure numbers
-  Bounds bounds = {};         ///< of a number and of every number in a vector
-  Count count = {};           ///< of a list
-  Columns columns = {};       ///< of a table of pairs
-  Text text = Text::text;     ///< of a string
+  std::string_view name = {};     ///< the key in JSON
+  std::string_view sentence = {}; ///< for a person: the schema's description, the editor's tooltip
+  std::string_view unit = {};     ///< as it reads after a number: "degrees", "nm"; empty for pure numbers
+  Bounds bounds = {};             ///< of a number and of every number in a vector
+  Count count = {};               ///< of a list
+  Columns columns = {};           ///< of a table of pairs
+  Text text = Text::text;         ///< of a string
   Names names = Names::nothing;
   bool bare_number = false; ///< of a list of numbers: a number stands for a list of one
   bool required = false;    ///< no default is sensible

@@ -1,20 +1,99 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preset/files.h"
-
-#include "base/error.h"
+// Preset files: finding them, reading their text, following their parents; and the names of files that a preset holds.
 #include "base/files.h"
+#include "base/error.h"
+#include "base/nearest.h"
 #include "preset/describe.h"
+#include "preset/document.h"
 #include "preset/read.h"
 #include "preset/walks.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <system_error>
 
 namespace nephroid::preset {
 namespace fs = std::filesystem;
 namespace {
+
+bool is_file(const fs::path& path)
+{
+  std::error_code ignored;
+  return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
+}
+
+std::optional<fs::path> shipped_folder()
+{
+  try {
+    return presets_folder();
+  } catch (const Error&) {
+    return std::nullopt; // without presets/ a path still works
+  }
+}
+
+std::string nearest_shipped(const std::string& name)
+{
+  std::vector<std::string> known;
+  if (shipped_folder())
+    for (const ShippedPreset& preset : shipped_presets()) known.push_back(preset.name);
+  const std::string found = nearest(name, known);
+  return found.empty() ? "see `nephroid presets`" : fmt::format("did you mean '{}'?", found);
+}
+
+std::string read_text(const fs::path& file)
+{
+  std::error_code ignored;
+  if (const auto size = fs::file_size(file, ignored); !ignored && size > max_file_bytes)
+    throw bad_input(file.string(), fmt::format("is {} bytes long", size), fmt::format("expected at most {}", max_file_bytes));
+  if (is_file(file) && !fs::is_regular_file(file, ignored)) // reading might never end
+    throw bad_input(file.string(), "is not a regular file", "expected a preset in JSON");
+  return read_file(file);
+}
+
+/// The same file has the same identity, whatever path led to it.
+fs::path identity(const fs::path& file)
+{
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(file, error);
+  return error ? file : canonical;
+}
+
+/// file is what messages call it; chain: the files that are being read, each the parent of the one before.
+Document document_from(const std::string& text, const fs::path& file, std::vector<fs::path> chain)
+{
+  const std::string name = file.string();
+  if (std::all_of(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }))
+    throw bad_input(name, "is empty", "expected a preset: one JSON object");
+  Json value = parse_json(text, name);
+  if (!value.is_object()) throw bad_input({name, ""}, "is " + shown(value), "expected a preset: one JSON object");
+  if (value.contains("$schema")) { // for editors; says nothing about the run
+    if (!value["$schema"].is_string()) throw bad_input(Place(name) / "$schema", "is " + shown(value["$schema"]), "expected a string");
+    value.erase("$schema");
+  }
+  const Origin origin{name, true, file.parent_path()};
+  if (!value.contains("parent")) return Document(std::move(value), origin);
+
+  const Place where = Place(name) / "parent";
+  if (!value["parent"].is_string())
+    throw bad_input(where, "is " + shown(value["parent"]), "expected a path or the name of a shipped preset");
+  const fs::path parent = find_preset(value["parent"].get<std::string>(), origin.folder, where);
+  value.erase("parent");
+  chain.push_back(file);
+  if (const auto again = std::find_if(chain.begin(), chain.end(), [&](const fs::path& f) { return identity(f) == identity(parent); });
+      again != chain.end()) {
+    std::string circle;
+    for (auto f = again; f != chain.end(); ++f) circle += f->string() + " -> ";
+    throw bad_input(where, "parents go round in a circle: " + circle + parent.string());
+  }
+  Document document = document_from(read_text(parent), parent, std::move(chain));
+  for (const char* own : {"name", "description"}) document.take(own); // a child is not called what its parent is called
+  document.merge(value, origin);
+  return document;
+}
 
 /// Absolute and without links, so that two ways to the same file compare equal.
 std::optional<fs::path> file_meant(const fs::path& folder, const std::string& name)
@@ -51,6 +130,40 @@ bool same_folder(const fs::path& a, const fs::path& b)
 }
 
 } // namespace
+
+fs::path find_preset(const std::string& name, const fs::path& folder, const Place& where)
+{
+  if (name.empty() || name.find('\0') != std::string::npos) throw bad_input(where, "the name of a preset is empty or holds a NUL");
+  std::vector<fs::path> folders{folder};
+  if (const auto shipped = shipped_folder(); shipped && fs::path(name).is_relative()) folders.push_back(*shipped);
+  for (const fs::path& f : folders)
+    for (const char* extension : {"", ".json"})
+      if (const fs::path candidate = f / (name + extension); is_file(candidate)) return candidate;
+  std::error_code ignored;
+  if (fs::is_directory(folder / name, ignored)) throw bad_input(where, fmt::format("{} is a folder", in_quotes(name)), "expected a file");
+  throw bad_input(where, fmt::format("there is no preset {}", in_quotes(name)), "expected a file or the name of a shipped preset",
+                  nearest_shipped(name));
+}
+
+Document load_document(const fs::path& file) { return document_from(read_text(file), file, {}); }
+
+Document parse_document(const std::string& text, const std::string& source) { return document_from(text, source, {}); }
+
+std::vector<ShippedPreset> shipped_presets()
+{
+  const fs::path folder = presets_folder();
+  std::vector<ShippedPreset> presets;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::path relative = entry.path().lexically_relative(folder);
+    if (!entry.is_regular_file() || relative.extension() != ".json" || relative == "schema.json") continue;
+    const Json value = parse_json(read_text(entry.path()), entry.path().string());
+    const auto description = value.find("description");
+    presets.push_back({fs::path(relative).replace_extension().generic_string(),
+                       description != value.end() && description->is_string() ? description->get<std::string>() : "", entry.path()});
+  }
+  std::sort(presets.begin(), presets.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return presets;
+}
 
 std::string name_from(const fs::path& folder, const std::string& name, const fs::path& own_folder)
 {

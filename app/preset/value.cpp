@@ -22,20 +22,23 @@ std::vector<Member> Value::members() const
   return std::move(fields.members_);
 }
 
+void Fields::add(std::string_view name, std::string_view sentence, const Value& value, Role role, Field more)
+{
+  more.name = name;
+  more.sentence = sentence;
+  members_.push_back({more, value, role});
+}
+
 void Fields::settings(Settings& settings)
 {
-  for (const SettingsType* type : settings_types()) {
-    const ValueType& section = type->section();
-    members_.push_back({{.name = type->name, .sentence = section.sentence}, {type->of(settings), section}, Role::section});
-  }
+  for (const SettingsType* type : settings_types())
+    add(type->name, type->section().sentence, {type->of(settings), type->section()}, Role::section, {});
 }
 
 void Fields::settings(std::optional<Settings>& settings)
 {
   for (const SettingsType* type : settings_types())
-    members_.push_back({{.name = type->name, .sentence = "Settings of the engine; without them the run's own, made exact."},
-                        {&settings, type->recipe()},
-                        Role::recipe});
+    add(type->name, "Settings of the engine; without them the run's own, made exact.", {&settings, type->recipe()}, Role::recipe, {});
 }
 
 ValueType described(ValueType type)

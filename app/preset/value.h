@@ -123,23 +123,29 @@ public:
   {
     shorthands_.push_back({bare, preset::word(type), field});
   }
-  template <Enumeration E>
-  void type(const Field& f, E& value)
-  {
-    members_.push_back({f, Value(value), Role::type});
-  }
+  /// more: all else there is to say about the field.
   template <class T>
-  void field(const Field& f, T& value)
+  void field(std::string_view name, std::string_view sentence, T& value, const Field& more = {})
   {
-    members_.push_back({f, Value(value), Role::plain});
+    add(name, sentence, Value(value), Role::plain, more);
   }
-  void engine(const Field& f, Settings& settings) { members_.push_back({f, Value(settings), Role::engine}); }
+  template <Enumeration E>
+  void type(std::string_view name, std::string_view sentence, E& value)
+  {
+    add(name, sentence, Value(value), Role::type, {});
+  }
+  void engine(std::string_view name, std::string_view sentence, Settings& settings)
+  {
+    add(name, sentence, Value(settings), Role::engine, {});
+  }
   void settings(Settings& settings);
   void settings(std::optional<Settings>& settings);
 
 private:
   friend class Value;
   friend ValueType described(ValueType type);
+  void add(std::string_view name, std::string_view sentence, const Value& value, Role role, Field more);
+
   std::string_view name_, sentence_;
   std::vector<Shorthand> shorthands_;
   std::vector<Member> members_;

@@ -35,4 +35,8 @@ void remove_frames(const std::filesystem::path& folder, int first);
 /// empty where nothing measured it. Throws failed as all writing does, and bad_input where a run.json is damaged.
 void write_frame_figures(const std::filesystem::path& folder, const std::vector<int>& frames);
 
+/// Makes animation.mp4 (H.264, 4:2:0, edge lengths made even) of frame_0000.png to the last of so many frames in the folder, by the program
+/// ffmpeg. Returns nothing where it is written, else why it is not: there is no ffmpeg on the PATH, or what ffmpeg says.
+std::optional<std::string> make_video(const std::filesystem::path& folder, int frames, double fps);
+
 } // namespace nephroid::run

@@ -43,11 +43,11 @@ void remove_leftovers(const fs::path& folder)
     if (is_temporary_name(entry.path())) fs::remove(entry.path());
 }
 
-void claim(const fs::path& folder)
+bool claim(const fs::path& folder)
 {
   if (is_there(folder) && !fs::is_directory(folder))
     throw bad_input(folder.string(), "is a file", "expected a folder for the run's files", "choose another one with -o");
-  fs::create_directories(folder);
+  const bool is_new = fs::create_directories(folder);
   if (!holds_a_run_or_nothing(folder))
     throw bad_input(folder.string(), "holds files that are not of a run", "expected an empty or a new folder",
                     "choose another one with -o");
@@ -55,14 +55,15 @@ void claim(const fs::path& folder)
   const fs::path probe = folder / "probe";
   write_file_whole(probe, "writable?\n");
   fs::remove(probe);
+  return is_new;
 }
 
 } // namespace
 
-void claim_folder(const fs::path& folder)
+bool claim_folder(const fs::path& folder)
 {
   try {
-    claim(folder);
+    return claim(folder);
   } catch (const fs::filesystem_error& error) {
     throw failed(folder.string(), "cannot be used: " + error.code().message(), "expected a folder that can be written to",
                  "choose another one with -o");
@@ -116,12 +117,15 @@ std::optional<FinishedRun> finished_run(const fs::path& folder, const preset::Pr
     const auto run = nlohmann::json::parse(read_file(folder / "run.json"));
     if (!run.at("finished").get<bool>()) return std::nullopt;
     const auto& units = run.at("units"); // what the engine calls them
+    const std::string steps = units.at("steps"), work = units.at("work");
+    const auto words = std::make_shared<const std::vector<std::string>>(std::vector{units.value("step", steps), steps, work});
     job::Progress progress;
     progress.fraction = 1;
-    progress.step = progress.steps = run.at(units.at("steps")).get<std::int64_t>();
-    progress.work = run.at(units.at("work")).get<std::uint64_t>();
+    progress.step = progress.steps = run.at(steps).get<std::int64_t>();
+    progress.work = run.at(work).get<std::uint64_t>();
     progress.work_seconds = run.at("work_seconds").get<double>();
-    return FinishedRun{progress, what_changed(folder, read_inputs(preset, known))};
+    progress.units = {.step = words->at(0), .steps = words->at(1), .work = words->at(2), .works = words->at(2)};
+    return FinishedRun{progress, words, what_changed(folder, read_inputs(preset, known))};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt; // written by something else: the run is done again
   }

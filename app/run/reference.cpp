@@ -107,46 +107,35 @@ std::shared_ptr<const measure::Reference> read_reference(const fs::path& file, c
   return std::make_shared<const measure::Reference>(std::move(reference));
 }
 
-/// Renders one of the recipe's seeds.
-class SeedRun {
-public:
-  SeedRun(const Prepared& prepared, const compute::Context& context, std::uint64_t seed)
-      : recipe_(prepare(recipe_preset(prepared.preset, seed), &prepared)), job_(make_job(recipe_, context))
-  {
-    if (const std::string changed = what_changed(prepared.plan->inputs, recipe_.plan->inputs); !changed.empty())
-      throw failed(Place(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
+/// After half a second the rate is known well enough to refuse.
+void require_time(const Prepared& prepared, const job::Progress& now)
+{
+  const auto& limit = prepared.preset.reference->seconds;
+  const double expected = now.fraction > 0 ? 2 * now.work_seconds / now.fraction : 0;
+  if (!limit || now.work_seconds < 0.5 || expected <= *limit) return;
+  throw failed(place(prepared, "seconds"), fmt::format("making the reference would take about {:.0f} s", expected),
+               fmt::format("{} s are allowed", *limit), "allow more, lower reference.passes, or name a file");
+}
+
+/// Renders one of the recipe's two seeds. seconds: of the seeds before this one; this one's are added.
+std::vector<float> rendered_seed(const Prepared& prepared, const compute::Context& context, std::uint64_t seed, double& seconds,
+                                 const std::stop_token& stop, const ReferenceProgress& report)
+{
+  const Prepared recipe = prepare(recipe_preset(prepared.preset, seed), &prepared);
+  const std::unique_ptr<job::Job> job = make_job(recipe, context);
+  if (const std::string changed = what_changed(prepared.plan->inputs, recipe.plan->inputs); !changed.empty())
+    throw failed(Place(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
+  while (!job->finished()) {
+    if (stop.stop_requested())
+      throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered; nothing of it is kept");
+    job->step();
+    const job::Progress now = job->progress();
+    if (seconds == 0) require_time(prepared, now);
+    report((seconds > 0 ? 0.5 : 0) + 0.5 * now.fraction, seconds + now.work_seconds);
   }
-
-  /// done: seconds of the seeds before this one, of two.
-  std::vector<float> operator()(const Prepared& prepared, double done, const std::stop_token& stop, const ReferenceProgress& report)
-  {
-    while (!job_->finished()) {
-      if (stop.stop_requested())
-        throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered; nothing of it is kept");
-      job_->step();
-      const job::Progress now = job_->progress();
-      if (done == 0) require_time(prepared, now);
-      report((done > 0 ? 0.5 : 0) + 0.5 * now.fraction, done + now.work_seconds);
-    }
-    return job_->snapshot().picture->rgb;
-  }
-
-  double seconds() const { return job_->progress().work_seconds; }
-
-private:
-  /// After half a second the rate is known well enough to refuse.
-  static void require_time(const Prepared& prepared, const job::Progress& now)
-  {
-    const auto& limit = prepared.preset.reference->seconds;
-    const double expected = now.fraction > 0 ? 2 * now.work_seconds / now.fraction : 0;
-    if (!limit || now.work_seconds < 0.5 || expected <= *limit) return;
-    throw failed(place(prepared, "seconds"), fmt::format("making the reference would take about {:.0f} s", expected),
-                 fmt::format("{} s are allowed", *limit), "allow more, lower reference.passes, or name a file");
-  }
-
-  Prepared recipe_;
-  std::unique_ptr<job::Job> job_;
-};
+  seconds += job->progress().work_seconds;
+  return job->snapshot().picture->rgb;
+}
 
 void write_reference(const fs::path& file, const Prepared& prepared, const std::vector<float>& first, const std::vector<float>& second)
 {
@@ -207,11 +196,8 @@ std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepare
   make_folder(file.parent_path()); // before hours of work
   std::vector<float> pictures[2];
   double seconds = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    SeedRun run(prepared, context, prepared.preset.reference->seed + i);
-    pictures[i] = run(prepared, seconds, stop, progress);
-    seconds += run.seconds();
-  }
+  for (std::size_t i = 0; i < 2; ++i)
+    pictures[i] = rendered_seed(prepared, context, prepared.preset.reference->seed + i, seconds, stop, progress);
   write_reference(file, prepared, pictures[0], pictures[1]);
   return read_reference(file, prepared);
 }

@@ -43,9 +43,9 @@ void require_memory(const Prepared& prepared, const compute::Context& context);
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
 
 /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. Throws bad_input where it
-/// is a file or holds anything but a run, failed where it cannot be written to.
-void claim_folder(const std::filesystem::path& folder);
-/// Removes a claimed folder again where nothing was written into it.
+/// is a file or holds anything but a run, failed where it cannot be written to. Returns whether it made the folder.
+bool claim_folder(const std::filesystem::path& folder);
+/// Removes a folder that claim_folder made where nothing was written into it.
 void release_folder(const std::filesystem::path& folder);
 /// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all writing below
 /// throws failed with the system's reason.
@@ -55,7 +55,8 @@ std::vector<std::string> engine_files(const std::filesystem::path& folder);
 /// preset.json and plan.json alone: what begin_run and write_run write, and a resumed run whose stop differs.
 void write_settings(const std::filesystem::path& folder, const Prepared& prepared);
 struct FinishedRun {
-  job::Progress progress;
+  job::Progress progress; ///< its units are `words`
+  std::shared_ptr<const std::vector<std::string>> words;
   std::string changed; ///< what_changed (run/content.h) of its files since: then it is no longer the preset's
 };
 /// The run in the folder, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged. known: as

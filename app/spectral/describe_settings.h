@@ -60,76 +60,52 @@ namespace nephroid::spectral {
 inline void describe(preset::Fields& v, Importance& i)
 {
   v.about("Importance", "How much a wavelength matters.");
-  v.field({.name = "cluster", .sentence = "Which of its wavelengths speaks for a cluster."}, i.cluster);
-  v.field({.name = "geometry", .sentence = "Weigh materials by how much of them the caustic objects see."}, i.geometry);
+  v.field("cluster", "Which of its wavelengths speaks for a cluster.", i.cluster);
+  v.field("geometry", "Weigh materials by how much of them the caustic objects see.", i.geometry);
 }
 
 inline void describe(preset::Fields& v, Sppm& s)
 {
   v.about("Sppm", "Progressive photon mapping.");
-  v.field({.name = "radius",
-           .sentence = "Radius of the first pass; without, what the camera's pixels suggest.",
-           .unit = preset::length_unit,
-           .bounds = preset::length_bounds},
-          s.radius);
-  v.field({.name = "alpha",
-           .sentence = "Part of each pass's photons that is kept: the radius shrinks the faster the smaller it is.",
-           .bounds = preset::between(0, 1)},
-          s.alpha);
+  v.field("radius", "Radius of the first pass; without, what the camera's pixels suggest.", s.radius,
+          {.unit = preset::length_unit, .bounds = preset::length_bounds});
+  v.field("alpha", "Part of each pass's photons that is kept: the radius shrinks the faster the smaller it is.", s.alpha,
+          {.bounds = preset::between(0, 1)});
 }
 
 inline void describe(preset::Fields& v, Settings& s)
 {
   v.about("Spectral", "Settings of the engine \"spectral\".");
-  v.field({.name = "method", .sentence = "How wavelengths are put into clusters that share a path."}, s.method);
-  v.field({.name = "threshold_deg",
-           .sentence = "Largest change of the refraction angle inside a cluster.",
-           .unit = "degrees",
-           .bounds = preset::between(0, 90)},
-          s.threshold_deg);
-  v.field({.name = "step_nm",
-           .sentence = "Of the method brute_force: neighbouring wavelengths that share a path all the same.",
-           .unit = "nm",
-           .bounds = preset::within(1, 401)},
-          s.step_nm);
-  v.field({.name = "estimator", .sentence = "How caustics are estimated."}, s.estimator);
-  v.field({.name = "effort", .sentence = "How the work is dealt to the clusters."}, s.effort);
-  v.field({.name = "importance", .sentence = "How much a wavelength matters, where `effort` asks for it."}, s.importance);
-  v.field({.name = "jitter",
-           .sentence = "Each path takes one wavelength of its cluster, so that clusters leave no bias; with photon maps those of a pass "
-                       "share few."},
+  v.field("method", "How wavelengths are put into clusters that share a path.", s.method);
+  v.field("threshold_deg", "Largest change of the refraction angle inside a cluster.", s.threshold_deg,
+          {.unit = "degrees", .bounds = preset::between(0, 90)});
+  v.field("step_nm", "Of the method brute_force: neighbouring wavelengths that share a path all the same.", s.step_nm,
+          {.unit = "nm", .bounds = preset::within(1, 401)});
+  v.field("estimator", "How caustics are estimated.", s.estimator);
+  v.field("effort", "How the work is dealt to the clusters.", s.effort);
+  v.field("importance", "How much a wavelength matters, where `effort` asks for it.", s.importance);
+  v.field("jitter",
+          "Each path takes one wavelength of its cluster, so that clusters leave no bias; with photon maps those of a pass "
+          "share few.",
           s.jitter);
-  v.field({.name = "low_discrepancy", .sentence = "Photons leave the lights by a scrambled Sobol sequence."}, s.low_discrepancy);
-  v.field({.name = "differentials", .sentence = "A splat is stretched along the way that it moves with wavelength."}, s.differentials);
-  v.field(
-      {.name = "smoothing",
-       .sentence =
-           "Spread caustics over up to 6 pixels around, until their noise is a quarter of them. Needs measure.estimate; not with sppm."},
-      s.smoothing);
-  v.field({.name = "relight", .sentence = "Keep a layer for each cluster, so that the spectrum of a light can change without a new run."},
-          s.relight);
-  v.field({.name = "photons_per_pass",
-           .sentence = "Photons sent towards the caustic objects in one pass; of the estimator sppm, for each cluster.",
-           .bounds = preset::within(1, 1 << 24)},
-          s.photons_per_pass);
-  v.field({.name = "indirect_photons_per_pass",
-           .sentence = "Photons of the layer \"indirect\" in one pass.",
-           .bounds = preset::within(1, 1 << 24)},
-          s.indirect_photons_per_pass);
-  v.field({.name = "pixel_samples",
-           .sentence = "Samples a pixel of the layer \"direct\", one a pass until there are so many.",
-           .bounds = preset::within(1, 1 << 20)},
-          s.pixel_samples);
-  v.field({.name = "max_surfaces", .sentence = "Interfaces a path may meet before it counts as lost.", .bounds = preset::within(1, 1024)},
-          s.max_surfaces);
-  v.field({.name = "sppm", .sentence = "Progressive photon mapping."}, s.sppm);
-  v.field({.name = "direct", .sentence = "Compute the layer \"direct\": light that reaches a diffuse surface unbent."}, s.direct);
-  v.field({.name = "caustic", .sentence = "Compute the layer \"caustic\": light that met glass or a mirror, then one diffuse surface."},
-          s.caustic);
-  v.field({.name = "indirect", .sentence = "Compute the layer \"indirect\": light that met a diffuse surface before the last one."},
-          s.indirect);
-  v.field({.name = "background", .sentence = "Compute the layer \"background\": the environment, seen directly and through glass."},
-          s.background);
+  v.field("low_discrepancy", "Photons leave the lights by a scrambled Sobol sequence.", s.low_discrepancy);
+  v.field("differentials", "A splat is stretched along the way that it moves with wavelength.", s.differentials);
+  v.field("smoothing",
+          "Spread caustics over up to 6 pixels around, until their noise is a quarter of them. Needs measure.estimate; not with sppm.",
+          s.smoothing);
+  v.field("relight", "Keep a layer for each cluster, so that the spectrum of a light can change without a new run.", s.relight);
+  v.field("photons_per_pass", "Photons sent towards the caustic objects in one pass; of the estimator sppm, for each cluster.",
+          s.photons_per_pass, {.bounds = preset::within(1, 1 << 24)});
+  v.field("indirect_photons_per_pass", "Photons of the layer \"indirect\" in one pass.", s.indirect_photons_per_pass,
+          {.bounds = preset::within(1, 1 << 24)});
+  v.field("pixel_samples", "Samples a pixel of the layer \"direct\", one a pass until there are so many.", s.pixel_samples,
+          {.bounds = preset::within(1, 1 << 20)});
+  v.field("max_surfaces", "Interfaces a path may meet before it counts as lost.", s.max_surfaces, {.bounds = preset::within(1, 1024)});
+  v.field("sppm", "Progressive photon mapping.", s.sppm);
+  v.field("direct", "Compute the layer \"direct\": light that reaches a diffuse surface unbent.", s.direct);
+  v.field("caustic", "Compute the layer \"caustic\": light that met glass or a mirror, then one diffuse surface.", s.caustic);
+  v.field("indirect", "Compute the layer \"indirect\": light that met a diffuse surface before the last one.", s.indirect);
+  v.field("background", "Compute the layer \"background\": the environment, seen directly and through glass.", s.background);
 }
 
 } // namespace nephroid::spectral

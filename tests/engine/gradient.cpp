@@ -16,10 +16,9 @@ namespace nephroid::gradient {
 void describe(preset::Fields& v, Settings& s)
 {
   v.about("Gradient", "A picture of a gradient.");
-  v.field({.name = "level", .sentence = "Brightness at the right edge.", .bounds = preset::within(0, 10)}, s.level);
-  v.field({.name = "noise", .sentence = "Standard deviation of one sample.", .bounds = preset::within(0, 1)}, s.noise);
-  v.field({.name = "samples_per_pass", .sentence = "Samples of a pixel in one pass.", .bounds = preset::within(1, 1000)},
-          s.samples_per_pass);
+  v.field("level", "Brightness at the right edge.", s.level, {.bounds = preset::within(0, 10)});
+  v.field("noise", "Standard deviation of one sample.", s.noise, {.bounds = preset::within(0, 1)});
+  v.field("samples_per_pass", "Samples of a pixel in one pass.", s.samples_per_pass, {.bounds = preset::within(1, 1000)});
 }
 
 namespace {

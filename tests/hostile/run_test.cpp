@@ -124,6 +124,14 @@ TEST_F(Runs, FinishedOnesSaySoAndCanBeExtended)
   EXPECT_TRUE(picture("a") == picture("b"));
 }
 
+TEST_F(Runs, ThatCannotBeginLeaveTheFoldersThereWere)
+{
+  fs::create_directory(file("mine", ""));
+  for (const char* name : {"mine", "new"}) EXPECT_EQ(run(name, {"--set", "reference=none.exr"}).exit_code, 2);
+  EXPECT_TRUE(fs::exists(file("mine", "")));
+  EXPECT_FALSE(fs::exists(file("new", "")));
+}
+
 TEST_F(Runs, RefuseCheckpointsThatAreNotTheirs)
 {
   ASSERT_EQ(run("a", {"--passes", "2"}).exit_code, 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes, times to an error and speed-ups on curves whose answers are known in closed form.
-#include "measure/error_curve.h"
 #include "measure/run_curves.h"
 #include "tests/support/test.h"
 

@@ -8,6 +8,11 @@ namespace nephroid::iw_ssim_test {
 
 using namespace nephroid::measure;
 
+std::optional<double> iw_ssim(const Pixels& picture, const Pixels& reference, Mask mask = {})
+{
+  return iw_ssim_each(picture, reference, std::span(&mask, 1)).front();
+}
+
 double similarity(const Picture& a, const Picture& b, Mask mask = {})
 {
   const std::optional<double> result = iw_ssim(a.pixels(), b.pixels(), mask);

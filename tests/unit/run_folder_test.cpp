@@ -37,6 +37,23 @@ TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
   EXPECT_EQ(run->progress.work_seconds, 1.5);
 }
 
+TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes)
+{
+  const auto run = with_run_json(
+      R"({"finished":true,"sweeps":1,"facets":8,"units":{"step":"sweep","steps":"sweeps","work":"facets"},"work_seconds":1})");
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->progress.units.step, "sweep");
+  EXPECT_EQ(run->progress.units.steps, "sweeps");
+  EXPECT_EQ(run->progress.units.works, "facets");
+}
+
+TEST_F(RunFolder, OnlyAFolderThatWasMadeIsNew)
+{
+  std::filesystem::create_directory(folder / "of the user");
+  EXPECT_FALSE(run::claim_folder(folder / "of the user"));
+  EXPECT_TRUE(run::claim_folder(folder / "new" / "inside"));
+}
+
 TEST_F(RunFolder, AnotherPresetIsAnotherRun)
 {
   ASSERT_TRUE(with_run_json(whole));

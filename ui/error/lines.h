@@ -2,7 +2,7 @@
 // What the panel "Error" draws of a history: curves of one metric with their slopes. No Dear ImGui.
 #pragma once
 #include "job/history.h"
-#include "measure/error_curve.h"
+#include "measure/run_curves.h"
 
 #include <array>
 #include <optional>

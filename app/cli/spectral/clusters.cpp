@@ -9,7 +9,6 @@
 #include "cli/spectral/wavelength_runs.h"
 #include "cli/verb.h"
 #include "cli/verbs.h"
-#include "preset/choices.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "scene/materials.h"
@@ -46,13 +45,6 @@ struct Task {
   double threshold_deg = spectral::Settings{}.threshold_deg;
   ClusterMethod method = ClusterMethod::optimal;
 };
-
-ClusterMethod method_called(const std::string& name)
-{
-  for (const auto& choice : preset::Choices<ClusterMethod>::all)
-    if (choice.name == name) return choice.value;
-  throw bad_input("--method", fmt::format("'{}' is no method", name));
-}
 
 /// The dielectric to cluster: the wanted one, or the only one that an object is made of.
 std::string chosen_material(const preset::Preset& preset, const std::string& wanted)
@@ -94,7 +86,7 @@ Task make_task(const ClusterOptions& options)
   Task task = options.ior.empty() ? preset_task(options) : Task{.curve = find_dispersion(options.ior)};
   if (options.outside != "automatic") task.outside = outside_policy(options.outside);
   if (options.threshold_deg) task.threshold_deg = *options.threshold_deg;
-  if (options.method) task.method = method_called(*options.method);
+  if (options.method) task.method = chosen_of<ClusterMethod>(*options.method);
   return task;
 }
 
@@ -147,11 +139,10 @@ void add_clusters(CLI::App& program, Session&)
   verb.option(
       "--threshold", options->threshold_deg,
       {.type = "DEG", .says = "The largest change of the refraction angle inside a cluster, in degrees; default: the preset's, else 0.05"});
-  std::vector<std::string> names;
-  for (const auto& choice : preset::Choices<ClusterMethod>::all) names.emplace_back(choice.name);
-  verb.option(
-      "--method", options->method,
-      {.type = "METHOD", .says = "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal", .words = names});
+  verb.option("--method", options->method,
+              {.type = "METHOD",
+               .says = "optimal, thesis (Algorithm 4.1) or brute_force; default: the preset's, else optimal",
+               .words = words_of<ClusterMethod>()});
   verb.overrides(options->overrides, "Change a setting of the preset, as for run; may be repeated");
   add_outside_option(verb, options->outside);
   verb.flag("--json", options->json, "One JSON object instead of text");

@@ -5,10 +5,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "preset/read.h"
-#include "run/import/gltf_lights.h"
-#include "run/import/gltf_materials.h"
 #include "run/import/gltf_meshes.h"
-#include "run/import/gltf_nodes.h"
+#include "run/import/gltf_scene.h"
 
 #include <fmt/format.h>
 
