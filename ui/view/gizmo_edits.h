@@ -3,7 +3,6 @@
 #pragma once
 #include "preset/preset.h"
 #include "ui/state/selection.h"
-#include "ui/view/picking.h"
 #include "ui/view/sight.h"
 
 #include <glm/glm.hpp>
