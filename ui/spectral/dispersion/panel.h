@@ -25,7 +25,6 @@ public:
 private:
   void follow(const Context& context);
   void draw_toolbar(const Context& context, const std::vector<std::string>& names);
-  void draw_source() const;
   void draw_points_row(const Context& context);
   void draw_plot(const Context& context);
   void draw_methods(const Context& context) const;
