@@ -5,11 +5,6 @@
 #include "ui/environment/model.h"
 #include "ui/widgets/picture_texture.h"
 
-#include <array>
-#include <memory>
-#include <optional>
-#include <vector>
-
 namespace nephroid::ui {
 
 struct MapContents {

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {

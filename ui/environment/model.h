@@ -8,12 +8,6 @@
 #include "ui/environment/picture.h"
 #include "ui/state/tasks.h"
 
-#include <array>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 /// How many lights the plot of quality has points of.

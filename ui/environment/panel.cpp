@@ -127,7 +127,7 @@ void EnvironmentPanel::draw_toolbar(const Context& context)
   const bool changed =
       ImGui::DragScalar("##rotation", ImGuiDataType_Double, &degrees, 0.5f, &low, &high, "turned %.1f deg", ImGuiSliderFlags_AlwaysClamp);
   follow_item(context, gestures_, "rotation", changed, "turn the environment",
-                [&](preset::Preset& p) { p.scene.environment->rotate_deg = degrees; });
+              [&](preset::Preset& p) { p.scene.environment->rotate_deg = degrees; });
   ImGui::EndDisabled();
   ImGui::SetItemTooltip("About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and a click to "
                         "type.");
@@ -142,7 +142,8 @@ void EnvironmentPanel::draw_segmentation_row(const Context& context)
   int lights = settings.lights;
   const bool changed = ImGui::SliderScalar("##lights", ImGuiDataType_S32, &lights, &fewest_lights, &most_lights, "%d",
                                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  follow_item(context, gestures_, "lights", changed, "number of lights", [&](preset::Preset& p) { environment::settings(p).lights = lights; });
+  follow_item(context, gestures_, "lights", changed, "number of lights",
+              [&](preset::Preset& p) { environment::settings(p).lights = lights; });
   ImGui::SetItemTooltip("How many directional lights the map is cut into. Ctrl and a click to type.");
   ImGui::SameLine();
   label("by");
@@ -171,7 +172,7 @@ void EnvironmentPanel::draw_radiance_row(const Context& context)
       ImGui::DragScalar("##radiance", ImGuiDataType_Double, &radiance, static_cast<float>(std::max(1e-3, 0.005 * radiance)), &low, &high,
                         "%.4g W/(m^2 sr)", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
   follow_item(context, gestures_, "radiance", brighter, "radiance of the environment",
-                [&](preset::Preset& p) { p.scene.environment->radiance = radiance; });
+              [&](preset::Preset& p) { p.scene.environment->radiance = radiance; });
   ImGui::SetItemTooltip("Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.");
   if (!cuts_) return;
   ImGui::SameLine();
@@ -212,7 +213,8 @@ void EnvironmentPanel::draw_caustics_row(const Context& context)
   const double low = 1e-9, high = 1000;
   const bool changed = ImGui::DragScalar("##extinction", ImGuiDataType_Double, &extinction, static_cast<float>(0.01 * extinction), &low,
                                          &high, "extinction %.3g", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
-  follow_item(context, gestures_, "extinction", changed, "extinction", [&](preset::Preset& p) { environment::settings(p).extinction = extinction; });
+  follow_item(context, gestures_, "extinction", changed, "extinction",
+              [&](preset::Preset& p) { environment::settings(p).extinction = extinction; });
   ImGui::EndDisabled();
 }
 
@@ -225,8 +227,7 @@ void EnvironmentPanel::draw_map(const Context& context)
   const MapDrag drag = map_.draw(contents(), std::max(10 * em(), 0.42f * ImGui::GetWindowHeight()));
   if (!shown_.map && shown_.error.empty()) {
     const auto& [x, y, width, height] = map_.area();
-    draw_hint_on_dark({static_cast<float>(x), static_cast<float>(y)}, {static_cast<float>(width), static_cast<float>(height)},
-                      "Reading the map");
+    draw_hint_on_dark(vec({x, y}), vec({width, height}), "Reading the map");
   }
   if (const auto region = map_.hovered(); region && *region < figures_.size())
     ImGui::SetTooltip("%s", text_of(figures_[*region], *region, by_flux_.size()).c_str());

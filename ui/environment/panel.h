@@ -7,11 +7,6 @@
 #include "ui/environment/plot.h"
 #include "ui/widgets/panel.h"
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 class EnvironmentPanel : public Panel {

@@ -10,7 +10,6 @@
 #include <implot.h>
 
 #include <algorithm>
-#include <string>
 
 namespace nephroid::ui {
 namespace {

@@ -5,10 +5,7 @@
 #include "measure/error_curve.h"
 
 #include <array>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 

@@ -3,8 +3,6 @@
 #pragma once
 #include "preset/preset.h"
 
-#include <string>
-
 namespace nephroid::ui {
 
 /// Moves the camera round its target: right_deg about the camera's up (positive: the camera goes to its right), then up_deg

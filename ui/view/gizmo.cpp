@@ -14,9 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <tuple>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {

@@ -8,10 +8,6 @@
 #include "ui/view/sight.h"
 #include "ui/widgets/widgets.h"
 
-#include <array>
-#include <optional>
-#include <string>
-
 namespace nephroid::ui {
 
 /// What ImGuizmo calculates in: single precision, so lengths are in distances from the camera, and places from the middle of the handles.

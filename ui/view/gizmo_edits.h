@@ -7,10 +7,6 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
-#include <optional>
-#include <string>
-
 namespace nephroid::ui {
 
 /// Where what is selected can be taken hold of, in the preset's coordinates, and what can be done with it.

@@ -2,16 +2,11 @@
 #include "ui/view/on_picture.h"
 
 #include "measure/difference.h"
-#include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <span>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 namespace {

@@ -6,8 +6,6 @@
 #include "ui/view/placement.h"
 #include "ui/widgets/theme.h"
 
-#include <string>
-
 namespace nephroid::ui {
 
 /// Lines of text on a dark ground, its upper left corner at `at`.

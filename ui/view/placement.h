@@ -3,9 +3,6 @@
 #pragma once
 #include "ui/state/commands.h"
 
-#include <array>
-#include <optional>
-
 namespace nephroid::ui {
 
 using Point = std::array<double, 2>;

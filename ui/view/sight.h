@@ -10,11 +10,6 @@
 
 #include <glm/glm.hpp>
 
-#include <any>
-#include <memory>
-#include <optional>
-#include <vector>
-
 namespace nephroid::ui {
 
 inline glm::dvec3 to_vector(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }

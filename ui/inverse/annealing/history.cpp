@@ -8,10 +8,8 @@
 #include <implot.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace nephroid::ui {
 namespace {

@@ -5,9 +5,6 @@
 #include "job/job.h"
 #include "ui/widgets/plots.h"
 
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 struct HistoryLine {

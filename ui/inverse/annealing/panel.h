@@ -8,12 +8,6 @@
 #include "ui/inverse/annealing/pictures.h"
 #include "ui/widgets/panel.h"
 
-#include <array>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
 struct ImVec2;
 
 namespace nephroid::ui {

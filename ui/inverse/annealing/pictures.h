@@ -5,12 +5,6 @@
 #include "job/job.h"
 #include "ui/widgets/picture_texture.h"
 
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 struct ImVec2;
 
 namespace nephroid::ui {

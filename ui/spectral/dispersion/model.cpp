@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {

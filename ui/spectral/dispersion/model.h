@@ -11,12 +11,6 @@
 #include "spectral/settings.h"
 #include "ui/widgets/rows.h"
 
-#include <array>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 using ControlPoint = Row; ///< (nm, n)

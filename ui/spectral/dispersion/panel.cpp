@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -172,7 +171,7 @@ void DispersionPanel::draw_methods(const Context& context) const
   heading_cell("Saving", "401 wavelengths / clusters: so many times fewer paths than one for each wavelength");
   heading_cell("At 45 deg",
                "By how many degrees the refraction angle differs inside a cluster at 45 degrees of incidence: mean over the wavelengths / "
-          "greatest");
+               "greatest");
   heading_cell("0..89 deg", "The same as the mean over 0 to 89 degrees of incidence, which spectral.threshold_deg is about");
   for (const auto& choice : preset::Choices<spectral::ClusterMethod>::all) {
     const ClusterFigures& figures = model_.figures(choice.value);

@@ -6,9 +6,6 @@
 #include "ui/spectral/dispersion/plot.h"
 #include "ui/widgets/panel.h"
 
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 class DispersionPanel : public Panel {

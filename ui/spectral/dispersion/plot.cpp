@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <string>
 
 namespace nephroid::ui {
 namespace {

@@ -6,11 +6,6 @@
 #include "ui/widgets/plots.h"
 #include "ui/widgets/row_handles.h"
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <vector>
-
 namespace nephroid::ui {
 
 struct DispersionContents {
