@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mouse's camera moves against where a pinhole camera must then be, and see, by hand.
 #include "tests/support/test.h"
-#include "ui/view/camera_moves.h"
+#include "ui/view/camera.h"
 
 #include <glm/glm.hpp>
 

@@ -5,7 +5,6 @@
 #include "spectral/clusters/clusters.h"
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/spectral/dispersion/edits.h"
 #include "ui/spectral/dispersion/model.h"
 #include "ui/state/dielectrics.h"
 
@@ -121,22 +120,6 @@ TEST(DispersionFigures, InsideAClusterTheMeanSpreadIsBelowTheThreshold)
     EXPECT_EQ(each.over_angles.mean_deg, 0);
     EXPECT_EQ(each.saving, 1);
   }
-}
-
-TEST(DispersionFigures, BandsCoverEveryWavelengthOnceAndKeepTheirCluster)
-{
-  const optics::Spectrum n = glass("arbitrary-1");
-  const spectral::Clustering clustering = spectral::cluster_wavelengths(n, 0.5, ClusterMethod::optimal);
-  const auto cluster_of = cluster_of_wavelengths(clustering);
-  const std::vector<Band> bands = bands_of(clustering);
-  EXPECT_GT(bands.size(), clustering.clusters.size()) << "the curve meets n = 2 five times";
-  int next = 0;
-  for (const Band& band : bands) {
-    EXPECT_EQ(band.first, next);
-    for (int i = band.first; i <= band.last; ++i) EXPECT_EQ(cluster_of[static_cast<std::size_t>(i)], band.cluster);
-    next = band.last + 1;
-  }
-  EXPECT_EQ(next, optics::wavelength_count);
 }
 
 } // namespace nephroid::ui::dispersion_edits_test

@@ -2,7 +2,7 @@
 // The environment as a flat picture, and what is read of its lights: places of directions, lines between regions, figures, drags.
 #include "tests/environment/maps.h"
 #include "tests/support/test.h"
-#include "ui/environment/lights.h"
+#include "ui/environment/model.h"
 #include "ui/environment/picture.h"
 
 namespace nephroid::ui::environment_picture_test {

@@ -228,14 +228,8 @@ TEST(GizmoMatrices, ProjectAsTheCameraDoes)
     const auto expected = sight.to_screen(point);
     ASSERT_TRUE(expected);
     // As ImGuizmo does: the frame's coordinates through both, then from -1..1 to its rectangle, y down.
-    const Matrix16 view = view_matrix(frame), projection = projection_matrix(sight, s.canvas);
-    std::array<double, 4> p{}, clip{};
-    const glm::dvec3 local = (point - frame.base) / frame.unit;
-    const std::array<double, 4> from{local.x, local.y, local.z, 1};
-    for (std::size_t r = 0; r < 4; ++r)
-      for (std::size_t c = 0; c < 4; ++c) p[r] += static_cast<double>(view[4 * c + r]) * from[c];
-    for (std::size_t r = 0; r < 4; ++r)
-      for (std::size_t c = 0; c < 4; ++c) clip[r] += static_cast<double>(projection[4 * c + r]) * p[c];
+    const glm::dvec4 from((point - frame.base) / frame.unit, 1);
+    const glm::dvec4 clip = glm::dmat4(projection_matrix(sight, s.canvas)) * (glm::dmat4(view_matrix(frame)) * from);
     const double x = s.canvas.corner[0] + s.canvas.size[0] * (clip[0] / clip[3] + 1) / 2;
     const double y = s.canvas.corner[1] + s.canvas.size[1] * (1 - clip[1] / clip[3]) / 2;
     const double tolerance = 1e-4 * (1 + std::hypot((*expected)[0], (*expected)[1]));

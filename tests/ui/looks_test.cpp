@@ -3,7 +3,7 @@
 #include "image/image.h"
 #include "layered_runs.h"
 #include "ui/state/shown_pixels.h"
-#include "ui/view/camera_text.h"
+#include "ui/view/camera.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::looks_test {

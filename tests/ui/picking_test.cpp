@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which object is under the mouse, by hand and against the scene that is loaded anew after objects were moved.
-#include "ui/view/picking.h"
+#include "ui/view/sight.h"
 
 #include "seen_scene.h"
 #include "tests/support/loaded_scenes.h"

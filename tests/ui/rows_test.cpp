@@ -3,7 +3,7 @@
 #include "optics/dispersion.h"
 #include "preset/field.h"
 #include "tests/support/test.h"
-#include "ui/spectral/dispersion/edits.h"
+#include "ui/spectral/dispersion/model.h"
 #include "ui/spectral/spectra/light_edits.h"
 #include "ui/widgets/rows.h"
 

@@ -6,7 +6,7 @@
 #include "run/run.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "ui/view/picking.h"
+#include "ui/view/sight.h"
 
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 // A recorded session with the engine "spectral", in a real window: a preset is opened from the start page, its glass and its camera are
 // changed, a run is pinned, preset and picture are saved. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
 #include "recorded_session.h"
-#include "ui/spectral/dispersion/edits.h"
+#include "ui/spectral/dispersion/model.h"
 
 namespace nephroid::ui::spectral_session_test {
 

@@ -5,7 +5,7 @@
 #include "preset/differences.h"
 #include "ui/actions/table.h"
 #include "ui/error/panel.h"
-#include "ui/view/camera_text.h"
+#include "ui/view/camera.h"
 
 namespace nephroid::ui {
 namespace {

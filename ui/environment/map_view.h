@@ -2,14 +2,8 @@
 // The map on the screen: its picture with regions, the lights' directions as discs, where the scene's front is, and what the mouse does
 // with it.
 #pragma once
-#include "ui/environment/lights.h"
 #include "ui/environment/model.h"
 #include "ui/widgets/picture_texture.h"
-
-#include <array>
-#include <memory>
-#include <optional>
-#include <vector>
 
 namespace nephroid::ui {
 

@@ -30,12 +30,6 @@ void label(const char* text)
   ImGui::SameLine();
 }
 
-void cell(const std::string& text)
-{
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(text.c_str());
-}
-
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 /// What is said of the region under the mouse. number: from 0; lights: how many regions are lights.
@@ -116,15 +110,6 @@ void EnvironmentPanel::make_figures(const Context& context)
   std::stable_sort(by_flux_.begin(), by_flux_.end(), [&](std::size_t a, std::size_t b) { return figures_[a].flux > figures_[b].flux; });
 }
 
-template <class Set>
-void EnvironmentPanel::follow_number(const Context& context, const std::string& widget, bool changed, const char* what, Set set)
-{
-  places_.note(widget);
-  if (ImGui::IsItemActivated()) gestures_.begin();
-  if (changed) context.edit(what, set, gestures_.number(), true);
-  if (ImGui::IsItemDeactivated()) context.push(command::EndGesture{});
-}
-
 void EnvironmentPanel::draw_toolbar(const Context& context)
 {
   for (const auto& [layout, name, help] : {std::tuple{MapLayout::latitude_longitude, "latitude, longitude", "As the map's file, turned"},
@@ -141,8 +126,8 @@ void EnvironmentPanel::draw_toolbar(const Context& context)
   const double low = -3600, high = 3600;
   const bool changed =
       ImGui::DragScalar("##rotation", ImGuiDataType_Double, &degrees, 0.5f, &low, &high, "turned %.1f deg", ImGuiSliderFlags_AlwaysClamp);
-  follow_number(context, "rotation", changed, "turn the environment",
-                [&](preset::Preset& p) { p.scene.environment->rotate_deg = degrees; });
+  follow_item(context, gestures_, "rotation", changed, "turn the environment",
+              [&](preset::Preset& p) { p.scene.environment->rotate_deg = degrees; });
   ImGui::EndDisabled();
   ImGui::SetItemTooltip("About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and a click to "
                         "type.");
@@ -157,7 +142,8 @@ void EnvironmentPanel::draw_segmentation_row(const Context& context)
   int lights = settings.lights;
   const bool changed = ImGui::SliderScalar("##lights", ImGuiDataType_S32, &lights, &fewest_lights, &most_lights, "%d",
                                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  follow_number(context, "lights", changed, "number of lights", [&](preset::Preset& p) { environment::settings(p).lights = lights; });
+  follow_item(context, gestures_, "lights", changed, "number of lights",
+              [&](preset::Preset& p) { environment::settings(p).lights = lights; });
   ImGui::SetItemTooltip("How many directional lights the map is cut into. Ctrl and a click to type.");
   ImGui::SameLine();
   label("by");
@@ -185,8 +171,8 @@ void EnvironmentPanel::draw_radiance_row(const Context& context)
   const bool brighter =
       ImGui::DragScalar("##radiance", ImGuiDataType_Double, &radiance, static_cast<float>(std::max(1e-3, 0.005 * radiance)), &low, &high,
                         "%.4g W/(m^2 sr)", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
-  follow_number(context, "radiance", brighter, "radiance of the environment",
-                [&](preset::Preset& p) { p.scene.environment->radiance = radiance; });
+  follow_item(context, gestures_, "radiance", brighter, "radiance of the environment",
+              [&](preset::Preset& p) { p.scene.environment->radiance = radiance; });
   ImGui::SetItemTooltip("Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.");
   if (!cuts_) return;
   ImGui::SameLine();
@@ -227,7 +213,8 @@ void EnvironmentPanel::draw_caustics_row(const Context& context)
   const double low = 1e-9, high = 1000;
   const bool changed = ImGui::DragScalar("##extinction", ImGuiDataType_Double, &extinction, static_cast<float>(0.01 * extinction), &low,
                                          &high, "extinction %.3g", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
-  follow_number(context, "extinction", changed, "extinction", [&](preset::Preset& p) { environment::settings(p).extinction = extinction; });
+  follow_item(context, gestures_, "extinction", changed, "extinction",
+              [&](preset::Preset& p) { environment::settings(p).extinction = extinction; });
   ImGui::EndDisabled();
 }
 
@@ -240,8 +227,7 @@ void EnvironmentPanel::draw_map(const Context& context)
   const MapDrag drag = map_.draw(contents(), std::max(10 * em(), 0.42f * ImGui::GetWindowHeight()));
   if (!shown_.map && shown_.error.empty()) {
     const auto& [x, y, width, height] = map_.area();
-    draw_hint_on_dark({static_cast<float>(x), static_cast<float>(y)}, {static_cast<float>(width), static_cast<float>(height)},
-                      "Reading the map");
+    draw_hint_on_dark(vec({x, y}), vec({width, height}), "Reading the map");
   }
   if (const auto region = map_.hovered(); region && *region < figures_.size())
     ImGui::SetTooltip("%s", text_of(figures_[*region], *region, by_flux_.size()).c_str());

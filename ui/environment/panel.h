@@ -2,16 +2,10 @@
 // The panel "Environment": the preset's surroundings as a picture that is turned with the mouse; for engine 2 the lights that they are cut
 // into, with their flux and what a run found to be hidden of them, how well as many lights do, and switches for caustics.
 #pragma once
-#include "ui/environment/lights.h"
 #include "ui/environment/map_view.h"
 #include "ui/environment/model.h"
 #include "ui/environment/plot.h"
 #include "ui/widgets/panel.h"
-
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 
@@ -41,9 +35,6 @@ private:
   void draw_summary() const;
   void draw_table();
   MapContents contents() const;
-  /// A number that is dragged or slid: what the widget says about itself makes one gesture. set(preset, value).
-  template <class Set>
-  void follow_number(const Context& context, const std::string& widget, bool changed, const char* what, Set set);
 
   MapLayout layout_ = MapLayout::latitude_longitude;
   EnvironmentModel model_;

@@ -4,10 +4,6 @@
 #pragma once
 #include "environment/segment/picture.h"
 
-#include <array>
-#include <optional>
-#include <vector>
-
 namespace nephroid::ui {
 
 /// latitude_longitude: -z in the middle, +x to the right of it, +y at the top. cube: the same as a cross of 4 x 3 faces seen from inside;

@@ -10,23 +10,12 @@
 #include <implot.h>
 
 #include <algorithm>
-#include <string>
 
 namespace nephroid::ui {
 namespace {
 
 constexpr double to_percent = 100;
 constexpr double room = 1.3; ///< beside the outermost points, as a factor
-
-/// Numbers at ticks: ImPlot's own of a log axis have none within a decade.
-void set_up_ticks(ImAxis axis, const std::vector<double>& ticks)
-{
-  std::vector<std::string> texts;
-  std::vector<const char*> labels;
-  for (const double tick : ticks) texts.push_back(fmt::format("{:.3g}", tick));
-  for (const std::string& text : texts) labels.push_back(text.c_str());
-  ImPlot::SetupAxisTicks(axis, ticks.data(), static_cast<int>(ticks.size()), labels.data());
-}
 
 void plot_method(const std::string& name, const Quality& errors)
 {

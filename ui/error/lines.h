@@ -5,10 +5,7 @@
 #include "measure/run_curves.h"
 
 #include <array>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 

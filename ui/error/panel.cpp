@@ -98,9 +98,8 @@ void ErrorPanel::draw(const Context& context)
                          : std::min(0.45f * height, 4.2f * em * static_cast<float>(context.comparing.pinned().all().size()));
   plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em));
   if (contents_.runs.empty()) {
-    const auto& area = plot_.area();
-    draw_hint_on_dark({static_cast<float>(area[0]), static_cast<float>(area[1])},
-                      {static_cast<float>(area[2]), static_cast<float>(area[3])}, empty_hint(context));
+    const auto& [x, y, width, plot_height] = plot_.area();
+    draw_hint_on_dark(vec({x, y}), vec({width, plot_height}), empty_hint(context));
   }
   if (pins > 0) draw_pins(context);
 }

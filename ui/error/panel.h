@@ -5,9 +5,6 @@
 #include "ui/error/plot.h"
 #include "ui/widgets/panel.h"
 
-#include <map>
-#include <memory>
-
 namespace nephroid::ui {
 
 /// The metric that the plot shows: the chosen one where any run has it, else the run's own, else the first there is; else empty.

@@ -105,17 +105,6 @@ void draw_values(const PlotContents& contents)
   ImPlot::GetPlotDrawList()->AddLine({x, top.y}, {x, top.y + ImPlot::GetPlotSize().y}, colour::frame, scale());
 }
 
-/// ImPlot's own ticks of a log axis have no numbers within a decade.
-void set_up_ticks(ImAxis axis, const std::array<double, 2>& ends)
-{
-  const std::vector<double> ticks = axis_ticks(ends);
-  std::vector<std::string> texts;
-  std::vector<const char*> labels;
-  for (const double tick : ticks) texts.push_back(fmt::format("{:.3g}", tick));
-  for (const std::string& text : texts) labels.push_back(text.c_str());
-  ImPlot::SetupAxisTicks(axis, ticks.data(), static_cast<int>(ticks.size()), labels.data());
-}
-
 /// "mean CIELAB distance", with its unit where it says more than its name.
 std::string axis_label(const std::string& metric)
 {
@@ -129,8 +118,8 @@ void set_up_axes(const PlotContents& contents, const PlotRange& range, bool foll
   ImPlot::SetupAxes("seconds of work", contents.metric.empty() ? nullptr : axis_label(contents.metric).c_str());
   ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
   ImPlot::SetupAxisScale(ImAxis_Y1, is_log ? ImPlotScale_Log10 : ImPlotScale_Linear);
-  set_up_ticks(ImAxis_X1, range.seconds);
-  if (is_log) set_up_ticks(ImAxis_Y1, range.errors);
+  set_up_ticks(ImAxis_X1, axis_ticks(range.seconds));
+  if (is_log) set_up_ticks(ImAxis_Y1, axis_ticks(range.errors));
   if (follows) {
     ImPlot::SetupAxisLimits(ImAxis_X1, range.seconds[0], range.seconds[1], ImPlotCond_Always);
     ImPlot::SetupAxisLimits(ImAxis_Y1, range.errors[0], range.errors[1], ImPlotCond_Always);

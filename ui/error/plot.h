@@ -4,11 +4,6 @@
 #include "ui/error/lines.h"
 #include "ui/widgets/plots.h"
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 struct PlottedRun {

@@ -7,10 +7,6 @@
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 class InspectorPanel : public Panel {

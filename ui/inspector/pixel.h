@@ -5,10 +5,6 @@
 #include "job/spectrum.h"
 #include "ui/state/context.h"
 
-#include <array>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 struct PixelRow {

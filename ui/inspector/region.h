@@ -5,13 +5,6 @@
 #include "ui/state/difference.h"
 #include "ui/state/newest_result.h"
 
-#include <array>
-#include <cstddef>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 /// NaN where there is no value.

@@ -7,11 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-
 namespace nephroid::ui {
 
 using preset::Json;

@@ -8,7 +8,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {

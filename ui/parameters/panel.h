@@ -6,11 +6,6 @@
 #include "ui/parameters/draft.h"
 #include "ui/widgets/panel.h"
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 class ParametersPanel : public Panel {

@@ -71,10 +71,8 @@ void draw_buffers(const plan::Plan& plan)
   ImGui::TableSetupColumn("bytes", ImGuiTableColumnFlags_WidthFixed);
   for (const plan::PlannedBuffer& buffer : plan.buffers) {
     ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(buffer.name.c_str());
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(plan::readable_bytes(buffer.bytes).c_str());
+    cell(buffer.name);
+    cell(plan::readable_bytes(buffer.bytes));
     ImGui::SetItemTooltip("%s", fmt::format("{} bytes", buffer.bytes).c_str());
   }
   ImGui::EndTable();
@@ -146,9 +144,7 @@ void PlanPanel::read_fields(const Context& context)
 void PlanPanel::draw_passes(const Context& context)
 {
   if (!ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX)) return;
-  ImGui::TableSetupColumn("Always", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("Time", ImGuiTableColumnFlags_WidthFixed);
+  for (const char* column : {"Always", "Pass", "Time"}) ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   for (std::size_t i = 0; i < plan_->passes.size(); ++i) {

@@ -6,12 +6,6 @@
 #include "preset/preset.h"
 #include "ui/widgets/panel.h"
 
-#include <array>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 class PlanPanel : public Panel {

@@ -8,7 +8,7 @@
 #include "ui/presets/panel.h"
 #include "ui/runs/panel.h"
 #include "ui/view/panel.h"
-#include "ui/view/picking.h"
+#include "ui/view/sight.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/gizmo.h"
 
-#include "ui/widgets/theme.h"
+#include "ui/view/on_picture.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -9,10 +9,12 @@
 #include <ImGuizmo.h> // needs imgui.h before it
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <tuple>
 
 namespace nephroid::ui {
 namespace {
@@ -22,27 +24,6 @@ using Tool = Handles::Tool;
 constexpr float handle_em = 6; ///< the length of an arrow, in font sizes
 constexpr float farthest = 50; ///< a drag ends there, in distances from the camera
 
-/// While ImGuizmo looks at the mouse: it takes hold of nothing where an item of Dear ImGui is under the mouse, and the picture is one.
-class NothingHovered {
-public:
-  NothingHovered()
-      : hovered_(std::exchange(imgui_.HoveredId, 0)), before_(std::exchange(imgui_.HoveredIdPreviousFrame, 0)),
-        active_(std::exchange(imgui_.ActiveId, 0))
-  {
-  }
-  ~NothingHovered()
-  {
-    imgui_.HoveredId = hovered_;
-    imgui_.HoveredIdPreviousFrame = before_;
-    imgui_.ActiveId = active_;
-  }
-  NothingHovered(const NothingHovered&) = delete;
-
-private:
-  ImGuiContext& imgui_ = *ImGui::GetCurrentContext();
-  ImGuiID hovered_, before_, active_;
-};
-
 /// ImGuizmo's state is one for the program: nothing is held any more.
 void let_go()
 {
@@ -50,23 +31,11 @@ void let_go()
   ImGuizmo::Enable(true);
 }
 
-Matrix16 placed(const glm::dmat3& axes)
-{
-  Matrix16 m{};
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row)
-      m[4 * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)] = static_cast<float>(axes[column][row]);
-  m[15] = 1;
-  return m;
-}
-
-glm::dvec3 column(const Matrix16& m, std::size_t i) { return {m[4 * i], m[4 * i + 1], m[4 * i + 2]}; }
-
 /// How far one orientation is turned from another about an axis, counter-clockwise.
-double degrees_about(const glm::dvec3& axis, const Matrix16& now, const glm::dmat3& start)
+double degrees_about(const glm::dvec3& axis, const glm::mat4& now, const glm::dmat3& start)
 {
-  glm::dmat3 turned;
-  for (int i = 0; i < 3; ++i) turned[i] = glm::normalize(column(now, static_cast<std::size_t>(i)));
+  glm::dmat3 turned(now);
+  for (int i = 0; i < 3; ++i) turned[i] = glm::normalize(turned[i]);
   const glm::dmat3 r = turned * glm::transpose(start);
   const glm::dvec3 sine(0.5 * (r[1][2] - r[2][1]), 0.5 * (r[2][0] - r[0][2]), 0.5 * (r[0][1] - r[1][0]));
   return glm::degrees(std::atan2(glm::dot(axis, sine), 0.5 * (r[0][0] + r[1][1] + r[2][2] - 1)));
@@ -102,11 +71,10 @@ ImGuizmo::OPERATION operation(Tool tool, const Grip& grip)
   return static_cast<ImGuizmo::OPERATION>(all);
 }
 
-std::array<float, 3> snap_steps(Tool tool, double unit)
+glm::vec3 snap_steps(Tool tool, double unit)
 {
   const double step = tool == Tool::move ? snap_step(unit) / unit : tool == Tool::turn ? snap_deg : snap_factor;
-  const auto edge = static_cast<float>(step);
-  return {edge, edge, edge};
+  return glm::vec3(step);
 }
 
 /// For the frame. Numbers are drawn here: ImGuizmo's would be in the frame's units.
@@ -135,50 +103,25 @@ void prepare(const Canvas& canvas)
   for (const int text : {ImGuizmo::TEXT, ImGuizmo::TEXT_SHADOW}) style.Colors[text] = {0, 0, 0, 0};
 }
 
-void draw_text_at(const Point& at, const std::string& text)
-{
-  ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  const float em = ImGui::GetFontSize(), pad = 0.3f * em;
-  const ImVec2 corner{static_cast<float>(at[0]) + em, static_cast<float>(at[1]) + em}, extent = ImGui::CalcTextSize(text.c_str());
-  draw_list->AddRectFilled({corner.x - pad, corner.y - pad}, {corner.x + extent.x + pad, corner.y + extent.y + pad}, colour::overlay, pad);
-  draw_list->AddText(corner, colour::on_dark, text.c_str());
-}
-
 const char* verb(Tool tool) { return tool == Tool::move ? "move" : tool == Tool::turn ? "turn" : "scale"; }
 
 } // namespace
 
-Matrix16 view_matrix(const GizmoFrame& frame)
+glm::mat4 view_matrix(const GizmoFrame& frame)
 {
   const glm::dvec3 eye = (frame.sight.position - frame.base) / frame.unit;
-  const std::array<glm::dvec3, 3> rows{frame.sight.right, frame.sight.up, -frame.sight.forward};
-  Matrix16 m{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (int i = 0; i < 3; ++i) m[4 * static_cast<std::size_t>(i) + row] = static_cast<float>(rows[row][i]);
-    m[12 + row] = static_cast<float>(-glm::dot(rows[row], eye));
-  }
-  m[15] = 1;
-  return m;
+  return glm::lookAt(eye, eye + frame.sight.forward, frame.sight.up);
 }
 
-Matrix16 projection_matrix(const Sight& sight, const Canvas& canvas)
+glm::mat4 projection_matrix(const Sight& sight, const Canvas& canvas)
 {
-  // From the picture's -1..1 to the canvas' own: scale and shift along each axis.
-  std::array<double, 2> scale{}, shift{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    scale[i] = sight.size[i] / canvas.size[i];
-    shift[i] = (2 * (sight.corner[i] - canvas.corner[i]) + sight.size[i]) / canvas.size[i] - 1;
-  }
   constexpr double near = 0.05, far = 10; // in the frame's units; nothing is cut off there
-  Matrix16 m{};
-  m[0] = static_cast<float>(scale[0] / sight.tan_x);
-  m[5] = static_cast<float>(scale[1] / sight.tan_y);
-  m[8] = static_cast<float>(-shift[0]);
-  m[9] = static_cast<float>(shift[1]); // down on the screen
-  m[10] = static_cast<float>(-(far + near) / (far - near));
-  m[11] = -1;
-  m[14] = static_cast<float>(-2 * far * near / (far - near));
-  return m;
+  // The canvas' edges in the picture, from -1 to 1, y down on the screen.
+  const auto edge = [&](std::size_t i, double part) {
+    return 2 * (canvas.corner[i] + part * canvas.size[i] - sight.corner[i]) / sight.size[i] - 1;
+  };
+  const double x = near * sight.tan_x, y = -near * sight.tan_y;
+  return glm::frustum(x * edge(0, 0), x * edge(0, 1), y * edge(1, 1), y * edge(1, 0), near, far);
 }
 
 Gizmo::Gizmo() { let_go(); }
@@ -196,19 +139,18 @@ void Gizmo::draw(const Context& context, const Sight& sight, const Canvas& canva
   if (!(frame.unit > 0)) return; // behind the camera
   const Tool tool = drag_ ? drag_->tool : usable_tool(*grip, handles.tool);
   const bool own_axes = drag_ ? drag_->own_axes : handles.own_axes || tool == Tool::scale;
-  Matrix16 matrix = drag_ ? drag_->matrix : placed(grip->axes);
-  const Matrix16 view = view_matrix(frame), projection = projection_matrix(frame.sight, canvas);
+  glm::mat4 matrix = drag_ ? drag_->matrix : glm::mat4(glm::mat3(grip->axes));
+  const glm::mat4 view = view_matrix(frame), projection = projection_matrix(frame.sight, canvas);
   const bool snaps = handles.snap != ImGui::GetIO().KeyCtrl;
-  const std::array<float, 3> steps = snap_steps(tool, frame.unit);
-  const auto manipulate = [&] {
-    ImGuizmo::Manipulate(view.data(), projection.data(), operation(tool, *grip), own_axes ? ImGuizmo::LOCAL : ImGuizmo::WORLD,
-                         matrix.data(), nullptr, snaps ? steps.data() : nullptr);
-  };
-  if (hovered || drag_) {
-    const NothingHovered nothing;
-    manipulate();
-  } else
-    manipulate();
+  const glm::vec3 steps = snap_steps(tool, frame.unit);
+  // ImGuizmo takes hold of nothing where an item of Dear ImGui is under the mouse, and the picture is one.
+  ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  const std::array items{imgui.HoveredId, imgui.HoveredIdPreviousFrame, imgui.ActiveId};
+  if (hovered || drag_) imgui.HoveredId = imgui.HoveredIdPreviousFrame = imgui.ActiveId = 0;
+  ImGuizmo::Manipulate(glm::value_ptr(view), glm::value_ptr(projection), operation(tool, *grip),
+                       own_axes ? ImGuizmo::LOCAL : ImGuizmo::WORLD, glm::value_ptr(matrix), nullptr,
+                       snaps ? glm::value_ptr(steps) : nullptr);
+  std::tie(imgui.HoveredId, imgui.HoveredIdPreviousFrame, imgui.ActiveId) = std::tie(items[0], items[1], items[2]);
   note_places(frame, own_axes ? grip->axes : glm::dmat3(1));
   if (!drag_ && ImGuizmo::IsUsing()) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -220,7 +162,8 @@ void Gizmo::draw(const Context& context, const Sight& sight, const Canvas& canva
   if (!drag_) return;
   drag_->snaps = snaps;
   follow(context, matrix);
-  if (!drag_->text.empty()) draw_text_at((*places_)[0], drag_->text);
+  const double beside = 0.6 * ImGui::GetFontSize();
+  if (!drag_->text.empty()) draw_overlay(vec({(*places_)[0][0] + beside, (*places_)[0][1] + beside}), drag_->text);
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) end_drag(context);
 }
 
@@ -237,12 +180,12 @@ void Gizmo::end_drag(const Context& context)
   context.push(command::EndGesture{});
 }
 
-void Gizmo::follow(const Context& context, const Matrix16& matrix)
+void Gizmo::follow(const Context& context, const glm::mat4& matrix)
 {
   // Near the horizon of a plane a pixel is any length, and beyond it there is no place.
   if (drag_->tool != Tool::scale) {
-    const bool is_place = std::ranges::all_of(matrix, [](float value) { return std::abs(value) < farthest; });
-    if (!is_place) return;
+    const std::span values(glm::value_ptr(matrix), 16);
+    if (!std::ranges::all_of(values, [](float value) { return std::abs(value) < farthest; })) return;
     drag_->matrix = matrix;
   }
   preset::Preset edited = drag_->start;
@@ -255,12 +198,12 @@ void Gizmo::follow(const Context& context, const Matrix16& matrix)
 }
 
 /// Changes the preset of the drag's start; returns what that is in words.
-std::string Gizmo::edit(preset::Preset& edited, const Matrix16& matrix) const
+std::string Gizmo::edit(preset::Preset& edited, const glm::mat4& matrix) const
 {
   const Drag& d = *drag_;
   switch (d.tool) {
   case Tool::move: {
-    const glm::dvec3 by = d.frame.unit * column(matrix, 3);
+    const glm::dvec3 by = d.frame.unit * glm::dvec3(matrix[3]);
     const int decimals = decimals_for(d.frame.unit);
     move(edited, d.selection, by, decimals);
     const int shown = std::max(0, decimals - 1);
@@ -284,7 +227,7 @@ std::string Gizmo::edit(preset::Preset& edited, const Matrix16& matrix) const
 
 void Gizmo::note_places(const GizmoFrame& frame, const glm::dmat3& axes)
 {
-  const glm::dvec3 middle = drag_ ? frame.base + frame.unit * column(drag_->matrix, 3) : frame.base;
+  const glm::dvec3 middle = drag_ ? frame.base + frame.unit * glm::dvec3(drag_->matrix[3]) : frame.base;
   const double pixel = 2 * frame.unit * frame.sight.tan_x / frame.sight.size[0];
   const double length = handle_em * ImGui::GetFontSize() * pixel;
   std::array<Point, 4> places{};

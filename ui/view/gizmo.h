@@ -8,10 +8,6 @@
 #include "ui/view/sight.h"
 #include "ui/widgets/widgets.h"
 
-#include <array>
-#include <optional>
-#include <string>
-
 namespace nephroid::ui {
 
 /// What ImGuizmo calculates in: single precision, so lengths are in distances from the camera, and places from the middle of the handles.
@@ -20,10 +16,9 @@ struct GizmoFrame {
   glm::dvec3 base{0}; ///< the frame's origin
   double unit = 1;    ///< how far that is in front of the camera
 };
-using Matrix16 = std::array<float, 16>; ///< column after column, as OpenGL and ImGuizmo have it
-Matrix16 view_matrix(const GizmoFrame& frame);
+glm::mat4 view_matrix(const GizmoFrame& frame);
 /// Of a canvas that the picture may fill in part, or be larger than.
-Matrix16 projection_matrix(const Sight& sight, const Canvas& canvas);
+glm::mat4 projection_matrix(const Sight& sight, const Canvas& canvas);
 
 class Gizmo {
 public:
@@ -48,13 +43,13 @@ private:
     bool own_axes = false;
     int handle = 0;        ///< ImGuizmo::MOVETYPE
     Point from{0, 0};      ///< where the mouse took hold
-    Matrix16 matrix{};     ///< as ImGuizmo goes on from
+    glm::mat4 matrix{1};   ///< as ImGuizmo goes on from
     bool snaps = false;    ///< now
     std::string text = {}; ///< what was done so far
   };
   void end_drag(const Context& context);
-  void follow(const Context& context, const Matrix16& matrix);
-  std::string edit(preset::Preset& edited, const Matrix16& matrix) const;
+  void follow(const Context& context, const glm::mat4& matrix);
+  std::string edit(preset::Preset& edited, const glm::mat4& matrix) const;
   void note_places(const GizmoFrame& frame, const glm::dmat3& axes);
 
   Gestures gestures_{"gizmo"};

@@ -3,14 +3,9 @@
 #pragma once
 #include "preset/preset.h"
 #include "ui/state/selection.h"
-#include "ui/view/picking.h"
 #include "ui/view/sight.h"
 
 #include <glm/glm.hpp>
-
-#include <array>
-#include <optional>
-#include <string>
 
 namespace nephroid::ui {
 

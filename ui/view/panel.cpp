@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/panel.h"
 
-#include "ui/view/camera_moves.h"
-#include "ui/view/comparison_bar.h"
-#include "ui/view/look_bar.h"
-#include "ui/view/marks.h"
-#include "ui/view/selection_bar.h"
+#include "ui/view/bars.h"
+#include "ui/view/camera.h"
+#include "ui/view/on_picture.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
@@ -27,14 +25,26 @@ constexpr double pixel_squares_from = 3;     ///< at this zoom and above pixels 
 
 Point mouse() { return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}; }
 
-/// Lines of text on a dark ground, its upper left corner at `at`.
-void draw_overlay(const ImVec2& at, const std::string& text)
+/// About pixels from `from` to before `to`, at least so many pixels of the screen large; seen on any colour.
+void draw_frame(const Placement& placement, const std::array<int, 2>& from, const std::array<int, 2>& to, ImU32 colour, double least)
 {
-  const float pad = ImGui::GetFontSize() * 0.4f;
-  const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-  ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  draw_list->AddRectFilled(at, {at.x + extent.x + 2 * pad, at.y + extent.y + 2 * pad}, colour::overlay, pad);
-  draw_list->AddText({at.x + pad, at.y + pad}, colour::on_dark, text.c_str());
+  Point low = placement.to_screen({static_cast<double>(from[0]), static_cast<double>(from[1])});
+  Point high = placement.to_screen({static_cast<double>(to[0]), static_cast<double>(to[1])});
+  for (std::size_t i = 0; i < 2; ++i)
+    if (const double missing = least - (high[i] - low[i]); missing > 0) low[i] -= missing / 2, high[i] += missing / 2;
+  for (const auto& [margin, line] : {std::pair{2, colour::outline}, std::pair{1, colour}, std::pair{0, colour::outline}})
+    ImGui::GetWindowDrawList()->AddRect(vec({low[0] - margin, low[1] - margin}), vec({high[0] + margin, high[1] + margin}), line);
+}
+
+/// The pixel and the rectangle that the panel Inspector is about.
+void draw_marks(const Chosen& chosen, const Placement& placement, const std::array<int, 2>& picture)
+{
+  if (const auto& region = chosen.region) {
+    const std::array to{std::min(region->to[0], picture[0]), std::min(region->to[1], picture[1])};
+    if (region->from[0] < to[0] && region->from[1] < to[1]) draw_frame(placement, region->from, to, colour::accent, 0);
+  }
+  if (const auto& pixel = chosen.pixel; pixel && (*pixel)[0] < picture[0] && (*pixel)[1] < picture[1])
+    draw_frame(placement, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
 }
 
 } // namespace
@@ -65,9 +75,9 @@ void ViewPanel::draw(const Context& context)
   overlay_.draw(context, canvas_, shown_.size, hovered_);
   use_mouse(context); // after the handles, which have it first
   if (!shown_.hint.empty()) draw_hint_on_dark(corner, vec(canvas_.size), shown_.hint);
-  draw_marks(context, place(context.chosen.look, canvas_, shown_.size), shown_.size);
+  draw_marks(context.chosen, place(context.chosen.look, canvas_, shown_.size), shown_.size);
   if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
-  if (map && map == shown_.owner) draw_colour_scale(*map, canvas_);
+  if (map && map == shown_.owner) draw_difference_scale(*map, canvas_);
   if (!shown_.rgb.empty() && tone_.curve == ToneCurve::false_colour) draw_luminance_scale(tone_.range, canvas_);
   draw_pixel_value(context);
   draw_list->PopClipRect();
@@ -121,13 +131,8 @@ void ViewPanel::draw_picture(const Context& context)
   const Placement placement = place(context.chosen.look, canvas_, size);
   const ImVec2 from = vec(placement.to_screen({0, 0}));
   const ImVec2 to = vec(placement.to_screen({static_cast<double>(size[0]), static_cast<double>(size[1])}));
-  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
-  ImDrawList* draw_list = ImGui::GetWindowDrawList();
-  const bool squares = placement.scale >= pixel_squares_from && platform.DrawCallback_SetSamplerNearest;
-  if (squares) draw_list->AddCallback(platform.DrawCallback_SetSamplerNearest, nullptr);
-  draw_list->AddImage(texture_.ref(), from, to);
-  if (squares) draw_list->AddCallback(platform.DrawCallback_SetSamplerLinear, nullptr);
-  draw_list->AddRect({from.x - 1, from.y - 1}, {to.x + 1, to.y + 1}, colour::frame);
+  texture_.draw(from, to, placement.scale >= pixel_squares_from);
+  ImGui::GetWindowDrawList()->AddRect({from.x - 1, from.y - 1}, {to.x + 1, to.y + 1}, colour::frame);
 }
 
 /// What the pixel under the cursor is, in the picture's lower left corner.

@@ -9,8 +9,6 @@
 #include "ui/widgets/panel.h"
 #include "ui/widgets/picture_texture.h"
 
-#include <memory>
-
 namespace nephroid::ui {
 
 class ViewPanel : public Panel {

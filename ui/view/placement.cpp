@@ -64,4 +64,17 @@ std::optional<std::array<int, 2>> pixel_at(const Placement& placement, const std
   return pixel;
 }
 
+std::optional<PixelRegion> region_between(const Placement& placement, const std::array<int, 2>& picture, const Point& a, const Point& b)
+{
+  const Point p = placement.to_picture(a), q = placement.to_picture(b);
+  PixelRegion region;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double low = std::floor(std::min(p[i], q[i])), high = std::floor(std::max(p[i], q[i])) + 1;
+    region.from[i] = static_cast<int>(std::clamp<double>(low, 0, picture[i]));
+    region.to[i] = static_cast<int>(std::clamp<double>(high, 0, picture[i]));
+    if (region.from[i] >= region.to[i]) return std::nullopt;
+  }
+  return region;
+}
+
 } // namespace nephroid::ui

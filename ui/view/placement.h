@@ -3,9 +3,6 @@
 #pragma once
 #include "ui/state/commands.h"
 
-#include <array>
-#include <optional>
-
 namespace nephroid::ui {
 
 using Point = std::array<double, 2>;
@@ -31,5 +28,7 @@ Look zoomed(const Look& look, const Canvas& canvas, const std::array<int, 2>& pi
 Look dragged(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen_delta);
 /// The pixel under a point of the screen; nothing outside of the picture.
 std::optional<std::array<int, 2>> pixel_at(const Placement& placement, const std::array<int, 2>& picture, const Point& screen);
+/// The pixels between two points of the screen, both included; nothing where none is in the picture.
+std::optional<PixelRegion> region_between(const Placement& placement, const std::array<int, 2>& picture, const Point& a, const Point& b);
 
 } // namespace nephroid::ui

@@ -6,9 +6,6 @@
 #include "ui/view/gizmo.h"
 #include "ui/view/placement.h"
 
-#include <array>
-#include <optional>
-
 namespace nephroid::ui {
 
 class SceneOverlay {

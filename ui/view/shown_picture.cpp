@@ -2,7 +2,7 @@
 #include "ui/view/shown_picture.h"
 
 #include "measure/lab.h"
-#include "ui/view/comparison_bar.h"
+#include "ui/view/bars.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -43,7 +43,8 @@ std::shared_ptr<const ShownDifference> fitting_map(const Context& context, const
 void show_difference(const Context& context, const HeldPicture& other, ShownPicture& shown)
 {
   const auto map = fitting_map(context, other, shown.size);
-  shown.label = difference_label(context);
+  const Comparison& comparison = context.comparing.comparison();
+  shown.label = fmt::format("{} to {}", metric_name(comparison.metric), comparison.pin == 0 ? "the reference" : other_name(context));
   if (!map)
     shown.hint = "The difference is being computed";
   else if (!map->error.empty())

@@ -3,11 +3,6 @@
 #pragma once
 #include "ui/state/context.h"
 
-#include <array>
-#include <memory>
-#include <span>
-#include <string>
-
 namespace nephroid::ui {
 
 struct ShownPicture {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a preset's camera sees, on the screen: from points of the scene to points of the screen and back as rays, however the picture is
-// placed in its panel. In the preset's coordinates and in double precision.
+// placed in its panel; and which object is there: a ray through the loaded scene, with objects where the preset has them now. In the
+// preset's coordinates and in double precision.
 #pragma once
 #include "preset/preset.h"
+#include "run/run.h"
+#include "scene/corners.h"
 #include "ui/view/placement.h"
 
 #include <glm/glm.hpp>
-
-#include <optional>
 
 namespace nephroid::ui {
 
@@ -34,5 +35,26 @@ struct Sight {
 /// shown: the size in pixels of the picture that `placement` places, which may still be of another size than the camera's. Nothing for a
 /// camera that sees nothing: at its own target, or looking along its up.
 std::optional<Sight> make_sight(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown);
+
+/// What the View keeps of a loaded scene (RunInHand::seen).
+struct SeenScene {
+  std::shared_ptr<const run::LoadedScene> loaded;
+  std::vector<preset::Object> objects; ///< as the preset had them when it was loaded
+  std::vector<scene::Bounds> boxes;    ///< of each object, before its transform
+
+  /// A std::shared_ptr<const SeenScene>, as RunInHand::seen finds it.
+  static std::any look(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded);
+};
+
+/// The first object that the ray hits, an index into scene.objects. An object that was moved, turned or scaled since the scene was
+/// loaded is found where it is now; one of another shape or mesh, or a new one, is not found before the scene is loaded again.
+std::optional<std::size_t> object_at(const SeenScene& seen, const preset::Preset& preset, const Ray& ray);
+
+/// The box about an object before its transform; nothing where the scene that was loaded has another one in its place.
+std::optional<scene::Bounds> local_box(const SeenScene* seen, const preset::Preset& preset, std::size_t object);
+
+/// What an object turns about and is scaled from, before its transform: a shape's own middle, or the middle of the box about a mesh, whose
+/// origin may lie anywhere.
+glm::dvec3 pivot_of(const SeenScene* seen, const preset::Preset& preset, std::size_t object);
 
 } // namespace nephroid::ui

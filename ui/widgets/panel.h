@@ -5,6 +5,8 @@
 #include "ui/state/context.h"
 #include "ui/widgets/widgets.h"
 
+#include <imgui.h>
+
 #include <array>
 #include <optional>
 #include <string>
@@ -20,6 +22,17 @@ public:
   std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 protected:
+  /// What the item drawn last changes of the preset, from taking hold of it to letting go one gesture. Its place is noted as `widget`.
+  template <class Change>
+  void follow_item(const Context& context, Gestures& gestures, const std::string& widget, bool changed, const std::string& label,
+                   Change change)
+  {
+    places_.note(widget);
+    if (ImGui::IsItemActivated()) gestures.begin();
+    if (changed) context.edit(label, change, gestures.number(), true);
+    if (ImGui::IsItemDeactivated()) context.push(command::EndGesture{});
+  }
+
   WidgetPlaces places_;
 };
 

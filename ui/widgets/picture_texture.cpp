@@ -55,6 +55,16 @@ ImTextureRef PictureTexture::ref() const { return texture_->GetTexRef(); }
 
 std::span<const unsigned char> PictureTexture::pixels() const { return bytes_of(texture_); }
 
+void PictureTexture::draw(const ImVec2& low, const ImVec2& high, bool squares) const
+{
+  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  squares = squares && platform.DrawCallback_SetSamplerNearest;
+  if (squares) list.AddCallback(platform.DrawCallback_SetSamplerNearest, nullptr);
+  list.AddImage(ref(), low, high);
+  if (squares) list.AddCallback(platform.DrawCallback_SetSamplerLinear, nullptr);
+}
+
 // The frame in hand may still draw with it; the back end destroys it in a later one.
 void PictureTexture::retire(ImTextureData* texture)
 {

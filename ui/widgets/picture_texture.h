@@ -7,6 +7,7 @@
 
 struct ImTextureData;
 struct ImTextureRef;
+struct ImVec2;
 
 namespace nephroid::ui {
 
@@ -23,6 +24,8 @@ public:
   /// For ImDrawList::AddImage. Call edit() before.
   ImTextureRef ref() const;
   std::span<const unsigned char> pixels() const;
+  /// Into the window, from corner to corner; `squares`: so large that pixels are shown as such.
+  void draw(const ImVec2& low, const ImVec2& high, bool squares) const;
 
 private:
   void retire(ImTextureData* texture);

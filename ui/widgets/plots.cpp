@@ -4,6 +4,7 @@
 #include "optics/wavelength.h"
 #include "ui/widgets/theme.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <implot.h>
 
@@ -25,6 +26,15 @@ ImPlotSpec line_spec(std::uint32_t colour, float width)
   spec.LineWeight = width * scale();
   spec.Flags = ImPlotItemFlags_NoFit;
   return spec;
+}
+
+void set_up_ticks(int axis, const std::vector<double>& ticks)
+{
+  std::vector<std::string> texts;
+  std::vector<const char*> labels;
+  for (const double tick : ticks) texts.push_back(fmt::format("{:.3g}", tick));
+  for (const std::string& text : texts) labels.push_back(text.c_str());
+  ImPlot::SetupAxisTicks(axis, ticks.data(), static_cast<int>(ticks.size()), labels.data());
 }
 
 PlotArea PlotArea::in_hand()

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 struct ImPlotContext;
 struct ImPlotSpec;
@@ -12,6 +13,9 @@ namespace nephroid::ui {
 
 /// A line of this colour (IM_COL32) and width in pixels at scale 1, which does not decide what axes show.
 ImPlotSpec line_spec(std::uint32_t colour, float width);
+
+/// Ticks with numbers: those that ImPlot puts on a log axis have none within a decade. axis: an ImAxis.
+void set_up_ticks(int axis, const std::vector<double>& ticks);
 
 /// Where a plot lies on the screen, and what its axes show.
 struct PlotArea {

@@ -57,6 +57,19 @@ void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::stri
   hint_in(colour::quiet_on_dark, corner, size, hint);
 }
 
+void cell(const std::string& text)
+{
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void heading_cell(const char* text, const char* help)
+{
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", text);
+  ImGui::SetItemTooltip("%s", help);
+}
+
 bool delete_pressed()
 {
   return ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) && !ImGui::GetIO().WantTextInput &&

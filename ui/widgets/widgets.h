@@ -25,6 +25,10 @@ void draw_wrapped(std::uint32_t colour, const std::string& text);
 void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint);
 void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::string& hint);
 
+/// The next cell of a table, with a text; as a heading, with help under the mouse.
+void cell(const std::string& text);
+void heading_cell(const char* text, const char* help);
+
 /// Whether Delete is pressed in the window in hand and not in a text field.
 bool delete_pressed();
 

@@ -112,19 +112,12 @@ void AnnealingPanel::draw_figures(const job::Snapshot& snapshot) const
        {"rel_l2", "relative", "The difference's length over that of what is wanted, both of the same energy"},
        {"missed", "missed", "Part of the light that is beside the receivers"}}};
   ImGui::TableNextColumn();
-  for (const auto& [name, label, help] : figures) {
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", label);
-    ImGui::SetItemTooltip("%s", help);
-  }
+  for (const auto& [name, label, help] : figures) heading_cell(label, help);
   for (const char* group : {"believed", "judged"}) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", group);
-    for (const auto& figure : figures) {
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(number(job::scalar(snapshot, group, figure[0])).c_str());
-    }
+    for (const auto& figure : figures) cell(number(job::scalar(snapshot, group, figure[0])));
   }
   ImGui::EndTable();
 }
@@ -189,12 +182,8 @@ void AnnealingPanel::draw_dragged(const Context& context, std::size_t receiver, 
   ImGui::SetNextItemWidth(-1);
   const bool changed = ImGui::DragScalar(("##" + widget).c_str(), ImGuiDataType_Double, &value, static_cast<float>(0.005 * dragged.value),
                                          &dragged.low, &dragged.high, dragged.format, ImGuiSliderFlags_AlwaysClamp);
-  places_.note(widget);
-  if (ImGui::IsItemActivated()) gestures_.begin();
-  if (changed)
-    context.edit(
-        dragged.name, [&](preset::Preset& p) { set(inverse::settings(p).receivers.at(receiver), value); }, gestures_.number(), true);
-  if (ImGui::IsItemDeactivated()) context.push(command::EndGesture{});
+  follow_item(context, gestures_, widget, changed, dragged.name,
+              [&](preset::Preset& p) { set(inverse::settings(p).receivers.at(receiver), value); });
   ImGui::SetItemTooltip("%s", dragged.help);
 }
 

@@ -4,16 +4,9 @@
 #pragma once
 #include "inverse/layout.h"
 #include "inverse/settings.h"
-#include "ui/inverse/annealing/beam.h"
+#include "ui/inverse/annealing/history.h"
 #include "ui/inverse/annealing/pictures.h"
-#include "ui/inverse/annealing/plot.h"
 #include "ui/widgets/panel.h"
-
-#include <array>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 struct ImVec2;
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nephroid::ui {
 namespace {
@@ -57,12 +58,30 @@ void RunPictures::draw(const std::string& name, const ImVec2& low, const ImVec2&
     shown_pixels(signed_values ? as_colours(*picture) : picture->rgb, 0, bytes);
     shown.picture = {snapshot_, picture};
   }
-  const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  const bool squares = high.x - low.x >= static_cast<float>(picture->width) && platform.DrawCallback_SetSamplerNearest;
-  if (squares) list->AddCallback(platform.DrawCallback_SetSamplerNearest, nullptr);
-  list->AddImage(shown.texture.ref(), low, high);
-  if (squares) list->AddCallback(platform.DrawCallback_SetSamplerLinear, nullptr);
+  shown.texture.draw(low, high, high.x - low.x >= static_cast<float>(picture->width));
+}
+
+std::optional<FacetBeam> facet_beam(const job::Picture& slopes, const inverse::Layout& layout, const glm::ivec2& facet)
+{
+  if (slopes.width != layout.facets.x || slopes.height != layout.facets.y) return std::nullopt;
+  if (facet.x < 0 || facet.y < 0 || facet.x >= layout.facets.x || facet.y >= layout.facets.y) return std::nullopt;
+  const std::size_t index = inverse::index_at(facet.x, facet.y, layout.facets.x);
+  const glm::dvec2 slope{slopes.rgb[3 * index], slopes.rgb[3 * index + 1]};
+  const double height = slopes.rgb[3 * index + 2];
+  FacetBeam beam{facet, slope, height, inverse::facet_power(layout, index, slope), {}};
+  for (std::size_t j = 0; j < layout.distances.size(); ++j) beam.prints.push_back(inverse::footprint(layout, index, slope, j, height));
+  return beam;
+}
+
+std::optional<BeamBox> box_of(const inverse::Footprint& print)
+{
+  if (print.x.empty() || print.y.empty()) return std::nullopt;
+  return BeamBox{{print.x0, print.y0}, {print.x0 + static_cast<int>(print.x.size()), print.y0 + static_cast<int>(print.y.size())}};
+}
+
+double part_on(const inverse::Footprint& print)
+{
+  return std::accumulate(print.x.begin(), print.x.end(), 0.0) * std::accumulate(print.y.begin(), print.y.end(), 0.0);
 }
 
 void draw_beam_frame(const inverse::Footprint& print, const glm::ivec2& cells, const ImVec2& low, const ImVec2& high)

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A snapshot's further pictures (job::NamedPicture) as textures, and boxes of the panel that show them.
+// A snapshot's further pictures (job::NamedPicture) as textures; where the light of one facet falls on every receiver, over them.
 #pragma once
+#include "inverse/assign/footprint.h"
 #include "job/job.h"
-#include "ui/inverse/annealing/beam.h"
 #include "ui/widgets/picture_texture.h"
-
-#include <map>
-#include <memory>
-#include <string>
 
 struct ImVec2;
 
@@ -30,6 +26,27 @@ private:
   std::shared_ptr<const job::Snapshot> snapshot_;
   std::map<std::string, Shown> shown_;
 };
+
+struct FacetBeam {
+  glm::ivec2 facet{0, 0}; ///< column and row, from the top left
+  glm::dvec2 slope{0, 0};
+  double height = 0;                      ///< z of its middle, millimetres
+  double power = 0;                       ///< over that of a facet that lies flat
+  std::vector<inverse::Footprint> prints; ///< on each receiver
+};
+
+/// slopes: a pixel a facet: slope along x, along y, height. Empty where it is of another number of facets than the layout, or the facet is
+/// outside.
+std::optional<FacetBeam> facet_beam(const job::Picture& slopes, const inverse::Layout& layout, const glm::ivec2& facet);
+
+/// A footprint on a receiver's picture, in cells from its top left corner.
+struct BeamBox {
+  glm::dvec2 low{0, 0}, high{0, 0};
+};
+/// Empty where nothing of the beam is on the receiver.
+std::optional<BeamBox> box_of(const inverse::Footprint& print);
+/// The part of the beam that is on the receiver.
+double part_on(const inverse::Footprint& print);
 
 /// A frame about the beam on a receiver's picture of so many cells, which lies from corner to corner; large enough to be found.
 void draw_beam_frame(const inverse::Footprint& print, const glm::ivec2& cells, const ImVec2& low, const ImVec2& high);

@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -84,6 +83,53 @@ Spread spread_of(const spectral::Clustering& clustering, const optics::Spectrum&
 
 } // namespace
 
+ControlPoint readable_point(const ControlPoint& point) { return {std::round(point[0] * 100) / 100, std::round(point[1] * 1e6) / 1e6}; }
+
+std::vector<ControlPoint> sorted_points(const preset::Dispersion& dispersion)
+{
+  if (dispersion.type != preset::Dispersion::Type::points) return {};
+  return sorted_rows(dispersion.table);
+}
+
+preset::Dispersion with_points(const preset::Dispersion& before, std::vector<ControlPoint> points)
+{
+  preset::Dispersion dispersion;
+  dispersion.type = preset::Dispersion::Type::points;
+  dispersion.table = std::move(points);
+  dispersion.outside = before.outside;
+  return dispersion;
+}
+
+ControlPoint snapped(ControlPoint point, ControlPoint step)
+{
+  for (std::size_t i = 0; i < 2; ++i)
+    if (step[i] > 0) point[i] = std::round(point[i] / step[i]) * step[i];
+  return point;
+}
+
+FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t most)
+{
+  const auto point = [&](int index) {
+    // Seven decimals are as much as any table has.
+    const double value = std::round(n[static_cast<std::size_t>(index)] * 1e7) / 1e7;
+    return ControlPoint{static_cast<double>(optics::wavelength_nm(index)),
+                        std::clamp(value, preset::index_bounds.low, preset::index_bounds.high)};
+  };
+  FittedPoints fitted;
+  fitted.points = {point(0), point(optics::wavelength_count - 1)};
+  while (true) {
+    const optics::Spectrum fitted_n = optics::sample_n(optics::control_points(fitted.points), optics::Outside::hold);
+    int worst = 0;
+    fitted.greatest_deviation = 0;
+    for (int i = 0; i < optics::wavelength_count; ++i) {
+      const double deviation = std::fabs(fitted_n[static_cast<std::size_t>(i)] - n[static_cast<std::size_t>(i)]);
+      if (deviation > fitted.greatest_deviation) fitted.greatest_deviation = deviation, worst = i;
+    }
+    if (fitted.greatest_deviation <= tolerance || fitted.points.size() >= std::max<std::size_t>(most, 2)) return fitted;
+    if (!add_row(fitted.points, point(worst), point_rules)) return fitted; // it is a point already: nothing gets better
+  }
+}
+
 ClusterFigures figures_of(spectral::Clustering clustering, const optics::Spectrum& n)
 {
   ClusterFigures figures;
@@ -92,26 +138,6 @@ ClusterFigures figures_of(spectral::Clustering clustering, const optics::Spectru
   figures.over_angles = spread_of(clustering, n, mean_angle_deg);
   figures.clustering = std::move(clustering);
   return figures;
-}
-
-std::array<std::size_t, optics::wavelength_count> cluster_of_wavelengths(const spectral::Clustering& clustering)
-{
-  std::array<std::size_t, optics::wavelength_count> cluster_of{};
-  for (std::size_t c = 0; c < clustering.clusters.size(); ++c)
-    for (const int index : clustering.clusters[c].wavelengths) cluster_of[static_cast<std::size_t>(index)] = c;
-  return cluster_of;
-}
-
-std::vector<Band> bands_of(const spectral::Clustering& clustering)
-{
-  const auto cluster_of = cluster_of_wavelengths(clustering);
-  std::vector<Band> bands;
-  for (int i = 0; i < optics::wavelength_count; ++i) {
-    const std::size_t cluster = cluster_of[static_cast<std::size_t>(i)];
-    if (bands.empty() || bands.back().cluster != cluster) bands.push_back({i, i, cluster});
-    bands.back().last = i;
-  }
-  return bands;
 }
 
 GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::string& preset_source, const Place& where)
@@ -157,10 +183,9 @@ void DispersionModel::update(const preset::Preset& preset, const std::string& ma
   curve_ = &glasses_.at(material).curve;
   if (changed) cluster();
   method_ = settings.method;
-  if (error_.empty()) {
-    bands_ = bands_of(chosen().clustering);
-    cluster_of_ = cluster_of_wavelengths(chosen().clustering);
-  }
+  if (error_.empty())
+    for (std::size_t c = 0; c < chosen().clustering.clusters.size(); ++c)
+      for (const int index : chosen().clustering.clusters[c].wavelengths) cluster_of_[static_cast<std::size_t>(index)] = c;
   combine(preset);
   preset_ = preset;
 }

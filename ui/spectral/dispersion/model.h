@@ -1,20 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the panel "Dispersion" shows, kept as long as the fields it comes from stay as they are: one dielectric's curve, its clusters
-// by every method and what they mean. No Dear ImGui here.
+// by every method and what they mean; and what a person does to it: control points are moved, added and removed, a curve becomes control
+// points. No Dear ImGui here.
 #pragma once
 #include "base/place.h"
 #include "optics/wavelength.h"
+#include "preset/field.h"
 #include "preset/preset.h"
 #include "spectral/clusters/clusters.h"
 #include "spectral/settings.h"
-
-#include <array>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
+#include "ui/widgets/rows.h"
 
 namespace nephroid::ui {
+
+using ControlPoint = Row; ///< (nm, n)
+
+/// In figures that a person can read in the preset, finer than a pixel.
+ControlPoint readable_point(const ControlPoint& point);
+/// A curve needs two of them.
+inline constexpr RowRules point_rules{"control point", preset::index_bounds, 0.5, 2, readable_point};
+
+/// By rising wavelength, as the functions below have them.
+std::vector<ControlPoint> sorted_points(const preset::Dispersion& dispersion);
+/// Control points, nothing else of `before` but its rule for wavelengths outside.
+preset::Dispersion with_points(const preset::Dispersion& before, std::vector<ControlPoint> points);
+/// The nearest place on a grid.
+ControlPoint snapped(ControlPoint point, ControlPoint step);
+
+struct FittedPoints {
+  std::vector<ControlPoint> points;
+  double greatest_deviation = 0; ///< of n at the 401 wavelengths
+};
+/// Few control points whose monotone cubic comes to within `tolerance` of n, at most `most` (>= 2): from both ends on, one more where
+/// the deviation is greatest.
+FittedPoints fit_points(const optics::Spectrum& n, double tolerance = 1e-4, std::size_t most = 40);
 
 struct GlassCurve {
   std::string error;               ///< why n is not known at all 401 wavelengths: one line; else empty
@@ -46,17 +65,6 @@ struct ClusterFigures {
 /// n: the curve that was clustered.
 ClusterFigures figures_of(spectral::Clustering clustering, const optics::Spectrum& n);
 
-/// Neighbouring wavelengths (indices 0..400, both ends included) of one cluster.
-struct Band {
-  int first = 0, last = 0;
-  std::size_t cluster = 0;
-};
-
-/// The cluster of every wavelength.
-std::array<std::size_t, optics::wavelength_count> cluster_of_wavelengths(const spectral::Clustering& clustering);
-/// By rising wavelength. A cluster whose wavelengths are not neighbours has several.
-std::vector<Band> bands_of(const spectral::Clustering& clustering);
-
 class DispersionModel {
 public:
   /// Makes anew what does not fit the preset any more; idle frames cost a comparison. Throws nothing. material: a dielectric of it.
@@ -67,9 +75,8 @@ public:
   const std::string& error() const { return error_; }
   /// In the order of spectral::Settings::Method; only without an error().
   const ClusterFigures& figures(spectral::ClusterMethod method) const { return figures_[static_cast<std::size_t>(method)]; }
-  /// Of the preset's method: the clusters of the curve, as bands and by wavelength.
+  /// Of the preset's method: the clusters of the curve, and which of them each wavelength is in.
   const ClusterFigures& chosen() const { return figures(method_); }
-  const std::vector<Band>& bands() const { return bands_; }
   const std::array<std::size_t, optics::wavelength_count>& cluster_of() const { return cluster_of_; }
   /// How many the run has: of all glasses that objects are made of, by brute force of step_nm neighbours, with differentials as they
   /// need them. Nothing where no object is made of glass, one of the curves has an error, or layers for another light absorb.
@@ -99,7 +106,6 @@ private:
   const GlassCurve* curve_ = nullptr; ///< in glasses_
   std::string error_;
   std::array<ClusterFigures, 3> figures_;
-  std::vector<Band> bands_;
   std::array<std::size_t, optics::wavelength_count> cluster_of_{};
   std::optional<std::size_t> clusters_of_run_;
   int curves_made_ = 0, clusterings_made_ = 0;

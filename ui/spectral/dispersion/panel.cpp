@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -45,19 +44,6 @@ std::string source_text(const preset::Dispersion& dispersion, const GlassCurve& 
 
 std::string spread_text(const Spread& spread) { return fmt::format("{:.3f} / {:.3f}", spread.mean_deg, spread.greatest_deg); }
 
-void heading(const char* text, const char* help)
-{
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", text);
-  ImGui::SetItemTooltip("%s", help);
-}
-
-void cell(const std::string& text)
-{
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(text.c_str());
-}
-
 } // namespace
 
 void DispersionPanel::draw(const Context& context)
@@ -67,7 +53,10 @@ void DispersionPanel::draw(const Context& context)
   if (names.empty()) return draw_hint(corner, size, "No material of this preset is a dielectric");
   follow(context);
   draw_toolbar(context, names);
-  draw_source();
+  std::string source = source_text(dispersion_, model_.curve());
+  if (!fitted_text_.empty() && dispersion_ == fitted_) source += "; " + fitted_text_;
+  draw_wrapped(colour::quiet_text, source);
+  if (!model_.curve().note.empty()) draw_wrapped(colour::note, model_.curve().note);
   draw_points_row(context);
   draw_plot(context);
   const float top = ImGui::GetCursorPosY();
@@ -114,14 +103,6 @@ void DispersionPanel::draw_toolbar(const Context& context, const std::vector<std
                             : model_.curve().has_k
                                 ? "Control points that reproduce n at 380..780 nm. They have no k: the glass will not absorb"
                                 : "Control points that reproduce n at 380..780 nm");
-}
-
-void DispersionPanel::draw_source() const
-{
-  std::string text = source_text(dispersion_, model_.curve());
-  if (!fitted_text_.empty() && dispersion_ == fitted_) text += "; " + fitted_text_;
-  draw_wrapped(colour::quiet_text, text);
-  if (!model_.curve().note.empty()) draw_wrapped(colour::note, model_.curve().note);
 }
 
 void DispersionPanel::draw_points_row(const Context& context)
@@ -185,13 +166,13 @@ void DispersionPanel::make_editable(const Context& context)
 void DispersionPanel::draw_methods(const Context& context) const
 {
   if (!ImGui::BeginTable("methods", 5, ImGuiTableFlags_SizingStretchProp)) return;
-  heading("Method", "How wavelengths are grouped (spectral.method); the run's is not greyed");
-  heading("Clusters", "Groups of wavelengths that share one path each");
-  heading("Saving", "401 wavelengths / clusters: so many times fewer paths than one for each wavelength");
-  heading("At 45 deg",
-          "By how many degrees the refraction angle differs inside a cluster at 45 degrees of incidence: mean over the wavelengths / "
-          "greatest");
-  heading("0..89 deg", "The same as the mean over 0 to 89 degrees of incidence, which spectral.threshold_deg is about");
+  heading_cell("Method", "How wavelengths are grouped (spectral.method); the run's is not greyed");
+  heading_cell("Clusters", "Groups of wavelengths that share one path each");
+  heading_cell("Saving", "401 wavelengths / clusters: so many times fewer paths than one for each wavelength");
+  heading_cell("At 45 deg",
+               "By how many degrees the refraction angle differs inside a cluster at 45 degrees of incidence: mean over the wavelengths / "
+               "greatest");
+  heading_cell("0..89 deg", "The same as the mean over 0 to 89 degrees of incidence, which spectral.threshold_deg is about");
   for (const auto& choice : preset::Choices<spectral::ClusterMethod>::all) {
     const ClusterFigures& figures = model_.figures(choice.value);
     const std::string name(choice.name == "brute_force" ? "brute force" : choice.name);

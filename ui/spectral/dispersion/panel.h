@@ -6,9 +6,6 @@
 #include "ui/spectral/dispersion/plot.h"
 #include "ui/widgets/panel.h"
 
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 class DispersionPanel : public Panel {
@@ -25,7 +22,6 @@ public:
 private:
   void follow(const Context& context);
   void draw_toolbar(const Context& context, const std::vector<std::string>& names);
-  void draw_source() const;
   void draw_points_row(const Context& context);
   void draw_plot(const Context& context);
   void draw_methods(const Context& context) const;

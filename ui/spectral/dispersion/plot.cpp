@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <string>
 
 namespace nephroid::ui {
 namespace {
@@ -126,9 +125,11 @@ std::string stretches(const DispersionModel& model, std::size_t cluster)
   constexpr int shown = 4;
   std::string text;
   int count = 0;
-  for (const Band& band : model.bands()) {
-    if (band.cluster != cluster || ++count > shown) continue;
-    const int first = optics::wavelength_nm(band.first), last = optics::wavelength_nm(band.last);
+  for (std::size_t i = 0, next = 0; i < optics::wavelength_count; i = next) {
+    const auto& of = model.cluster_of();
+    for (next = i + 1; next < of.size() && of[next] == of[i];) ++next;
+    if (of[i] != cluster || ++count > shown) continue;
+    const int first = optics::wavelength_nm(static_cast<int>(i)), last = optics::wavelength_nm(static_cast<int>(next) - 1);
     text += (text.empty() ? "" : ", ") + (first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last));
   }
   if (count > shown) text += fmt::format(" and {} more", count - shown);

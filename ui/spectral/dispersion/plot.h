@@ -2,15 +2,9 @@
 // The plot of the panel "Dispersion": n over wavelength or in sorted order, the clusters as coloured bands below it, k on an axis of its
 // own, control points that can be dragged.
 #pragma once
-#include "ui/spectral/dispersion/edits.h"
 #include "ui/spectral/dispersion/model.h"
 #include "ui/widgets/plots.h"
 #include "ui/widgets/row_handles.h"
-
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <vector>
 
 namespace nephroid::ui {
 

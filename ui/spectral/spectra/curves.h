@@ -7,14 +7,6 @@
 #include "scene/scene.h"
 #include "spectral/effort/importance.h"
 
-#include <any>
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 /// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with a run

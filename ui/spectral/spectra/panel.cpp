@@ -219,13 +219,10 @@ void SpectraPanel::draw_surroundings() const
   }
   for (const spectral::Surrounding& seen : s.importance.surroundings) {
     ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(s.materials[static_cast<std::size_t>(seen.material)].c_str());
-    for (const std::string& cell : {fmt::format("{:.1f} %", 100 * seen.share), fmt::format("{:.1f}", seen.lightness),
-                                    fmt::format("{:.1f}", seen.share * seen.lightness)}) {
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(cell.c_str());
-    }
+    cell(s.materials[static_cast<std::size_t>(seen.material)]);
+    cell(fmt::format("{:.1f} %", 100 * seen.share));
+    cell(fmt::format("{:.1f}", seen.lightness));
+    cell(fmt::format("{:.1f}", seen.share * seen.lightness));
   }
   ImGui::EndTable();
 }

@@ -7,8 +7,6 @@
 #include "ui/spectral/spectra/plot.h"
 #include "ui/widgets/panel.h"
 
-#include <string>
-
 namespace nephroid::ui {
 
 class SpectraPanel : public Panel {

@@ -116,8 +116,7 @@ std::optional<int> pointed_wavelength()
 {
   if (!ImPlot::IsPlotHovered()) return std::nullopt;
   const long index = std::lround(ImPlot::GetPlotMousePos().x) - optics::first_nm;
-  if (index < 0 || index >= wavelength_count) return std::nullopt;
-  return static_cast<int>(index);
+  return index < 0 || index >= wavelength_count ? std::nullopt : std::optional(static_cast<int>(index));
 }
 
 std::string row_text(const PowerRow& row) { return fmt::format("{:.6g} nm, relative power {:.4g}", row[0], row[1]); }

@@ -8,13 +8,6 @@
 #include "ui/widgets/row_handles.h"
 #include "ui/widgets/theme.h"
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <set>
-#include <string>
-
 namespace nephroid::ui {
 
 /// Which curves are shown.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the mouse moves a camera: pure functions from one camera of a preset to the next. No window, no Dear ImGui.
+// How the mouse moves a camera: pure functions from one camera of a preset to the next; and the camera as text. No Dear ImGui.
 #pragma once
 #include "preset/preset.h"
 
@@ -15,5 +15,10 @@ preset::Camera dolly(const preset::Camera& camera, double factor);
 /// Shifts position and target together, in parts of the picture's height at the target's distance: a thing at the target moves
 /// by (right, down) in the picture.
 preset::Camera pan(const preset::Camera& camera, double right, double down);
+
+/// {"camera": {...}}, as it stands in a preset's scene.
+std::string camera_json(const preset::Preset& preset);
+/// "--set 'scene.camera.position=[0,0,4]' --set ...", a field each, quoted for a shell.
+std::string camera_settings(const preset::Preset& preset);
 
 } // namespace nephroid::ui
