@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/environment/lights.h"
 
-#include "ui/state/shown_pixels.h"
+#include "ui/state/tone.h"
 
 #include <glm/trigonometric.hpp>
 
@@ -15,7 +15,7 @@ Colour colour_of(const glm::dvec3& flux)
 {
   const double most = std::max({flux.x, flux.y, flux.z});
   if (!(most > 0)) return {};
-  const auto byte = [&](double value) { return shown_byte(static_cast<float>(value / most), 1); };
+  const auto byte = [&](double value) { return shown_byte(static_cast<float>(value / most)); };
   return {byte(flux.x), byte(flux.y), byte(flux.z)};
 }
 
