@@ -5,7 +5,7 @@
 #include "ui/spectral/dispersion/edits.h"
 #include "ui/spectral/dispersion/model.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/row_handles.h"
+#include "ui/widgets/rows.h"
 
 #include <array>
 #include <cstdint>
