@@ -6,7 +6,7 @@
 #include "tests/support/errors.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/spectral/dispersion/model.h"
-#include "ui/state/dielectrics.h"
+#include "ui/state/selection.h"
 
 namespace nephroid::ui::dispersion_edits_test {
 

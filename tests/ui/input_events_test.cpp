@@ -2,7 +2,7 @@
 // Keys and clicks with modifiers that all arrive between two frames.
 #include "headless.h"
 #include "tests/support/test.h"
-#include "ui/shell/input_events.h"
+#include "ui/shell/glfw_window.h"
 
 namespace nephroid::ui::input_events_test {
 

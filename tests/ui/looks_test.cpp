@@ -3,7 +3,9 @@
 #include "image/image.h"
 #include "layered_runs.h"
 #include "ui/state/shown_pixels.h"
+#include "ui/state/tone.h"
 #include "ui/view/camera.h"
+#include "ui/view/camera_text.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::looks_test {
@@ -21,7 +23,7 @@ protected:
     const auto pixels = view().texture().pixels().subspan(4 * static_cast<std::size_t>(64 * y + x));
     return {pixels[0], pixels[1], pixels[2]};
   }
-  static std::array<int, 3> bytes(float r, float g, float b) { return {shown_byte(r, 1), shown_byte(g, 1), shown_byte(b, 1)}; }
+  static std::array<int, 3> bytes(float r, float g, float b) { return {shown_byte(r), shown_byte(g), shown_byte(b)}; }
   const std::string& layer() { return workbench.comparing().comparison().layer; }
   const Look& look() { return workbench.chosen().look; }
   void click_on(const std::string& widget) { click_in(view(), widget, 2); }

@@ -3,7 +3,6 @@
 #include "measure/history_file.h"
 #include "ui/runs/panel.h"
 #include "ui/state/run_record.h"
-#include "ui/state/run_report.h"
 #include "ui/state/session_keeper.h"
 #include "window_fixture.h"
 

@@ -2,7 +2,7 @@
 // The sweep of a preset in the window: opened, edited, saved, undone; its runs in a queue, each pinned; the report over them.
 #include "tests/support/errors.h"
 #include "ui/runs/panel.h"
-#include "ui/runs/sweep_values.h"
+#include "ui/runs/sweep_section.h"
 #include "ui/state/run_record.h"
 #include "ui/state/session_keeper.h"
 #include "window_fixture.h"

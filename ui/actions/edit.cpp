@@ -10,8 +10,6 @@
 namespace nephroid::ui {
 namespace {
 
-using C = const Context&;
-
 bool can_undo(C c) { return c.edits && !c.edits->undo_label().empty(); }
 bool can_redo(C c) { return c.edits && !c.edits->redo_label().empty(); }
 bool has_history(C c) { return c.run.error_history() != nullptr; }

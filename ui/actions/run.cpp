@@ -10,22 +10,19 @@
 namespace nephroid::ui {
 namespace {
 
-bool works(const Context& c)
+bool works(C c)
 {
   const job::State state = c.run.status().state;
   return state == job::State::preparing || state == job::State::running || state == job::State::paused;
 }
 
-bool sweeps(const Context& c) { return c.sweep.active(); }
-bool can_restart(const Context& c) { return has_preset(c) && !sweeps(c); }
-std::string why_no_restart(const Context& c) { return sweeps(c) ? "the sweep is running" : "no preset is open"; }
-bool can_sweep(const Context& c) { return c.edits && !c.edits->sweep().empty() && !sweeps(c); }
-std::string why_no_sweep(const Context& c)
-{
-  return sweeps(c) ? "the sweep is running" : "the preset has no sweep; the panel Runs gives it one";
-}
+bool sweeps(C c) { return c.sweep.active(); }
+bool can_restart(C c) { return has_preset(c) && !sweeps(c); }
+std::string why_no_restart(C c) { return sweeps(c) ? "the sweep is running" : "no preset is open"; }
+bool can_sweep(C c) { return c.edits && !c.edits->sweep().empty() && !sweeps(c); }
+std::string why_no_sweep(C c) { return sweeps(c) ? "the sweep is running" : "the preset has no sweep; the panel Runs gives it one"; }
 
-bool has_runs(const Context& c) { return has_picture(c) || !c.comparing.pinned().all().empty(); }
+bool has_runs(C c) { return has_picture(c) || !c.comparing.pinned().all().empty(); }
 
 /// An action for each engine whose finished runs have a view of what they found.
 void add_result_actions(const char* menu, std::vector<Action>& actions)
@@ -37,16 +34,16 @@ void add_result_actions(const char* menu, std::vector<Action>& actions)
                        fmt::format("Save what a finished run of the engine {} found in a new folder beside the preset, else in the current "
                                    "one, and open it {}",
                                    name_of(*engine), result.what),
-                       [file = result.file](const Context& c) {
+                       [file = result.file](C c) {
                          return has_picture(c) && c.run.snapshot_is_current() &&
                                 std::ranges::count(c.run.snapshot()->files, file, &job::ExtraFile::name) > 0;
                        },
-                       [file = result.file](const Context& c) { c.push(command::OpenResult{file}); },
-                       [engine](const Context&) { return fmt::format("there is no finished run of the engine {}", name_of(*engine)); }});
+                       [file = result.file](C c) { c.push(command::OpenResult{file}); },
+                       [engine](C) { return fmt::format("there is no finished run of the engine {}", name_of(*engine)); }});
   }
 }
 
-void pause(const Context& c) { c.push(command::Pause{c.run.status().state != job::State::paused}); }
+void pause(C c) { c.push(command::Pause{c.run.status().state != job::State::paused}); }
 
 } // namespace
 
@@ -62,9 +59,9 @@ std::vector<Action> run_actions()
       {menu, "Start the sweep", 0, false, "Run the preset with each combination of the values that are swept; each result is pinned",
        can_sweep, push<command::StartSweep>, why_no_sweep},
       {menu, "Stop the sweep", 0, false, "What is done stays pinned; the run of the preset starts again", sweeps, push<command::StopSweep>,
-       [](const Context&) { return std::string("no sweep is running"); }},
+       [](C) { return std::string("no sweep is running"); }},
       {menu, "Write a report...", 0, false, "One page over the pinned runs and this one, as nephroid report makes it", has_runs,
-       ask<Question::save_report>, [](const Context&) { return std::string("there is no run yet"); }},
+       ask<Question::save_report>, [](C) { return std::string("there is no run yet"); }},
   };
   add_result_actions(menu, actions);
   return actions;

@@ -12,7 +12,6 @@
 namespace nephroid::ui {
 namespace {
 
-using C = const Context&;
 using Tool = Handles::Tool;
 
 constexpr double nudge_gesture_s = 0.6; ///< a longer rest starts a new entry to undo

@@ -1,7 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
+// The table, and its small menus: "Camera", whose bookmarks have names in the View's list "Cameras", and "Help".
 #include "ui/actions/table.h"
 
+#include <fmt/format.h>
+
 namespace nephroid::ui {
+namespace {
+
+std::vector<Action> camera_actions()
+{
+  const char* menu = "Camera";
+  std::vector<Action> all{{menu, "Bookmark this camera", ctrl | ImGuiKey_B, false, "Keep where the camera is, to come back", has_preset,
+                           push<command::AddBookmark>}};
+  for (std::size_t i = 0; i < 9; ++i)
+    all.push_back({menu, fmt::format("Go to camera {}", i + 1), ctrl | static_cast<int>(ImGuiKey_1 + i), false,
+                   "The camera of the View's list \"Cameras\"", [i](C c) { return c.preset() && i < c.chosen.bookmarks.size(); },
+                   [i](C c) { c.push(command::GoToBookmark{i}); },
+                   [](C c) { return fmt::format("{} cameras are bookmarked", c.chosen.bookmarks.size()); }});
+  return all;
+}
+
+std::vector<Action> help_actions()
+{
+  const char* menu = "Help";
+  return {
+      {menu, "Commands...", ctrl | shift | ImGuiKey_P, false, "Every action of the window and every preset, by typing some of its letters",
+       always, ask<Question::command>},
+      {menu, "Mouse and keys", ImGuiKey_F1, false, "What the mouse and the keys do", always, push<command::ToggleHelp>},
+  };
+}
+
+} // namespace
 
 std::span<const Action> actions()
 {

@@ -11,8 +11,6 @@
 namespace nephroid::ui {
 namespace {
 
-using C = const Context&;
-
 template <class Change>
 void look(C c, Change change)
 {

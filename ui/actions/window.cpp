@@ -8,8 +8,6 @@
 namespace nephroid::ui {
 namespace {
 
-using C = const Context&;
-
 /// Opens the panel or brings it to the front; closes it where it is seen.
 Action panel_action(const PanelEntry& entry)
 {

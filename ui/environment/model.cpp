@@ -4,7 +4,7 @@
 #include "environment/segment/quality.h"
 #include "environment/settings.h"
 #include "scene/environment.h"
-#include "ui/state/shown_pixels.h"
+#include "ui/state/tone.h"
 
 #include <glm/trigonometric.hpp>
 
@@ -48,7 +48,7 @@ Colour colour_of(const glm::dvec3& flux)
 {
   const double most = std::max({flux.x, flux.y, flux.z});
   if (!(most > 0)) return {};
-  const auto byte = [&](double value) { return shown_byte(static_cast<float>(value / most), 1); };
+  const auto byte = [&](double value) { return shown_byte(static_cast<float>(value / most)); };
   return {byte(flux.x), byte(flux.y), byte(flux.z)};
 }
 

@@ -2,8 +2,8 @@
 // Statistics of a rectangle of pixels: of the run's picture, of the one it is compared with, and of their difference.
 #pragma once
 #include "ui/state/commands.h"
-#include "ui/state/difference.h"
-#include "ui/state/newest_result.h"
+#include "ui/state/comparing.h"
+#include "ui/state/tasks.h"
 
 namespace nephroid::ui {
 

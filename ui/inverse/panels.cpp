@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panels of engine 3.
 #include "ui/inverse/annealing/panel.h"
-#include "ui/widgets/panel_entry.h"
+#include "ui/widgets/panel.h"
 
 namespace nephroid::ui {
 

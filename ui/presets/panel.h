@@ -3,7 +3,6 @@
 // and opened, by the mouse or by the keyboard alone.
 #pragma once
 #include "ui/presets/catalogue.h"
-#include "ui/presets/thumbnails.h"
 #include "ui/widgets/panel.h"
 
 #include <string>

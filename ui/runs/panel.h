@@ -2,16 +2,62 @@
 // The panel "Runs": the run in hand and each pinned run as a table, with what they cost, how far off they are and where their presets
 // differ; buttons to look at one, to take its preset, to pin and unpin, and to write the report over all of them. Above it the sweep.
 #pragma once
-#include "ui/runs/rows.h"
+#include "preset/differences.h"
 #include "ui/runs/sweep_section.h"
+#include "ui/state/context.h"
 #include "ui/widgets/panel.h"
 
+#include <cstdint>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 struct ImVec2;
 
 namespace nephroid::ui {
+
+/// A row as text.
+struct RunRow {
+  std::uint64_t pin = 0; ///< PinnedRun::id; 0: the run in hand
+  std::string name = {};
+  std::uint32_t colour = 0;     ///< IM_COL32
+  std::string engine = "-";     ///< this and all below: "-" where it is not known
+  std::string steps = "-";      ///< "20 passes"
+  std::string seconds = "-";    ///< "0.04 s": of work
+  std::string error = "-";      ///< "0.0123 lab_mean"
+  std::string error_kind = "-"; ///< "estimate", "to its reference"
+  double seconds_value = std::numeric_limits<double>::quiet_NaN(), error_value = std::numeric_limits<double>::quiet_NaN();
+  bool has_picture = false;
+  std::shared_ptr<const preset::Preset> preset = {}; ///< null where it is not known
+};
+
+/// The run in hand first, also before it has a picture, where a preset is open; then the pinned runs in their order.
+std::vector<RunRow> run_rows(const Context& context);
+
+/// Where presets differ from the present one, kept as long as both are asked for.
+class PresetDifferences {
+public:
+  /// Once a frame, before the others.
+  void begin_frame();
+  /// In words for a row: "spectral.threshold_deg: 0.1 -> 0.5, 2 more"; the present one's value comes first.
+  const std::string& in_short(const RunRow& row, const Context& context) { return of(row, context).in_short; }
+  /// A line a difference.
+  const std::string& in_full(const RunRow& row, const Context& context) { return of(row, context).in_full; }
+
+private:
+  struct Known {
+    std::shared_ptr<const preset::Preset> of, present;
+    std::string in_short, in_full;
+    bool used = true;
+  };
+  const Known& of(const RunRow& row, const Context& context);
+  std::vector<std::unique_ptr<Known>> known_;
+};
+
+/// A run's preset in place of the present one, as one edit: names of files mean what they meant; it stays in the present file. A run of
+/// that same file leaves name and description as they are.
+command::Edit taken(const RunRow& row, const preset::Preset& present);
 
 class RunsPanel : public Panel {
 public:

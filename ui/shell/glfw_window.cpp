@@ -2,7 +2,6 @@
 #include "ui/shell/glfw_window.h"
 
 #include "base/error.h"
-#include "ui/shell/input_events.h"
 #include "ui/widgets/theme.h"
 
 #include <GLFW/glfw3.h>
@@ -48,7 +47,30 @@ GLFWwindow* open_glfw(const std::string& title, std::array<int, 2> size)
   throw error;
 }
 
+bool is_modifier(ImGuiKey key) { return (key & ImGuiMod_Mask_) != 0 || ImGui::IsLRModKey(key); }
+
+bool is_press(const ImGuiInputEvent& event)
+{
+  if (event.Type == ImGuiInputEventType_Key) return event.Key.Down && !is_modifier(event.Key.Key);
+  return event.Type == ImGuiInputEventType_MouseWheel; // a click's modifier Dear ImGui itself keeps
+}
+
+bool lets_modifier_go(const ImGuiInputEvent& event)
+{
+  return event.Type == ImGuiInputEventType_Key && !event.Key.Down && is_modifier(event.Key.Key);
+}
+
 } // namespace
+
+void new_frame()
+{
+  ImVector<ImGuiInputEvent>& events = ImGui::GetCurrentContext()->InputEventsQueue;
+  ImGuiInputEvent* const later = std::find_if(std::find_if(events.begin(), events.end(), is_press), events.end(), lets_modifier_go);
+  const std::vector<ImGuiInputEvent> kept(later, events.end());
+  events.resize(static_cast<int>(later - events.begin()));
+  ImGui::NewFrame();
+  for (const ImGuiInputEvent& event : kept) events.push_back(event);
+}
 
 GlfwWindow::GlfwWindow(const std::string& title, std::array<int, 2> size) : window_(open_glfw(title, size)), title_(title)
 {

@@ -61,4 +61,8 @@ private:
   bool back_ends_ = false, activity_ = false;
 };
 
+/// ImGui::NewFrame(), but a modifier that is let go after something was pressed is let go in the next frame. Where Ctrl was held before,
+/// and Z is pressed and Ctrl let go within one frame, Dear ImGui sees Z alone.
+void new_frame();
+
 } // namespace nephroid::ui

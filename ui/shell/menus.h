@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is made of the table of actions: menus, toolbar, shortcuts, and the overlay that says what the mouse and the keys do.
+// What is made of the table of actions: menus, toolbar, shortcuts, the overlay that says what the mouse and the keys do, the command
+// palette.
 #pragma once
 #include "ui/state/context.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/widgets.h"
 
+#include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace nephroid::ui {
 
@@ -23,5 +28,33 @@ struct MouseHabit {
   const char* what;
 };
 std::span<const MouseHabit> mouse_habits();
+
+/// Every action and every shipped preset in one list, found by some of the letters of its name. The keyboard alone is enough: type, up and
+/// down, Enter.
+class Palette {
+public:
+  struct Entry {
+    std::string name, help, keys;
+    const Action* action = nullptr; ///< null: run does it, always
+    std::function<void(const Context&)> run;
+  };
+
+  /// shown: whether it is open (Question::command).
+  void draw(const Context& context, bool shown);
+  /// Those that fit what is typed, the best first; for tests.
+  const std::vector<const Entry*>& matches() const { return matches_; }
+
+private:
+  void begin();
+  void search();
+  void draw_entries(const Context& context);
+  void choose(const Entry& entry, const Context& context) const;
+
+  bool shown_ = false;
+  std::string typed_;
+  std::vector<Entry> entries_; ///< made when it opens
+  std::vector<const Entry*> matches_;
+  std::size_t selected_ = 0; ///< of matches_
+};
 
 } // namespace nephroid::ui

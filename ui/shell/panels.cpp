@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/shell/panels.h"
 
+#include "base/error.h"
 #include "ui/error/panel.h"
 #include "ui/inspector/panel.h"
 #include "ui/parameters/panel.h"
@@ -13,6 +14,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace nephroid::ui {
@@ -36,6 +38,27 @@ std::vector<PanelEntry> make_table()
                              {"presets", PresetsPanel::title, "", make_panel<PresetsPanel>}});
   return table;
 }
+
+std::span<const PanelEntry> tabs() { return panel_table().subspan(1); }
+
+/// The panel of a name; null where there is none.
+const PanelEntry* find_panel(const std::string& name)
+{
+  const auto found = std::find_if(panel_table().begin(), panel_table().end(), [&](const PanelEntry& entry) { return entry.name == name; });
+  return found == panel_table().end() ? nullptr : &*found;
+}
+
+/// The tab in front; null where there is no such layout.
+const PanelEntry* front_tab(const std::string& name, const std::string& engine)
+{
+  if (!name.empty()) return name == panel_table().front().name ? nullptr : find_panel(name);
+  const auto own =
+      std::find_if(tabs().begin(), tabs().end(), [&](const PanelEntry& tab) { return !engine.empty() && tab.front_for == engine; });
+  return own == tabs().end() ? &tabs().front() : &*own;
+}
+
+/// A tab's identifier is that of its window's name in its window (ImGuiWindow::TabId).
+ImGuiID tab_id(const char* title) { return ImHashStr("#TAB", 0, ImHashStr(title)); }
 
 } // namespace
 
@@ -72,5 +95,62 @@ std::vector<std::any> look_around(const preset::Preset& preset, const std::share
     if (entry.look_around && serves(entry, preset)) seen.push_back(entry.look_around(preset, loaded));
   return seen;
 }
+
+void check_layout(const std::string& name)
+{
+  if (front_tab(name, "")) return;
+  std::string names;
+  for (const PanelEntry& tab : tabs()) names += (names.empty() ? "" : ", ") + std::string(tab.name);
+  throw bad_input("--layout", "there is no layout \"" + name + "\"", "expected one of: " + names);
+}
+
+FrontTabs begin_layout(const std::string& name, const std::string& engine, unsigned dock_space, float width, float height)
+{
+  check_layout(name);
+  const PanelEntry& front = *front_tab(name, engine);
+  ImGui::DockBuilderRemoveNode(dock_space);
+  ImGui::DockBuilderAddNode(dock_space, ImGuiDockNodeFlags_DockSpace);
+  ImGui::DockBuilderSetNodeSize(dock_space, {width, height});
+  // The tabs are as wide as a plot with its legend needs; the picture has the rest.
+  const float tab_width = std::clamp(ImGui::GetFontSize() * 28, 0.3f * width, 0.45f * width);
+  ImGuiID at_right = 0, below = 0;
+  ImGuiID picture = ImGui::DockBuilderSplitNode(dock_space, ImGuiDir_Left, 1 - tab_width / std::max(width, 1.0f), nullptr, &at_right);
+  // Beside what an engine's own panel shows the fields are under the picture, so that both are in sight together.
+  const bool fields_below = !front.engine.empty();
+  if (fields_below) picture = ImGui::DockBuilderSplitNode(picture, ImGuiDir_Up, 0.58f, nullptr, &below);
+  ImGui::DockBuilderDockWindow(panel_table().front().title, picture);
+  for (const PanelEntry& tab : tabs()) {
+    const bool is_below = fields_below && (tab.name == "parameters" || tab.name == "presets");
+    ImGui::DockBuilderDockWindow(tab.title, is_below ? below : at_right);
+  }
+  ImGui::DockBuilderGetNode(at_right)->SelectedTabId = tab_id(front.title);
+  ImGui::DockBuilderFinish(dock_space);
+  return {tab_id(front.title)};
+}
+
+FrontTabs restore_layout(const std::string& ini)
+{
+  ImGui::LoadIniSettingsFromMemory(ini.data(), ini.size());
+  const ImGuiWindowSettings* first = ImGui::FindWindowSettingsByID(ImHashStr(tabs().front().title));
+  for (const PanelEntry& entry : panel_table())
+    if (ini.find(std::string("[Window][") + entry.title + "]\n") == std::string::npos)
+      ImGui::DockBuilderDockWindow(entry.title, first ? first->DockId : 0);
+  FrontTabs front;
+  for (const ImGuiStoragePair& node : ImGui::GetCurrentContext()->DockContext.Nodes.Data)
+    if (node.val_p) front.push_back(static_cast<const ImGuiDockNode*>(node.val_p)->SelectedTabId);
+  return front;
+}
+
+void bring_to_front(const FrontTabs& front)
+{
+  for (const PanelEntry& entry : panel_table()) {
+    const ImGuiWindow* window = ImGui::FindWindowByName(entry.title);
+    if (!window || !window->DockNode || std::ranges::count(front, window->TabId) == 0) continue;
+    window->DockNode->SelectedTabId = window->TabId;
+    if (window->DockNode->TabBar) window->DockNode->TabBar->NextSelectedTabId = window->TabId;
+  }
+}
+
+std::string layout_now() { return ImGui::SaveIniSettingsToMemory(); }
 
 } // namespace nephroid::ui

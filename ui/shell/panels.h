@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of panels, a line each (widgets/panel_entry.h). The first is the picture; shell/layout.h says where the others are.
+// The table of panels, a line each; and where they are: as a preset's engine begins with them, and, in Dear ImGui's own words, as a person
+// left them.
 #pragma once
 #include "preset/preset.h"
 #include "run/run.h"
-#include "ui/widgets/panel_entry.h"
+#include "ui/widgets/panel.h"
 
 #include <any>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace nephroid::ui {
 
-/// In the order of their tabs.
+/// In the order of their tabs; the first is the picture.
 std::span<const PanelEntry> panel_table();
 /// All but the picture can be closed.
 bool can_close(const PanelEntry& entry);
@@ -24,5 +26,20 @@ bool is_seen(const PanelEntry& entry);
 bool serves(const PanelEntry& entry, const preset::Preset& preset);
 /// What the panels of the preset's engine look for in a scene (LookAround of state/device_runs.h).
 std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded);
+
+/// Throws bad_input naming the layouts there are: each is named after the panel that is in front of the tabs. Empty is the engine's own.
+void check_layout(const std::string& name);
+
+/// The tabs that are in front, each as ImGuiWindow::TabId.
+using FrontTabs = std::vector<unsigned>;
+/// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right. engine: of the
+/// preset. Inside of a frame, before the panels.
+FrontTabs begin_layout(const std::string& name, const std::string& engine, unsigned dock_space, float width, float height);
+/// As layout_now() had it; panels that it does not know are tabs beside the first one. Inside of a frame, before the dock space.
+FrontTabs restore_layout(const std::string& ini);
+/// In the frames after either: tabs that come up may go before those that shall be in front.
+void bring_to_front(const FrontTabs& tabs);
+/// Where every panel is, as Dear ImGui writes it.
+std::string layout_now();
 
 } // namespace nephroid::ui

@@ -2,25 +2,22 @@
 // What the window shows while no preset is open: what the three engines do, the presets, the devices, and what to do where there is none.
 #pragma once
 #include "compute/compute.h"
-#include "ui/presets/thumbnails.h"
+#include "ui/presets/catalogue.h"
 #include "ui/state/context.h"
 #include "ui/widgets/panel.h"
-#include "ui/widgets/widgets.h"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace nephroid::ui {
 
-class StartPage {
+/// Names a card's button by its preset, for place_of.
+class StartPage : public Placed {
 public:
   /// In the window's area between the menu bar and the status line. presets: the panel of that name, which is a part of the page.
   /// to_presets: the keyboard goes to it.
   void draw(const Context& context, Panel& presets, bool to_presets);
-  /// For tests: the middle of a button on the screen; of a card's by the name of its preset.
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 private:
   struct Devices {
@@ -34,7 +31,6 @@ private:
   std::vector<std::filesystem::path> pictures_; ///< of the cards
   TaskKey asking_;
   std::optional<Devices> devices_; ///< nothing before drivers have answered, which may take seconds
-  WidgetPlaces places_;
 };
 
 } // namespace nephroid::ui

@@ -93,9 +93,9 @@ Commands Workspace::draw(Workbench& workbench)
   plots_.follow_scale();
   guarded("menu", commands, [&] {
     if (ImGui::BeginMainMenuBar()) {
-      menu_places_.clear();
-      draw_menus(context, menu_places_);
-      draw_toolbar(context, menu_places_);
+      places_.clear();
+      draw_menus(context, places_);
+      draw_toolbar(context, places_);
       ImGui::EndMainMenuBar();
     }
     run_shortcuts(context, workbench.question() != Question::none, workbench.help_shown());

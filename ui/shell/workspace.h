@@ -2,13 +2,11 @@
 // One frame of the whole window, from menu bar to status line, without a back end: the window and the tests draw the same thing.
 #pragma once
 #include "ui/shell/dialogs.h"
-#include "ui/shell/layout.h"
-#include "ui/shell/palette.h"
+#include "ui/shell/menus.h"
 #include "ui/shell/panels.h"
 #include "ui/shell/start_page.h"
 #include "ui/state/workbench.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/widgets.h"
 
 #include <array>
 #include <memory>
@@ -19,7 +17,8 @@
 
 namespace nephroid::ui {
 
-class Workspace {
+/// Names menus and the toolbar for place_of as menus.h does.
+class Workspace : public Placed {
 public:
   /// Throws bad_input where there is no such layout.
   explicit Workspace(std::string layout = {});
@@ -40,8 +39,6 @@ public:
 
   const Palette& palette() const { return palette_; }
   const StartPage& start_page() const { return start_page_; }
-  /// Of menus and toolbar, as menus.h names them; for tests.
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return menu_places_.of(widget); }
 
 private:
   struct Open {
@@ -66,7 +63,6 @@ private:
   Dialogs dialogs_;
   Palette palette_;
   StartPage start_page_;
-  WidgetPlaces menu_places_;
 };
 
 } // namespace nephroid::ui

@@ -1,15 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run in hand held against another picture: pinned runs, the one that is chosen, and the map of their difference.
+// The run in hand held against another picture: pinned runs, the one that is chosen, and the map of their difference in false colour, made
+// beside the frames: FLIP of a large picture takes seconds, a frame 16 ms.
 #pragma once
+#include "measure/difference.h"
 #include "ui/state/commands.h"
-#include "ui/state/difference.h"
 #include "ui/state/pinned_runs.h"
 #include "ui/state/run_in_hand.h"
+#include "ui/state/tasks.h"
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace nephroid::ui {
+
+/// A picture with whatever keeps its pixels alive.
+struct HeldPicture {
+  std::shared_ptr<const void> owner; ///< null: there is no picture
+  measure::Pixels pixels;
+};
+
+struct DifferenceRequest {
+  HeldPicture picture, other;
+  measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
+  double scale = 0; ///< as Comparison::scale
+};
+
+struct ShownDifference {
+  DifferenceRequest of;
+  std::shared_ptr<const std::vector<float>> values; ///< a value a pixel; null where there is no map
+  std::vector<unsigned char> rgba;                  ///< 4 a pixel
+  double scale = 1;                                 ///< the value at the end of the colours
+  std::string error;                                ///< why there is no map
+};
 
 class Comparing {
 public:
@@ -44,14 +67,14 @@ public:
     comparison_.layer.clear();
   }
   /// Once a frame: asks for the map of what is shown now.
-  void update(NewestDifference::Clock::time_point now);
+  void update(TaskQueue::Clock::time_point now);
 
 private:
   const RunInHand& run_;
   TaskQueue& tasks_;
   PinnedRuns pinned_;
   Comparison comparison_;
-  NewestDifference difference_;
+  NewestResult<ShownDifference> difference_;
 };
 
 } // namespace nephroid::ui

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where what it asks for goes. Made anew for every frame.
 #pragma once
-#include "ui/state/bookmarks.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
 #include "ui/state/recent_files.h"
 #include "ui/state/run_in_hand.h"
+#include "ui/state/selection.h"
 #include "ui/state/settings.h"
 #include "ui/state/sweep_queue.h"
 #include "ui/state/tasks.h"

@@ -3,7 +3,7 @@
 // one run to the next, so that moving the camera loads and builds nothing again. With a kernels folder (--kernels) it watches that.
 #pragma once
 #include "compute/compute.h"
-#include "ui/state/run_source.h"
+#include "ui/state/run_in_hand.h"
 
 #include <atomic>
 #include <condition_variable>

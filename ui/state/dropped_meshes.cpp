@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "preset/read.h"
 #include "scene/mesh.h"
-#include "ui/state/dielectrics.h"
 #include "ui/state/selection.h"
 
 #include <fmt/format.h>

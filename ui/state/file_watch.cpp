@@ -4,6 +4,7 @@
 #include "preset/read.h"
 
 #include <chrono>
+#include <map>
 
 namespace nephroid::ui {
 namespace {

@@ -18,6 +18,7 @@
 #include <string_view>
 
 namespace nephroid::ui {
+namespace fs = std::filesystem;
 namespace {
 
 struct KnownKind {
@@ -53,7 +54,7 @@ std::string engines_for_pictures()
 }
 
 /// Writes the PNG; returns what else is worth saying of it.
-std::string write_shown(const std::filesystem::path& file, const PictureToSave& shown)
+std::string write_shown(const fs::path& file, const PictureToSave& shown)
 {
   if (!shown.why_not.empty()) throw failed(file.string(), "nothing to save: " + shown.why_not, "", "show the picture, then save it");
   const measure::Pixels& pixels = shown.picture.pixels;
@@ -73,17 +74,6 @@ std::string write_shown(const std::filesystem::path& file, const PictureToSave& 
   return fmt::format(", false colour of {:.3g} to {:.3g} W/m2/sr", tone.range.low, tone.range.high);
 }
 
-/// free_name(), made: whoever makes another one at the same time has another name.
-std::filesystem::path make_new_folder(const std::filesystem::path& path)
-{
-  std::error_code error;
-  while (true) {
-    const std::filesystem::path folder = free_name(path);
-    if (std::filesystem::create_directories(folder, error)) return folder;
-    if (error) throw failed(folder.string(), "cannot be made: " + error.message());
-  }
-}
-
 /// Null: of no kind but a preset's.
 const KnownKind* known_kind(const std::string& ending)
 {
@@ -94,7 +84,7 @@ const KnownKind* known_kind(const std::string& ending)
 }
 
 /// Whether the first character that is no white space opens a JSON object. An empty file may become one: reading it says so.
-bool may_be_object(const std::filesystem::path& file)
+bool may_be_object(const fs::path& file)
 {
   std::ifstream in(file, std::ios::binary);
   char first = '{';
@@ -104,7 +94,7 @@ bool may_be_object(const std::filesystem::path& file)
 
 } // namespace
 
-FileKind kind_of(const std::filesystem::path& file)
+FileKind kind_of(const fs::path& file)
 {
   const KnownKind* kind = known_kind(lower_case(file.extension().string()));
   return kind ? kind->kind : FileKind::other;
@@ -113,9 +103,9 @@ FileKind kind_of(const std::filesystem::path& file)
 void refuse_other_kinds(const std::string& name)
 {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(name, ignored)) return;
+  if (!fs::is_regular_file(name, ignored)) return;
   constexpr const char* expected = "the window opens presets";
-  const std::string ending = lower_case(std::filesystem::path(name).extension().string());
+  const std::string ending = lower_case(fs::path(name).extension().string());
   if (const KnownKind* kind = known_kind(ending))
     throw bad_input(name, kind->what, expected, fmt::format(fmt::runtime(kind->remedy), name, engines_for_pictures()));
   if (ending != ".json" && !may_be_object(name))
@@ -123,12 +113,12 @@ void refuse_other_kinds(const std::string& name)
                     "see `nephroid presets` for those that are shipped");
 }
 
-std::filesystem::path save_target(const preset::Preset* preset)
+fs::path save_target(const preset::Preset* preset)
 {
   if (!preset || preset->source.empty()) return {};
-  const std::filesystem::path source = preset->source;
+  const fs::path source = preset->source;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(source, ignored) || !preset::shipped_name(source).empty()) return {};
+  if (!fs::is_regular_file(source, ignored) || !preset::shipped_name(source).empty()) return {};
   return source;
 }
 
@@ -140,17 +130,28 @@ std::string parent_to_keep(const preset::Preset& preset)
 
 std::string proposed_name(const preset::Preset* preset, const std::string& ending)
 {
-  return (!preset || preset->source.empty() ? "untitled" : std::filesystem::path(preset->source).stem().string()) + ending;
+  return (!preset || preset->source.empty() ? "untitled" : fs::path(preset->source).stem().string()) + ending;
 }
 
-std::filesystem::path free_name(const std::filesystem::path& path)
+fs::path free_name(const fs::path& path)
 {
-  std::filesystem::path free = path;
-  for (int n = 2; is_there(free); ++n) free = path.string() + fmt::format("-{}", n);
+  fs::path free = path;
+  std::error_code ignored;
+  for (int n = 2; fs::exists(fs::symlink_status(free, ignored)); ++n) free = path.string() + fmt::format("-{}", n);
   return free;
 }
 
-std::string save_picture(const std::filesystem::path& file, const job::Picture& picture, const PictureToSave& shown)
+fs::path make_new_folder(const fs::path& path)
+{
+  while (true) { // whoever makes another one at the same time has another name
+    std::error_code error;
+    fs::path folder = free_name(path);
+    if (fs::create_directory(folder, error)) return folder;
+    if (error && error != std::errc::file_exists) throw failed(folder.string(), "cannot be made: " + error.message());
+  }
+}
+
+std::string save_picture(const fs::path& file, const job::Picture& picture, const PictureToSave& shown)
 {
   const std::string extension = lower_case(file.extension().string());
   if (extension == ".png") return "saved " + file.string() + write_shown(file, shown);
@@ -161,9 +162,9 @@ std::string save_picture(const std::filesystem::path& file, const job::Picture& 
   return "saved " + file.string();
 }
 
-std::filesystem::path save_files(const std::filesystem::path& folder, const job::Snapshot& of, TaskControl& control)
+fs::path save_files(const fs::path& folder, const job::Snapshot& of, TaskControl& control)
 {
-  const std::filesystem::path new_folder = make_new_folder(folder);
+  const fs::path new_folder = make_new_folder(folder);
   for (std::size_t i = 0; i < of.files.size(); ++i) {
     control.progress(static_cast<double>(i) / static_cast<double>(of.files.size()));
     write_file_whole(new_folder / of.files[i].name, of.files[i].write);

@@ -4,7 +4,7 @@
 #include "job/job.h"
 #include "preset/preset.h"
 #include "ui/state/commands.h"
-#include "ui/state/difference.h"
+#include "ui/state/comparing.h"
 #include "ui/state/tasks.h"
 
 #include <filesystem>
@@ -38,6 +38,8 @@ std::string proposed_name(const preset::Preset* preset, const std::string& endin
 
 /// The path, or where something is there already, may be edited since, the first of PATH-2, PATH-3, ... where nothing is.
 std::filesystem::path free_name(const std::filesystem::path& path);
+/// Makes a folder that nobody had, the free_name() of this one, which is returned. Throws failed where it cannot be made.
+std::filesystem::path make_new_folder(const std::filesystem::path& path);
 
 /// The View's picture, for a file.
 struct PictureToSave {

@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <system_error>
@@ -52,20 +51,10 @@ std::vector<RecentFile> read_list(const fs::path& file)
   std::vector<RecentFile> files;
   for (const Json& item : json["recent"]) {
     if (files.size() == RecentFiles::limit) break;
-    const auto same = [&](const RecentFile& other) { return item.is_object() && item.value("file", Json()) == Json(other.file); };
-    if (std::any_of(files.begin(), files.end(), same)) continue;
-    if (auto entry = entry_of(item)) files.push_back(*std::move(entry));
+    if (auto entry = entry_of(item); entry && std::ranges::find(files, entry->file, &RecentFile::file) == files.end())
+      files.push_back(*std::move(entry));
   }
   return files;
-}
-
-void write_list(const fs::path& file, const std::vector<RecentFile>& files)
-{
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  Json list = Json::array();
-  for (const RecentFile& entry : files) list.push_back({{"file", entry.file}, {"opened", entry.opened}});
-  write_file_whole(file, json_text(Json{{"recent", list}}) + "\n");
 }
 
 } // namespace
@@ -95,7 +84,11 @@ std::function<void()> RecentFiles::writer() const
   return [list = list_, files = files_] {
     if (list.empty()) return;
     try {
-      write_list(list, files);
+      std::error_code error;
+      fs::create_directories(list.parent_path(), error);
+      Json recent = Json::array();
+      for (const RecentFile& entry : files) recent.push_back({{"file", entry.file}, {"opened", entry.opened}});
+      write_file_whole(list, json_text(Json{{"recent", recent}}) + "\n");
     } catch (const Error& error) {
       throw error.noting("recent files are not remembered");
     }
@@ -116,22 +109,21 @@ void write_thumbnail(const fs::path& file, const job::Picture& picture, double e
   const double shrink = std::min({1.0, double(thumbnail_width) / picture.width, double(thumbnail_height) / picture.height});
   const int width = std::max(1, static_cast<int>(std::lround(picture.width * shrink)));
   const int height = std::max(1, static_cast<int>(std::lround(picture.height * shrink)));
+  const auto index = [](int wide, int x, int y) {
+    return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(wide) + static_cast<std::size_t>(x));
+  };
   // Each pixel is the mean of those that it covers.
-  std::vector<float> rgb(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  std::vector<float> rgb(index(width, 0, height));
   const auto first = [](int i, int small, int large) { return static_cast<int>(std::int64_t{i} * large / small); };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int x0 = first(x, width, picture.width), x1 = std::max(x0 + 1, first(x + 1, width, picture.width));
       const int y0 = first(y, height, picture.height), y1 = std::max(y0 + 1, first(y + 1, height, picture.height));
-      for (int c = 0; c < 3; ++c) {
+      for (std::size_t c = 0; c < 3; ++c) {
         double sum = 0;
         for (int v = y0; v < y1; ++v)
-          for (int u = x0; u < x1; ++u)
-            sum += double(
-                picture.rgb[3 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(u)) +
-                            static_cast<std::size_t>(c)]);
-        rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) +
-            static_cast<std::size_t>(c)] = static_cast<float>(sum / ((x1 - x0) * (y1 - y0)));
+          for (int u = x0; u < x1; ++u) sum += double(picture.rgb[index(picture.width, u, v) + c]);
+        rgb[index(width, x, y) + c] = static_cast<float>(sum / ((x1 - x0) * (y1 - y0)));
       }
     }
   std::error_code ignored;

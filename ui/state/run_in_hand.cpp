@@ -17,18 +17,13 @@ constexpr std::chrono::seconds patience_with_parts{1};
 /// Filled on the worker's thread when a run was made ready.
 struct RunInHand::Arrival {
   std::mutex mutex;
-  std::shared_ptr<const plan::Plan> plan; ///< null: not yet
-  std::shared_ptr<const measure::Reference> reference;
-  std::vector<std::any> seen;
-  compute::DeviceInfo device;
+  std::optional<NewRun> run;                    ///< nothing: not yet
   std::shared_ptr<const preset::Preset> preset; ///< that it was made of
 };
 
 void RunInHand::forget()
 {
-  plan_.reset();
-  reference_.reset();
-  seen_.clear();
+  newest_ = {};
   snapshot_.reset();
   snapshot_origin_ = {};
 }
@@ -37,13 +32,11 @@ std::function<std::unique_ptr<job::Job>()> RunInHand::maker() const
 {
   return [&source = source_, preset = preset_, arrival = arrival_] {
     NewRun run = source.make(*preset);
+    std::unique_ptr<job::Job> job = std::move(run.job);
     const std::lock_guard lock(arrival->mutex);
-    arrival->plan = std::move(run.plan);
-    arrival->reference = std::move(run.reference);
-    arrival->seen = std::move(run.seen);
-    arrival->device = std::move(run.device);
+    arrival->run = std::move(run);
     arrival->preset = preset;
-    return std::move(run.job);
+    return job;
   };
 }
 
@@ -96,7 +89,7 @@ void RunInHand::adopt_or_start(const UndoStack& edits)
   if (lent_) return;
   if (kernels_changed_ || !preset_ || !engine::adoptable(*preset_, edits.current())) return start(edits);
   take_over(edits);
-  reference_.reset(); // it is of the old light
+  newest_.reference.reset(); // it is of the old light
   adoption_ = worker_.adopt(preset_, maker());
 }
 
@@ -117,12 +110,9 @@ void RunInHand::take_arrival()
 {
   if (!arrival_) return;
   const std::lock_guard lock(arrival_->mutex);
-  if (!arrival_->plan) return;
-  plan_ = std::exchange(arrival_->plan, nullptr);
-  reference_ = std::exchange(arrival_->reference, nullptr);
-  seen_ = std::exchange(arrival_->seen, {});
-  device_ = std::exchange(arrival_->device, {});
-  if (arrival_->preset != preset_) reference_.reset(); // it is of another light
+  if (!arrival_->run) return;
+  newest_ = *std::exchange(arrival_->run, std::nullopt);
+  if (arrival_->preset != preset_) newest_.reference.reset(); // it is of another light
 }
 
 /// Parts of a picture on black would hide a whole one of the run before: they are shown only where there is none, or the run is slow.
@@ -162,7 +152,7 @@ void RunInHand::update(const UndoStack* edits)
   spectrum_ = worker_.spectrum();
   const bool is_new = take_snapshot();
   take_arrival(); // it was left there before the run's first snapshot
-  if (is_new && snapshot_->adoption >= adoption_) snapshot_origin_ = {preset_, plan_, reference_, device_};
+  if (is_new && snapshot_->adoption >= adoption_) snapshot_origin_ = {preset_, newest_.plan, newest_.reference, newest_.device};
   report_failure();
   if (!edits) return;
   if (source_.take_changed()) {

@@ -2,10 +2,12 @@
 // The run of the preset that is being edited: started, replaced or told of another light when the preset changes; its newest picture
 // and what came with it. Never waits for a device.
 #pragma once
+#include "compute/compute.h"
 #include "job/worker.h"
+#include "measure/reference.h"
+#include "plan/plan.h"
 #include "preset/preset.h"
 #include "ui/state/messages.h"
-#include "ui/state/run_source.h"
 #include "ui/state/undo.h"
 
 #include <any>
@@ -18,6 +20,29 @@
 #include <vector>
 
 namespace nephroid::ui {
+
+struct NewRun {
+  std::unique_ptr<job::Job> job;
+  std::shared_ptr<const plan::Plan> plan;
+  std::shared_ptr<const measure::Reference> reference; ///< what it is measured against; null where there is none
+  std::vector<std::any> seen = {};                     ///< what panels looked for in the loaded scene: RunInHand::seen
+  compute::DeviceInfo device = {};                     ///< that it works on
+};
+
+/// Where the workbench gets its runs from: the program gives ui/state/device_runs.h with a device, tests give jobs of their own.
+class RunSource {
+public:
+  virtual ~RunSource() = default;
+  /// On the worker's thread only. What it throws is why the run failed.
+  virtual NewRun make(const preset::Preset& preset) = 0;
+  /// From any thread, at once: the next make() reads every file anew; and opens the device anew, which a run may have lost.
+  virtual void reread_files() {}
+  virtual void reopen_device() {}
+  /// From any thread, at once: whether kernels are being compiled.
+  virtual bool compiling() const { return false; }
+  /// From any thread, at once: true once after what every run is made of (the kernels) changed.
+  virtual bool take_changed() = 0;
+};
 
 /// What a run is made of, and on what.
 struct RunOrigin {
@@ -75,16 +100,16 @@ public:
   /// What the run's error was so far, of snapshot(); null where nothing is measured.
   std::shared_ptr<const job::History> error_history() const { return snapshot_ ? snapshot_->history : nullptr; }
   /// Of the newest run that was made ready; null before the first of a preset. Another plan is another object.
-  const std::shared_ptr<const plan::Plan>& plan() const { return plan_; }
+  const std::shared_ptr<const plan::Plan>& plan() const { return newest_.plan; }
   /// What that run is measured against; null where there is nothing.
-  const std::shared_ptr<const measure::Reference>& reference() const { return reference_; }
+  const std::shared_ptr<const measure::Reference>& reference() const { return newest_.reference; }
   /// Whether the preset of the run has a reference, which may still be on its way.
   bool has_reference() const { return preset_ && preset_->reference; }
   /// What a panel looked for in the loaded scene of that run (shell/panels.h); null as plan(), and where the run's source did not look.
   template <class T>
   std::shared_ptr<const T> seen() const
   {
-    for (const std::any& sight : seen_)
+    for (const std::any& sight : newest_.seen)
       if (const auto* found = std::any_cast<std::shared_ptr<const T>>(&sight)) return *found;
     return nullptr;
   }
@@ -117,10 +142,7 @@ private:
   std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
   std::shared_ptr<const job::PixelSpectrum> spectrum_;
   std::shared_ptr<Arrival> arrival_; ///< where the run in hand leaves what came with it
-  std::shared_ptr<const plan::Plan> plan_;
-  std::shared_ptr<const measure::Reference> reference_;
-  std::vector<std::any> seen_;
-  compute::DeviceInfo device_; ///< of the newest run that was made ready
+  NewRun newest_;                    ///< that was made ready, without its job, which the worker has
   RunOrigin snapshot_origin_;
   std::string name_, snapshot_name_;
   job::Worker worker_; ///< last: its thread uses the source

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/run_record.h"
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
@@ -8,15 +9,23 @@
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
 #include "preset/read.h"
+#include "report/data.h"
+#include "report/report.h"
 #include "run/picture.h"
 #include "run/run.h"
+#include "ui/state/files.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <set>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace nephroid::ui {
 namespace {
@@ -47,38 +56,9 @@ std::string renamed(const std::string& text, const std::string& name)
   return json_text(json, 2) + "\n";
 }
 
-void write_own_run(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further)
-{
-  const RunOrigin& origin = *run.record->origin;
-  run::Prepared prepared{*origin.preset, nullptr, origin.plan};
-  if (!name.empty()) prepared.preset.name = name;
-  job::Snapshot snapshot = *run.record->snapshot;
-  snapshot.picture = run.picture;
-  if (!further) snapshot.pictures.clear();
-  run::write_run(folder, prepared, origin.device, snapshot, origin.reference.get(), run.record->finished);
-}
-
-/// What was read, without what the folder had beside it.
-void write_read_run(const fs::path& folder, const PinnedRun& run, const std::string& name)
-{
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw failed(folder.string(), "cannot be made: " + error.message());
-  write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
-  if (run.picture) image::write_exr(folder / "image.exr", run::with_layers(*run.picture));
-  if (!run.record) return;
-  for (const auto& [file, text] : run.record->texts) {
-    const bool moved = file == std::string("preset.json") && run.record->preset;
-    write_file_whole(folder / file, renamed(moved ? preset::to_json(*run.record->preset, folder) + "\n" : text, name));
-  }
-}
-
 } // namespace
 
-namespace {
-
-/// Everything but what the run's folder is written from.
-RunRecord figures_now(const RunInHand& run)
+PinnedRun look_at_run(const RunInHand& run)
 {
   const job::Progress& progress = run.snapshot()->progress;
   RunRecord record;
@@ -88,11 +68,6 @@ RunRecord figures_now(const RunInHand& run)
   record.finished = progress.fraction >= 1 && !run.snapshot()->stands_in;
   record.preset = run.snapshot_origin().preset;
   if (record.preset) record.engine = record.preset->settings.engine();
-  return record;
-}
-
-PinnedRun with_record(const RunInHand& run, RunRecord record)
-{
   PinnedRun now;
   now.name = run.snapshot_name();
   now.history = run.error_history() ? run.error_history() : std::make_shared<job::History>();
@@ -101,21 +76,19 @@ PinnedRun with_record(const RunInHand& run, RunRecord record)
   return now;
 }
 
-} // namespace
-
-PinnedRun look_at_run(const RunInHand& run) { return with_record(run, figures_now(run)); }
-
 PinnedRun run_now(const RunInHand& run)
 {
-  RunRecord record = figures_now(run);
+  PinnedRun now = look_at_run(run);
   if (const RunOrigin& origin = run.snapshot_origin(); origin.preset && origin.plan) {
-    record.origin = origin;
+    auto record = std::make_shared<RunRecord>(*now.record);
+    record->origin = origin;
     auto kept = std::make_shared<job::Snapshot>(*run.snapshot());
     kept->picture.reset();
     kept->files.clear(); // a mesh can be as large as the memory
-    record.snapshot = std::move(kept);
+    record->snapshot = std::move(kept);
+    now.record = std::move(record);
   }
-  return with_record(run, std::move(record));
+  return now;
 }
 
 std::vector<PinnedRun> runs_of_table(const Comparing& comparing, const RunInHand& run)
@@ -170,10 +143,96 @@ std::string why_no_folder(const PinnedRun& run)
 
 void write_run_folder(const fs::path& folder, const PinnedRun& run, const std::string& name, bool further)
 {
-  if (run.record && run.record->origin)
-    write_own_run(folder, run, name, further);
-  else
-    write_read_run(folder, run, name);
+  if (run.record && run.record->origin) {
+    const RunOrigin& origin = *run.record->origin;
+    run::Prepared prepared{*origin.preset, nullptr, origin.plan};
+    if (!name.empty()) prepared.preset.name = name;
+    job::Snapshot snapshot = *run.record->snapshot;
+    snapshot.picture = run.picture;
+    if (!further) snapshot.pictures.clear();
+    return run::write_run(folder, prepared, origin.device, snapshot, origin.reference.get(), run.record->finished);
+  }
+  // What was read, without what the folder had beside it.
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw failed(folder.string(), "cannot be made: " + error.message());
+  write_file_whole(folder / "history.csv", measure::to_csv(*run.history));
+  if (run.picture) image::write_exr(folder / "image.exr", run::with_layers(*run.picture));
+  if (!run.record) return;
+  for (const auto& [file, text] : run.record->texts) {
+    const bool moved = file == std::string("preset.json") && run.record->preset;
+    write_file_whole(folder / file, renamed(moved ? preset::to_json(*run.record->preset, folder) + "\n" : text, name));
+  }
+}
+
+namespace {
+
+std::string folder_name(std::size_t number, const std::string& name)
+{
+  constexpr std::size_t longest = 40;
+  std::string plain = name.substr(0, longest);
+  for (char& c : plain)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._-+=,").find(c) == std::string_view::npos) c = '-';
+  return fmt::format("{:02}-{}", number, plain);
+}
+
+/// Whether the folder still holds the run that was read from it.
+bool is_still_there(const RunRecord& record)
+{
+  if (record.folder.empty()) return false;
+  try {
+    return std::ranges::all_of(record.texts, [&](const auto& file) { return read_file(record.folder / file.first) == file.second; });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Removes what was written unless it is kept.
+struct Written {
+  fs::path folder; ///< claimed; empty while nothing was written
+  bool keep = false;
+  ~Written()
+  {
+    std::error_code ignored;
+    if (!keep && !folder.empty()) fs::remove_all(folder, ignored);
+  }
+};
+
+} // namespace
+
+std::string write_report(const fs::path& file, std::span<const PinnedRun> runs)
+{
+  if (file.extension() != ".html") throw bad_input(file.string(), "a report is a page", "expected a name that ends in .html");
+  std::string left_out;
+  std::vector<const PinnedRun*> taken;
+  for (const PinnedRun& run : runs) {
+    std::string why = why_no_folder(run);
+    if (taken.size() == report::max_runs) why = fmt::format("a page has at most {} runs", report::max_runs);
+    if (why.empty())
+      taken.push_back(&run);
+    else
+      left_out += fmt::format("{}\"{}\": {}", left_out.empty() ? "" : "; ", run.name, why);
+  }
+  if (taken.empty())
+    throw bad_input(file.string(), "there is no run for a report" + (left_out.empty() ? "" : " (" + left_out + ")"),
+                    "expected finished runs", "wait until the run is finished, or pin finished ones");
+  Written written;
+  std::vector<fs::path> folders;
+  std::set<fs::path> seen;
+  for (const PinnedRun* run : taken) {
+    if (is_still_there(*run->record)) {
+      if (seen.insert(run->record->folder).second) folders.push_back(run->record->folder); // else pinned twice
+      continue;
+    }
+    if (written.folder.empty()) written.folder = make_new_folder(file.parent_path() / (file.stem().string() + "-runs"));
+    folders.push_back(written.folder / folder_name(folders.size() + 1, run->name));
+    write_run_folder(folders.back(), *run, run->name, true);
+  }
+  write_file_whole(file, report::report_html(folders));
+  written.keep = true;
+  std::string note = fmt::format("saved {}, a report over {}", file.string(), counted(folders.size(), "run"));
+  if (!written.folder.empty()) note += fmt::format("; their files are in {}", written.folder.string());
+  return left_out.empty() ? note : note + "; left out: " + left_out;
 }
 
 } // namespace nephroid::ui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is known of a run beyond its history and its picture: what it was made of and how far it came. A run that this window made, or
-// one whose folder was read, can be written to a folder again, as `nephroid run` writes one.
+// one whose folder was read, can be written to a folder again, as `nephroid run` writes one, and a report over such runs, as `nephroid
+// report`.
 #pragma once
 #include "job/job.h"
 #include "ui/state/comparing.h"
@@ -12,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,5 +58,11 @@ std::string why_no_folder(const PinnedRun& run);
 /// What there is of a run as its folder, made where it is missing; a report takes it where why_no_folder is empty. name: what the run is
 /// called in its files; empty: as it was. further: with the pictures beside the one that is shown. Throws as run::write_run.
 void write_run_folder(const std::filesystem::path& folder, const PinnedRun& run, const std::string& name, bool further);
+
+/// Writes the page over the runs, in their order. Runs that were read from folders which are still the same are taken from there; the
+/// others are written to numbered folders in a new folder FILE-runs beside the page, which stays, as `nephroid report` can use it again.
+/// Says what was written, and which runs are left out and why. Throws bad_input at `file` where its name does not end in .html or no run is
+/// left, and as report::report_html and run::write_run; the folders are removed again then. Takes as long as the disk does.
+std::string write_report(const std::filesystem::path& file, std::span<const PinnedRun> runs);
 
 } // namespace nephroid::ui

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the preset is selected, so that it can be moved with the mouse or the keys, and with which handles.
+// What of the preset a person has picked: the thing that is moved with the mouse or the keys, and with which handles; the dielectric that
+// is shown; bookmarks of cameras, which are the window's and not the preset's.
 #pragma once
 #include "preset/preset.h"
 
@@ -38,5 +39,25 @@ std::string name_of(const preset::Preset& preset, const Selection& selection);
 std::string unit_word(const preset::Preset& preset);
 /// Where its fields are: "/scene/objects/0". Empty for nothing.
 std::string pointer_of(const Selection& selection);
+
+/// A place to look from.
+struct Bookmark {
+  std::string name;
+  preset::Camera camera;
+  bool operator==(const Bookmark&) const = default;
+};
+
+/// "Prism 2": what the preset is called and the first number that no bookmark has with it.
+std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks);
+/// The bookmark's camera with the resolution of another: going somewhere does not change the picture's size.
+preset::Camera seen_from(const Bookmark& bookmark, const preset::Camera& now);
+
+/// Those that objects are made of, in the order of the objects, then the others by name.
+std::vector<std::string> dielectrics(const preset::Preset& preset);
+/// The one that is shown where `chosen` was asked for: that, else the first; empty where there is none.
+std::string shown_dielectric(const preset::Preset& preset, const std::string& chosen);
+/// A dispersion of a refractiveindex.info file: a path, or the name of a shipped material ("N-SF66"), for a preset from `preset_source`.
+/// Throws bad_input where it cannot be read or has no n at one of the 401 wavelengths.
+preset::Dispersion load_dispersion(const std::string& file, const std::string& preset_source);
 
 } // namespace nephroid::ui

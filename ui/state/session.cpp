@@ -2,6 +2,7 @@
 #include "ui/state/session.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/json_output.h"
 #include "preset/read.h"
 #include "ui/state/tone.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace nephroid::ui {
 namespace {
@@ -19,80 +19,66 @@ namespace {
 using Json = nlohmann::ordered_json;
 using PresetPtr = std::shared_ptr<const preset::Preset>;
 
-constexpr int version = 1;
+constexpr int session_version = 1, settings_version = 2;
+constexpr std::size_t most_panels = 64;
 
 constexpr std::array tone_names{"standard", "filmic", "false_colour"}; ///< in the order of ToneCurve
 
-Json bookmark_json(const Bookmark& bookmark)
-{
-  const preset::Camera& camera = bookmark.camera;
-  return {{"name", bookmark.name}, {"position", camera.position}, {"target", camera.target},
-          {"up", camera.up},       {"fov_deg", camera.fov_deg},   {"resolution", camera.resolution}};
-}
+/// Dear ImGui trusts what it reads: whatever it did not write itself is refused here.
+std::string checksum(const std::string& ini) { return fmt::format("{:016x}", hash_of(ini)); }
 
-Json look_json(const Look& look)
-{
-  Json json{{"exposure_stops", look.exposure_stops},
-            {"tone", tone_names[static_cast<std::size_t>(look.tone)]},
-            {"fit", look.fit},
-            {"zoom", look.zoom},
-            {"centre", look.centre}};
-  if (look.false_colour) json["false_colour"] = {look.false_colour->low, look.false_colour->high};
-  return json;
-}
-
-double finite(const Json& value, double low, double high)
+double within(const Json& value, double low, double high)
 {
   const double read = value.get<double>();
   if (!(read >= low && read <= high)) throw std::out_of_range(fmt::format("{} is not in {}..{}", read, low, high));
   return read;
 }
 
+template <class T, std::size_t N>
+void read_within(const Json& values, double low, double high, std::array<T, N>& to)
+{
+  for (std::size_t i = 0; i < N; ++i) to[i] = static_cast<T>(within(values.at(i), low, high));
+}
+
 Look read_look(const Json& value)
 {
-  constexpr double far = 1e6;
   Look look;
-  look.exposure_stops = finite(value.at("exposure_stops"), -20, 20);
+  look.exposure_stops = within(value.at("exposure_stops"), -20, 20);
   const auto tone = std::ranges::find(tone_names, value.value("tone", std::string(tone_names[0])));
   if (tone == tone_names.end()) throw std::out_of_range("there is no such tone curve");
   look.tone = static_cast<ToneCurve>(tone - tone_names.begin());
   if (value.contains("false_colour"))
     look.false_colour = valid_range({value["false_colour"].at(0).get<double>(), value["false_colour"].at(1).get<double>()});
   look.fit = value.at("fit").get<bool>();
-  look.zoom = finite(value.at("zoom"), 1.0 / 1024, 1024);
-  for (std::size_t i = 0; i < 2; ++i) look.centre[i] = finite(value.at("centre").at(i), -far, far);
+  look.zoom = within(value.at("zoom"), 1.0 / 1024, 1024);
+  read_within(value.at("centre"), -1e6, 1e6, look.centre);
   return look;
 }
 
 Bookmark read_bookmark(const Json& value)
 {
   constexpr double far = 1e12;
-  const auto vector = [&](const char* key) {
-    preset::Vec3 read{};
-    for (std::size_t i = 0; i < 3; ++i) read[i] = finite(value.at(key).at(i), -far, far);
-    return read;
-  };
   Bookmark bookmark{value.at("name").get<std::string>(), {}};
-  bookmark.camera.position = vector("position");
-  bookmark.camera.target = vector("target");
-  bookmark.camera.up = vector("up");
-  bookmark.camera.fov_deg = finite(value.at("fov_deg"), 0, 180);
-  for (std::size_t i = 0; i < 2; ++i) bookmark.camera.resolution[i] = static_cast<int>(finite(value.at("resolution").at(i), 1, 1 << 20));
+  preset::Camera& camera = bookmark.camera;
+  read_within(value.at("position"), -far, far, camera.position);
+  read_within(value.at("target"), -far, far, camera.target);
+  read_within(value.at("up"), -far, far, camera.up);
+  camera.fov_deg = within(value.at("fov_deg"), 0, 180);
+  read_within(value.at("resolution"), 1, 1 << 20, camera.resolution);
   return bookmark;
 }
 
 /// The entries about the current one.
 UndoStack::State trimmed(UndoStack::State state)
 {
-  while (state.entries.size() > Session::most_entries && state.index > Session::most_entries / 2) {
-    state.entries.pop_front();
-    --state.index;
-    if (state.saved) state.saved = *state.saved > 0 ? std::optional(*state.saved - 1) : std::nullopt;
-  }
-  while (state.entries.size() > Session::most_entries) {
-    state.entries.pop_back();
-    if (state.saved && *state.saved >= state.entries.size()) state.saved.reset();
-  }
+  constexpr std::size_t most = Session::most_entries;
+  auto& [opened, entries, index, saved] = state;
+  if (entries.size() <= most) return state;
+  const std::size_t first = std::min(entries.size() - most, index - std::min(index, most / 2));
+  const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(first);
+  entries = std::deque(begin, begin + most);
+  index -= first;
+  if (saved) saved = *saved >= first && *saved - first < most ? std::optional(*saved - first) : std::nullopt;
   return state;
 }
 
@@ -138,7 +124,60 @@ UndoStack::State read_edits(const Json& value)
   return state;
 }
 
+EngineLayout read_engine_layout(const Json& value)
+{
+  EngineLayout layout{value.at("ini").get<std::string>(), {}};
+  if (value.at("checksum").get<std::string>() != checksum(layout.ini)) throw std::out_of_range("a layout is not as the window wrote it");
+  if (value.at("closed").size() > most_panels) throw std::out_of_range("there are too many panels");
+  value.at("closed").get_to(layout.closed);
+  return layout;
+}
+
+/// Calls read(value) of the text as JSON of this version. Whatever is wrong becomes one error.
+template <class Read>
+auto read_kept(const std::string& text, int version, const Place& source, const std::string& what_is_wrong, const std::string& remedy,
+               Read read)
+{
+  try {
+    const Json value = Json::parse(text);
+    if (value.at("version").get<int>() != version) throw std::out_of_range("it is of another version of the program");
+    return read(value);
+  } catch (const std::exception& error) { // of the JSON library, or of the checks above
+    throw bad_input(source, fmt::format("{} ({})", what_is_wrong, error.what()), "", remedy);
+  }
+}
+
+template <class Read>
+auto read_session(const std::string& text, const std::string& source, Read read)
+{
+  return read_kept(text, session_version, source, "the session cannot be read", "", read);
+}
+
 } // namespace
+
+std::string to_json(const Settings& settings)
+{
+  Json engines = Json::object();
+  for (const auto& [engine, layout] : settings.engines)
+    engines[engine] = {{"closed", layout.closed}, {"ini", layout.ini}, {"checksum", checksum(layout.ini)}};
+  return json_text({{"version", settings_version},
+                    {"theme", settings.theme == Theme::light ? "light" : "dark"},
+                    {"text_size", settings.text_size},
+                    {"engines", engines}},
+                   2);
+}
+
+Settings parse_settings(const std::string& text, const std::string& source)
+{
+  return read_kept(text, settings_version, source, "these are no settings of the window", "delete the file; the window writes a new one",
+                   [](const Json& value) {
+                     Settings settings;
+                     settings.theme = value.at("theme").get<std::string>() == "light" ? Theme::light : Theme::dark;
+                     settings.text_size = within(value.at("text_size"), Settings::smallest_text, Settings::largest_text);
+                     for (const auto& [engine, layout] : value.at("engines").items()) settings.engines[engine] = read_engine_layout(layout);
+                     return settings;
+                   });
+}
 
 /// A preset as JSON, and what makes it of the one before.
 struct SessionText::Known {
@@ -157,16 +196,29 @@ std::string SessionText::of(const Session& session)
     Json patch = before ? Json::diff(before->json, json) : Json();
     return used.emplace_back(std::make_shared<const Known>(Known{preset, before_preset, std::move(json), std::move(patch)}));
   };
-  Json text{{"version", version},
+  const Look& look = session.chosen.look;
+  Json text{{"version", session_version},
             {"closed", session.closed},
-            {"look", look_json(session.chosen.look)},
+            {"look",
+             {{"exposure_stops", look.exposure_stops},
+              {"tone", tone_names[static_cast<std::size_t>(look.tone)]},
+              {"fit", look.fit},
+              {"zoom", look.zoom},
+              {"centre", look.centre}}},
             {"error_metric", session.chosen.error_metric},
             {"material", session.chosen.material}};
+  if (look.false_colour) text["look"]["false_colour"] = {look.false_colour->low, look.false_colour->high};
   text["pins"] = Json::array();
   for (const Session::Pin& pin : session.pins)
     text["pins"].push_back({{"folder", pin.folder}, {"name", pin.name}, {"colour", pin.colour}, {"shown", pin.shown}});
   text["bookmarks"] = Json::array();
-  for (const Bookmark& bookmark : session.chosen.bookmarks) text["bookmarks"].push_back(bookmark_json(bookmark));
+  for (const auto& [name, camera] : session.chosen.bookmarks)
+    text["bookmarks"].push_back({{"name", name},
+                                 {"position", camera.position},
+                                 {"target", camera.target},
+                                 {"up", camera.up},
+                                 {"fov_deg", camera.fov_deg},
+                                 {"resolution", camera.resolution}});
   if (session.edits) {
     const UndoStack::State state = trimmed(*session.edits);
     Json& edits = text["edits"];
@@ -186,23 +238,6 @@ std::string SessionText::of(const Session& session)
   known_ = std::move(used);
   return json_text(text);
 }
-
-namespace {
-
-/// Calls read(value) of the text as JSON. Whatever is wrong becomes one error.
-template <class Read>
-auto read_session(const std::string& text, const std::string& source, Read read)
-{
-  try {
-    const Json value = Json::parse(text);
-    if (value.at("version").get<int>() != version) throw std::out_of_range("it is of another version of the program");
-    return read(value);
-  } catch (const std::exception& error) { // of the JSON library, or of the checks above
-    throw bad_input(source, fmt::format("the session cannot be read ({})", error.what()));
-  }
-}
-
-} // namespace
 
 SessionHeader parse_session_header(const std::string& text, const std::string& source)
 {

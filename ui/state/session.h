@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the window is at, as a file: the preset with its undo, how it is looked at, the pinned runs. A window that was killed is opened
-// again with it. ui/state/session_keeper.h writes and finds the files.
+// again with it. And its settings, as another. ui/state/session_keeper.h writes and finds the files.
 #pragma once
 #include "ui/state/commands.h"
 #include "ui/state/context.h"
 #include "ui/state/undo.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +28,7 @@ struct Session {
   std::optional<UndoStack::State> edits;
   Chosen chosen;
   std::vector<Pin> pins;
+  bool operator==(const Session&) const = default;
 };
 
 /// Makes the text of a session. Keeps what it made of each preset, so that the next text costs only what changed.
@@ -50,5 +50,9 @@ SessionHeader parse_session_header(const std::string& text, const std::string& s
 
 /// Throws bad_input at source where the text is no session, is cut, or holds a preset that cannot be.
 Session parse_session(const std::string& text, const std::string& source);
+
+std::string to_json(const Settings& settings);
+/// Throws bad_input at source where the text is no settings, or holds a value that the window cannot have.
+Settings parse_settings(const std::string& text, const std::string& source);
 
 } // namespace nephroid::ui

@@ -57,11 +57,6 @@ SessionHeader header_of(const fs::path& file)
   }
 }
 
-bool same_state(const Session& a, const Session& b)
-{
-  return a.closed == b.closed && a.edits == b.edits && a.chosen == b.chosen && a.pins == b.pins;
-}
-
 /// Whole, or nothing of it: a folder that is there counts as kept.
 void write_pin(const fs::path& folder, const PinnedRun& run)
 {
@@ -195,7 +190,7 @@ SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
 
 bool SessionKeeper::is_kept(const Work& work) const
 {
-  return newest_ && newest_->replaces == work.replaces && same_state(newest_->session, work.session) && newest_->settings == work.settings;
+  return newest_ && newest_->replaces == work.replaces && newest_->session == work.session && newest_->settings == work.settings;
 }
 
 std::string SessionKeeper::Writer::write(const Work& work)

@@ -26,8 +26,4 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-std::string to_json(const Settings& settings);
-/// Throws bad_input at source where the text is no settings, or holds a value that the window cannot have.
-Settings parse_settings(const std::string& text, const std::string& source);
-
 } // namespace nephroid::ui

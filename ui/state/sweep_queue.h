@@ -6,7 +6,6 @@
 #include "ui/state/comparing.h"
 #include "ui/state/run_in_hand.h"
 
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>

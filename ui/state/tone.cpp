@@ -4,8 +4,6 @@
 #include "image/image.h"
 #include "measure/difference.h"
 #include "measure/lab.h"
-#include "ui/state/byte_table.h"
-#include "ui/state/shown_pixels.h"
 
 #include <algorithm>
 #include <bit>
@@ -19,6 +17,52 @@
 namespace nephroid::ui {
 namespace {
 
+/// Positive floats sort like their bits. Without the last of them they are steps of 0.4 % at most, in which one byte ends at most: those
+/// of sRGB are 0.9 % apart.
+constexpr int left_out_bits = 15;
+
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
+
+/// A rising curve from floats to bytes, by a table: the window does this for every channel of every snapshot.
+/// exact: from a float of 0..end to its byte; rises, by one byte at most within 0.4 % of a value. What lies above the end is shown as 255,
+/// what is not above 0 as exact(0).
+template <unsigned char (*exact)(float)>
+class ByteTable {
+public:
+  explicit ByteTable(float end) : end_(end), bytes_((bits(end) >> left_out_bits) + 1)
+  {
+    for (std::uint32_t i = 0; i < bytes_.size(); ++i) bytes_[i] = exact(std::bit_cast<float>(i << left_out_bits));
+    for (std::uint32_t byte = 0; byte < 256; ++byte) least_[byte] = least_shown_as(byte);
+    least_[256] = std::numeric_limits<float>::infinity();
+  }
+
+  unsigned char operator()(float value) const
+  {
+    value = std::min(std::max(0.0f, value), end_); // NaN: 0
+    const unsigned char byte = bytes_[bits(value) >> left_out_bits];
+    return static_cast<unsigned char>(byte + (value >= least_[byte + 1u])); // no branch: neighbours in a noisy picture are not alike
+  }
+
+private:
+  /// By bisection: the first float of 0..end that is shown as this byte or a greater one; the end, where there is none.
+  float least_shown_as(std::uint32_t byte) const
+  {
+    std::uint32_t low = 0, high = bits(end_);
+    while (low < high) {
+      const std::uint32_t middle = low + (high - low) / 2;
+      if (exact(std::bit_cast<float>(middle)) >= byte)
+        high = middle;
+      else
+        low = middle + 1;
+    }
+    return std::bit_cast<float>(low);
+  }
+
+  float end_;
+  std::vector<unsigned char> bytes_; ///< of each step's first float
+  std::array<float, 257> least_{};   ///< [byte]: the first float that is shown as it
+};
+
 constexpr double brightening = 2, white_point = 11.2; ///< of the filmic curve, as published
 
 double hable(double x)
@@ -27,11 +71,19 @@ double hable(double x)
   return (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f;
 }
 
+unsigned char exact_srgb(float value) { return image::shown(value, 1); }
 unsigned char exact_filmic(float value) { return image::shown(static_cast<float>(filmic(static_cast<double>(value))), 1); }
 
-void filmic_pixels(std::span<const float> rgb, double exposure_stops, std::span<unsigned char> rgba8)
+template <unsigned char (*exact)(float)>
+const ByteTable<exact>& table(float end)
 {
-  static const ByteTable<exact_filmic> bytes(static_cast<float>(white_point / brightening));
+  static const ByteTable<exact> bytes(end);
+  return bytes;
+}
+
+template <class Bytes>
+void pixels_by(const Bytes& bytes, std::span<const float> rgb, double exposure_stops, std::span<unsigned char> rgba8)
+{
   const float scale = static_cast<float>(std::exp2(exposure_stops));
   for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
     for (std::size_t c = 0; c < 3; ++c) rgba8[4 * i + c] = bytes(rgb[3 * i + c] * scale);
@@ -47,22 +99,21 @@ Rgb8 odd_colour(const float* rgb, double luminance, const LuminanceRange& range)
   return luminance < 0 ? negative_colour : luminance_colour(luminance, range);
 }
 
-/// Positive floats sort like their bits: without the last of them they are steps of 0.4 % at most, few enough for a table.
-constexpr int left_out_bits = 15;
-std::uint32_t step_of(double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)) >> left_out_bits; }
+std::uint32_t step_of(double value) { return bits(static_cast<float>(value)) >> left_out_bits; }
 
 void false_colour_pixels(std::span<const float> rgb, const Tone& tone, std::span<unsigned char> rgba8)
 {
   const std::uint32_t first = step_of(tone.range.low), last = std::max(step_of(tone.range.high), first);
-  std::vector<Rgb8> colours;
+  std::vector<Rgb8> colour_of_step;
   for (std::uint32_t i = first; i <= last; ++i)
-    colours.push_back(
+    colour_of_step.push_back(
         luminance_colour(static_cast<double>(std::bit_cast<float>((i << left_out_bits) + (1u << (left_out_bits - 1)))), tone.range));
   for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
     const float* pixel = &rgb[3 * i];
     const double luminance = tone.white * measure::luminance(pixel);
     const bool ordinary = luminance > 0 && luminance <= static_cast<double>(std::numeric_limits<float>::max());
-    const Rgb8 colour = ordinary ? colours[std::clamp(step_of(luminance), first, last) - first] : odd_colour(pixel, luminance, tone.range);
+    const Rgb8 colour =
+        ordinary ? colour_of_step[std::clamp(step_of(luminance), first, last) - first] : odd_colour(pixel, luminance, tone.range);
     std::copy(colour.begin(), colour.end(), &rgba8[4 * i]);
     rgba8[4 * i + 3] = 255;
   }
@@ -134,12 +185,14 @@ void toned_pixels(std::span<const float> rgb, const Tone& tone, std::span<unsign
 {
   switch (tone.curve) {
   case ToneCurve::standard:
-    return shown_pixels(rgb, tone.exposure_stops, rgba8);
+    return pixels_by(table<exact_srgb>(1), rgb, tone.exposure_stops, rgba8);
   case ToneCurve::filmic:
-    return filmic_pixels(rgb, tone.exposure_stops, rgba8);
+    return pixels_by(table<exact_filmic>(static_cast<float>(white_point / brightening)), rgb, tone.exposure_stops, rgba8);
   case ToneCurve::false_colour:
     return false_colour_pixels(rgb, tone, rgba8);
   }
 }
+
+unsigned char shown_byte(float linear) { return table<exact_srgb>(1)(linear); }
 
 } // namespace nephroid::ui

@@ -41,4 +41,7 @@ Rgb8 luminance_colour(double luminance, const LuminanceRange& range);
 /// that colour, and so has one whose luminance is negative; channels may be negative where a colour lies outside of sRGB.
 void toned_pixels(std::span<const float> rgb, const Tone& tone, std::span<unsigned char> rgba8);
 
+/// The same byte as image::shown(linear, 1), by a table. NaN is shown as image::shown shows 0.
+unsigned char shown_byte(float linear);
+
 } // namespace nephroid::ui

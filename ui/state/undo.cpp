@@ -16,7 +16,7 @@ UndoStack::UndoStack(preset::Preset opened, preset::Sweep sweep)
 
 void UndoStack::push(std::string label, preset::Preset preset, preset::Sweep sweep)
 {
-  const std::shared_ptr<const preset::Preset> before = state_.entries[state_.index].preset;
+  const std::shared_ptr<const preset::Preset> before = shared();
   push(std::move(label), std::move(preset));
   Entry& entry = state_.entries[state_.index];
   entry.sweep = std::move(sweep);
@@ -42,22 +42,13 @@ void UndoStack::push(std::string label, preset::Preset preset, std::uint64_t ges
   if (saved) saved = *saved > 0 ? std::optional(*saved - 1) : std::nullopt;
 }
 
-bool UndoStack::undo()
+bool UndoStack::step(int by)
 {
   auto& [opened, entries, index, saved] = state_;
-  if (index == 0) return false;
-  entries[index].gesture = 0; // a gesture that goes on after undo is a new entry
-  --index;
-  entries[index].gesture = 0;
-  return true;
-}
-
-bool UndoStack::redo()
-{
-  auto& [opened, entries, index, saved] = state_;
-  if (index + 1 >= entries.size()) return false;
-  entries[index].gesture = 0;
-  ++index;
+  const std::size_t to = index + static_cast<std::size_t>(by); // before the first one: it wraps around
+  if (to >= entries.size()) return false;
+  entries[index].gesture = entries[to].gesture = 0; // a gesture that goes on after undo is a new entry
+  index = to;
   return true;
 }
 

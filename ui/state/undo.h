@@ -40,9 +40,11 @@ public:
   /// The same with another sweep.
   void push(std::string label, preset::Preset preset, preset::Sweep sweep);
   /// One entry back or forth; false where there is none.
-  bool undo();
-  bool redo();
-  const preset::Preset& current() const { return *state_.entries[state_.index].preset; }
+  bool undo() { return step(-1); }
+  bool redo() { return step(1); }
+  const preset::Preset& current() const { return *shared(); }
+  /// The same, as one that stays: another preset is another object.
+  const std::shared_ptr<const preset::Preset>& shared() const { return state_.entries[state_.index].preset; }
   const preset::Sweep& sweep() const { return state_.entries[state_.index].sweep; }
   /// As it was read.
   const preset::Preset& opened() const { return *state_.opened; }
@@ -58,6 +60,8 @@ public:
   const State& state() const { return state_; }
 
 private:
+  bool step(int by);
+
   static constexpr std::size_t limit = 1000; ///< entries kept: a preset is a few kilobytes
   State state_;
 };

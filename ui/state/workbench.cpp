@@ -5,9 +5,8 @@
 #include "base/files.h"
 #include "engine/engine.h"
 #include "preset/differences.h"
-#include "ui/state/dielectrics.h"
 #include "ui/state/run_record.h"
-#include "ui/state/run_report.h"
+#include "ui/state/selection.h"
 #include "ui/state/tone.h"
 
 #include <fmt/format.h>
@@ -106,20 +105,6 @@ void Workbench::restore(Session session, const std::filesystem::path& folder)
   if (edits_) run_.start(*edits_);
 }
 
-void Workbench::carry_out(const command::ReopenSession& c)
-{
-  if (c.sure || !edits_ || !edits_->modified())
-    reopen_ = true;
-  else
-    ask_first(command::ReopenSession{true});
-}
-
-void Workbench::ask_first(Command command)
-{
-  waiting_ = std::move(command);
-  question_ = Question::unsaved;
-}
-
 void Workbench::carry_out(const command::Open& c)
 {
   if (is_history(c.name)) return carry_out(command::PinFile{c.name});
@@ -133,18 +118,16 @@ void Workbench::carry_out(const command::Open& c)
   if (edits_ && kind == FileKind::picture && engine::engine_of(edits_->current()).take_picture) return take_picture(c.name);
   if (kind == FileKind::scene) return import_scene(c.name);
   if (edits_ && kind == FileKind::mesh && has_scene(edits_->current())) return read_mesh(c.name);
-  if (c.sure || !edits_ || !edits_->modified()) {
-    open(c.name);
-    return;
+  if (!c.sure && edits_ && edits_->modified()) { // what cannot be opened is said at once, and nothing is asked
+    refuse_other_kinds(c.name);
+    preset::read_with_sweep(c.name);
   }
-  refuse_other_kinds(c.name);
-  preset::read_with_sweep(c.name); // what cannot be opened is said at once, and nothing is asked
-  ask_first(command::Open{c.name, true});
+  if (!asks_first(c)) open(c.name);
 }
 
 void Workbench::carry_out(const command::New& c)
 {
-  if (!c.sure && edits_ && edits_->modified()) return ask_first(command::New{c.preset, true});
+  if (asks_first(c)) return;
   preset::Preset preset = preset::parse_preset(c.preset, "untitled");
   preset.source.clear(); // else a file that happens to have this name would be its own
   begin(std::move(preset));
@@ -174,24 +157,12 @@ void Workbench::carry_out(const command::StartSweep&)
   if (edits_ && !sweep_.active()) sweep_.start(edits_->current(), edits_->sweep());
 }
 
-/// The run follows a step of undo or redo, but where that was about the sweep alone.
-void Workbench::moved_in_edits(const preset::Preset& before)
-{
-  if (before != edits_->current()) run_.adopt_or_start(*edits_);
-}
-
-void Workbench::carry_out(const command::Undo&)
+/// The run follows, but where the step was about the sweep alone.
+void Workbench::step_in_edits(bool (UndoStack::*step)())
 {
   if (!edits_) return;
   const preset::Preset before = edits_->current();
-  if (edits_->undo()) moved_in_edits(before);
-}
-
-void Workbench::carry_out(const command::Redo&)
-{
-  if (!edits_) return;
-  const preset::Preset before = edits_->current();
-  if (edits_->redo()) moved_in_edits(before);
+  if ((*edits_.*step)() && before != edits_->current()) run_.adopt_or_start(*edits_);
 }
 
 void Workbench::carry_out(const command::Cancel&)
@@ -200,11 +171,6 @@ void Workbench::carry_out(const command::Cancel&)
     sweep_.stop(run_, edits());
   else
     run_.cancel();
-}
-
-void Workbench::carry_out(const command::Restart&)
-{
-  if (edits_) run_.start(*edits_);
 }
 
 void Workbench::carry_out(const command::SetLook& c)
@@ -225,12 +191,6 @@ void Workbench::carry_out(const command::SelectRegion& c)
 {
   chosen_.region = c.region;
   if (c.region && (c.region->from[0] >= c.region->to[0] || c.region->from[1] >= c.region->to[1])) chosen_.region.reset();
-}
-
-void Workbench::carry_out(const command::PinFile& c)
-{
-  close_question();
-  pin(c.path);
 }
 
 void Workbench::carry_out(const command::LoadDispersion& c)
@@ -338,22 +298,6 @@ void Workbench::carry_out(const command::SetAppearance& c)
 {
   settings_.theme = c.theme;
   settings_.text_size = std::clamp(c.text_size, Settings::smallest_text, Settings::largest_text);
-}
-
-void Workbench::carry_out(const command::Report& c)
-{
-  if (c.error)
-    messages_.error(c.line);
-  else
-    messages_.note(c.line);
-}
-
-void Workbench::carry_out(const command::Quit& c)
-{
-  if (c.sure || !edits_ || !edits_->modified())
-    quitting_ = true;
-  else
-    ask_first(command::Quit{true});
 }
 
 std::vector<std::string> Workbench::notes() const

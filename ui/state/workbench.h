@@ -87,15 +87,22 @@ private:
   void carry_out(const command::StartSweep&);
   void carry_out(const command::StopSweep&) { sweep_.stop(run_, edits()); }
   void carry_out(const command::EndGesture&) { run_.end_gesture(); }
-  void carry_out(const command::Undo&);
-  void carry_out(const command::Redo&);
-  void carry_out(const command::Restart&);
+  void carry_out(const command::Undo&) { step_in_edits(&UndoStack::undo); }
+  void carry_out(const command::Redo&) { step_in_edits(&UndoStack::redo); }
+  void carry_out(const command::Restart&)
+  {
+    if (edits_) run_.start(*edits_);
+  }
   void carry_out(const command::Cancel&);
   void carry_out(const command::Pause& c) { run_.pause(c.on); }
   void carry_out(const command::SetLook& c);
   void carry_out(const command::InspectPixel& c);
   void carry_out(const command::SelectRegion& c);
-  void carry_out(const command::PinFile& c);
+  void carry_out(const command::PinFile& c)
+  {
+    close_question();
+    pin(c.path);
+  }
   void carry_out(const command::ChooseMetric& c) { chosen_.error_metric = c.metric; }
   void carry_out(const command::ChooseMaterial& c) { chosen_.material = c.material; }
   void carry_out(const command::LoadDispersion& c);
@@ -113,7 +120,7 @@ private:
   void carry_out(const command::WriteReport& c);
   void carry_out(const command::Dismiss& c) { messages_.dismiss(c.message); }
   void carry_out(const command::ToggleHelp&) { help_shown_ = !help_shown_; }
-  void carry_out(const command::ReopenSession& c);
+  void carry_out(const command::ReopenSession& c) { reopen_ |= !asks_first(c); }
   void carry_out(const command::ReloadPreset&)
   {
     if (!take_over_file()) messages_.note("the file has what is shown");
@@ -122,15 +129,23 @@ private:
   void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].ini = c.ini; }
   void carry_out(const command::ShowPanel& c);
   void carry_out(const command::SetAppearance& c);
-  void carry_out(const command::Report& c);
-  void carry_out(const command::Quit& c);
+  void carry_out(const command::Report& c) { c.error ? messages_.error(c.line) : messages_.note(c.line); }
+  void carry_out(const command::Quit& c) { quitting_ |= !asks_first(c); }
   /// What holds runs against each other is the business of Comparing.
   template <class C>
   void carry_out(const C& c)
   {
     comparing_.carry_out(c);
   }
-  void ask_first(Command command);
+  /// Whether the command waits for what becomes of unsaved changes. Then it asks no more.
+  template <class C>
+  bool asks_first(C c)
+  {
+    if (std::exchange(c.sure, true) || !edits_ || !edits_->modified()) return false;
+    waiting_ = std::move(c);
+    question_ = Question::unsaved;
+    return true;
+  }
   void look_at_files();
   void look_at_own_file();
   /// What the preset's file has now becomes an edit that counts as saved. False where it is what is there already.
@@ -150,7 +165,7 @@ private:
   void begin(preset::Preset preset, preset::Sweep sweep = {});
   void let_go();
   void close_question();
-  void moved_in_edits(const preset::Preset& before);
+  void step_in_edits(bool (UndoStack::*step)());
   EngineLayout& engine_layout();
 
   std::optional<UndoStack> edits_;

@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // A panel of the window: reads what it needs of its context, draws with Dear ImGui, pushes commands. It needs no back end to be drawn. A
-// new one is a folder with its class, and a line in ui/shell/panels.cpp.
+// new one is a folder with its class, and a line in the table of panels.
 #pragma once
 #include "ui/state/context.h"
 #include "ui/widgets/widgets.h"
 
 #include <imgui.h>
 
-#include <array>
-#include <optional>
-#include <string>
+#include <any>
+#include <memory>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace nephroid::run {
+struct LoadedScene;
+}
 
 namespace nephroid::ui {
 
-class Panel {
+class WavelengthAxis;
+
+class Panel : public Placed {
 public:
   virtual ~Panel() = default;
   /// Inside of the panel's window. What it throws becomes a message.
   virtual void draw(const Context& context) = 0;
-  /// For tests: the middle of a widget on the screen, as the panel calls it; nothing where it was not drawn last.
-  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
 
 protected:
   /// What the item drawn last changes of the preset, from taking hold of it to letting go one gesture. Its place is noted as `widget`.
@@ -32,8 +38,36 @@ protected:
     if (changed) context.edit(label, change, gestures.number(), true);
     if (ImGui::IsItemDeactivated()) context.push(command::EndGesture{});
   }
-
-  WidgetPlaces places_;
 };
+
+/// A panel's line in the table: shell/panels.cpp has those for every engine, ui/ENGINE/panels.cpp those of one.
+struct PanelEntry {
+  std::string_view name;        ///< of the layout that has it in front; its folder's
+  const char* title;            ///< of its tab
+  std::string_view engine = ""; ///< whose presets it is for; empty: every preset
+  /// wavelengths: the axis that plots of several panels share; outlives the panel.
+  std::unique_ptr<Panel> (*make)(WavelengthAxis& wavelengths) = nullptr;
+  /// What it wants to know of the loaded scene; called on the thread that made a run ready. Null: nothing.
+  std::any (*look_around)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&) = nullptr;
+  /// Whether it is for a preset, where the engine does not decide on that. Null: it does.
+  bool (*serves)(const preset::Preset&) = nullptr;
+  /// The engine whose presets are opened with this tab in front; empty: none.
+  std::string_view front_for = "";
+};
+
+/// The entry's `make` of a panel.
+template <class P>
+std::unique_ptr<Panel> make_panel([[maybe_unused]] WavelengthAxis& wavelengths)
+{
+  if constexpr (std::is_constructible_v<P, WavelengthAxis&>)
+    return std::make_unique<P>(wavelengths);
+  else
+    return std::make_unique<P>();
+}
+
+// The panels of each engine, in its folder's panels.cpp.
+std::vector<PanelEntry> spectral_panels();
+std::vector<PanelEntry> environment_panels();
+std::vector<PanelEntry> inverse_panels();
 
 } // namespace nephroid::ui

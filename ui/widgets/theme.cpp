@@ -17,55 +17,29 @@ ImVec4 accent(float alpha)
   return tint;
 }
 
-/// What differs between the themes: greys from the lowest ground to the text, and the colours of words on a panel.
-struct Shades {
-  void (*base)(ImGuiStyle*);
+/// What differs between the themes: greys of grounds and lines, and the colours of words on a panel.
+struct Greys {
   float bar, popup, button, window, tab, frame, hovered, active, line;
+};
+struct Words {
   ImU32 text, quiet_text, error, note;
 };
 
 constexpr ImU32 grey_text(int value) { return IM_COL32(value, value, value, 255); }
+constexpr Greys dark_greys{0.13f, 0.14f, 0.28f, 0.17f, 0.22f, 0.25f, 0.31f, 0.36f, 0.30f},
+    light_greys{0.80f, 0.96f, 0.80f, 0.90f, 0.92f, 0.98f, 0.85f, 0.78f, 0.70f};
+constexpr Words dark_words{colour::on_dark, colour::quiet_on_dark, IM_COL32(240, 128, 112, 255), colour::note_on_dark},
+    light_words{grey_text(24), grey_text(84), IM_COL32(176, 28, 16, 255), IM_COL32(122, 82, 0, 255)};
 
-const Shades& shades(Theme theme)
+void set_colours(ImGuiStyle& style, bool light)
 {
-  static const Shades dark{[](ImGuiStyle* style) { ImGui::StyleColorsDark(style); },
-                           0.13f,
-                           0.14f,
-                           0.28f,
-                           0.17f,
-                           0.22f,
-                           0.25f,
-                           0.31f,
-                           0.36f,
-                           0.30f,
-                           colour::on_dark,
-                           colour::quiet_on_dark,
-                           IM_COL32(240, 128, 112, 255),
-                           colour::note_on_dark};
-  static const Shades light{[](ImGuiStyle* style) { ImGui::StyleColorsLight(style); },
-                            0.80f,
-                            0.96f,
-                            0.80f,
-                            0.90f,
-                            0.92f,
-                            0.98f,
-                            0.85f,
-                            0.78f,
-                            0.70f,
-                            grey_text(24),
-                            grey_text(84),
-                            IM_COL32(176, 28, 16, 255),
-                            IM_COL32(122, 82, 0, 255)};
-  return theme == Theme::light ? light : dark;
-}
-
-void set_colours(ImGuiStyle& style, const Shades& shade)
-{
-  colour::text = shade.text;
-  colour::quiet_text = shade.quiet_text;
-  colour::error = shade.error;
-  colour::note = shade.note;
-  shade.base(&style);
+  const Greys& shade = light ? light_greys : dark_greys;
+  const Words& words = light ? light_words : dark_words;
+  colour::text = words.text;
+  colour::quiet_text = words.quiet_text;
+  colour::error = words.error;
+  colour::note = words.note;
+  light ? ImGui::StyleColorsLight(&style) : ImGui::StyleColorsDark(&style);
   ImVec4* c = style.Colors;
   c[ImGuiCol_Text] = ImGui::ColorConvertU32ToFloat4(colour::text);
   c[ImGuiCol_TextDisabled] = ImGui::ColorConvertU32ToFloat4(colour::quiet_text);
@@ -112,7 +86,7 @@ void add_font()
 void set_theme(float scale, Theme theme)
 {
   ImGuiStyle style;
-  set_colours(style, shades(theme));
+  set_colours(style, theme == Theme::light);
   style.WindowRounding = style.FrameRounding = style.PopupRounding = style.GrabRounding = 4;
   style.TabRounding = 4;
   style.WindowBorderSize = 0;

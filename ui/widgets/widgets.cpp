@@ -17,6 +17,14 @@ int resize(ImGuiInputTextCallbackData* data)
   return 0;
 }
 
+void hint_in(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint)
+{
+  const float wrap = 0.9f * size.x;
+  const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
+  const ImVec2 at{corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2};
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, hint.c_str(), nullptr, wrap);
+}
+
 } // namespace
 
 bool input_text(const char* label, const char* hint, std::string& text, int flags)
@@ -37,18 +45,6 @@ void draw_wrapped(std::uint32_t colour, const std::string& text)
   draw_text(colour, text);
   ImGui::PopTextWrapPos();
 }
-
-namespace {
-
-void hint_in(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint)
-{
-  const float wrap = 0.9f * size.x;
-  const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
-  const ImVec2 at{corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2};
-  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, hint.c_str(), nullptr, wrap);
-}
-
-} // namespace
 
 void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint) { hint_in(colour::quiet_text, corner, size, hint); }
 

@@ -59,6 +59,16 @@ private:
   std::map<std::string, std::array<double, 2>> places_;
 };
 
+/// What notes where its widgets are.
+class Placed {
+public:
+  /// For tests: the middle of a widget on the screen, by the name that its owner gives it; nothing where it was not drawn last.
+  std::optional<std::array<double, 2>> place_of(const std::string& widget) const { return places_.of(widget); }
+
+protected:
+  WidgetPlaces places_;
+};
+
 /// Numbers for the gestures of one panel. UndoStack makes one entry of the edits that have one number, so no two panels may have the same.
 class Gestures {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/inverse/annealing/pictures.h"
 
-#include "ui/state/shown_pixels.h"
+#include "ui/state/tone.h"
 #include "ui/widgets/theme.h"
 
 #include <imgui.h>
@@ -55,7 +55,7 @@ void RunPictures::draw(const std::string& name, const ImVec2& low, const ImVec2&
   Shown& shown = shown_[name];
   if (shown.picture.get() != picture) {
     const std::span<unsigned char> bytes = shown.texture.edit(picture->width, picture->height);
-    shown_pixels(signed_values ? as_colours(*picture) : picture->rgb, 0, bytes);
+    toned_pixels(signed_values ? as_colours(*picture) : picture->rgb, {}, bytes);
     shown.picture = {snapshot_, picture};
   }
   shown.texture.draw(low, high, high.x - low.x >= static_cast<float>(picture->width));
@@ -118,7 +118,7 @@ void draw_beam_cells(const inverse::Footprint& print, const job::Picture& pictur
   for (int y = first_y; y < picture.height && corner(0, y).y < high.y; ++y)
     for (int x = first_x; x < picture.width && corner(x, y).x < high.x; ++x) {
       const std::size_t index = inverse::index_at(x, y, picture.width);
-      const unsigned char grey = shown_byte(picture.rgb[3 * index], 1);
+      const unsigned char grey = shown_byte(picture.rgb[3 * index]);
       list.AddRectFilled(corner(x, y), corner(x + 1, y + 1), IM_COL32(grey, grey, grey, 255));
       const int i = x - print.x0, k = y - print.y0;
       if (i < 0 || k < 0 || i >= static_cast<int>(print.x.size()) || k >= static_cast<int>(print.y.size())) continue;

@@ -4,7 +4,7 @@
 #include "base/counted.h"
 #include "preset/choices.h"
 #include "spectral/describe_settings.h"
-#include "ui/state/dielectrics.h"
+#include "ui/state/selection.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>

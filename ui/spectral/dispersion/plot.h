@@ -4,7 +4,7 @@
 #pragma once
 #include "ui/spectral/dispersion/model.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/row_handles.h"
+#include "ui/widgets/rows.h"
 
 namespace nephroid::ui {
 

@@ -5,7 +5,7 @@
 #include "ui/spectral/spectra/curves.h"
 #include "ui/spectral/spectra/light_edits.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/row_handles.h"
+#include "ui/widgets/rows.h"
 #include "ui/widgets/theme.h"
 
 namespace nephroid::ui {
