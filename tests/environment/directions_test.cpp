@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The directions of a bake and the map of a sphere.
-#include "environment/bake/bake.h"
-#include "tests/support/test.h"
+// The directions of a bake and the map of a sphere; which baked directions stand for a light, and how their spheres are turned; directions
+// that are baked while they are shown.
+#include "environment/bake/directions.h"
+#include "environment/bake/own_directions.h"
+#include "environment/bake/sphere_map.h"
+#include "environment/light/turned_sets.h"
+#include "scene/ray.h"
+#include "scene/rotation.h"
+#include "tests/environment/views.h"
+#include "tests/support/errors.h"
+#include "tests/support/saved_jobs.h"
 
 namespace nephroid::directions_test {
 
@@ -66,6 +74,306 @@ TEST(SphereMap, HasTexelsOfEqualSolidAngle)
     ASSERT_GT(glm::dot(d, map.direction(texel)), std::cos(0.25)); // a texel is 10 degrees wide, and some are slanted
   }
   for (const int n : filled) EXPECT_NEAR(n, 1000, 30);
+}
+
+void finish(environment::OwnDirections& own)
+{
+  while (!own.complete()) own.step();
+}
+
+TEST(OwnDirections, KeepWhatIsWantedAgain)
+{
+  const environment::BakeTask task =
+      environment::make_task(bake_preset(glass_ball, {"environment.resolution=16", "environment.spheres=4", "environment.photons=500"}));
+  EXPECT_EQ(task.own_radii.size(), 16u);
+  EXPECT_EQ(task.own_radii.back(), task.radii.back());
+  const glm::dvec3 a = glm::normalize(glm::dvec3(1, -2, 0.5)), b = glm::normalize(glm::dvec3(-1, -1, 0.2)), c(0, 0, 1);
+  environment::OwnDirections own(task, bake_context());
+  EXPECT_TRUE(own.complete());
+  own.want({a, b});
+  EXPECT_FALSE(own.complete());
+  finish(own);
+  const environment::Bake first = own.bake();
+  own.want({c, b});
+  ASSERT_EQ(own.bake().baked.size(), 1u);
+  EXPECT_EQ(own.bake().directions, (std::vector<glm::dvec3>{b, c}));
+  finish(own);
+  // The same whatever was baked before.
+  environment::OwnDirections other(task, bake_context());
+  other.want({b, c});
+  finish(other);
+  EXPECT_EQ(own.bake().halves, other.bake().halves);
+  EXPECT_EQ(own.bake().ways, other.bake().ways);
+  EXPECT_NE(own.bake().halves, first.halves);
+  own.want({});
+  EXPECT_TRUE(own.complete());
+  EXPECT_TRUE(own.bake().halves.empty());
+}
+
+class EnvironmentOwnDirections : public EnvironmentJobs {};
+
+// A flat glass ellipsoid under a lamp half way between baked directions, on a floor of its own. The reference has the lamp's direction
+// among 386 that are baked; the picture without own directions has four of 26 that are 22 degrees away.
+TEST_F(EnvironmentOwnDirections, ALampBetweenBakedDirectionsHasSharpCaustics)
+{
+  const auto picture = [&](int directions, int own) {
+    preset::Preset p = bake_preset(
+        R"({"name": "lens", "shape": {"type": "sphere", "radius": 1}, "material": "glass", "transform": {"scale": [1, 0.4, 1]}}, )" +
+            facing_quad("floor", {0, -1.2, 0}, {0, 1, 0}, 8),
+        {"environment.resolution=32", "environment.spheres=16", "environment.photons=20000", "environment.reach=2", "stop.passes=8",
+         "scene.camera.resolution=[48, 48]", fmt::format("environment.directions={}", directions),
+         fmt::format("environment.own_directions={}", own)});
+    // Of the 386 points of a cube's surface (1, 4, 1) of 4.
+    p.scene.lights = {lamp(glm::normalize(glm::dvec3(1, -4, 1)), 3)};
+    look(p, {0, 4, 0.1}, {0, -1.2, 0}, 60);
+    return layer_rgb(run(p), "caustic");
+  };
+  const auto distance = [](const std::vector<float>& a, const std::vector<float>& b) {
+    double off = 0, length = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      off += std::pow(a[i] - b[i], 2);
+      length += std::pow(b[i], 2);
+    }
+    return std::sqrt(off / length);
+  };
+  const std::vector<float> reference = picture(386, 0), blended = picture(26, 0), own = picture(26, 4);
+  fmt::print("rel_l2 of the caustic layer: blended {:.3f}, own {:.3f}\n", distance(blended, reference), distance(own, reference));
+  EXPECT_LT(distance(own, reference), 0.5 * distance(blended, reference));
+}
+
+constexpr int some = 300; ///< directions, even on the sphere
+
+/// The largest element of m m^T - 1, and how far the determinant is from 1.
+double off_a_rotation(const glm::dmat3& m)
+{
+  const glm::dmat3 rest = m * glm::transpose(m) - glm::dmat3(1);
+  double off = std::abs(glm::determinant(m) - 1);
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) off = std::max(off, std::abs(rest[i][k]));
+  return off;
+}
+
+class NearDirections : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Counts, NearDirections, testing::Values(26, 98, 386));
+
+TEST_P(NearDirections, ABakedDirectionIsNearToItselfAlone)
+{
+  const std::vector<glm::dvec3> baked = light_directions(GetParam());
+  for (std::size_t i = 0; i < baked.size(); ++i) {
+    // A direction is rounded, so a neighbour may have some 1e-16 as well.
+    double own = 0;
+    for (const NearDirection& near : near_directions(baked[i], GetParam()))
+      if (near.direction == static_cast<int>(i))
+        own += near.weight;
+      else
+        EXPECT_LT(near.weight, 1e-14) << i;
+    EXPECT_NEAR(own, 1, 1e-14) << i;
+  }
+}
+
+// The point where the light comes through the cube is the mean of the corners of its cell, by their weights.
+TEST_P(NearDirections, TheirWeightedMeanIsTheDirection)
+{
+  const std::vector<glm::ivec3> points = cube_points(GetParam());
+  for (int i = 0; i < some; ++i) {
+    const glm::dvec3 travel = scene::even_direction(i, some);
+    glm::dvec3 mean(0);
+    double sum = 0;
+    const std::vector<NearDirection> near = near_directions(3.0 * travel, GetParam());
+    ASSERT_LE(near.size(), 4u);
+    for (const NearDirection& n : near) {
+      ASSERT_GE(n.direction, 0);
+      ASSERT_LT(n.direction, GetParam());
+      EXPECT_GT(n.weight, 0);
+      sum += n.weight;
+      mean += n.weight * glm::dvec3(points[static_cast<std::size_t>(n.direction)]);
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_LT(glm::distance(glm::normalize(mean), -travel), 1e-12) << i;
+  }
+}
+
+// Across the borders of cells and faces the weights go on without a jump: a step of 1e-6 changes them by a few 1e-6.
+TEST_P(NearDirections, WeightsAreContinuous)
+{
+  const auto weights = [&](const glm::dvec3& travel) {
+    std::vector<double> all(static_cast<std::size_t>(GetParam()));
+    for (const NearDirection& n : near_directions(travel, GetParam())) all[static_cast<std::size_t>(n.direction)] += n.weight;
+    return all;
+  };
+  const auto step = [&](const glm::dvec3& at, const glm::dvec3& by) {
+    const std::vector<double> a = weights(glm::normalize(at - 5e-7 * by)), b = weights(glm::normalize(at + 5e-7 * by));
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+  };
+  for (const glm::dvec3& baked : light_directions(GetParam()))
+    for (int k = 0; k < 16; ++k) EXPECT_LT(step(baked, scene::even_direction(k, 16)), 2e-5);
+  for (int i = 0; i < some; ++i) { // on the cube's edges
+    const glm::dvec3 d = scene::even_direction(i, some);
+    EXPECT_LT(step(glm::normalize(glm::dvec3(1, std::copysign(1, d.x), d.z)), d), 2e-5);
+  }
+}
+
+TEST(ShortestTurn, TakesOneToTheOther)
+{
+  for (int i = 0; i < some; ++i) {
+    const glm::dvec3 from = scene::even_direction(i, some), to = scene::even_direction((7 * i + 3) % some, some);
+    const glm::dmat3 turn = shortest_turn(from, to);
+    EXPECT_LT(glm::distance(turn * from, to), 1e-14);
+    EXPECT_LT(off_a_rotation(turn), 1e-13);
+    // The shortest leaves what is across both where it is.
+    const glm::dvec3 across = glm::cross(from, to);
+    EXPECT_LT(glm::distance(turn * across, across), 1e-14);
+  }
+}
+
+// Opposite vectors, equal ones, and those that are so within any small angle.
+TEST(ShortestTurn, IsARotationOfNearlyOppositeAndNearlyEqualVectors)
+{
+  for (int i = 0; i < 20; ++i)
+    for (const double sign : {-1.0, 1.0})
+      for (const double angle : {0.0, 1e-16, 1e-12, 1e-9, 7e-9, 1e-8, 2e-8, 3e-8, 5e-8, 1e-7, 3e-7, 1e-6, 1e-4}) {
+        const glm::dvec3 from = scene::even_direction(i, 20);
+        const glm::dvec3 across = glm::normalize(glm::cross(from, scene::even_direction((i + 7) % 20, 20)));
+        const glm::dvec3 to = glm::normalize(sign * from + angle * across);
+        const glm::dmat3 turn = shortest_turn(from, to);
+        EXPECT_LT(off_a_rotation(turn), 1e-13) << sign << " " << angle;
+        EXPECT_LT(glm::distance(turn * from, to), 1e-7) << sign << " " << angle; // 1 - cos of less is rounded off
+      }
+}
+
+TEST(TurnedSets, TakeTheLightToItsBakedDirections)
+{
+  const glm::dmat3 rotation = scene::rotation({20, -70, 130});
+  for (const int count : {26, 98, 386}) {
+    const std::vector<glm::dvec3> baked = light_directions(count);
+    for (int i = 0; i < some; ++i) {
+      const DistantLight light{scene::even_direction(i, some), {1, 2, 0.5}};
+      glm::dvec3 flux(0);
+      for (const TurnedSet& set : turned_sets({light}, rotation, count)) {
+        EXPECT_LT(glm::distance(set.to_bake * light.direction, baked[static_cast<std::size_t>(set.direction)]), 1e-6);
+        EXPECT_LT(off_a_rotation(set.to_bake), 1e-6);
+        flux += set.flux;
+      }
+      EXPECT_LT(glm::distance(flux, light.irradiance), 1e-6);
+    }
+  }
+}
+
+// A light that was baked, on an object that stands as it was baked, is not turned.
+TEST(TurnedSets, ABakedLightIsNotTurned)
+{
+  const std::vector<glm::dvec3> baked = light_directions(26);
+  for (const glm::dvec3& direction : baked)
+    for (const TurnedSet& set : turned_sets({{direction, glm::dvec3(1)}}, glm::dmat3(1), 26)) {
+      if (set.flux.x < 1e-6) continue;
+      EXPECT_EQ(glm::dvec3(set.flux.x), glm::dvec3(1));
+      for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
+        EXPECT_LT(glm::distance(set.to_bake * axis, axis), 1e-6);
+    }
+}
+
+// The object turned with its light has the same sets, which only see the scene turned.
+TEST(TurnedSets, TheObjectTurnedWithItsLight)
+{
+  const glm::dmat3 turn = scene::rotation({-40, 15, 77}), before = scene::rotation({5, 50, 0});
+  for (int i = 0; i < some; ++i) {
+    const glm::dvec3 direction = scene::even_direction(i, some);
+    const auto a = turned_sets({{direction, glm::dvec3(1)}}, before, 98),
+               b = turned_sets({{turn * direction, glm::dvec3(1)}}, turn * before, 98);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_EQ(a[k].direction, b[k].direction);
+      EXPECT_NEAR(a[k].flux.x, b[k].flux.x, 1e-6);
+      for (int n = 0; n < 10; ++n) {
+        const glm::dvec3 d = scene::even_direction(n, 10);
+        EXPECT_LT(glm::distance(a[k].to_bake * d, b[k].to_bake * (turn * d)), 1e-6);
+      }
+    }
+  }
+}
+
+// One set a pass for each light: in the mean over passes the near directions have their weights.
+TEST(DrawnSets, InTheMeanAreTheTurnedSets)
+{
+  constexpr int count = 26, passes = 2000;
+  const glm::dmat3 rotation = scene::rotation({20, -70, 130});
+  std::vector<DistantLight> lights;
+  for (int i = 0; i < 7; ++i) lights.push_back({scene::even_direction(i, 7), {1.0 + i, 2, 0.5}});
+  const auto add = [](std::vector<glm::dvec3>& sums, const std::vector<TurnedSet>& sets, double weight) {
+    for (const TurnedSet& set : sets) sums[static_cast<std::size_t>(set.direction)] += weight * set.flux;
+  };
+  for (const DistantLight& light : lights) {
+    std::vector<glm::dvec3> all(count), drawn(count);
+    add(all, turned_sets({light}, rotation, count), 1);
+    for (std::uint32_t pass = 0; pass < passes; ++pass) {
+      const std::vector<TurnedSet> one = drawn_sets({light}, rotation, count, pass);
+      ASSERT_EQ(one.size(), 1u);
+      add(drawn, one, 1.0 / passes);
+    }
+    for (std::size_t i = 0; i < count; ++i) EXPECT_LT(glm::distance(all[i], drawn[i]), 0.003 * glm::length(light.irradiance));
+  }
+  // Together as each alone, and black ones are left out.
+  lights[2].irradiance = glm::dvec3(0);
+  const std::vector<TurnedSet> sets = drawn_sets(lights, rotation, count, 5);
+  ASSERT_EQ(sets.size(), 6u);
+  EXPECT_LT(glm::distance(sets[3].to_bake * lights[4].direction, light_directions(count)[static_cast<std::size_t>(sets[3].direction)]),
+            1e-6);
+}
+
+TEST(TurnedSets, BlackLightsHaveNone)
+{
+  EXPECT_TRUE(turned_sets({{{0, -1, 0}, glm::dvec3(0)}}, glm::dmat3(1), 26).empty());
+  EXPECT_FALSE(turned_sets({{{0, -1, 0}, {0, 0, 1}}}, glm::dmat3(1), 26).empty());
+}
+
+// A light's own direction stands for it alone near by, and ever less up to a quarter of the way between baked directions.
+TEST(NearDirections, OwnDirectionsStandForLightsNearThem)
+{
+  for (const int count : {26, 98, 386}) {
+    const glm::dvec3 own = glm::normalize(glm::dvec3(0.3, -0.8, 0.45)), across = glm::normalize(glm::cross(own, {1, 0, 0}));
+    const auto weight_at = [&](double parts) {
+      const double angle = glm::radians(parts * degrees_between(count));
+      const std::vector<NearDirection> near =
+          near_directions(std::cos(angle) * own + std::sin(angle) * across, count, {{0, 1, 0}, own, {1, 0, 0}});
+      double sum = 0, weight = 0;
+      for (const NearDirection& n : near) {
+        EXPECT_GT(n.weight, 0);
+        EXPECT_NE(n.direction, count);
+        EXPECT_NE(n.direction, count + 2);
+        sum += n.weight;
+        if (n.direction == count + 1) weight = n.weight;
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+      EXPECT_EQ(near.size() == 1, parts <= 0.125);
+      return weight;
+    };
+    EXPECT_EQ(weight_at(0), 1);
+    EXPECT_EQ(weight_at(0.12), 1);
+    EXPECT_NEAR(weight_at(0.1875), 0.5, 1e-9);
+    EXPECT_EQ(weight_at(0.26), 0);
+    EXPECT_EQ(degrees_between(count), count == 26 ? 45 : count == 98 ? 22.5 : 11.25);
+  }
+}
+
+TEST(StrongDirections, AreOfNarrowLightsThatHaveAPartOfAll)
+{
+  const glm::dvec3 sun = glm::normalize(glm::dvec3(0.2, -1, 0.1)), lamp = glm::normalize(glm::dvec3(-0.5, -1, 0.4));
+  const std::vector<DistantLight> lights{{lamp, glm::dvec3(2), 0},
+                                         {sun, glm::dvec3(9), 1},
+                                         {{0, -1, 0}, glm::dvec3(5), 30}, // wide
+                                         {{1, 0, 0}, glm::dvec3(0.1), 0}, // weak
+                                         {glm::normalize(sun + glm::dvec3(1e-4, 0, 0)), glm::dvec3(3), 0}};
+  const glm::dmat3 rotation = scene::rotation({20, -70, 130});
+  const std::vector<glm::dvec3> found = strong_directions(lights, rotation, 26, 4);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_LT(glm::distance(found[0], glm::transpose(rotation) * sun), 1e-15);
+  EXPECT_LT(glm::distance(found[1], glm::transpose(rotation) * lamp), 1e-15);
+  EXPECT_EQ(strong_directions(lights, rotation, 26, 1).size(), 1u);
+  EXPECT_TRUE(strong_directions(lights, rotation, 26, 0).empty());
+  EXPECT_TRUE(strong_directions({}, rotation, 26, 4).empty());
 }
 
 } // namespace nephroid::directions_test

@@ -1,17 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small scenes about a glass ball of radius 1 for the renderer of engine 2, and what its pictures show.
 #pragma once
+#include "environment/engine.h"
 #include "environment/settings.h"
 #include "job/job.h"
-#include "tests/environment/jobs.h"
-
-#include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
-#include <string>
+#include "scene/scene.h"
+#include "tests/environment/bakes.h"
+#include "tests/support/process_state.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::test {
+
+/// Jobs whose bakes are kept in a folder of the test's own.
+class EnvironmentJobs : public testing::Test {
+protected:
+  static environment::EnvironmentPlan plan_of(const preset::Preset& p)
+  {
+    const scene::Scene scene = scene::load_scene(p);
+    return environment::make_plan(p, scene, scene::build_bvh(scene.geometry));
+  }
+  static std::unique_ptr<job::Job> job_of(const preset::Preset& p, const environment::EnvironmentPlan& plan)
+  {
+    return environment::make_job(p, plan, bake_context());
+  }
+  static std::unique_ptr<job::Job> job_of(const preset::Preset& p) { return job_of(p, plan_of(p)); }
+  static job::Snapshot run(job::Job& job)
+  {
+    while (!job.finished()) job.step();
+    return job.snapshot();
+  }
+  static job::Snapshot run(const preset::Preset& p) { return run(*job_of(p)); }
+
+  TemporaryFolder cache;
+  CacheHome home{cache.path()};
+};
 
 /// A white square of the wall's material that faces along a normal.
 inline std::string facing_quad(const std::string& name, const glm::dvec3& place, const glm::dvec3& normal, double side)

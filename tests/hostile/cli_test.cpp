@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad command lines: each is answered by one line on standard error that says what is wrong, the exit code of the contract, nothing
 // on standard output and no file.
+#include "tests/support/child.h"
 #include "tests/support/program_test.h"
+#include "tests/support/temporary_folder.h"
+
+#include <nlohmann/json.hpp>
 
 namespace nephroid::cli_test {
+
+using nlohmann::json;
 
 class CommandLine : public ProgramTest {};
 
@@ -117,6 +123,140 @@ TEST_F(CommandLine, AClosedStandardOutputIsAFailureNotSilence)
     EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
     EXPECT_EQ(nephroid::read_file(logs / "stderr"), "nephroid: standard output: cannot be written: No space left on device\n") << arguments;
   }
+}
+
+// Verbs load what they need and no more: pictures, windows and devices each cost time to start. The dynamic loader itself says what was
+// loaded (LD_DEBUG, see ld.so(8)).
+
+/// By the file name of each program that a run of nephroid started, itself among them: every library that it initialised, one a line.
+std::map<std::string, std::string> programs_of(const std::vector<std::string>& arguments)
+{
+  const TemporaryFolder folder;
+  Child child(arguments, folder.path(), folder.path(), {{"LD_DEBUG", "libs"}, {"LD_DEBUG_OUTPUT", (folder.path() / "loader").string()}});
+  const Ended ended = child.wait();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  std::map<std::string, std::string> programs;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (entry.path().filename().string().rfind("loader.", 0) != 0) continue;
+    std::ifstream file(entry.path());
+    std::string program, loaded;
+    for (std::string line; std::getline(file, line);) {
+      if (const std::size_t at = line.find("calling init: "); at != std::string::npos) loaded += line.substr(at + 14) + "\n";
+      if (line.find("initialize program: ") != std::string::npos) program = line.substr(line.rfind('/') + 1);
+    }
+    programs[program] += loaded;
+  }
+  EXPECT_THAT(programs["nephroid"], HasSubstr("libc.so")); // the loader was heard at all
+  return programs;
+}
+
+std::string loaded_by(const std::vector<std::string>& arguments) { return programs_of(arguments)["nephroid"]; }
+
+const char* const pictures = "libOpenImageIO";
+#ifndef NEPHROID_UI
+const char* const window = "libGL";
+#endif
+const char* const compiler = "libLLVM"; // of the device's driver
+
+TEST(LoadedLibraries, VerbsThatOnlyReadLoadNoPicturesNoWindowAndNoDriver)
+{
+  const std::string material = NEPHROID_SOURCE_DIR "/presets/materials/N-BK7.yml";
+  for (const std::vector<std::string>& verb :
+       {std::vector<std::string>{"version"}, {"dispersion", material}, {"schema"}, {"plan", "first-light"}}) {
+    const std::string loaded = loaded_by(verb);
+    EXPECT_THAT(loaded, Not(HasSubstr(pictures))) << verb[0];
+#ifndef NEPHROID_UI // a program with a window is linked with GLFW, which is initialised where a window is opened
+    EXPECT_THAT(loaded, Not(HasSubstr(window))) << verb[0];
+#endif
+    EXPECT_THAT(loaded, Not(HasSubstr(compiler))) << verb[0];
+  }
+}
+
+// Its reader meets corrupt files in a process of its own, which has neither the driver nor the window nor their threads.
+TEST(LoadedLibraries, OnlyTheMeshReaderLoadsAssimp)
+{
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  std::map<std::string, std::string> programs = programs_of({"plan", "first-light", "--set", "scene.objects.0.mesh=" + mesh});
+  EXPECT_THAT(programs, SizeIs(2));
+  EXPECT_THAT(programs["nephroid"], Not(HasSubstr("libassimp")));
+  EXPECT_THAT(programs["nephroid_mesh_reader"], HasSubstr("libassimp"));
+  EXPECT_THAT(programs["nephroid_mesh_reader"], Not(AnyOf(HasSubstr("libOpenCL"), HasSubstr("libembree"), HasSubstr("libGL"))));
+}
+
+TEST(LoadedLibraries, ARunLoadsPicturesAndTheDriver)
+{
+  const std::string loaded = loaded_by({"run", "spectral/plate", "--passes", "1", "-o", "out", "--set", "scene.camera.resolution=[16,16]",
+                                        "--set", "spectral.photons_per_pass=1000"});
+  EXPECT_THAT(loaded, HasSubstr(pictures));
+  EXPECT_THAT(loaded, HasSubstr("libpocl"));
+}
+
+// `nephroid check` as a script sees it: its JSON, its exit codes, a wrong kernel, Ctrl-C.
+
+class CheckVerb : public ProgramTest {
+protected:
+  Ended check(std::vector<std::string> arguments) const
+  {
+    arguments.insert(arguments.begin(), "check");
+    return run(arguments);
+  }
+};
+
+TEST_F(CheckVerb, JsonIsAsTheContractHasIt)
+{
+  const Ended ended = check({"--json"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  const json all = json::parse(ended.out);
+  EXPECT_TRUE(all.at("device").is_string());
+  ASSERT_GT(all.at("checks").size(), 30u);
+  for (const json& one : all.at("checks")) {
+    EXPECT_TRUE(one.at("name").is_string() && one.at("unit").is_string() && one.at("detail").is_string()) << one;
+    EXPECT_EQ(one.at("pass").get<bool>(), std::abs(one.at("figure").get<double>()) <= one.at("tolerance").get<double>()) << one;
+  }
+}
+
+TEST_F(CheckVerb, AWrongKernelIsNamedAndExitsWithOne)
+{
+  const fs::path kernels = folder / "kernels";
+  fs::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
+  std::string text = nephroid::read_file(kernels / "tracing/film.h");
+  text.replace(text.find("0x1p42f"), 7, "0x1p44f");
+  nephroid::write_file_whole(kernels / "tracing/film.h", text);
+  nephroid::write_file_whole(kernels / "tracing/trace.cl", "nonsense\n");
+  const Ended ended = check({"--kernels", kernels.string()});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("6 failed: film: takes what fits, refuses the rest, rays: closest hits, "));
+  EXPECT_THAT(ended.out, HasSubstr("trace.cl:1: "));                  // why, under the line
+  EXPECT_THAT(ended.out, HasSubstr("interface: Snell's directions")); // and it went on
+}
+
+TEST_F(CheckVerb, NoSuchDeviceExitsWithThree)
+{
+  const Ended ended = check({"--device", "abacus"});
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_THAT(ended.err, HasSubstr("abacus"));
+  EXPECT_EQ(check({"--device", "0", "--all"}).exit_code, 2);
+  EXPECT_EQ(check({"--kernels", "nowhere"}).exit_code, 2);
+}
+
+TEST_F(CheckVerb, ASeedIsAWholeNumber)
+{
+  for (const char* seed : {"-1", "x", "1.5", "nan", "18446744073709551616"}) {
+    const Ended ended = check({"--seed", seed});
+    EXPECT_EQ(ended.exit_code, 2) << seed;
+    EXPECT_THAT(ended.err, HasSubstr(std::string("--seed: '") + seed + "' is not a whole number from 0 to 18446744073709551615"));
+  }
+}
+
+TEST_F(CheckVerb, CtrlCEndsInOrder)
+{
+  Child child({"check"}, folder, logs);
+  ASSERT_TRUE(child.until([&] { return child.out().find("built-in: exp") != std::string::npos; }));
+  child.send(SIGINT);
+  const Ended ended = child.wait();
+  EXPECT_EQ(ended.exit_code, 130) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("interrupted after "));
 }
 
 } // namespace nephroid::cli_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the spectral engine is given that is wrong or odd: dispersion curves, lights without visible power, glass whose mesh is damaged.
 // Each gives one line that says where and what, or a finite answer and a word about it. Not here: malformed JSON (preset_test.cpp) and
-// malformed dispersion files (tests/unit/dispersion_file_test.cpp).
+// malformed dispersion files (tests/unit/dispersion_test.cpp).
 #include "preset/read.h"
 #include "scene/scene.h"
 #include "tests/support/errors.h"

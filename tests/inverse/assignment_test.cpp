@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits.
+#include "base/files.h"
+#include "inverse/assign/assignment.h"
+#include "inverse/assign/conflicts.h"
 #include "inverse/assign/footprint.h"
+#include "inverse/assign/smoothing.h"
 #include "inverse/bending.h"
+#include "inverse/pictures/target.h"
 #include "tests/inverse/searches.h"
+#include "tests/inverse/sound.h"
 #include "tests/support/saved_jobs.h"
+#include "tests/support/test.h"
 
 namespace nephroid::assignment_test {
 
@@ -139,6 +146,164 @@ TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
   EXPECT_NEAR(c.missed, 0.2, 1e-12);
   // A stray ray in a dark cell leaves the cells that count as they are.
   EXPECT_NEAR(inverse::cost_of(t, std::vector<double>{4, 2, 2, 0.01}, 10).cost, c.cost, 1e-9);
+}
+
+// Smoothing: its figure by hand, what one facet changes, that it makes the object smoother, and that none of it is no term.
+
+// Two rows of three; one facet in the middle of the upper row tilted by theta against all others, which lie flat. It has 3 neighbours, each
+// unlike it alone: 1 - cos theta for itself; of its neighbours, two have 2 of their own and one has 3.
+TEST(Smoothing, RoughnessIsCostN)
+{
+  Layout layout;
+  layout.facets = {3, 2};
+  std::vector<glm::dvec2> slopes(6);
+  EXPECT_NEAR(roughness(layout, slopes), 0, 1e-15);
+  slopes[1] = {0.3, -0.2};
+  const double c = 1 / std::sqrt(1 + std::pow(glm::length(inverse::facet_gradient(slopes[1], layout.n)), 2));
+  EXPECT_NEAR(roughness(layout, slopes), (1 - c) * (1 + 0.5 + 0.5 + 1 / 3.0) / 6, 1e-12);
+}
+
+// The sum falls by what the pull says, whichever facet moves.
+TEST(Smoothing, ThePullIsWhatAFacetChanges)
+{
+  const Layout layout = test::small(5, 4);
+  const auto slopes = test::random_slopes(layout, 0.5, 1);
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    auto moved = slopes;
+    moved[i] = {0.1, -0.3};
+    const glm::dvec3 change = inverse::normal_of(layout, i, moved[i]) - inverse::normal_of(layout, i, slopes[i]);
+    EXPECT_NEAR(20 * (roughness(layout, moved) - roughness(layout, slopes)), -glm::dot(change, pull(layout, slopes, i)), 1e-12) << i;
+  }
+}
+
+struct Made {
+  double cost = 0, roughness = 0;
+  std::vector<glm::dvec2> slopes;
+};
+
+Made made(double smoothing)
+{
+  Layout layout;
+  layout.facets = {32, 32};
+  layout.cells = {16, 16};
+  layout.distances = {100, 200};
+  layout.smoothing = smoothing;
+  Picture ring, disc;
+  ring.type = Picture::Type::ring;
+  const FileFinder finder;
+  const std::vector<Target> targets{make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
+  Assignment a(layout, targets, 1);
+  double before = a.residual();
+  while (a.steps() < 3) {
+    a.advance();
+    EXPECT_LE(a.residual(), before * (1 + 1e-12)); // of both terms together
+    before = a.residual();
+  }
+  return {mean(a.costs()).cost, roughness(layout, a.slopes()), a.slopes()};
+}
+
+TEST(Smoothing, CostsErrorAndMakesSmoother)
+{
+  const Made none = made(0), some = made(0.3), much = made(100);
+  EXPECT_LT(some.roughness, 0.9 * none.roughness);
+  EXPECT_LT(much.roughness, 0.2 * none.roughness);
+  EXPECT_GT(much.cost, none.cost);
+}
+
+// A weight so small that it turns no choice gives the same slopes as none, which has no term.
+TEST(Smoothing, NoneIsTheSameAsATermOfNoWeight) { EXPECT_EQ(made(0).slopes, made(1e-300).slopes); }
+
+// Which pictures fight: none where light can serve both, all of it where it cannot, and no third one is blamed.
+
+/// Cells of these columns and rows, half open, of 16 x 16.
+Target box(int left, int right, int top = 0, int bottom = 16)
+{
+  Target target(256);
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x) target[static_cast<std::size_t>(16 * y + x)] = 1.0 / ((right - left) * (bottom - top));
+  return target;
+}
+
+struct Found {
+  Layout layout;
+  std::vector<Target> targets;
+  std::vector<glm::dvec2> slopes;
+  std::vector<double> heights;
+  std::vector<std::vector<double>> light;
+
+  ConflictSearch search() const { return ConflictSearch(layout, targets, slopes, heights, light); }
+};
+
+Found assigned(const std::vector<double>& distances, const std::vector<Target>& targets)
+{
+  Found found;
+  found.layout.facets = {64, 64};
+  found.layout.cells = {16, 16};
+  found.layout.distances = distances;
+  found.targets = targets;
+  Assignment a(found.layout, targets, 1);
+  while (!a.finished()) a.advance();
+  found.slopes = a.slopes();
+  found.heights = a.heights();
+  for (std::size_t j = 0; j < targets.size(); ++j) found.light.push_back(a.light(j));
+  return found;
+}
+
+double fight(const Conflicts& c, std::size_t j, std::size_t k) { return c.between[j][k] + c.between[k][j]; }
+
+// Light that goes straight on makes the same picture at any distance: here the whole receiver.
+TEST(Conflicts, NoneWhereStraightLightMakesBoth)
+{
+  const Found found = assigned({100, 200}, {box(0, 16), box(0, 16)});
+  EXPECT_LT(fight(found.search().of_pictures(), 0, 1), 0.05);
+}
+
+// Through a first receiver's left edge no light comes to a second one's right edge. A facet serves one of them: all of the light is
+// misplaced in one, for the other's sake.
+TEST(Conflicts, AllLightWherePicturesExcludeEachOther)
+{
+  const Found found = assigned({100, 200}, {box(0, 2, 6, 10), box(14, 16, 6, 10)});
+  const Conflicts c = found.search().of_pictures();
+  EXPECT_NEAR(c.misplaced[0] + c.misplaced[1], 1, 0.1);
+  EXPECT_NEAR(fight(c, 0, 1), 1, 0.15);
+  const std::vector<double> facets = found.search().of_facets();
+  for (const double facet : facets) EXPECT_LE(facet, 1);
+  EXPECT_GT(std::accumulate(facets.begin(), facets.end(), 0.0) / 4096, 0.85);
+}
+
+// What is misplaced by facets is what the picture lacks elsewhere: |Z - T| / 2 of light that is all there.
+TEST(Conflicts, AddUpToTheError)
+{
+  Layout layout;
+  layout.facets = {32, 32};
+  layout.cells = {16, 16};
+  layout.distances = {100};
+  const std::vector<Target> targets{box(3, 9, 2, 12)};
+  const Assignment a(layout, targets, 4); // random slopes, all of them to the receiver
+  const double sent = inverse::light_sent(layout, a.slopes());
+  double lacking = 0;
+  for (std::size_t c = 0; c < 256; ++c) lacking += std::max(0.0, targets[0][c] - a.light(0)[c] / sent);
+  const std::vector<double> heights = a.heights();
+  const std::vector<std::vector<double>> light{a.light(0)};
+  const ConflictSearch search(layout, targets, a.slopes(), heights, light);
+  EXPECT_NEAR(search.of_pictures().misplaced[0], lacking, 1e-9);
+}
+
+// Between two that exclude each other stands a third, which is what their light makes there by itself.
+TEST(Conflicts, BlameNoThird)
+{
+  Found found = assigned({100, 200}, {box(0, 2, 6, 10), box(14, 16, 6, 10)});
+  found.layout.distances = {100, 130, 200};
+  found.light.assign(3, std::vector<double>(256));
+  for (std::size_t i = 0; i < found.slopes.size(); ++i) add_light(found.layout, i, found.slopes[i], 1, found.light);
+  const double sent = inverse::light_sent(found.layout, found.slopes);
+  found.targets.insert(found.targets.begin() + 1, found.light[1]);
+  for (double& t : found.targets[1]) t /= sent;
+  const Conflicts c = found.search().of_pictures();
+  EXPECT_LT(c.misplaced[1], 0.05);
+  EXPECT_GT(fight(c, 0, 2), 0.8);
+  EXPECT_LT(fight(c, 0, 1), 0.1 * fight(c, 0, 2));
+  EXPECT_LT(fight(c, 1, 2), 0.1 * fight(c, 0, 2));
 }
 
 } // namespace nephroid::assignment_test

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole runs of engine 3 through the program: its files, its figures, and that a run that was cut goes on with the same bits.
+// Whole runs of engine 3: files, figures, and that a run that was cut goes on with the same bits; every shipped preset with few facets; the
+// shipped QR codes read by zbar; the finished object as glass, rendered by engine 1.
 #include "image/image.h"
+#include "inverse/engine.h"
+#include "preset/read.h"
 #include "tests/support/program_test.h"
+#include "tests/support/x_display.h"
 
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
 namespace nephroid::run_test {
 
+using nephroid::preset::Camera;
 using nlohmann::json;
 
 class InverseRun : public ProgramTest {
@@ -175,6 +181,132 @@ TEST_F(InverseRun, IsPlannedWithItsReasons)
   EXPECT_EQ(lens.at("passes").at(7).at("name"), "transport");
   EXPECT_EQ(lens.at("passes").at(7).at("runs"), true);
   EXPECT_EQ(thesis.at("notes").at(0), "the thesis' pipeline takes up to 251 trials and stops after 12: a 'stop.passes' of 251 lets it end");
+}
+
+TEST(InversePresets, AreDesignedAndJudged)
+{
+  int count = 0;
+  for (const preset::ShippedPreset& shipped : preset::shipped_presets()) {
+    preset::Preset p = preset::read_presets(shipped.name).front();
+    if (&p.settings.type() != &inverse::settings_type()) continue;
+    SCOPED_TRACE(shipped.name);
+    ++count;
+    inverse::settings(p).facets = {24, 24};
+    p.stop.passes = 2;
+    const inverse::InversePlan plan = inverse::make_plan(p);
+    const auto job = inverse::make_job(p, plan);
+    const double before = job::scalar(job->snapshot(), "believed", "rel_l2");
+    while (!job->finished()) job->step();
+    const job::Snapshot made = job->snapshot();
+    EXPECT_LT(job::scalar(made, "judged", "rel_l2"), before);
+    EXPECT_NEAR(job::scalar(made, "light", "sent") + job::scalar(made, "light", "reflected") + job::scalar(made, "light", "lost"), 1, 1e-4);
+    for (const job::NamedPicture& one : made.pictures)
+      for (const float value : one.picture->rgb) ASSERT_TRUE(std::isfinite(value)) << one.name;
+  }
+  EXPECT_GE(count, 13);
+}
+
+class Codes : public ProgramTest {
+protected:
+  /// What zbar reads in a picture of the run, without its end of line; empty where it reads nothing.
+  std::string read(const std::string& picture) const
+  {
+    Child child({"--quiet", "--raw", "--nodbus", picture}, folder / "out", logs, {}, "zbarimg");
+    std::string text = child.wait().out;
+    while (text.ends_with('\n')) text.pop_back();
+    return text;
+  }
+};
+
+/// How much lighter the cells of a picture are where another one is light than where it is dark; mirrored: the other one's columns.
+double contrast(const nephroid::image::Image& picture, const nephroid::image::Image& wanted, bool mirrored)
+{
+  double light = 0, dark = 0;
+  int lit = 0;
+  const auto value = [](const nephroid::image::Image& of, int x, int y) {
+    return of.data[of.channels.size() * static_cast<std::size_t>(y * of.width + x)];
+  };
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const bool here = value(wanted, mirrored ? picture.width - 1 - x : x, y) > 0.5f;
+      (here ? light : dark) += value(picture, x, y);
+      lit += here;
+    }
+  return light / lit - dark / (picture.width * picture.height - lit);
+}
+
+// Each at its own distance only. zbar reads mirrored codes too, so that the pictures' orientation is seen to apart.
+TEST_F(Codes, AreReadAtTheirOwnDistance)
+{
+  const Ended ended = run({"run", "inverse/qr", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  for (const std::string j : {"1", "2"}) {
+    const auto picture = nephroid::image::read_image(folder / ("out/receiver_" + j + ".exr"));
+    const auto wanted = nephroid::image::read_image(folder / ("out/target_" + j + ".exr"));
+    EXPECT_GT(contrast(picture, wanted, false), 0.5);
+    EXPECT_LT(contrast(picture, wanted, true), 0.8 * contrast(picture, wanted, false));
+  }
+  if (!there_is("zbarimg")) GTEST_SKIP() << "needs zbarimg, of the package zbar-tools";
+  for (const char* picture : {"target_1.png", "receiver_1.png"}) EXPECT_EQ(read(picture), "NEPHROID") << picture;
+  for (const char* picture : {"target_2.png", "receiver_2.png"}) EXPECT_EQ(read(picture), "CAUSTICS") << picture;
+}
+
+glm::dvec3 vec(const nephroid::preset::Vec3& v) { return {v[0], v[1], v[2]}; }
+
+/// The pixel that a pinhole camera sees a point in.
+glm::dvec2 pixel(const Camera& camera, const glm::dvec3& point)
+{
+  const glm::dvec3 ahead = glm::normalize(vec(camera.target) - vec(camera.position)),
+                   right = glm::normalize(glm::cross(ahead, vec(camera.up))), up = glm::cross(right, ahead),
+                   to = point - vec(camera.position);
+  const double height = camera.resolution[1], per_slope = height / 2 / std::tan(glm::radians(camera.fov_deg / 2));
+  return {camera.resolution[0] / 2.0 + per_slope * glm::dot(to, right) / glm::dot(to, ahead),
+          height / 2 - per_slope * glm::dot(to, up) / glm::dot(to, ahead)};
+}
+
+class GlassView : public ProgramTest {
+protected:
+  /// Mean grey of the pixels about a point of the scene.
+  static double grey(const nephroid::image::Image& picture, const Camera& camera, const glm::dvec3& point)
+  {
+    const glm::dvec2 at = pixel(camera, point);
+    double sum = 0;
+    constexpr int reach = 9;
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x)
+        sum += picture.data.at(picture.channels.size() *
+                               static_cast<std::size_t>((static_cast<int>(at.y) + y) * picture.width + static_cast<int>(at.x) + x));
+    return sum / ((2 * reach + 1) * (2 * reach + 1));
+  }
+};
+
+// Both pictures grow brighter to the right and to the top: the four corners tell mirrored and upside down ones apart.
+TEST_F(GlassView, ShowsThePicturesAsAPersonSeesThem)
+{
+  write("two.json", R"({
+    "engine": "inverse", "unit": "mm", "scene": {"camera": {"resolution": [64, 64]}},
+    "inverse": {"facets": [64, 64], "cells": [24, 24], "receivers": [
+      {"distance_mm": 150, "picture": {"type": "gradient", "turn_deg": 45}},
+      {"distance_mm": 300, "picture": {"type": "gradient", "turn_deg": 45}}]},
+    "stop": {"passes": 3}})");
+  Ended ended = run({"run", "two.json", "-o", "out"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  ended = run({"run", "out/view.json", "-o", "view", "--passes", "2"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr("hole"))) << "the glass is closed";
+  const nephroid::preset::Preset view = nephroid::preset::read_preset((folder / "out/view.json").string());
+  const nephroid::image::Image picture = nephroid::image::read_image(folder / "view/image.exr");
+  const auto at = [&](std::size_t receiver, double x, double y) {
+    for (const nephroid::preset::Object& object : view.scene.objects)
+      if (object.name == "receiver " + std::to_string(receiver))
+        return grey(picture, view.scene.camera, vec(object.transform.translate) + glm::dvec3(x, y, 0));
+    throw std::out_of_range("no receiver " + std::to_string(receiver));
+  };
+  for (const std::size_t receiver : {1u, 2u}) {
+    const double bright = at(receiver, 33, 33), right = at(receiver, 33, -33), left = at(receiver, -33, 33), dark = at(receiver, -33, -33);
+    EXPECT_GT(bright, 1.2 * std::max(right, left)) << receiver;
+    EXPECT_LT(dark, std::min(right, left) / 1.2) << receiver;
+  }
 }
 
 } // namespace nephroid::run_test

@@ -12,6 +12,7 @@
 // from above, which does not change its pattern, because reflection at an upright wall keeps the slope. The strip dz of incoming light
 // spreads over the area |1 - 2 s / cos phi| dz ds of floor: E = E0 sin(elevation) / |1 - 2 s / cos phi|, summed over all rays through a
 // point.
+#include "optics/ball.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/temporary_folder.h"
 
@@ -21,7 +22,7 @@ constexpr double slope = 0.5;          // down per unit along
 constexpr double s0 = 0.05, s1 = 0.95; // from the wall to the floor
 constexpr int facets = 4096;           // of the half cylinder: chords lie up to (pi / 4096)^2 / 8 = 7e-8 R inside
 constexpr int fine = 4;                // the truth's pixels in one of the picture's, each way
-const Screen screen{{0.6, 0, 0}, 0.7, 128};
+const Screen cup_floor{{0.6, 0, 0}, 0.7, 128};
 
 /// The half of the wall with x > 0, facing the axis, with exact vertex normals.
 void write_half_cylinder(const std::filesystem::path& file)
@@ -52,7 +53,7 @@ preset::Preset cup(const TemporaryFolder& folder)
   wall.normals = preset::Object::Normals::smooth;
   p.scene.objects = {wall, object("floor", quad(4, 4), "white")};
   p.scene.lights = {parallel_light({1, -slope, 0})};
-  screen.fill(p.scene.camera, 4);
+  cup_floor.fill(p.scene.camera, 4);
   spectral::settings(p).photons_per_pass = 1 << 20;
   p.stop.passes = 4;
   return p;
@@ -90,7 +91,7 @@ Shift shift_of(const std::vector<double>& picture, const std::vector<double>& fi
     double sum = 0;
     for (int y = row * fine; y < (row + 1) * fine; ++y)
       for (int x = column * fine; x < (column + 1) * fine; ++x)
-        sum += fine_truth[static_cast<std::size_t>(y * screen.pixels * fine + x - steps)];
+        sum += fine_truth[static_cast<std::size_t>(y * cup_floor.pixels * fine + x - steps)];
     return sum;
   };
   double sum = 0, weights = 0;
@@ -99,7 +100,7 @@ Shift shift_of(const std::vector<double>& picture, const std::vector<double>& fi
       const double truth_here = expected(row, column, 0);
       if (truth_here == 0) continue;
       const double g = (expected(row, column, 1) - expected(row, column, -1)) * fine / 2;
-      sum += (picture[static_cast<std::size_t>(row * screen.pixels + column)] - truth_here) * g / truth_here;
+      sum += (picture[static_cast<std::size_t>(row * cup_floor.pixels + column)] - truth_here) * g / truth_here;
       weights += g * g / truth_here;
     }
   return {sum / weights, std::sqrt(photon_w / weights)};
@@ -113,7 +114,7 @@ protected:
     const preset::Preset p = cup(folder);
     const job::Snapshot snapshot = render(p);
     EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
-    picture = watts(snapshot, "caustic", screen, spectrum_of(p.scene.lights[0]));
+    picture = watts(snapshot, "caustic", cup_floor, spectrum_of(p.scene.lights[0]));
     photon_w = directional_photon_w(p, 4.0 * (1 << 20));
   }
   inline static std::vector<double> picture;
@@ -122,22 +123,22 @@ protected:
 
 TEST_F(Nephroid, IrradianceIsTheSumOverRays)
 {
-  std::vector<bool> once(screen.count()); // what light reaches after one reflection only
-  for (int row = 0; row < screen.pixels; ++row)
-    for (int column = 0; column < screen.pixels; ++column)
-      once[static_cast<std::size_t>(row * screen.pixels + column)] = std::hypot(screen.x(column), screen.z(row)) < 0.86;
+  std::vector<bool> once(cup_floor.count()); // what light reaches after one reflection only
+  for (int row = 0; row < cup_floor.pixels; ++row)
+    for (int column = 0; column < cup_floor.pixels; ++column)
+      once[static_cast<std::size_t>(row * cup_floor.pixels + column)] = std::hypot(cup_floor.x(column), cup_floor.z(row)) < 0.86;
   // A pixel has some 600 points of the sequence and more, which are within 1 %.
-  expect_agreement("nephroid: irradiance", agreement(picture, truth(screen), photon_w, 0.01, once));
+  expect_agreement("nephroid: irradiance", agreement(picture, truth(cup_floor), photon_w, 0.01, once));
 }
 
 TEST_F(Nephroid, CuspAndEdgeAreWhereTheCurveSays)
 {
-  const std::vector<double> fine_truth = truth({screen.centre, screen.side, screen.pixels * fine});
-  const auto row_of = [](double z) { return static_cast<int>((z + screen.side / 2) / screen.pixel_side()); };
+  const std::vector<double> fine_truth = truth({cup_floor.centre, cup_floor.side, cup_floor.pixels * fine});
+  const auto row_of = [](double z) { return static_cast<int>((z + cup_floor.side / 2) / cup_floor.pixel_side()); };
   const auto expect_edge = [&](const std::string& what, double x, double low_z, double high_z) {
-    const int column = static_cast<int>((x - screen.centre[0] + screen.side / 2) / screen.pixel_side());
+    const int column = static_cast<int>((x - cup_floor.centre[0] + cup_floor.side / 2) / cup_floor.pixel_side());
     const Shift edge = shift_of(picture, fine_truth, photon_w, row_of(low_z), row_of(high_z), column - 10, column + 10);
-    expect_truth(what, x + edge.pixels * screen.pixel_side(), x, sigmas * edge.error * screen.pixel_side());
+    expect_truth(what, x + edge.pixels * cup_floor.pixel_side(), x, sigmas * edge.error * cup_floor.pixel_side());
     EXPECT_LT(sigmas * edge.error, 0.5) << what; // half a pixel would be seen
   };
   expect_edge("nephroid: x of the cusp / R", 0.5, -0.015, 0.015); // on the axis the only edge is the cusp
@@ -158,9 +159,9 @@ TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
   const double sine = slope / std::hypot(1, slope), innermost = 0.012;
   std::vector<double> excess(bins, 0), law(bins, 0), distance(bins, 0), outside(2, 0);
   std::vector<int> pixels(bins, 0);
-  for (int row = 0; row < screen.pixels; ++row)
-    for (int column = 0; column < screen.pixels; ++column) {
-      const double x = screen.x(column), z = std::abs(screen.z(row));
+  for (int row = 0; row < cup_floor.pixels; ++row)
+    for (int column = 0; column < cup_floor.pixels; ++column) {
+      const double x = cup_floor.x(column), z = std::abs(cup_floor.z(row));
       // The foot of the point on the curve: (X - C) . T changes its sign there.
       double low = 20 * degree, high = 45 * degree;
       const auto along = [&](double phi) {
@@ -171,8 +172,8 @@ TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
       for (int i = 0; i < 50; ++i) (along((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
       const double cx = (3 * std::cos(low) - std::cos(3 * low)) / 4, cz = (3 * std::sin(low) - std::sin(3 * low)) / 4;
       const double d = (x - cx) * std::sin(2 * low) - (z - cz) * std::cos(2 * low);
-      const double e = picture[static_cast<std::size_t>(row * screen.pixels + column)] / screen.pixel_area() / sine;
-      if (d < -screen.pixel_side() && d > -4 * screen.pixel_side()) outside[0] += e, ++outside[1];
+      const double e = picture[static_cast<std::size_t>(row * cup_floor.pixels + column)] / cup_floor.pixel_area() / sine;
+      if (d < -cup_floor.pixel_side() && d > -4 * cup_floor.pixel_side()) outside[0] += e, ++outside[1];
       const int bin = static_cast<int>(std::floor(2 * std::log2(d / innermost)));
       if (!(d > 0) || bin < 0 || bin >= bins) continue;
       const auto i = static_cast<std::size_t>(bin);
@@ -189,6 +190,125 @@ TEST_F(Nephroid, IrradianceFallsWithTheInverseRootOfTheDistance)
   }
   expect_truth("nephroid: exponent of irradiance over distance", (bins * sxy - sx * sy) / (bins * sxx - sx * sx), -0.5, 0.04);
   expect_truth("nephroid: irradiance over its law nearest the edge", (excess[0] / pixels[0] - third_ray) / (law[0] / pixels[0]), 1, 0.04);
+}
+
+// A glass ball as a lens: its focus, and what it makes of parallel light on a screen.
+
+constexpr double n = 1.5;
+
+/// A ball of radius 1 m and a screen at y = -distance.
+preset::Preset ball_and_screen(double distance)
+{
+  preset::Preset p = empty_preset();
+  p.scene.materials["glass"] = glass(n);
+  p.scene.materials["white"] = white();
+  preset::Shape ball;
+  ball.radius = 1;
+  p.scene.objects = {object("ball", ball, "glass"), object("screen", quad(100, 100), "white", at({0, -distance, 0}))};
+  return p;
+}
+
+/// W on the screen from light of 1 W/m^2 that comes from a point at `source` above the ball's centre (or INFINITY) and meets the ball
+/// within `aperture` of the axis: the integral over h, of which every ring h dh goes to a ring of the screen, for each branch of
+/// reflections.
+std::vector<double> truth(const Screen& screen, double distance, double aperture, double source = INFINITY)
+{
+  constexpr int rings = 1 << 17, directions = 1 << 12, each = 192;
+  std::vector<double> picture(screen.count(), 0.0), cosine, sine;
+  for (int i = 0; i < directions; ++i) {
+    cosine.push_back(std::cos(2 * M_PI * i / directions));
+    sine.push_back(std::sin(2 * M_PI * i / directions));
+  }
+  for (int ring = 0; ring < rings; ++ring) {
+    const double h = aperture * std::sqrt((ring + 0.5) / rings);
+    // A ray from a near point, at h before the ball's centre, is one at h' = h cos(tilt), with everything turned by the tilt.
+    const double tilt = std::isinf(source) ? 0 : std::atan(h / source);
+    for (int inner = -1; inner <= 3; ++inner) {
+      optics::BallRay ray = optics::ball_ray(h * std::cos(tilt), n, inner);
+      const double x = ray.x, y = ray.y;
+      ray.x = x * std::cos(tilt) - y * std::sin(tilt);
+      ray.y = x * std::sin(tilt) + y * std::cos(tilt);
+      ray.angle += tilt;
+      if (std::cos(ray.angle) <= 0) continue; // it goes the other way
+      const double r = ray.y + (distance - ray.x) * std::tan(ray.angle);
+      const double power = M_PI * aperture * aperture / rings / each * ray.share;
+      for (int j = 0; j < each; ++j) {
+        const auto k = static_cast<std::size_t>((j * directions / each + ring * 2531) % directions); // 2531 / 4096: the golden ratio
+        screen.add(picture, r * cosine[k], r * sine[k], power);
+      }
+    }
+  }
+  return picture;
+}
+
+/// Root mean square distance from the axis of what lands on the screen.
+double spread(const std::vector<double>& picture, const Screen& screen)
+{
+  double power = 0, moment = 0;
+  for (int row = 0; row < screen.pixels; ++row)
+    for (int column = 0; column < screen.pixels; ++column) {
+      const double w = picture[static_cast<std::size_t>(row * screen.pixels + column)];
+      power += w;
+      moment += w * (std::pow(screen.x(column), 2) + std::pow(screen.z(row), 2));
+    }
+  return std::sqrt(moment / power - std::pow(screen.pixel_side(), 2) / 6); // a pixel's own square adds side^2 / 12 each way
+}
+
+// Near the axis i = h and t = h / n. A ray leaves at the height 2 t - i and is turned by 2 (i - t), so it crosses the axis
+// 1 + (2 t - i) / (2 (i - t)) = n / (2 (n - 1)) from the centre: 1.5 radii for n = 1.5. The beam's spread on a screen is proportional to
+// its distance from the focus; screens before and behind it say where it is. Light comes from a point at a = 1000 into a cone that is 0.02
+// wide at the ball, and meets at b, 1 / a + 1 / b = 1 / f.
+TEST(BallLens, FocusIsWhereTheParaxialFormulaSays)
+{
+  constexpr double source = 1000, aperture = 0.02;
+  constexpr int photons = 1 << 18;
+  const auto focus = [&](const std::array<double, 2>& at, const std::array<double, 2>& spreads) {
+    const double b = (at[0] * spreads[1] + at[1] * spreads[0]) / (spreads[0] + spreads[1]);
+    return 1 / (1 / source + 1 / b);
+  };
+  const std::array<double, 2> distances{1.35, 1.65};
+  std::array<double, 2> measured{}, exact{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    preset::Preset p = ball_and_screen(distances[i]);
+    p.scene.lights = {pencil({0, source, 0}, {0, -1, 0}, std::atan(aperture / source) / degree)};
+    spectral::settings(p).photons_per_pass = photons;
+    const Screen screen{{0, -distances[i], 0}, 0.006, 100};
+    screen.fill(p.scene.camera, 0.1);
+    measured[i] = spread(watts(render(p), "caustic", screen, spectrum_of(p.scene.lights[0])), screen);
+    exact[i] = spread(truth(screen, distances[i], aperture, source), screen);
+  }
+  // A uniform disc's mean square radius is known to 1 / sqrt(3 N), so the spread to 1 / sqrt(12 N), and the focus to
+  // 0.15 / sqrt(24 N). The axis is off by rounding of the light's direction, 6e-8 of 1000. Rays at h focus nearer by about h^2.
+  const double noise = sigmas * 0.15 / std::sqrt(24.0 * photons);
+  expect_truth("ball lens: focus / R, from the exact rays", focus(distances, measured), focus(distances, exact), noise + 1e-5);
+  expect_truth("ball lens: paraxial focus / R", focus(distances, measured), n / (2 * (n - 1)), noise + 1e-5 + aperture * aperture);
+}
+
+// E(r) = sum over branches of T(h) h dh / (r dr): beyond the focus the rays that passed near the rim cross the axis first and form a bright
+// ring, the caustic's edge.
+TEST(BallLens, IrradianceOnAScreenIsTheIntegralOverHeights)
+{
+  constexpr double distance = 2.5;
+  preset::Preset p = ball_and_screen(distance);
+  p.scene.lights = {parallel_light({0, -1, 0})};
+  spectral::settings(p).photons_per_pass = 1 << 20;
+  p.stop.passes = 4;
+  const Screen screen{{0, -distance, 0}, 2.4, 120};
+  screen.fill(p.scene.camera, 1);
+  const std::vector<double> picture = watts(render(p), "caustic", screen, spectrum_of(p.scene.lights[0])),
+                            expected = truth(screen, distance, 1);
+  const double photon_w = directional_photon_w(p, 4.0 * (1 << 20));
+  expect_agreement("ball lens: irradiance 2.5 R behind the centre", agreement(picture, expected, photon_w, 0.01), 0.01);
+  for (int ring = 0; ring < 10; ++ring) {
+    std::vector<bool> inside(screen.count());
+    for (int row = 0; row < screen.pixels; ++row)
+      for (int column = 0; column < screen.pixels; ++column)
+        inside[static_cast<std::size_t>(row * screen.pixels + column)] =
+            static_cast<int>(std::hypot(screen.x(column), screen.z(row)) / 0.12) == ring;
+    const Agreement a = agreement(picture, expected, photon_w, 0, inside);
+    expect_truth(fmt::format("ball lens: power on the ring {:.2f} to {:.2f} R, over the integral", ring * 0.12, ring * 0.12 + 0.12),
+                 a.ratio, 1, sigmas * a.error + 2e-4);
+  }
 }
 
 } // namespace nephroid::nephroid_test

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with smoothed caustics beside the same runs without: the same power, less error.
+#include "spectral/glass_pixels.h"
 #include "spectral/sight.h"
+#include "tests/support/leaving_out_scenes.h"
 #include "tests/support/loaded_scenes.h"
+#include "tests/support/passes.h"
 #include "tests/support/render.h"
+#include "tests/support/saved_jobs.h"
 
 namespace nephroid::smoothing_test {
 
 using Smooth = spectral::Settings::Smoothing;
+using Effort = spectral::Settings::Effort;
 
 preset::Preset ball(int passes, Smooth smoothing)
 {
@@ -122,5 +127,149 @@ TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
   EXPECT_FALSE(smoothing_pass(sppm).runs);
   EXPECT_EQ(smoothing_pass(sppm).field, "");
 }
+
+// What the camera sees through glass gets samples as long as a run goes on, and its share of the work by what that gains; other pixels end
+// at spectral.pixel_samples.
+
+/// A ball of glass that dispersion pulls apart, before a sky of one colour; the floor under it, half of the picture, is seen directly.
+preset::Preset ball(int passes, std::uint64_t seed = 1)
+{
+  preset::Preset p = test::ball_scene();
+  p.seed = seed;
+  p.scene.environment = preset::Environment{preset::Environment::Type::constant, "", {0.2, 0.5, 1}};
+  p.scene.camera.resolution = {48, 48};
+  spectral::settings(p).pixel_samples = 4;
+  spectral::settings(p).caustic = false;
+  p.stop.passes = passes;
+  return p;
+}
+
+struct Errors {
+  double glass = 0, elsewhere = 0; ///< sums of squares
+};
+
+Errors errors_of(const std::vector<float>& rgb, const std::vector<float>& truth, const std::vector<bool>& glass)
+{
+  Errors errors;
+  for (std::size_t i = 0; i < rgb.size(); ++i)
+    (glass[i / 3] ? errors.glass : errors.elsewhere) += std::pow(static_cast<double>(rgb[i]) - truth[i], 2);
+  return errors;
+}
+
+TEST(ThroughGlass, RunsGoOnConverging)
+{
+  std::vector<bool> glass(48 * 48, false);
+  for (const std::uint32_t pixel : spectral::glass_pixels(scene::load_scene(ball(1)))) glass[pixel] = true;
+  const job::Snapshot few = test::render(ball(4)), many = test::render(ball(64));
+  preset::Preset long_run = ball(1024, 1000);
+  spectral::settings(long_run).pixel_samples = 1024;
+  const job::Snapshot truth = test::render(long_run);
+  for (const char* name : {"direct", "background"}) {
+    const Errors before = errors_of(layer(few, name).rgb, layer(truth, name).rgb, glass),
+                 after = errors_of(layer(many, name).rgb, layer(truth, name).rgb, glass);
+    // 16 times as many samples: a sixteenth of the variance, and a half more for few pixels with many of it.
+    EXPECT_GT(before.glass, 0) << name;
+    EXPECT_LT(after.glass, 1.5 / 16 * before.glass) << name;
+    EXPECT_EQ(after.elsewhere, before.elsewhere) << name;
+  }
+  // The run's own estimate knows: the squares of its draw are those of the error.
+  std::vector<float> draw = many.picture->error_draw;
+  const Errors drawn = errors_of(draw, std::vector<float>(draw.size(), 0.0f), glass),
+               error = errors_of(many.picture->rgb, truth.picture->rgb, glass);
+  EXPECT_NEAR(drawn.glass / error.glass, 1, 0.3);
+}
+
+/// The same with caustics, photon maps and all that a run decides by what it measures.
+preset::Preset whole(int passes)
+{
+  preset::Preset p = ball(passes);
+  spectral::settings(p).caustic = true;
+  spectral::settings(p).estimator = spectral::Settings::Estimator::automatic;
+  spectral::settings(p).effort = spectral::Settings::Effort::automatic;
+  spectral::settings(p).smoothing = spectral::Settings::Smoothing::automatic;
+  spectral::settings(p).photons_per_pass = 1 << 12;
+  return p;
+}
+
+TEST(ThroughGlass, ARunThatIsResumedHasTheSameBits)
+{
+  const job::Snapshot straight = test::render_as_it_is(whole(20));
+  for (const int steps : {1, 17, 40}) { // somewhere in passes before and after what is measured has changed anything
+    const auto first = test::job_as_it_is(whole(20));
+    for (int step = 0; step < steps && !first->finished(); ++step) first->step();
+    const std::vector<std::byte> state = test::saved(*first);
+    const auto second = test::job_as_it_is(whole(20));
+    EXPECT_TRUE(test::load(*second, state));
+    while (!second->finished()) second->step();
+    const job::Snapshot resumed = second->snapshot();
+    EXPECT_EQ(resumed.picture->rgb, straight.picture->rgb) << steps;
+    EXPECT_EQ(resumed.picture->error_draw, straight.picture->error_draw) << steps;
+  }
+}
+
+/// The sum of the caustic that the ball shows, over passes: the number of paths a pass changes, what they show does not.
+TEST(ThroughGlass, SharesChangeNoLight)
+{
+  preset::Preset shared = whole(64), plain = test::plain(shared);
+  spectral::settings(shared).smoothing = spectral::Settings::Smoothing::off;
+  plain.seed = 7;
+  std::vector<bool> glass(48 * 48, false);
+  for (const std::uint32_t pixel : spectral::glass_pixels(scene::load_scene(plain))) glass[pixel] = true;
+  const auto sum_of = [&](const job::Snapshot& snapshot) {
+    const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
+    double sum = 0;
+    for (std::size_t i = 0; i < rgb.size(); ++i) sum += glass[i / 3] ? rgb[i] : 0;
+    return sum;
+  };
+  const double by_gain = sum_of(test::render_as_it_is(shared)), as_before = sum_of(test::render(plain));
+  EXPECT_GT(as_before, 0);
+  EXPECT_NEAR(by_gain / as_before, 1, 0.05);
+}
+
+// Which clusters photons are dealt to changes the noise of a picture and not what it shows.
+
+/// X, Y and Z of the layer "caustic", and the power that came down.
+std::vector<double> caustic_colour(const job::Snapshot& snapshot)
+{
+  const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
+  optics::Colour sum{};
+  for (std::size_t i = 0; i < rgb.size(); ++i) sum[i % 3] += rgb[i];
+  const optics::Colour xyz = optics::linear_srgb_to_xyz(sum);
+  return {xyz[0], xyz[1], xyz[2], spectral::energy_of(snapshot).deposited_w};
+}
+
+/// A ball under daylight and a candle, on a floor that reflects no blue below 480 nm, to which (4.15) gives no importance.
+preset::Preset scene_by(Effort effort, std::uint64_t seed)
+{
+  preset::Preset p = ball_scene();
+  p.seed = seed;
+  p.scene.lights.push_back(p.scene.lights[0]);
+  p.scene.lights[1].spectrum.illuminant = "A";
+  p.scene.lights[1].position = {-0.5, 2.2, 0};
+  preset::Reflectance& floor = p.scene.materials["white"].reflectance;
+  floor.type = preset::Reflectance::Type::table;
+  floor.table = {{479, 0}, {480, 0.8}};
+  spectral::settings(p).direct = false;
+  spectral::settings(p).effort = effort;
+  p.stop.passes = 24;
+  return p;
+}
+
+class DealtEffort : public testing::TestWithParam<Effort> {};
+
+TEST_P(DealtEffort, LeavesThePictureAsItIs)
+{
+  static const std::vector<Estimate> power = render_passes(scene_by(Effort::power, 1), caustic_colour);
+  const std::vector<Estimate> other = render_passes(scene_by(GetParam(), 1000), caustic_colour);
+  double smallest = 1;
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    const Estimate difference{power[i].mean - other[i].mean, power[i].variance + other[i].variance, power[i].degrees};
+    smallest = std::min(smallest, p_value(difference, 0));
+    EXPECT_GT(other[i].mean, 30 * other[i].error()); // enough photons to tell
+  }
+  EXPECT_GT(sidak(smallest, 4), false_alarm);
+}
+
+INSTANTIATE_TEST_SUITE_P(Choices, DealtEffort, testing::Values(Effort::equal, Effort::importance, Effort::radziszewski));
 
 } // namespace nephroid::smoothing_test

@@ -2,9 +2,10 @@
 // One path for a whole cluster is biased; one wavelength of the cluster for each path is not, however coarse the clusters are. The truth is
 // brute force, a path for every wavelength. Low-discrepancy numbers and photons dealt by variance have to keep the expectation too. The
 // two halves of a film, from which a run tells its own error, have to be independent whatever the paths follow.
+#include "job/spectrum.h"
+#include "tests/support/closed_form.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
-#include "tests/support/test.h"
 
 namespace nephroid::wavelength_jitter_test {
 
@@ -168,6 +169,162 @@ TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters)
   const double ratio = believed_over_true_error(p);
   EXPECT_GT(ratio, 0.5);
   EXPECT_LT(ratio, 2);
+}
+
+// The spectrum of a pixel that layers keep: against the closed form of a point light over a diffuse plane, and against the picture's own
+// colours.
+
+constexpr int size = 16;
+constexpr double metres = 1; ///< of the floor, to a side of the picture
+
+/// A floor of a ColorChecker patch seen from straight above: a lamp of illuminant A above it. Layers are kept.
+preset::Preset floor_preset()
+{
+  preset::Preset p = empty_preset(size);
+  Screen{{0, 0, 0}, metres, size}.fill(p.scene.camera, 2);
+  p.scene.materials["orange"] = white();
+  p.scene.materials["orange"].reflectance.type = preset::Reflectance::Type::patch;
+  p.scene.materials["orange"].reflectance.patch = "orange";
+  p.scene.materials["nothing"] = glass(1);
+  p.scene.objects.push_back(object("floor", quad(10, 10), "orange"));
+  preset::Light light;
+  light.spectrum.illuminant = "A";
+  light.position = {0.1, 1, -0.2};
+  light.power_w = 5;
+  p.scene.lights.push_back(light);
+  p.white = 0.25;
+  spectral::settings(p).relight = true;
+  spectral::settings(p).direct = true;
+  return p;
+}
+
+/// W m^-2 sr^-1 nm^-1 that a pixel of the floor sends: rho / pi times the irradiance, Phi / (4 pi) cos / d^2 of a point of Phi W.
+std::vector<double> truth(const preset::Preset& p, const std::array<int, 2>& pixel)
+{
+  const preset::Light& light = p.scene.lights[0];
+  const double x = ((pixel[0] + 0.5) / size - 0.5) * metres, z = ((pixel[1] + 0.5) / size - 0.5) * metres;
+  const double dx = light.position[0] - x, dy = light.position[1], dz = light.position[2] - z;
+  const double d = std::sqrt(dx * dx + dy * dy + dz * dz);
+  const double irradiance = light.power_w / (4 * M_PI) * (dy / d) / (d * d);
+  const optics::Spectrum lamp = optics::illuminant("A"), floor = optics::colorchecker_patch("orange");
+  std::vector<double> radiance;
+  for (std::size_t w = 0; w < lamp.size(); ++w) radiance.push_back(floor[w] / M_PI * irradiance * lamp[w]);
+  return radiance;
+}
+
+/// As of the colour that the film adds up, over white.
+std::array<double, 3> colour_of(const std::vector<double>& radiance, double white)
+{
+  optics::Spectrum spectrum{};
+  for (std::size_t w = 0; w < spectrum.size(); ++w) spectrum[w] = radiance[w] / white;
+  return optics::xyz_to_linear_srgb(optics::to_xyz(spectrum));
+}
+
+std::unique_ptr<job::Job> finished(const preset::Preset& p)
+{
+  auto job = job_of(p);
+  while (!job->finished()) job->step();
+  return job;
+}
+
+std::shared_ptr<const job::PixelSpectrum> spectrum_of(job::Job& job, const std::array<int, 2>& pixel)
+{
+  auto* source = dynamic_cast<job::SpectrumSource*>(&job);
+  return source ? source->spectrum(pixel) : nullptr;
+}
+
+/// The picture's layer in a pixel is the colour of its spectrum, up to the film's single precision.
+void expect_colour_of_picture(job::Job& job, const job::PixelSpectrum& spectrum, double white)
+{
+  const job::Snapshot snapshot = job.snapshot();
+  for (const job::PixelSpectrum::Layer& part : spectrum.layers) {
+    const std::array<double, 3> colour = colour_of(part.radiance, white);
+    const std::size_t at = 3 * static_cast<std::size_t>(spectrum.pixel[1] * size + spectrum.pixel[0]);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(layer(snapshot, part.name).rgb[at + c], colour[c], 1e-5 * (std::abs(colour[1]) + 1e-6)) << part.name << " channel " << c;
+  }
+}
+
+TEST(PixelSpectrum, OfAPlaneUnderAPointIsTheClosedForm)
+{
+  preset::Preset p = floor_preset();
+  p.stop.passes = 64;
+  const auto job = finished(p);
+  for (const std::array<int, 2> pixel : {std::array{3, 4}, std::array{12, 9}}) {
+    const auto spectrum = spectrum_of(*job, pixel);
+    ASSERT_NE(spectrum, nullptr);
+    EXPECT_EQ(spectrum->why_not, "");
+    ASSERT_GE(spectrum->layers.size(), 1u);
+    EXPECT_EQ(spectrum->layers[0].name, "direct");
+    const std::vector<double> wanted = truth(p, pixel), &found = spectrum->layers[0].radiance;
+    ASSERT_EQ(found.size(), wanted.size());
+    // 64 samples in a pixel of 6 cm, over which the irradiance changes by 7 % at most: 0.26 %.
+    expect_truth("pixel spectrum: direct light of a point over its closed form at 600 nm", found[220] / wanted[220], 1, 0.01);
+    for (std::size_t w = 0; w < wanted.size(); ++w)
+      EXPECT_NEAR(found[w] / found[220], wanted[w] / wanted[220], 1e-6) << "the form does not hang on the samples; " << w + 380 << " nm";
+    expect_colour_of_picture(*job, *spectrum, p.white);
+  }
+}
+
+TEST(PixelSpectrum, OfLightThroughGlassIsClusterByCluster)
+{
+  preset::Preset p = floor_preset();
+  // A sheet that bends nothing (n = 1), out of the camera's sight of the floor: the light comes as from the point itself, and the clusters
+  // are of 40 nm each.
+  p.scene.objects.push_back(object("sheet", box(8, 0.01, 8), "nothing", at({0, 0.5, 0})));
+  p.scene.camera.position[1] = 0.45;
+  Screen{{0, 0, 0}, metres, size}.fill(p.scene.camera, 0.45);
+  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).step_nm = 40;
+  spectral::settings(p).photons_per_pass = 1 << 17;
+  p.stop.passes = 32;
+  const auto job = finished(p);
+  std::vector<double> mean(optics::wavelength_count, 0), wanted(optics::wavelength_count, 0);
+  for (int y = 4; y < 12; ++y)
+    for (int x = 4; x < 12; ++x) {
+      const auto spectrum = spectrum_of(*job, {x, y});
+      ASSERT_EQ(spectrum->layers.size(), 2u);
+      EXPECT_EQ(spectrum->layers[1].name, "caustic");
+      const std::vector<double> form = truth(p, {x, y});
+      for (std::size_t w = 0; w < mean.size(); ++w) {
+        mean[w] += spectrum->layers[0].radiance[w] + spectrum->layers[1].radiance[w];
+        wanted[w] += form[w];
+      }
+    }
+  for (const int nm : {400, 480, 540, 600, 700}) {
+    const auto w = static_cast<std::size_t>(nm - optics::first_nm);
+    // Some 7000 photons a cluster: 1.2 %.
+    expect_truth("pixel spectrum: light through a sheet of n = 1 over its closed form at " + std::to_string(nm) + " nm",
+                 mean[w] / wanted[w], 1, 0.06);
+  }
+  expect_colour_of_picture(*job, *spectrum_of(*job, {7, 8}), p.white);
+}
+
+TEST(PixelSpectrum, FollowsAnotherLight)
+{
+  preset::Preset p = floor_preset();
+  p.stop.passes = 4;
+  const auto job = finished(p);
+  const std::vector<double> before = spectrum_of(*job, {5, 5})->layers[0].radiance;
+  p.scene.lights[0].power_w = 15;
+  ASSERT_TRUE(job->adopt(p));
+  const auto after = spectrum_of(*job, {5, 5});
+  for (std::size_t w = 0; w < before.size(); w += 50) EXPECT_NEAR(after->layers[0].radiance[w], 3 * before[w], 1e-9 * before[w]);
+}
+
+TEST(PixelSpectrum, WithoutLayersSaysWhatToSwitchOn)
+{
+  preset::Preset p = floor_preset();
+  spectral::settings(p).relight = false;
+  p.stop.passes = 1;
+  const auto job = finished(p);
+  const auto spectrum = spectrum_of(*job, {5, 5});
+  ASSERT_NE(spectrum, nullptr);
+  EXPECT_TRUE(spectrum->layers.empty());
+  EXPECT_THAT(spectrum->why_not, HasSubstr("spectral.relight"));
+  EXPECT_EQ(spectrum->remedy, "spectral.relight=true");
+  EXPECT_EQ(spectrum_of(*job, {5, size}), nullptr) << "outside of the picture";
+  EXPECT_EQ(spectrum_of(*job, {-1, 5}), nullptr);
 }
 
 } // namespace nephroid::wavelength_jitter_test

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/gtc/constants.hpp>
 #include <random>
+#include <string>
 
 namespace nephroid::test {
 
@@ -69,6 +70,19 @@ inline glm::vec3 random_direction(std::mt19937& random)
     const float s = glm::dot(p, p);
     if (s < 1) return {2 * p.x * std::sqrt(1 - s), 2 * p.y * std::sqrt(1 - s), 1 - 2 * s};
   }
+}
+
+/// As data URIs of glTF have it.
+inline std::string base64(const std::string& bytes)
+{
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t j = 0; j < 3; ++j) group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? digits[group >> (18 - 6 * j) & 63] : '=';
+  }
+  return text;
 }
 
 } // namespace nephroid::test

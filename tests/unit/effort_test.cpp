@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// How spectral.effort deals the photons of a pass to lights and clusters, and what a cluster's iterations are.
+// How the photons of a pass are dealt to lights and clusters: after spectral.effort, by measured variance, and as numbered emitters.
 #include "scene/bvh.h"
 #include "scene/scene.h"
+#include "spectral/effort/emitters.h"
 #include "spectral/effort/importance.h"
+#include "spectral/effort/variance_deal.h"
 #include "spectral/engine.h"
 #include "spectral/tables/run_tables.h"
 #include "tests/support/errors.h"
 #include "tests/support/presets.h"
+#include "tests/support/saved_jobs.h"
 
 namespace nephroid::effort_test {
 
 using spectral::RunTables;
 using Effort = spectral::Settings::Effort;
+using spectral::VarianceDeal;
 
 constexpr unsigned photons = 1 << 16;
 
@@ -162,6 +166,166 @@ TEST(DealtEffort, IsInThePlan)
   EXPECT_THAT(reason_of(Effort::power, false), testing::HasSubstr("what the eye makes of each cluster's light"));
   EXPECT_THAT(reason_of(Effort::automatic, false), testing::HasSubstr("while that gains enough"));
   EXPECT_THAT(reason_of(Effort::variance, false), testing::HasSubstr("variance that is measured"));
+}
+
+TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
+{
+  EXPECT_THAT(spectral::deal_out({1, 1, 2}, 8), ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
+  EXPECT_THAT(spectral::deal_out({1, 0, 1e-9}, 100), ElementsAre(99, 0, 1));
+  EXPECT_THAT(spectral::deal_out({1, 1, 1}, 1), ElementsAre(1, 1, 1));
+  EXPECT_THAT(spectral::deal_out({0, 0}, 10), ElementsAre(0, 0));
+  std::vector<double> weights(401);
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::pow(0.9, static_cast<double>(i));
+  const std::vector<unsigned> counts = spectral::deal_out(weights, 1 << 18);
+  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 1u << 18);
+}
+
+// Two lights, three clusters; the second light has nothing in the middle one.
+TEST(Emitters, AreNumberedAndThoseOfALightTogether)
+{
+  const std::vector<shared::DeviceEmitter> emitters =
+      spectral::make_emitters({{1, 0, 0, 0.5}, {1, 0, 1, 0.25}, {2, 0, 2, 0.25}, {3, 1, 0, 0.75}, {0, 1, 1, 0}, {3, 1, 2, 0.25}}, 1005);
+  ASSERT_EQ(emitters.size(), 5u);
+  EXPECT_EQ(spectral::count_photons(emitters), 1005u);
+  const unsigned counts[] = {101, 101, 201, 301, 301}; // 1 each, and 1000 as 1 : 1 : 2 : 3 : 3
+  const int lights[] = {0, 0, 0, 1, 1}, clusters[] = {0, 1, 2, 0, 2};
+  const float shares[] = {0.5f, 0.25f, 0.25f, 0.75f, 0.25f};
+  unsigned first = 0;
+  for (std::size_t e = 0; e < emitters.size(); ++e) {
+    EXPECT_EQ(emitters[e].photon_count, counts[e]) << e;
+    EXPECT_EQ(emitters[e].light, lights[e]) << e;
+    EXPECT_EQ(emitters[e].cluster, clusters[e]) << e;
+    EXPECT_EQ(emitters[e].share, shares[e]) << e;
+    EXPECT_EQ(emitters[e].first_photon, first) << e;
+    EXPECT_EQ(emitters[e].light_first_photon, lights[e] == 0 ? 0u : 403u) << e;
+    EXPECT_EQ(emitters[e].light_photon_count, lights[e] == 0 ? 403u : 602u) << e;
+    first += counts[e];
+  }
+}
+
+TEST(Emitters, AreNoneInTheDark)
+{
+  EXPECT_TRUE(spectral::make_emitters({{0, 0, 0, 0}, {0, 1, 0, 0}}, 100).empty());
+  EXPECT_TRUE(spectral::make_emitters({}, 100).empty());
+  EXPECT_EQ(spectral::count_photons({}), 0u);
+}
+
+TEST(Emitters, SequencesAreLongerThan32Bits)
+{
+  shared::DeviceEmitter emitter{};
+  emitter.sequence_start = 0xfffffff0u;
+  spectral::advance_sequence(emitter, 0x20);
+  EXPECT_EQ(emitter.sequence_start, 0x10u);
+  EXPECT_EQ(emitter.sequence_start_high, 1u);
+  spectral::advance_sequence(emitter, std::uint64_t{5} << 32);
+  EXPECT_EQ(emitter.sequence_start, 0x10u);
+  EXPECT_EQ(emitter.sequence_start_high, 6u);
+}
+
+std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
+{
+  std::vector<shared::DeviceEmitter> all;
+  for (const unsigned count : counts) {
+    shared::DeviceEmitter emitter{};
+    emitter.photon_count = count;
+    all.push_back(emitter);
+  }
+  spectral::number_photons(all);
+  return all;
+}
+
+TEST(VarianceDeal, IsDueBeforePassesThatArePowersOfTwo)
+{
+  VarianceDeal deal(emitters({10, 10}));
+  std::vector<int> due;
+  for (int pass = 0; pass < 70; ++pass) {
+    if (!deal.is_due(pass)) continue;
+    due.push_back(pass);
+    deal.deal(pass, std::vector<std::int64_t>{1, 1}, 2);
+  }
+  EXPECT_EQ(due, (std::vector<int>{2, 4, 8, 16, 32, 64}));
+}
+
+// Two emitters with n = 100 photons each; a photon of the first adds v with v^2 = 9, of the second v^2 = 1. V_e = n * sum of v^2 a pass
+// stand as 9 to 1, their roots as 3 to 1: 150 and 50 of the 200 photons; nine tenths of that and one of the first deal, 145 and 55.
+TEST(VarianceDeal, GoesByTheRootOfTheVariance)
+{
+  VarianceDeal deal(emitters({100, 100}));
+  deal.deal(2, std::vector<std::int64_t>{2 * 100 * 9, 2 * 100 * 1}, 2);
+  EXPECT_NEAR(deal.emitters()[0].photon_count, 145, 1);
+  EXPECT_EQ(deal.emitters()[0].photon_count + deal.emitters()[1].photon_count, 200u);
+  EXPECT_EQ(deal.emitters()[1].first_photon, deal.emitters()[0].photon_count);
+  // What it measures from then on has other counts and the same variances: v goes as 1 / n. The deal stays.
+  const double a = deal.emitters()[0].photon_count, b = deal.emitters()[1].photon_count;
+  deal.deal(4, std::vector<std::int64_t>{std::llround(2 * a * 9 * 1e4 / (a * a)), std::llround(2 * b * 1e4 / (b * b))}, 2);
+  EXPECT_NEAR(deal.emitters()[0].photon_count, 145, 1);
+}
+
+TEST(VarianceDeal, NobodyGoesWithoutAndNothingIsLost)
+{
+  VarianceDeal deal(emitters({1, 1000, 7, 1}));
+  deal.deal(2, std::vector<std::int64_t>{0, std::int64_t{1} << 60, 0, 0}, 1);
+  unsigned all = 0;
+  for (const shared::DeviceEmitter& e : deal.emitters()) {
+    EXPECT_GE(e.photon_count, 1u);
+    EXPECT_EQ(e.first_photon, all);
+    all += e.photon_count;
+  }
+  EXPECT_EQ(all, 1009u);
+  VarianceDeal dark(emitters({30, 70}));
+  dark.deal(2, std::vector<std::int64_t>{0, 0}, 2);
+  EXPECT_EQ(dark.emitters()[0].photon_count, 30u);
+}
+
+// A light has one sequence for each half of the film: after 2 passes of 100 photons it has used 100 of each, after 4 200.
+TEST(VarianceDeal, SequencesGoOnWhereTheyWere)
+{
+  VarianceDeal deal(emitters({40, 60}));
+  deal.deal(2, std::vector<std::int64_t>{1, 1}, 2);
+  for (const shared::DeviceEmitter& e : deal.emitters()) EXPECT_EQ(e.sequence_start, 100u);
+  deal.deal(4, std::vector<std::int64_t>{1, 1}, 2);
+  for (const shared::DeviceEmitter& e : deal.emitters()) EXPECT_EQ(e.sequence_start, 200u);
+  VarianceDeal whole(emitters({40, 60}));
+  whole.deal(2, std::vector<std::int64_t>{1, 1}, 1);
+  EXPECT_EQ(whole.emitters()[0].sequence_start, 200u);
+}
+
+// Sums of v^2 of two passes each: 2 * 900 as dealt first, then 2 * 300, then 2 * 450.
+TEST(VarianceDeal, KnowsWhatItHasGained)
+{
+  VarianceDeal deal(emitters({40, 60}));
+  EXPECT_EQ(deal.gain(), 1);
+  deal.deal(2, std::vector<std::int64_t>{1000, 800}, 2);
+  EXPECT_EQ(deal.gain(), 1);
+  deal.deal(4, std::vector<std::int64_t>{500, 100}, 2);
+  EXPECT_DOUBLE_EQ(deal.gain(), 3);
+  deal.deal(8, std::vector<std::int64_t>{900, 900}, 2);
+  EXPECT_DOUBLE_EQ(deal.gain(), 2);
+}
+
+TEST(VarianceDeal, CanGoBackToTheFirst)
+{
+  VarianceDeal deal(emitters({40, 60}));
+  deal.deal(2, std::vector<std::int64_t>{1, 900}, 2);
+  EXPECT_NE(deal.emitters()[0].photon_count, 40u);
+  deal.deal_as_first(4, 2);
+  EXPECT_EQ(deal.emitters()[0].photon_count, 40u);
+  EXPECT_EQ(deal.emitters()[1].photon_count, 60u);
+  EXPECT_EQ(deal.first_pass(), 4);
+  for (const shared::DeviceEmitter& e : deal.emitters()) EXPECT_EQ(e.sequence_start, 200u);
+}
+
+TEST(VarianceDeal, IsSavedWhole)
+{
+  VarianceDeal deal(emitters({40, 60}));
+  deal.deal(2, std::vector<std::int64_t>{5, 700}, 2);
+  const std::vector<std::byte> bytes = test::saved<tracing::State>(deal);
+  VarianceDeal other(emitters({40, 60}));
+  EXPECT_TRUE(test::load<tracing::State>(other, bytes));
+  deal.deal(4, std::vector<std::int64_t>{100, 3}, 2);
+  other.deal(4, std::vector<std::int64_t>{100, 3}, 2);
+  for (std::size_t e = 0; e < 2; ++e) EXPECT_EQ(other.emitters()[e].photon_count, deal.emitters()[e].photon_count);
+  EXPECT_EQ(other.gain(), deal.gain());
 }
 
 } // namespace nephroid::effort_test

@@ -9,6 +9,7 @@
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/support/errors.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
@@ -18,18 +19,6 @@ namespace nephroid::gltf_import_test {
 using preset::Light;
 using preset::Material;
 using Json = nlohmann::json;
-
-std::string base64(const std::string& bytes)
-{
-  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
 
 /// A triangle with corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and three indices.
 std::string triangle_bytes()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mesh files of every format written here, checks of meshes, smooth normals and winding numbers.
 #include "scene/mesh.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nephroid::scene::mesh_test {
@@ -71,18 +72,6 @@ std::string cube_stl(bool binary)
     }
   }
   return binary ? bytes : bytes + "endsolid cube\n";
-}
-
-std::string base64(const std::string& bytes)
-{
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j) group = group << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-    for (std::size_t j = 0; j < 4; ++j) text += i + j <= bytes.size() ? digits[group >> (18 - 6 * j) & 63] : '=';
-  }
-  return text;
 }
 
 /// The cube under two nodes: one mirrored at x = 0, one moved by 10 along y inside a parent that doubles sizes.

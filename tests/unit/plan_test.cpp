@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan as others read it: their JSON, and the text a person sees.
+// What a run says about itself before and while it works: the plan as JSON and as text, the switch that a plan names for a pass (the window
+// draws a check box from it and the command line names it), the files in its folder, its progress.
+#include "base/error.h"
+#include "cli/progress.h"
 #include "plan/plan.h"
-#include "tests/support/test.h"
+#include "preset/read.h"
+#include "run/run.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+#include "spectral/engine.h"
+#include "tests/support/leaving_out_scenes.h"
+#include "tests/support/presets.h"
+#include "tests/support/process_state.h"
+#include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 
 namespace nephroid::plan_test {
 
 using nephroid::plan::Plan;
+using Json = nlohmann::json;
+using Estimator = spectral::Settings::Estimator;
+using namespace nephroid::cli;
 
 Plan example()
 {
@@ -23,14 +37,14 @@ Plan example()
 
 TEST(Plan, JsonIsTheContract)
 {
-  const auto json = nlohmann::json::parse(to_json(example()));
+  const auto json = Json::parse(to_json(example()));
   EXPECT_EQ(json["engine"], "spectral");
-  EXPECT_EQ(json["passes"], nlohmann::json::parse(R"([{"name":"photons","runs":true,"reason":"one light reaches 1 dielectric"},
+  EXPECT_EQ(json["passes"], Json::parse(R"([{"name":"photons","runs":true,"reason":"one light reaches 1 dielectric"},
                                                       {"name":"absorption","runs":false,"reason":"k is 0 everywhere"}])"));
   EXPECT_EQ(json["buffers"][1]["bytes"], 5ull << 33);
-  EXPECT_EQ(json["defines"], (nlohmann::json{{"MAX_SURFACES", "32"}}));
-  EXPECT_EQ(json["notes"], (nlohmann::json{"bunny: 12 open edges"}));
-  EXPECT_EQ(json["inputs"], nlohmann::json::parse(R"([{"file":"bunny.obj","content":"00ff"}])"));
+  EXPECT_EQ(json["defines"], (Json{{"MAX_SURFACES", "32"}}));
+  EXPECT_EQ(json["notes"], (Json{"bunny: 12 open edges"}));
+  EXPECT_EQ(json["inputs"], Json::parse(R"([{"file":"bunny.obj","content":"00ff"}])"));
   EXPECT_EQ(json.size(), 6u);
 }
 
@@ -40,9 +54,9 @@ TEST(Plan, AJsonLineHasTheNameToo)
   const std::string line = to_json_line(example(), "a,seed=2");
   EXPECT_THAT(line, testing::Not(HasSubstr("\n")));
   EXPECT_TRUE(line.starts_with(R"({"name":"a,seed=2","engine":"spectral",)")) << line;
-  auto json = nlohmann::json::parse(line);
+  auto json = Json::parse(line);
   json.erase("name");
-  EXPECT_EQ(json, nlohmann::json::parse(to_json(example())));
+  EXPECT_EQ(json, Json::parse(to_json(example())));
 }
 
 // What a panel draws its check box from, and what a person types.
@@ -50,7 +64,7 @@ TEST(Plan, APassNamesTheFieldThatTurnsItBackOn)
 {
   Plan plan = example();
   plan.passes[1].field = "/leave_out";
-  const auto json = nlohmann::json::parse(to_json(plan));
+  const auto json = Json::parse(to_json(plan));
   EXPECT_EQ(json["passes"][1]["field"], "/leave_out");
   EXPECT_EQ(json["passes"][1]["run_value"], false);
   EXPECT_FALSE(json["passes"][0].contains("field"));
@@ -61,7 +75,7 @@ TEST(Plan, APassNamesTheFieldThatTurnsItBackOn)
 
 TEST(Plan, EmptyListsAreListsAndObjects)
 {
-  const auto json = nlohmann::json::parse(to_json(Plan{}));
+  const auto json = Json::parse(to_json(Plan{}));
   EXPECT_TRUE(json["passes"].is_array() && json["buffers"].is_array() && json["notes"].is_array());
   EXPECT_TRUE(json["defines"].is_object());
 }
@@ -74,6 +88,285 @@ TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory)
   EXPECT_THAT(text, HasSubstr("total   40.0 GiB"));
   EXPECT_THAT(text, HasSubstr("-D MAX_SURFACES=32"));
   EXPECT_THAT(text, HasSubstr("bunny: 12 open edges"));
+}
+
+/// Nothing where presets may not have these values together.
+std::optional<preset::Preset> with_field(const preset::Preset& p, const std::string& pointer, bool value)
+{
+  Json fields = Json::parse(preset::to_json(p));
+  fields[Json::json_pointer(pointer)] = value;
+  try {
+    return preset::parse_preset(fields.dump(), p.source);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// JSON pointers of the preset's booleans that are no part of its scene.
+std::vector<std::string> switches(const preset::Preset& p)
+{
+  std::vector<std::string> pointers;
+  const Json fields = Json::parse(preset::to_json(p)).flatten();
+  for (const auto& [pointer, value] : fields.items())
+    if (value.is_boolean() && (pointer.starts_with("/spectral/") || pointer == "/measure/estimate")) pointers.push_back(pointer);
+  return pointers;
+}
+
+preset::Preset named(const std::string& name)
+{
+  preset::Preset p = name == "ball"          ? ball_scene()
+                     : name == "lines"       ? line_light_scene()
+                     : name == "dark lights" ? dark_lights_scene()
+                                             : preset::read_preset(name);
+  for (preset::Object& object : p.scene.objects)
+    if (object.shape) object.shape->segments = std::min(object.shape->segments, 16); // a small tree is soon made
+  if (name == "ball") p.scene.environment = preset::Environment{preset::Environment::Type::constant, "", {1, 1, 1}};
+  spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = true;
+  p.stop.passes = 8;
+  return p;
+}
+
+class PlanFields : public testing::TestWithParam<std::string> {
+protected:
+  const preset::Preset preset_ = named(GetParam());
+  const scene::Scene scene_ = scene::load_scene(preset_);
+  const scene::Bvh bvh_ = scene::build_bvh(scene_.geometry);
+  std::set<std::string> found_; ///< the fields of all passes
+
+  /// Of a preset with this scene.
+  plan::Pass pass_of(const preset::Preset& p, const std::string& name) const
+  {
+    const std::vector<plan::Pass> passes = spectral::make_plan(p, scene_, bvh_).passes;
+    const auto found = std::find_if(passes.begin(), passes.end(), [&](const plan::Pass& pass) { return pass.name == name; });
+    return found == passes.end() ? plan::Pass{name, false, "there is no such pass"} : *found;
+  }
+  void expect_true_fields(const preset::Preset& p, const std::string& what)
+  {
+    const Json fields = Json::parse(preset::to_json(p));
+    for (const plan::Pass& pass : spectral::make_plan(p, scene_, bvh_).passes) {
+      if (pass.field.empty()) continue;
+      SCOPED_TRACE(what + ": " + pass.name + (pass.runs ? " runs: " : " is left out: ") + pass.reason);
+      found_.insert(pass.field);
+      const Json::json_pointer pointer(pass.field);
+      ASSERT_TRUE(fields.contains(pointer) && fields[pointer].is_boolean()) << pass.field;
+      if (!pass.runs) {
+        EXPECT_NE(fields[pointer], pass.run_value) << "it is so already";
+      }
+      EXPECT_TRUE(with_field(p, pass.field, !fields[pointer].get<bool>())) << pass.field << " the other way is refused";
+      if (fields[pointer] == pass.run_value) continue; // it is the same preset
+      const auto switched = with_field(p, pass.field, pass.run_value);
+      if (switched && pass.runs) {
+        EXPECT_TRUE(pass_of(*switched, pass.name).runs) << pass.field << " = " << pass.run_value << " turns it off";
+      }
+    }
+  }
+  void expect_true_fields_whatever_is_switched(const preset::Preset& p, const std::string& what)
+  {
+    expect_true_fields(p, what);
+    const Json fields = Json::parse(preset::to_json(p));
+    for (const std::string& pointer : switches(p))
+      if (const auto other = with_field(p, pointer, !fields[Json::json_pointer(pointer)]))
+        expect_true_fields(*other, what + ", " + pointer + " the other way");
+  }
+};
+
+// Every switch is turned, one at a time, where nothing is left out: then few passes have a field to try, and there are few plans to make.
+TEST_P(PlanFields, AreTrueWhateverIsSwitched)
+{
+  expect_true_fields(preset_, "as it is");
+  preset::Preset p = preset_;
+  p.leave_out = false;
+  expect_true_fields_whatever_is_switched(p, "nothing left out");
+  for (const Estimator estimator : {Estimator::splat, Estimator::sppm}) {
+    spectral::settings(p).estimator = estimator;
+    expect_true_fields_whatever_is_switched(p, "another estimator");
+  }
+  spectral::settings(p).estimator = Estimator::automatic;
+  p.stop.error = 1;
+  expect_true_fields(p, "an error to stop at");
+  for (const char* field : {"/spectral/direct", "/spectral/background", "/spectral/jitter", "/spectral/low_discrepancy",
+                            "/spectral/relight", "/measure/estimate", "/leave_out"})
+    EXPECT_TRUE(found_.contains(field)) << field;
+}
+
+// These passes run where their switch says so and nowhere else: the scenes have caustics, and no scene every type of light.
+TEST_P(PlanFields, TurnTheirPassesOnAndOff)
+{
+  for (const char* name : {"low discrepancy", "error estimate", "light types"}) {
+    const plan::Pass pass = pass_of(preset_, name);
+    SCOPED_TRACE(std::string(name) + ": " + pass.reason);
+    ASSERT_NE(pass.field, "");
+    EXPECT_TRUE(pass_of(with_field(preset_, pass.field, pass.run_value).value(), name).runs);
+    EXPECT_FALSE(pass_of(with_field(preset_, pass.field, !pass.run_value).value(), name).runs);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PlanFields, testing::Values("ball", "lines", "dark lights", "spectral/prism", "spectral/F8BT-absorption"),
+                         [](const auto& parameter) {
+                           std::string name = parameter.param;
+                           std::replace_if(
+                               name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+                           return name;
+                         });
+
+class RunFolder : public testing::Test {
+protected:
+  void SetUp() override
+  {
+    write_file_whole(folder / "image.exr", "a picture");
+    write_file_whole(folder / "preset.json", preset::to_json(preset, folder) + "\n");
+  }
+  std::optional<run::FinishedRun> with_run_json(const std::string& text) const
+  {
+    write_file_whole(folder / "run.json", text);
+    return run::finished_run(folder, preset);
+  }
+  const preset::Preset preset = test::empty_preset();
+  const test::TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
+};
+
+constexpr const char* whole =
+    R"({"finished":true,"passes":7,"photons":9000000000,"units":{"steps":"passes","work":"photons"},"work_seconds":1.5})";
+
+TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
+{
+  const auto run = with_run_json(whole);
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->progress.fraction, 1);
+  EXPECT_EQ(run->progress.step, 7);
+  EXPECT_EQ(run->progress.work, 9000000000u);
+  EXPECT_EQ(run->progress.work_seconds, 1.5);
+}
+
+TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes)
+{
+  const auto run = with_run_json(
+      R"({"finished":true,"sweeps":1,"facets":8,"units":{"step":"sweep","steps":"sweeps","work":"facets"},"work_seconds":1})");
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->progress.units.step, "sweep");
+  EXPECT_EQ(run->progress.units.steps, "sweeps");
+  EXPECT_EQ(run->progress.units.works, "facets");
+}
+
+TEST_F(RunFolder, OnlyAFolderThatWasMadeIsNew)
+{
+  std::filesystem::create_directory(folder / "of the user");
+  EXPECT_FALSE(run::claim_folder(folder / "of the user"));
+  EXPECT_TRUE(run::claim_folder(folder / "new" / "inside"));
+}
+
+TEST_F(RunFolder, AnotherPresetIsAnotherRun)
+{
+  ASSERT_TRUE(with_run_json(whole));
+  preset::Preset other = preset;
+  other.seed = 2;
+  EXPECT_FALSE(run::finished_run(folder, other));
+  std::filesystem::remove(folder / "image.exr");
+  EXPECT_FALSE(run::finished_run(folder, preset));
+}
+
+TEST_F(RunFolder, ADamagedRunJsonIsNoFinishedRun)
+{
+  for (const char* text : {"", "{", "[]", "7", "{}", R"({"finished":false})", R"({"finished":true})", R"({"finished":"yes"})",
+                           R"({"finished":true,"passes":"7","photons":1,"work_seconds":1})",
+                           R"({"finished":true,"passes":7,"photons":1,"work_seconds":null})", "\xff\xfe"})
+    EXPECT_FALSE(with_run_json(text)) << text;
+}
+
+job::Progress at(double fraction, std::int64_t step, std::uint64_t photons, double work_seconds)
+{
+  return {.fraction = fraction, .step = step, .steps = 100, .work = photons, .work_seconds = work_seconds};
+}
+
+TEST(Pace, IsThatOfThisSessionOnly)
+{
+  // Resumed at half way after 100 s of work on a slow machine; here a quarter took 5 s.
+  const job::Pace pace = job::pace_between(at(0.5, 50, 1'000'000, 100), at(0.75, 75, 3'000'000, 105));
+  EXPECT_DOUBLE_EQ(pace.work_per_second, 400'000);
+  EXPECT_DOUBLE_EQ(pace.seconds_left, 5);
+}
+
+TEST(Pace, IsUnknownAtTheStart)
+{
+  const job::Pace pace = job::pace_between(at(0, 0, 0, 0), at(0, 0, 0, 0));
+  EXPECT_EQ(pace.work_per_second, 0);
+  EXPECT_LT(pace.seconds_left, 0);
+}
+
+TEST(ProgressLine, HasBarPassRateAndTimeLeft)
+{
+  const std::string line = progress_line("prism", at(0.5, 50, 0, 0), {1.214e6, 3661}, 100);
+  EXPECT_EQ(line, "prism  [###############---------------]   50 %  pass 51 of 100  1.21 M photons/s  1:01:01 left");
+  EXPECT_THAT(progress_line("prism", at(0.999, 99, 0, 0), {950, 7.4}, 100), HasSubstr(" 99 %  pass 100 of 100  950 photons/s  0:07 left"));
+  EXPECT_THAT(progress_line("prism", at(0, 0, 0, 0), {}, 100), Not(HasSubstr("left"))) << "no figure before there is one";
+}
+
+TEST(ProgressLine, CountsThePassInHand)
+{
+  EXPECT_THAT(progress_line("prism", at(0.004, 0, 0, 0), {}, 100), HasSubstr("  0 %  pass 1 of 100"));
+  EXPECT_THAT(progress_line("prism", at(1, 100, 0, 0), {}, 100), HasSubstr("100 %  pass 100 of 100"));
+  job::Progress by_time = at(0.5, 7, 0, 0);
+  by_time.steps = -1;
+  EXPECT_THAT(progress_line("prism", by_time, {}, 100), testing::EndsWith(" 50 %  pass 8"));
+}
+
+TEST(ProgressLine, NeverIsWiderThanTheTerminal)
+{
+  for (int columns = 0; columns < 200; ++columns)
+    EXPECT_LE(progress_line("a-rather-long-name-of-a-preset", at(1, 1'000'000, 0, 0), {1e12, 1e12}, columns).size(),
+              static_cast<std::size_t>(std::max(columns, 1)));
+}
+
+TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown)
+{
+  const std::string line = progress_json({"label", "odd \"name\"\n\xff"}, at(0.25, 3, 12, 0.5), {});
+  EXPECT_THAT(line, Not(HasSubstr("\n")));
+  const auto json = Json::parse(line);
+  EXPECT_EQ(json["type"], "progress");
+  EXPECT_EQ(json["name"], "odd \"name\"\n\xef\xbf\xbd");
+  EXPECT_EQ(json["stage"], "run");
+  EXPECT_EQ(Json::parse(progress_json({"", "", "reference"}, at(0, 0, 0, 0), {}))["stage"], "reference");
+  EXPECT_EQ(json["fraction"], 0.25);
+  EXPECT_EQ(json["step"], 3);
+  EXPECT_EQ(json["photons"], 12);
+  EXPECT_TRUE(json["seconds_left"].is_null());
+  job::Progress endless = at(0, 1, 0, 0);
+  endless.steps = -1;
+  EXPECT_TRUE(Json::parse(progress_json({}, endless, {}))["steps"].is_null());
+}
+
+TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
+{
+  EXPECT_EQ(progress_style(true), ProgressStyle::json);
+  const test::Variable terminal("TERM", "dumb");
+  EXPECT_EQ(progress_style(false), ProgressStyle::lines);
+}
+
+TEST(ProgressDisplay, JsonShowsTheEndWhateverTheRhythm)
+{
+  testing::internal::CaptureStdout();
+  {
+    ProgressDisplay display(ProgressStyle::json, {}, at(0, 0, 0, 0));
+    display.update(at(0.5, 1, 10, 1)); // within the first half second: not shown
+    display.finish(at(1, 2, 20, 2));
+  }
+  const std::string shown = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 1);
+  EXPECT_EQ(Json::parse(shown)["fraction"], 1.0);
+}
+
+TEST(ProgressDisplay, TheLiveLineIsTakenAway)
+{
+  testing::internal::CaptureStderr();
+  {
+    ProgressDisplay display(ProgressStyle::live, {"a", ""}, at(0, 0, 0, 0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));
+    display.update(at(0.5, 1, 10, 1));
+  }
+  const std::string shown = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(shown, HasSubstr("\ra  [##"));
+  EXPECT_THAT(shown, testing::EndsWith("\r\033[K"));
 }
 
 } // namespace nephroid::plan_test

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a loaded scene has on the 401 wavelengths: lights with their figures and spectra, materials of every kind.
+// What a loaded scene has on the 401 wavelengths: lights, materials of every kind, environments and what is refused of their pictures, and
+// the tables that photons are drawn by from an environment.
+#include "image/image.h"
+#include "optics/primary_spectra.h"
+#include "scene/environment_light.h"
 #include "scene/materials.h"
+#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
+#include "tests/support/temporary_folder.h"
+#include "tracing/sky_tables.h"
 
 namespace nephroid::scene::scene_light_test {
 
@@ -99,6 +106,230 @@ TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance)
   EXPECT_EQ(outside_policy(preset::Outside::hold), optics::Outside::hold);
   EXPECT_EQ(outside_policy(preset::Outside::extrapolate), optics::Outside::extrapolate);
   EXPECT_EQ(outside_policy(preset::Outside::refuse), optics::Outside::refuse);
+}
+
+class SceneEnvironment : public testing::Test {
+protected:
+  test::TemporaryFolder temporary;
+  std::vector<std::string> warnings;
+
+  std::string write_exr(const std::vector<float>& data, int width, std::vector<std::string> channels = {"R", "G", "B"}) const
+  {
+    const int height = static_cast<int>(data.size() / channels.size()) / width;
+    const std::string file = (temporary.path() / "sky.exr").string();
+    image::write_exr(file, {width, height, std::move(channels), data, {}});
+    return file;
+  }
+  Environment load(const std::string& file)
+  {
+    preset::Environment environment;
+    environment.file = file;
+    environment.radiance = 3;
+    environment.rotate_deg = 20;
+    return make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
+  }
+};
+
+TEST_F(SceneEnvironment, FloatsAreTakenAsTheyAre)
+{
+  const Environment e = load(write_exr({1, 2, 3, 4, 5, 1e6f}, 2));
+  EXPECT_EQ(e.width, 2);
+  EXPECT_EQ(e.height, 1);
+  EXPECT_THAT(e.rgb, ElementsAre(1, 2, 3, 4, 5, 1e6f));
+  EXPECT_EQ(e.radiance, 3);
+  EXPECT_EQ(e.rotate_deg, 20);
+  EXPECT_FALSE(e.is_black());
+  EXPECT_THAT(warnings, IsEmpty());
+}
+
+TEST_F(SceneEnvironment, IntegersAreDecodedAndGreyHasThreeChannels)
+{
+  const std::string png = (temporary.path() / "sky.png").string();
+  image::write_png_bytes(png, 2, 1, {0, 255, 188, 255, 255, 255, 255, 255});
+  const Environment e = load(png);
+  EXPECT_EQ(e.rgb[1], 1);
+  EXPECT_NEAR(e.rgb[2], 0.50289, 1e-5); // IEC 61966-2-1 of 188 / 255
+  EXPECT_THAT(load(write_exr({0.5f, 0.25f}, 2, {"Y"})).rgb, ElementsAre(0.5f, 0.5f, 0.5f, 0.25f, 0.25f, 0.25f));
+}
+
+TEST_F(SceneEnvironment, AConstantIsOneTexel)
+{
+  preset::Environment environment;
+  environment.type = preset::Environment::Type::constant;
+  environment.colour = {0.25, 0.5, 0};
+  Environment e = make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
+  EXPECT_EQ(e.width * e.height, 1);
+  EXPECT_THAT(e.rgb, ElementsAre(0.25f, 0.5f, 0));
+  EXPECT_FALSE(e.is_black());
+  e.radiance = 0;
+  EXPECT_TRUE(e.is_black());
+}
+
+TEST_F(SceneEnvironment, ABadTexelIsNamed)
+{
+  std::vector<float> sky(3 * 8, 1.0f);
+  sky[3 * 6 + 1] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }),
+              HasSubstr("sky.exr: green of the texel in row 1, column 2 (from 0) is not a number"));
+  sky[3 * 6 + 1] = 1;
+  sky[3 * 3] = std::numeric_limits<float>::infinity();
+  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("red of the texel in row 0, column 3 (from 0) is infinite"));
+  sky[3 * 3] = 1;
+  sky[3 * 7 + 2] = -1;
+  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("blue of the texel in row 1, column 3 (from 0) is negative"));
+}
+
+// As every map of Debian's blender-data has them, which are compressed with loss.
+TEST_F(SceneEnvironment, AFewValuesBelowNothingAreBlackAndSaid)
+{
+  std::vector<float> sky(3 * 8, 1.0f);
+  sky[3 * 7 + 2] = sky[4] = -0.01f; // 0.02 of 22
+  const Environment e = load(write_exr(sky, 4));
+  EXPECT_EQ(e.rgb[3 * 7 + 2], 0);
+  EXPECT_EQ(e.rgb[4], 0);
+  EXPECT_EQ(e.rgb[0], 1);
+  EXPECT_THAT(warnings, ElementsAre("environment sky.exr: 2 values are below 0, in sum 0.0009 of all its light; they are taken as 0"));
+  sky[4] = -0.02f;
+  EXPECT_THAT(refusal_of([&] { load(write_exr(sky, 4)); }), HasSubstr("green of the texel in row 0, column 1 (from 0) is negative"));
+}
+
+TEST_F(SceneEnvironment, WhatIsNoSuchPictureIsRefused)
+{
+  EXPECT_THAT(refusal_of([&] { load(temporary.write("sky.hdr", "not a picture")); }),
+              AllOf(HasSubstr("sky.hdr: is no picture that can be read: "), HasSubstr("; expected a whole EXR, HDR, PNG, JPEG or another"),
+                    EndsWith("; save it anew, or name another file")));
+  EXPECT_THAT(refusal_of([&] { load(write_exr({1, 2}, 1, {"R", "G"})); }), HasSubstr("has the channels"));
+  EXPECT_THAT(refusal_of([&] { load("no-such-sky.exr"); }), HasSubstr("p.json#/scene/environment/file"));
+}
+
+TEST_F(SceneEnvironment, AnotherShapeIsStretchedAndSaid)
+{
+  const Environment e = load(write_exr(std::vector<float>(3 * 4 * 4, 1.0f), 4));
+  EXPECT_EQ(e.height, 4);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("4 x 4 texels"));
+}
+
+// The film resolves 2^-20 of the mean. What is 0 is black whatever the film resolves.
+TEST_F(SceneEnvironment, ARangeThatTheFilmCannotHoldIsSaid)
+{
+  std::vector<float> sky(3 * 8, 1.0f);
+  sky[5] = 1e12f;
+  load(write_exr(sky, 4));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("sky.exr: half of its values above 0 are below 2e-11 of its mean"));
+  warnings.clear();
+  std::fill(sky.begin(), sky.end(), 0.0f);
+  for (const std::size_t i : {0, 1, 2, 3}) sky[i] = i < 2 ? 1e12f : 1;
+  load(write_exr(sky, 4));
+  EXPECT_THAT(warnings, IsEmpty()) << "half is not more than half";
+  sky[4] = 1;
+  load(write_exr(sky, 4));
+  EXPECT_EQ(warnings.size(), 1u);
+  warnings.clear();
+  load(write_exr(std::vector<float>(3 * 8, 0.0f), 4));
+  EXPECT_THAT(warnings, IsEmpty());
+}
+
+TEST_F(SceneEnvironment, TheSceneHasIt)
+{
+  preset::Preset preset = test::ball_over_floor();
+  EXPECT_FALSE(load_scene(preset).environment);
+  preset.scene.environment.emplace();
+  preset.scene.environment->file = write_exr(std::vector<float>(3 * 8 * 4, 0.5f), 8);
+  const Scene scene = load_scene(preset);
+  ASSERT_TRUE(scene.environment);
+  EXPECT_EQ(scene.environment->width, 8);
+}
+
+scene::Environment map_of(int width, std::vector<float> rgb)
+{
+  scene::Environment map;
+  map.width = width;
+  map.height = static_cast<int>(rgb.size() / 3) / width;
+  map.rgb = std::move(rgb);
+  return map;
+}
+
+/// Faint and strong, coloured, black.
+scene::Environment uneven()
+{
+  std::vector<float> rgb;
+  for (int i = 0; i < 64; ++i)
+    for (int c = 0; c < 3; ++c) rgb.push_back(i % 5 == 4 ? 0.0f : i == 17 ? 3e4f : static_cast<float>(0.1 + (i + c) % 3));
+  return map_of(8, rgb);
+}
+
+TEST(EnvironmentFlux, TexelsFillTheSphere)
+{
+  for (const int width : {1, 2, 8, 4096}) {
+    const scene::Environment map = map_of(width, std::vector<float>(static_cast<std::size_t>(3 * width * std::max(1, width / 2)), 1.0f));
+    double sum = 0;
+    for (int row = 0; row < map.height; ++row) sum += width * scene::texel_steradians(map, row);
+    EXPECT_NEAR(sum / (4 * M_PI), 1, 1e-12) << width;
+  }
+}
+
+TEST(EnvironmentFlux, OneColourHasItsSpectrum)
+{
+  scene::Environment map = map_of(2, {0.9f, 0.6f, 0.3f, 0.9f, 0.6f, 0.3f});
+  map.radiance = 5;
+  const scene::EnvironmentFlux flux = scene::flux_of(map);
+  EXPECT_NEAR(flux.grey, 0.6 * 4 * M_PI, 1e-6);
+  const scene::Light light = scene::make_environment_light(map);
+  EXPECT_NEAR(std::accumulate(light.spectrum.begin(), light.spectrum.end(), 0.0), 1, 1e-12);
+  double sum = 0;
+  for (std::size_t w = 0; w < light.spectrum.size(); ++w) {
+    double radiance = 0, carried = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      radiance += 5 * static_cast<double>(map.rgb[c]) * optics::primary_spectra()[c][w];
+      carried += flux.mean[c] * light.primaries[c][w];
+    }
+    sum += std::abs(radiance);
+    EXPECT_NEAR(light.irradiance_w_m2 * carried, 4 * M_PI * radiance, 1e-7);
+    EXPECT_NEAR(light.spectrum[w], std::abs(carried), 1e-7);
+  }
+  EXPECT_NEAR(light.irradiance_w_m2, 4 * M_PI * sum, 1e-4);
+}
+
+// No photon carries much more than another, and each texel is drawn as often as its flux asks for.
+TEST(SkyTables, PhotonsCarryAlike)
+{
+  const scene::Environment map = uneven();
+  const tracing::SkyTables tables = tracing::make_sky_tables(map);
+  const double all = scene::flux_of(map).grey;
+  ASSERT_EQ(tables.cdf.size(), 8u + 64u);
+  ASSERT_EQ(tables.colour.size(), map.rgb.size());
+  const auto chance = [&](std::size_t first, std::size_t i) {
+    return static_cast<double>(tables.cdf[first + i]) - (i > 0 ? static_cast<double>(tables.cdf[first + i - 1]) : 0.0);
+  };
+  for (std::size_t row = 0; row < 8; ++row)
+    for (std::size_t column = 0; column < 8; ++column) {
+      const std::size_t texel = 8 * row + column;
+      const double drawn = chance(0, row) * chance(8 + 8 * row, column), grey = scene::grey(map, texel),
+                   steradians = scene::texel_steradians(map, static_cast<int>(row));
+      EXPECT_NEAR(drawn, grey * steradians / all, 16 * 0x1p-24); // a quantum for each of a row, and of the rows
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double colour = static_cast<double>(tables.colour[3 * texel + c]);
+        EXPECT_NEAR(drawn * colour, static_cast<double>(map.rgb[3 * texel + c]) * steradians / all, 1e-7 * drawn * colour);
+        EXPECT_LE(colour, 3 * 1.01);
+      }
+    }
+}
+
+// Half of the light in one texel of 2^40 times the others': these are still drawn, and carry as little as they have.
+TEST(SkyTables, NothingIsLostBesideASun)
+{
+  std::vector<float> rgb(3 * 32 * 16, 1e-6f);
+  rgb[0] = rgb[1] = rgb[2] = 1e12f;
+  const scene::Environment map = map_of(32, rgb);
+  const tracing::SkyTables tables = tracing::make_sky_tables(map);
+  for (std::size_t i = 0; i < tables.cdf.size(); ++i)
+    EXPECT_GT(tables.cdf[i], i == 0 || (i >= 16 && (i - 16) % 32 == 0) ? 0 : tables.cdf[i - 1]);
+  for (std::size_t i = 3; i < tables.colour.size(); ++i) {
+    EXPECT_GT(tables.colour[i], 0);
+    EXPECT_LT(tables.colour[i], 1e-6f);
+  }
 }
 
 } // namespace nephroid::scene::scene_light_test

@@ -1,11 +1,256 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a look through a pixel ends, against Snell's law by hand.
+// The camera's frame and pixel rays by hand, the corners of objects and the box about them, host rays through the tree against every
+// triangle on its own, and where a look through a pixel ends, against Snell's law by hand.
 #include "scene/bvh.h"
+#include "scene/corners.h"
+#include "scene/ray.h"
+#include "spectral/clusters/scene_clusters.h"
 #include "spectral/sight.h"
+#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
+#include "tests/support/meshes.h"
 #include "tests/support/presets.h"
 
-namespace nephroid::sight_test {
+namespace nephroid::scene::sight_test {
+
+using glm::dvec3;
+
+Scene empty_scene(const glm::dvec3& origin = {0, 0, 0})
+{
+  Scene scene;
+  scene.source = "p.json";
+  scene.origin = origin;
+  return scene;
+}
+
+/// The direction through the picture at (x, y) pixels from its top left corner: pixel (i, j) has its centre at (i + .5, j + .5).
+glm::dvec3 direction(const Camera& c, double x, double y)
+{
+  return glm::dvec3(c.forward) + (2 * x / c.width - 1) * c.tan_x * glm::dvec3(c.right) +
+         (1 - 2 * y / c.height) * c.tan_y * glm::dvec3(c.up);
+}
+
+// From (0, 0, 5) to the origin, 90 degrees high, 400 x 200 pixels: the plane z = 4, at distance 1, is seen from x = -2 to 2 and
+// from y = -1 to 1. Row 0 is the top, column 0 the left.
+TEST(Camera, CornersOfThePicture)
+{
+  preset::Camera preset;
+  preset.position = {0, 0, 5};
+  preset.fov_deg = 90;
+  preset.resolution = {400, 200};
+  const Camera camera = make_camera(preset, empty_scene());
+  expect_near(direction(camera, 0, 0), {-2, 1, -1});
+  expect_near(direction(camera, 400, 0), {2, 1, -1});
+  expect_near(direction(camera, 0, 200), {-2, -1, -1});
+  expect_near(direction(camera, 400, 200), {2, -1, -1});
+  expect_near(direction(camera, 200, 100), {0, 0, -1});
+  expect_near(direction(camera, 0.5, 0.5), {-1.995, 0.995, -1}); // the centre of the first pixel
+}
+
+// Straight down with up = +x: the picture's right is forward x up = (-y) x (+x) = +z.
+TEST(Camera, LooksDown)
+{
+  preset::Camera preset;
+  preset.position = {1, 10, 2};
+  preset.target = {1, 3, 2};
+  preset.up = {5, 0.5, 0}; // only its part across the view counts
+  const Camera camera = make_camera(preset, empty_scene());
+  expect_near(camera.forward, {0, -1, 0});
+  expect_near(camera.up, {1, 0, 0});
+  expect_near(camera.right, {0, 0, 1});
+  EXPECT_NEAR(camera.tan_y, std::tan(20 * M_PI / 180), 1e-12);
+  EXPECT_DOUBLE_EQ(camera.tan_x, camera.tan_y);
+}
+
+TEST(Camera, KeepsItsPlaceFarAway)
+{
+  preset::Camera preset;
+  preset.position = {1e6 + 0.001, 1e6, 1e6 + 0.002};
+  preset.target = {1e6, 1e6, 1e6};
+  const Camera camera = make_camera(preset, empty_scene({1e6, 1e6, 1e6}));
+  expect_near(camera.position, {0.001, 0, 0.002}, 1e-9);
+  expect_near(camera.forward, {-1 / std::sqrt(5), 0, -2 / std::sqrt(5)}, 1e-6);
+}
+
+void expect_refused(const preset::Camera& camera, const char* field)
+{
+  EXPECT_THAT(refusal_of([&] { make_camera(camera, empty_scene()); }), StartsWith(std::string("p.json#/scene/camera/") + field + ": "));
+}
+
+TEST(Camera, RefusesWhatIsNoView)
+{
+  preset::Camera bad;
+  bad.target = bad.position;
+  expect_refused(bad, "target");
+  bad = {};
+  bad.up = {0, -1, -4}; // away from (0, 1, 4) to the origin: along the view
+  expect_refused(bad, "up");
+  bad = {};
+  bad.up = {0, 0, 0};
+  expect_refused(bad, "up");
+  bad = {};
+  bad.position[1] = 1e12;
+  expect_refused(bad, "position");
+  bad = {};
+  bad.target[1] = std::nan("");
+  expect_refused(bad, "target");
+}
+
+/// A box about the origin and a quad beside it.
+Scene box_and_quad()
+{
+  preset::Preset p = test::empty_preset(4);
+  p.scene.materials["glass"] = test::glass(1.5);
+  p.scene.materials["white"] = test::white();
+  p.scene.objects = {test::object("box", test::box(2, 4, 6), "glass"),
+                     test::object("floor", test::quad(10, 8), "white", test::at({0, -3, 1}))};
+  return load_scene(p);
+}
+
+TEST(Corners, AreThoseOfTheObjectAlone)
+{
+  const Scene scene = box_and_quad();
+  const Bounds box = bounds_of(scene, scene.objects[0]), floor = bounds_of(scene, scene.objects[1]);
+  EXPECT_EQ(scene.origin + box.low, glm::dvec3(-1, -2, -3));
+  EXPECT_EQ(scene.origin + box.high, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(scene.origin + floor.low, glm::dvec3(-5, -3, -3));
+  EXPECT_EQ(scene.origin + floor.high, glm::dvec3(5, -3, 5));
+  int corners = 0;
+  for_each_corner(scene, scene.objects[0], [&](const glm::dvec3& corner) {
+    ++corners;
+    EXPECT_EQ(glm::abs(scene.origin + corner), glm::dvec3(1, 2, 3));
+  });
+  EXPECT_EQ(corners, 3 * 12);
+  for_each_corner_index(scene, scene.objects[1], [&](std::uint32_t vertex) { EXPECT_LT(vertex, scene.geometry.positions.size()); });
+}
+
+TEST(Corners, WithoutTrianglesThereIsNoBox)
+{
+  Object nothing;
+  const Bounds bounds = bounds_of(box_and_quad(), nothing);
+  EXPECT_GT(bounds.low.x, bounds.high.x);
+  EXPECT_EQ(enclosing(bounds, {glm::dvec3(1), glm::dvec3(2)}).high, glm::dvec3(2));
+}
+
+// Panels have scenes of materials and objects alone.
+TEST(Corners, TrianglesThatTheSceneDoesNotHoldAreRefused)
+{
+  Scene outline = box_and_quad();
+  const std::vector<Object> objects = outline.objects;
+  for (const auto& [first, count] : {std::pair{13u, 2u}, {14u, 1u}, {15u, 0u}, {~0u, 2u}, {2u, ~0u}}) {
+    outline.objects[1].first_triangle = first;
+    outline.objects[1].triangle_count = count;
+    EXPECT_THAT(error_of([&] { bounds_of(outline, outline.objects[1]); }).line(),
+                HasSubstr("object 'floor' has triangles that the scene does not hold"))
+        << first << " " << count;
+  }
+  outline.objects = objects;
+  outline.geometry = {};
+  outline.materials[0].absorbs = true;
+  outline.materials[0].k.fill(1e-6);
+  EXPECT_EQ(error_of([&] { spectral::split_by_losses({{0, 1}}, outline, 8, 0.1); }).kind(), ErrorKind::failed);
+}
+
+/// Möller and Trumbore 1997; infinity: not hit. Nothing in common with ray.cpp.
+double distance_to(const scene::Mesh& mesh, std::uint32_t triangle, const dvec3& origin, const dvec3& direction)
+{
+  const glm::uvec3 t = mesh.triangles[triangle];
+  const dvec3 a = mesh.positions[t.x], ab = dvec3(mesh.positions[t.y]) - a, ac = dvec3(mesh.positions[t.z]) - a;
+  const dvec3 p = glm::cross(direction, ac), q = glm::cross(origin - a, ab);
+  const double det = glm::dot(ab, p), u = glm::dot(origin - a, p) / det, v = glm::dot(direction, q) / det;
+  const double distance = glm::dot(ac, q) / det;
+  return u >= 0 && v >= 0 && u + v <= 1 && distance > 0 ? distance : INFINITY;
+}
+
+double closest_of_all(const scene::Mesh& mesh, const dvec3& origin, const dvec3& direction, const scene::CountsPrimitive& counts)
+{
+  double closest = INFINITY;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    if (counts(t)) closest = std::min(closest, distance_to(mesh, t, origin, direction));
+  return closest;
+}
+
+void append(scene::Mesh& mesh, const scene::Mesh& more)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
+  for (const glm::uvec3& t : more.triangles) mesh.triangles.push_back(t + first);
+}
+
+/// A ball, a small one beside it, and a room about both.
+scene::Mesh balls_in_a_room()
+{
+  scene::Mesh mesh = sphere_mesh(24, 12);
+  append(mesh, placed(sphere_mesh(24, 12), 0.05f, {2, 1, -1}));
+  append(mesh, placed(box_mesh(), 10, {1, 2, 3}));
+  return mesh;
+}
+
+TEST(HostRays, HitWhatEveryTriangleOnItsOwnSays)
+{
+  const scene::Mesh mesh = balls_in_a_room();
+  const scene::Bvh bvh = scene::build_bvh(mesh);
+  const scene::CountsPrimitive some = [](std::uint32_t t) { return t % 3 != 0; }, all = [](std::uint32_t) { return true; };
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-3, 3);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const dvec3 origin(uniform(random), uniform(random), uniform(random));
+    dvec3 direction = 2.5 * dvec3(random_direction(random));
+    if (i % 7 == 0) direction[i % 3] = 0; // along the boxes' sides
+    for (const scene::CountsPrimitive& counts : {some, all}) {
+      const double expected = closest_of_all(mesh, origin, direction, counts);
+      const auto hit = scene::closest_hit(bvh, origin, direction, counts);
+      if (!std::isfinite(expected)) { // out through a missing triangle of the room
+        EXPECT_FALSE(hit);
+        continue;
+      }
+      ASSERT_TRUE(hit);
+      EXPECT_NEAR(hit->t, expected, 1e-9 * (1 + expected));
+      EXPECT_TRUE(counts(hit->primitive));
+      EXPECT_FALSE(scene::closest_hit(bvh, origin, direction, counts, 0.999 * expected));
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 3000);
+}
+
+// From inside, no ray may leave a closed ball, wherever it is aimed: at vertices and at the middles of edges, in which two and more
+// triangles meet.
+TEST(HostRays, LeaveNoGapAtEdges)
+{
+  const scene::Mesh mesh = sphere_mesh(32, 16);
+  const scene::Bvh bvh = scene::build_bvh(mesh);
+  for (const dvec3& origin : {dvec3(0), dvec3(0.1, 0.2, -0.3)})
+    for (const glm::uvec3& t : mesh.triangles)
+      for (int corner = 0; corner < 3; ++corner) {
+        const dvec3 a = mesh.positions[t[corner]], b = mesh.positions[t[(corner + 1) % 3]];
+        for (const dvec3& aim : {a, 0.5 * (a + b)}) {
+          const auto hit = scene::closest_hit(bvh, origin, aim - origin);
+          ASSERT_TRUE(hit);
+          EXPECT_NEAR(hit->t, 1, 1e-9);
+        }
+      }
+}
+
+TEST(HostRays, AnEmptyMeshIsNeverHit) { EXPECT_FALSE(scene::closest_hit(scene::build_bvh({}), dvec3(0), {0, 0, 1})); }
+
+// Of functions that are 1 on a cap of the sphere, the mean over the directions is the cap's share (1 - cos) / 2; as near as a lattice of
+// so many points can be, whichever way the cap lies.
+TEST(EvenDirections, MeasureSolidAngles)
+{
+  constexpr int count = 2048;
+  for (const dvec3& axis : {dvec3(0, 0, 1), dvec3(1, 0, 0), glm::normalize(dvec3(1, -2, 0.5))})
+    for (const double cosine : {0.9, 0.3, -0.6}) {
+      int inside = 0;
+      for (int i = 0; i < count; ++i) {
+        const dvec3 d = scene::even_direction(i, count, 0.3);
+        EXPECT_NEAR(glm::length(d), 1, 1e-12);
+        inside += glm::dot(d, axis) > cosine;
+      }
+      EXPECT_NEAR(double(inside) / count, (1 - cosine) / 2, 0.003);
+    }
+}
 
 constexpr double n = 1.5, degree = std::numbers::pi / 180;
 
@@ -139,4 +384,4 @@ TEST(Sight, a_ball_bends_about_its_normals)
   EXPECT_NEAR(seen.place.x, h / std::cos(turn) - 6 * std::tan(turn), 1e-5);
 }
 
-} // namespace nephroid::sight_test
+} // namespace nephroid::scene::sight_test

@@ -38,7 +38,7 @@ public:
   Progress progress() const override { return {}; }
   Snapshot snapshot() override
   {
-    auto picture = std::make_shared<Picture>();
+    auto picture = std::make_shared<job::Picture>();
     picture->rgb = {static_cast<float>(seed_)};
     Snapshot snapshot;
     snapshot.picture = std::move(picture);

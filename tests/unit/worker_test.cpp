@@ -32,7 +32,7 @@ public:
   Progress progress() const override { return {.fraction = double(count_) / steps_, .step = count_, .steps = steps_}; }
   Snapshot snapshot() override
   {
-    auto picture = std::make_shared<Picture>();
+    auto picture = std::make_shared<job::Picture>();
     picture->width = picture->height = 1;
     picture->rgb = {float(count_), 0, 0};
     Snapshot snapshot;

@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading presets: defaults, shorthands, parents, overrides, sweeps, the names of shipped presets.
+// Reading presets: defaults, shorthands, parents, overrides, sweeps, the names of shipped presets. What is written reads back equal.
+// Which edits are another light on the same scene, and which no run takes on.
+#include "engine/engine.h"
+#include "preset/preset.h"
 #include "preset/read.h"
+#include "preset/settings_type.h"
+#include "spectral/engine.h"
 #include "spectral/settings.h"
+#include "tests/support/presets.h"
+#include "tests/support/random_preset.h"
 #include "tests/support/temporary_folder.h"
 
-namespace nephroid::preset_read_test {
+#include <nlohmann/json.hpp>
+
+namespace nephroid::presets_test {
 
 using preset::Preset;
 
@@ -191,4 +200,126 @@ TEST(ShippedPresets, AreListedByNameWithALineEach)
               testing::IsSupersetOf({"first-light", "spectral/ball-lens", "spectral/brilliant", "spectral/plate", "spectral/prism"}));
 }
 
-} // namespace nephroid::preset_read_test
+TEST(PresetWriting, EveryShippedPresetReadsBackEqual)
+{
+  const auto shipped = preset::shipped_presets();
+  ASSERT_GE(shipped.size(), 5u);
+  for (const preset::ShippedPreset& s : shipped)
+    for (const Preset& p : preset::read_presets(s.name)) {
+      EXPECT_TRUE(preset::parse_preset(preset::to_json(p), p.source) == p) << s.name;
+      EXPECT_FALSE(p.description.empty()) << s.name;
+    }
+}
+
+TEST(PresetWriting, RandomPresetsReadBackEqual)
+{
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Preset p = test::random_preset(seed);
+    const std::string text = preset::to_json(p);
+    const Preset back = preset::parse_preset(text, p.source);
+    ASSERT_TRUE(back == p) << "seed " << seed << "\n" << text;
+    ASSERT_EQ(preset::to_json(back), text) << "seed " << seed;
+  }
+}
+
+TEST(PresetWriting, NumbersKeepTheirLastBit)
+{
+  Preset p = preset::parse_preset(R"({"engine":"spectral"})", "a.json");
+  for (const double white : {0.1, 1.0 / 3, 2.0 / 3, 1e-12, 0x1.fffffffffffffp-5, 123456789.123456789, 1e12})
+    EXPECT_EQ(preset::parse_preset(preset::to_json((p.white = white, p)), "a.json").white, white);
+  for (const std::uint64_t seed : {0ull, (1ull << 53) + 1, ~0ull})
+    EXPECT_EQ(preset::parse_preset(preset::to_json((p.seed = seed, p)), "a.json").seed, seed);
+}
+
+TEST(PresetWriting, IsCompleteAndInTheOrderOfTheDescription)
+{
+  const auto json = nlohmann::ordered_json::parse(preset::to_json(preset::read_preset("first-light")));
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  EXPECT_THAT(keys, testing::ElementsAre("name", "description", "engine", "unit", "seed", "white", "scene", "spectral", "stop", "reference",
+                                         "measure", "animation", "leave_out"));
+  EXPECT_TRUE(json["scene"]["objects"][0]["shape"].is_null());
+  EXPECT_EQ(json["scene"]["materials"]["glass"]["dispersion"]["outside"], "automatic");
+}
+
+TEST(PresetWriting, ListsOfNumbersStayOnOneLine)
+{
+  EXPECT_THAT(preset::to_json(preset::read_preset("first-light")), testing::HasSubstr("\"resolution\": [512, 512]\n"));
+}
+
+TEST(PresetWriting, AnotherFolderFindsTheSameFiles)
+{
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder.path() / "out");
+  write_file_whole(folder.path() / "own.yml", "");
+  const std::string text = R"({"engine":"spectral","scene":{"materials":{
+      "own":{"type":"dielectric","dispersion":"own.yml"},
+      "shipped":{"type":"dielectric","dispersion":"materials/N-BK7.yml"},
+      "missing":{"type":"dielectric","dispersion":"missing.yml"}}}})";
+  const Preset p = preset::parse_preset(text, (folder.path() / "a.json").string());
+  const auto there = nlohmann::json::parse(preset::to_json(p, folder.path() / "out"))["scene"]["materials"];
+  EXPECT_EQ(there["own"]["dispersion"]["file"], fs::canonical(folder.path() / "own.yml").string()); // only beside the preset
+  EXPECT_EQ(there["shipped"]["dispersion"]["file"], "materials/N-BK7.yml");                         // found from anywhere
+  EXPECT_EQ(there["missing"]["dispersion"]["file"], "missing.yml");                                 // the loader's to report
+  const auto here = nlohmann::json::parse(preset::to_json(p, folder.path()))["scene"]["materials"];
+  EXPECT_EQ(here["own"]["dispersion"]["file"], "own.yml");
+}
+
+preset::Preset layered()
+{
+  preset::Preset p = test::empty_preset(8);
+  spectral::settings(p).relight = true;
+  p.scene.lights.resize(2);
+  return p;
+}
+
+TEST(OnlyRelit, IsAnotherSpectrumPowerWhiteOrName)
+{
+  const preset::Preset before = layered();
+  preset::Preset now = before;
+  EXPECT_TRUE(spectral::adoptable(before, now));
+  now.scene.lights[1].spectrum.illuminant = "F10";
+  now.scene.lights[1].power_w = 0;
+  now.scene.lights[0].irradiance_w_m2 = 7;
+  now.white = 3;
+  now.name = "evening";
+  EXPECT_TRUE(spectral::adoptable(before, now));
+}
+
+TEST(OnlyRelit, IsNothingElse)
+{
+  const preset::Preset before = layered();
+  const auto differs = [&](auto change) {
+    preset::Preset now = before;
+    change(now);
+    return !spectral::adoptable(before, now);
+  };
+  EXPECT_TRUE(differs([](preset::Preset& p) { spectral::settings(p).relight = false; }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.lights.pop_back(); }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.lights[0].position[0] += 1; }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.lights[0].type = preset::Light::Type::spot; }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { p.scene.camera.fov_deg += 1; }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { p.seed += 1; }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { spectral::settings(p).threshold_deg *= 2; }));
+  EXPECT_TRUE(differs([](preset::Preset& p) { p.stop.passes = 3; }));
+  preset::Preset without = before;
+  spectral::settings(without).relight = false;
+  EXPECT_FALSE(spectral::adoptable(without, without)) << "a run without layers has nothing to weigh";
+}
+
+// A preset is edited into one of another engine while its run goes on: Parameters do so.
+TEST(Adoptable, NoEngineTakesOnAnothersPreset)
+{
+  for (const engine::Engine* own : engine::engines()) {
+    preset::Preset before;
+    before.settings = preset::Settings(own->settings());
+    for (const engine::Engine* other : engine::engines()) {
+      if (other == own) continue;
+      preset::Preset now = before;
+      now.settings = preset::Settings(other->settings());
+      EXPECT_FALSE(engine::adoptable(before, now)) << own->settings().name << " to " << other->settings().name;
+    }
+  }
+}
+
+} // namespace nephroid::presets_test

@@ -1,16 +1,128 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid segment`: what it prints, draws and reads, and what it refuses.
+// Engine 2 through the program: the shipped presets, small, a run whose time is over before it has a picture, and `nephroid segment`.
+#include "tests/support/program_test.h"
 #include "environment/segment/cube.h"
 #include "image/image.h"
 #include "tests/environment/maps.h"
 #include "tests/environment/picture_files.h"
-#include "tests/support/program_test.h"
 
 #include <nlohmann/json.hpp>
 
-namespace nephroid::segment_verb_test {
+namespace nephroid::program_test {
 
 using nlohmann::json;
+using test::Ended;
+using testing::ContainsRegex;
+
+class EnvironmentRun : public ProgramTest {
+protected:
+  Ended run_to(const std::string& preset, const std::string& name, std::vector<std::string> more = {}) const
+  {
+    more.insert(more.begin(), {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32", "--set",
+                               "environment.photons=30000", "--set", "scene.camera.resolution=[420, 220]"});
+    const char* home = std::getenv("HOME"); // compiled kernels stay where they are
+    return run(more, {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()},
+                      {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}});
+  }
+  json of(const std::string& file) const { return json::parse(nephroid::read_file(folder / file)); }
+};
+
+TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets)
+{
+  for (const std::string name : {"ball", "beam", "bunny", "glass", "ring", "brilliant"}) {
+    SCOPED_TRACE(name);
+    const Ended ended = run_to(name, name, {"--passes", "2"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("2 passes"));
+    const json all = of(name + "/run.json");
+    EXPECT_EQ(all.at("passes"), 2);
+    EXPECT_EQ(all.at("bake").at("from_file"), 0);
+    EXPECT_EQ(all.at("lights").at("count"), 24);
+    // Glass and diamond hold light longer than its surfaces are counted.
+    EXPECT_LT(all.at("energy").at("lost").get<double>(), name == "brilliant" ? 0.05 : name == "glass" ? 0.025 : 1e-3);
+    const nephroid::image::Image image = nephroid::image::read_image(folder / name / "image.exr");
+    EXPECT_EQ(image.width, 420);
+    EXPECT_EQ(std::ranges::count(image.channels, "caustic.G"), 1);
+    EXPECT_EQ(nephroid::image::read_image(folder / name / "spheres.exr").width, 420);
+    EXPECT_EQ(nephroid::image::read_image(folder / name / "direction_001.exr").height, 256);
+    const Ended again = run_to(name, "again", {"--passes", "2"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(of("again/run.json").at("bake").at("from_file"), 1);
+    EXPECT_EQ(nephroid::image::read_image(folder / "again/image.exr").data, image.data);
+    std::filesystem::remove_all(folder / "again");
+  }
+}
+
+TEST_F(EnvironmentRun, GoesOnWhereItStopped)
+{
+  ASSERT_EQ(run_to("ball", "whole", {"--passes", "4"}).exit_code, 0);
+  const Ended part = run_to("ball", "part", {"--passes", "1"});
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  EXPECT_EQ(of("part/run.json").at("passes"), 1);
+  const Ended rest = run_to("ball", "part", {"--resume", "--passes", "4"});
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_EQ(of("part/run.json").at("passes"), 4);
+  EXPECT_EQ(nephroid::image::read_image(folder / "part/image.exr").data, nephroid::image::read_image(folder / "whole/image.exr").data);
+}
+
+class EndedEarly : public test::ProgramTest {
+protected:
+  EndedEarly()
+  {
+    write("ball.json", R"({
+  "name": "Ball", "engine": "environment", "unit": "cm", "white": 10,
+  "scene": {
+    "camera": {"position": [4, 4, 4], "target": [0, -1, 0], "fov_deg": 34, "resolution": [32, 24]},
+    "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "floor": {"type": "diffuse", "reflectance": 0.8}},
+    "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "glass"},
+                {"name": "floor", "shape": {"type": "quad", "size": [30, 1, 30]}, "material": "floor", "transform": {"translate": [0, -1.2, 0]}}],
+    "environment": {"type": "constant", "colour": [1, 1, 1], "radiance": 1}
+  },
+  "environment": {"photons": 8000, "spheres": 2, "resolution": 16}
+})");
+  }
+  Ended run_to(const std::string& name, std::vector<std::string> more) const
+  {
+    more.insert(more.begin(), {"run", "ball.json", "-o", name});
+    return run(more, {{"XDG_CACHE_HOME", (scratch.path() / name).string()}}); // a bake of its own
+  }
+  bool has(const std::string& file) const { return is_there(folder / file); }
+  json of(const std::string& file) const { return json::parse(read_file(folder / file)); }
+};
+
+TEST_F(EndedEarly, InTheBakeItSaysSoAndGoesOn)
+{
+  const Ended ended = run_to("parts", {"--seconds", "0.001", "--pictures-at", "0.001"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("note: ball: no picture at 0.001 s: the first one is not there yet\n"));
+  EXPECT_THAT(ended.err,
+              ContainsRegex("nephroid: parts: the run ended before its first picture, after [0-9.]+ s of work(: bake [0-9.]+ s)?; "
+                            "a checkpoint is saved; go on with --resume"));
+  EXPECT_THAT(ended.out, testing::StartsWith("parts: 0 passes, "));
+  for (const char* file : {"image.png", "image.exr", "at-0000.001s.png", "report.html"})
+    EXPECT_FALSE(has(std::string("parts/") + file)) << file;
+  EXPECT_TRUE(has("parts/checkpoint.bin"));
+  EXPECT_EQ(of("parts/run.json").at("finished"), false);
+  EXPECT_GT(of("parts/run.json").at("phase_seconds").at("bake"), 0);
+
+  const Ended again = run_to("parts", {"--seconds", "0.001", "--resume"});
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_THAT(again.err, HasSubstr("the run ended before its first picture"));
+
+  const Ended resumed = run_to("parts", {"--passes", "1", "--resume"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("going on in pass 1"));
+  ASSERT_EQ(run_to("whole", {"--passes", "1"}).exit_code, 0);
+  EXPECT_EQ(image::read_image(folder / "parts/image.exr").data, image::read_image(folder / "whole/image.exr").data);
+}
+
+TEST_F(EndedEarly, InTheFirstPassItIsANote)
+{
+  const Ended ended = run({"run", "spectral/plate", "-o", "plate", "--seconds", "0.001"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.err, HasSubstr("note: plate: the run ended before its first pass was whole, after "));
+  EXPECT_TRUE(has("plate/image.png"));
+}
 
 class SegmentVerb : public test::ProgramTest {
 protected:
@@ -214,4 +326,4 @@ TEST_F(SegmentVerb, BadInputIsAnsweredInOneLine)
   for (const test::Wrong& wrong : cases) test::expect_refused(run(wrong.arguments), wrong);
 }
 
-} // namespace nephroid::segment_verb_test
+} // namespace nephroid::program_test

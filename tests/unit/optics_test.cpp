@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: Apache-2.0
+// Snell and Fresnel against closed forms; colour against CIE 015, IEC 61966-2-1 and CIELAB; light spectra and reflectances against
+// published figures; the spectra of the sRGB primaries: the right colour, and nothing smoother has it.
+#include "optics/colour.h"
+#include "optics/fresnel.h"
+#include "optics/primary_spectra.h"
+#include "optics/spectrum.h"
+#include "tests/support/errors.h"
+
+namespace nephroid::optics_test {
+
+using namespace nephroid::optics;
+using Rows = std::vector<std::array<double, 2>>;
+using Second = std::array<double, wavelength_count - 2>;
+
+constexpr double radian = std::numbers::pi / 180;
+
+TEST(Fresnel, NormalIncidenceReflectsTheSquareOfTheQuotient)
+{
+  for (double n : {1.0, 1.33, 1.5168, 1.92286, 2.417, 4.0}) {
+    const double r = (n - 1) / (n + 1);
+    EXPECT_NEAR(fresnel_reflectance(1, 1, n), r * r, 1e-15) << n;
+    EXPECT_NEAR(fresnel_reflectance(1, n, 1), r * r, 1e-15) << n;
+  }
+}
+
+TEST(Fresnel, SnellsLawHolds)
+{
+  for (double degrees = 0; degrees < 90; degrees += 7.5) {
+    const std::optional<double> cos_t = refracted_cosine(std::cos(degrees * radian), 1, 1.5);
+    ASSERT_TRUE(cos_t);
+    EXPECT_NEAR(1.5 * std::sqrt(1 - *cos_t * *cos_t), std::sin(degrees * radian), 1e-14) << degrees;
+  }
+}
+
+// At Brewster's angle the two rays are at right angles, light polarised in the plane of incidence is not reflected at all, and
+// what is left is half of r_s^2 with r_s = (1 - m^2) / (1 + m^2), m = n_t / n_i.
+TEST(Fresnel, BrewstersAngleLeavesOnePolarisation)
+{
+  for (double m : {1.2, 1.5, 1.92286, 1 / 1.5}) {
+    const double angle = std::atan(m);
+    const double r_s = (1 - m * m) / (1 + m * m);
+    EXPECT_NEAR(fresnel_reflectance(std::cos(angle), 1, m), r_s * r_s / 2, 1e-14) << m;
+    const std::optional<double> cos_t = refracted_cosine(std::cos(angle), 1, m);
+    ASSERT_TRUE(cos_t);
+    EXPECT_NEAR(angle + std::acos(*cos_t), std::numbers::pi / 2, 1e-7) << m;
+  }
+}
+
+TEST(Fresnel, TotalReflectionBeginsAtTheCriticalAngle)
+{
+  const double critical = std::asin(1 / 1.5) / radian;
+  EXPECT_LT(fresnel_reflectance(std::cos((critical - 1e-4) * radian), 1.5, 1), 1);
+  EXPECT_EQ(fresnel_reflectance(std::cos((critical + 1e-4) * radian), 1.5, 1), 1);
+  EXPECT_FALSE(refracted_cosine(std::cos((critical + 1e-4) * radian), 1.5, 1));
+}
+
+// The same share is reflected from either side along the same pair of rays: light can go back the way it came.
+TEST(Fresnel, ReflectanceIsTheSameBothWays)
+{
+  for (double n : {1.1, 1.33, 1.9, 2.4})
+    for (double degrees = 0; degrees < 90; degrees += 3) {
+      const double cos_i = std::cos(degrees * radian);
+      const std::optional<double> cos_t = refracted_cosine(cos_i, 1, n);
+      ASSERT_TRUE(cos_t);
+      EXPECT_NEAR(fresnel_reflectance(cos_i, 1, n), fresnel_reflectance(*cos_t, n, 1), 1e-12) << n << " " << degrees;
+    }
+}
+
+TEST(Fresnel, StaysBetweenNothingAndEverything)
+{
+  EXPECT_EQ(fresnel_reflectance(0, 1, 1.5), 1);
+  EXPECT_EQ(fresnel_reflectance(0, 1.5, 1.5), 0);
+  for (double ratio : {1e-6, 0.5, 1.0, 2.0, 1e6})
+    for (double cosine = 0; cosine <= 1; cosine += 0.01) {
+      const double r = fresnel_reflectance(cosine, 1, ratio);
+      EXPECT_GE(r, 0) << ratio << " " << cosine;
+      EXPECT_LE(r, 1) << ratio << " " << cosine;
+    }
+}
+
+void expect_near(const Colour& got, const Colour& wanted, double tolerance)
+{
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], tolerance) << i;
+}
+
+// CIE 1931 2-degree: ybar peaks with 1 at 555 nm; rows 450, 555 and 600 nm of the printed table.
+TEST(Colour, ColourMatchingFunctionsAreTheCieTable)
+{
+  const ColourMatching& cie = cie_1931();
+  EXPECT_NEAR(cie.y[555 - first_nm], 1.0, 1e-12);
+  EXPECT_NEAR(cie.x[450 - first_nm], 0.3362, 1e-12);
+  EXPECT_NEAR(cie.z[450 - first_nm], 1.77211, 1e-12);
+  EXPECT_NEAR(cie.x[600 - first_nm], 1.0622, 1e-12);
+  EXPECT_NEAR(cie.y[600 - first_nm], 0.631, 1e-12);
+}
+
+// The functions have equal areas, 106.86 nm over 380..780 nm.
+TEST(Colour, EqualEnergyIsNeutral)
+{
+  const Colour xyz = to_xyz(constant_spectrum(1));
+  expect_near(xyz, {106.86, 106.86, 106.86}, 0.03);
+}
+
+TEST(Colour, PrimariesOfSrgbHaveTheirChromaticities)
+{
+  const double wanted[3][2] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    Colour rgb{};
+    rgb[i] = 1;
+    const Colour xyz = linear_srgb_to_xyz(rgb);
+    const double sum = xyz[0] + xyz[1] + xyz[2];
+    EXPECT_NEAR(xyz[0] / sum, wanted[i][0], 1e-4) << i;
+    EXPECT_NEAR(xyz[1] / sum, wanted[i][1], 1e-4) << i;
+  }
+  expect_near(linear_srgb_to_xyz({1, 1, 1}), {0.9505, 1.0, 1.0890}, 1e-12);
+}
+
+TEST(Colour, SrgbThereAndBackIsTheIdentityOutsideTheGamutToo)
+{
+  for (const Colour& xyz : {Colour{0.2, 0.3, 0.4}, Colour{1, 0, 0}, Colour{-0.1, 2, 30}})
+    expect_near(linear_srgb_to_xyz(xyz_to_linear_srgb(xyz)), xyz, 1e-13);
+  // The inverse that IEC 61966-2-1 prints, to its four digits.
+  expect_near(xyz_to_linear_srgb({1, 0, 0}), {3.2406, -0.9689, 0.0557}, 1e-4);
+  EXPECT_LT(xyz_to_linear_srgb({0.05, 0.3, 0.3})[0], 0); // a spectral cyan: not clipped
+}
+
+TEST(Colour, SrgbEncoding)
+{
+  EXPECT_EQ(srgb_encode(0), 0);
+  EXPECT_NEAR(srgb_encode(1), 1, 1e-15);
+  EXPECT_NEAR(srgb_encode(0.002), 0.02584, 1e-15);
+  EXPECT_NEAR(srgb_encode(0.214041140482), 0.5, 1e-9);
+  EXPECT_NEAR(srgb_encode(-0.214041140482), -0.5, 1e-9);
+}
+
+TEST(Colour, LightnessOfKnownLuminances)
+{
+  EXPECT_NEAR(lightness(1), 100, 1e-12);
+  EXPECT_NEAR(lightness(0.184186518), 50, 1e-6); // ((50 + 16) / 116)^3
+  EXPECT_NEAR(lightness(0.001), 0.9033, 1e-4);   // 903.3 Y below .008856
+  EXPECT_NEAR(lightness(0), 0, 1e-12);
+}
+
+double sum(const Spectrum& s) { return std::accumulate(s.begin(), s.end(), 0.0); }
+double at(const Spectrum& s, int nm) { return s[static_cast<std::size_t>(nm - first_nm)]; }
+
+struct WhitePoint {
+  const char* name;
+  double x, y;
+};
+
+class Illuminant : public testing::TestWithParam<WhitePoint> {};
+
+// CIE 015 table of chromaticities (2-degree). Linear interpolation of the 5 nm tables moves the lines of the fluorescent lamps
+// by a few units of the fourth digit.
+TEST_P(Illuminant, HasItsWhitePoint)
+{
+  const Spectrum light = illuminant(GetParam().name);
+  EXPECT_NEAR(sum(light), 1, 1e-14);
+  const Colour xyz = to_xyz(light);
+  const double total = xyz[0] + xyz[1] + xyz[2];
+  EXPECT_NEAR(xyz[0] / total, GetParam().x, 6e-4);
+  EXPECT_NEAR(xyz[1] / total, GetParam().y, 6e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cie, Illuminant,
+                         testing::Values(WhitePoint{"A", 0.44757, 0.40745}, WhitePoint{"D50", 0.34567, 0.35850},
+                                         WhitePoint{"D65", 0.31272, 0.32903}, WhitePoint{"E", 1.0 / 3, 1.0 / 3},
+                                         WhitePoint{"F1", 0.3131, 0.3371}, WhitePoint{"F2", 0.3721, 0.3751},
+                                         WhitePoint{"F3", 0.4091, 0.3941}, WhitePoint{"F4", 0.4402, 0.4031},
+                                         WhitePoint{"F5", 0.3138, 0.3452}, WhitePoint{"F6", 0.3779, 0.3882},
+                                         WhitePoint{"F7", 0.3129, 0.3292}, WhitePoint{"F8", 0.3458, 0.3586},
+                                         WhitePoint{"F9", 0.3741, 0.3727}, WhitePoint{"F10", 0.3458, 0.3588},
+                                         WhitePoint{"F11", 0.3805, 0.3769}, WhitePoint{"F12", 0.4370, 0.4042}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Spectrum, EveryIlluminantIsNamedAndAnUnknownOneIsRefused)
+{
+  EXPECT_EQ(illuminant_names().size(), 16u);
+  for (const std::string& name : illuminant_names()) EXPECT_NEAR(sum(illuminant(name)), 1, 1e-14) << name;
+  const std::string line = refusal_of([] { illuminant("D66"); });
+  EXPECT_THAT(line, testing::AllOf(testing::HasSubstr("no illuminant is called \"D66\""), testing::HasSubstr("A, D50, D65")));
+}
+
+TEST(Spectrum, TablesAreInterpolatedLinearly)
+{
+  // D65 at 560 nm is 100 by definition; 560 and 565 nm are rows, and the nanometres between lie on the line.
+  const Spectrum d65 = illuminant("D65");
+  EXPECT_NEAR(at(d65, 562) / at(d65, 560), 1 + 2.0 / 5 * (at(d65, 565) / at(d65, 560) - 1), 1e-12);
+}
+
+// The peak of Planck's law per wavelength is at 2897.772 um K / T (Wien), and the ratio of two wavelengths is known.
+TEST(Spectrum, BlackBodyFollowsPlanck)
+{
+  const Spectrum light = blackbody(5000);
+  EXPECT_NEAR(sum(light), 1, 1e-14);
+  const auto peak = std::max_element(light.begin(), light.end()) - light.begin();
+  EXPECT_NEAR(first_nm + static_cast<double>(peak), 2897771.955 / 5000, 1);
+  const auto planck = [](double nm, double kelvin) { return std::pow(nm, -5) / std::expm1(1.438776877e7 / (nm * kelvin)); };
+  for (double kelvin : {1000.0, 2856.0, 5000.0, 20000.0}) {
+    const Spectrum s = blackbody(kelvin);
+    for (int nm : {380, 450, 640, 780})
+      EXPECT_NEAR(at(s, nm) / at(s, 560), planck(nm, kelvin) / planck(560, kelvin), 1e-8 * at(s, nm) / at(s, 560));
+  }
+  // Illuminant A is a black body of 2848 K under the old c2 = .014350 m K: 2855.5 K today.
+  const Spectrum a = illuminant("A"), black = blackbody(2855.496);
+  for (int nm = first_nm; nm <= last_nm; nm += 5) EXPECT_NEAR(at(a, nm) / at(black, nm), 1, 2e-4) << nm;
+}
+
+TEST(Spectrum, BlackBodyStaysFiniteAtExtremes)
+{
+  for (double kelvin : {1e-3, 1.0, 1e9, 1e300}) EXPECT_NEAR(sum(blackbody(kelvin)), 1, 1e-12) << kelvin;
+  EXPECT_THAT(refusal_of([] { blackbody(0); }), testing::HasSubstr("a black body of 0 K"));
+  EXPECT_THAT(refusal_of([] { blackbody(-1); }), testing::HasSubstr("above 0 K"));
+  EXPECT_THAT(refusal_of([] { blackbody(std::nan("")); }), testing::HasSubstr("above 0 K"));
+}
+
+TEST(Spectrum, LightTableIsZeroOutsideAndSumsToOne)
+{
+  const Spectrum light = light_table(Rows{{560, 2}, {550, 0}, {570, 0}}); // a triangle, rows in any order
+  EXPECT_NEAR(sum(light), 1, 1e-14);
+  EXPECT_NEAR(at(light, 560), 0.1, 1e-14); // height 2 over an area of 20
+  EXPECT_NEAR(at(light, 555), 0.05, 1e-14);
+  EXPECT_EQ(at(light, 549), 0);
+  EXPECT_EQ(at(light, 571), 0);
+}
+
+TEST(Spectrum, LinesGoToTheirTwoNearestWavelengths)
+{
+  const Spectrum light = light_lines(Rows{{546.074, 3}, {780, 1}, {365.0, 5}}); // 365 nm lies outside and gives nothing
+  EXPECT_NEAR(at(light, 546), 0.75 * 0.926, 1e-12);
+  EXPECT_NEAR(at(light, 547), 0.75 * 0.074, 1e-12);
+  EXPECT_NEAR(at(light, 780), 0.25, 1e-12);
+  EXPECT_NEAR(sum(light), 1, 1e-14);
+}
+
+TEST(Spectrum, BadLightsAreRefused)
+{
+  EXPECT_THAT(refusal_of([] { light_table(Rows{}); }), testing::HasSubstr("the table is empty"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{900, 1}, {1000, 1}}); }), testing::HasSubstr("no power in 380..780 nm"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 0}, {600, 0}}); }), testing::HasSubstr("no power"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 1}, {600, -1}}); }), testing::HasSubstr("at 600 nm is -1"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 1}, {500, 2}}); }), testing::HasSubstr("500 nm is given twice"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, std::nan("")}}); }), testing::HasSubstr("not finite"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{}); }), testing::HasSubstr("no power"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{{200, 1}}); }), testing::HasSubstr("no power in 380..780 nm"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{{500, INFINITY}}); }), testing::HasSubstr("not finite"));
+}
+
+// Under its design light C the patches have published xyY; under D65 Y of the greys is close to their nominal 9.5 .. 2 values.
+TEST(Spectrum, ColorCheckerGreysFallFromWhiteToBlack)
+{
+  ASSERT_EQ(colorchecker_names().size(), 24u);
+  const Spectrum d65 = illuminant("D65");
+  const double white = to_xyz(d65)[1];
+  const double nominal[] = {0.90, 0.591, 0.362, 0.198, 0.090, 0.031};
+  for (std::size_t i = 0; i < 6; ++i) {
+    Spectrum seen = colorchecker_patch(colorchecker_names()[18 + i]);
+    for (std::size_t w = 0; w < seen.size(); ++w) seen[w] *= d65[w];
+    EXPECT_NEAR(to_xyz(seen)[1] / white, nominal[i], 0.015) << colorchecker_names()[18 + i];
+  }
+  EXPECT_NEAR(at(colorchecker_patch("dark skin"), 380), 0.048, 1e-12);
+  EXPECT_NEAR(at(colorchecker_patch("dark skin"), 381), 0.048 + (0.051 - 0.048) / 5, 1e-12);
+  EXPECT_NEAR(at(colorchecker_patch("blue sky"), 382), 0.113 + 2 * (0.138 - 0.113) / 5, 1e-12);
+  EXPECT_THAT(refusal_of([] { colorchecker_patch("blue skye"); }), testing::HasSubstr("did you mean \"blue sky\"?"));
+}
+
+TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
+{
+  const Spectrum r = reflectance_table(Rows{{500, 0.2}, {600, 0.4}});
+  EXPECT_EQ(at(r, 380), 0.2);
+  EXPECT_NEAR(at(r, 550), 0.3, 1e-15);
+  EXPECT_EQ(at(r, 780), 0.4);
+  EXPECT_THAT(refusal_of([] { reflectance_table(Rows{{500, 1.2}}); }), testing::HasSubstr("0 to 1"));
+  EXPECT_THAT(refusal_of([] { reflectance_table(Rows{{500, std::nan("")}}); }), testing::HasSubstr("0 to 1"));
+  EXPECT_EQ(constant_spectrum(0.5)[200], 0.5);
+}
+
+Second second_differences(const Spectrum& s)
+{
+  Second d{};
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] = s[i] - 2 * s[i + 1] + s[i + 2];
+  return d;
+}
+
+double inner(const auto& a, const auto& b)
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// What is left of a spectrum without its part along the colour-matching functions (Gram-Schmidt): it is black to the eye.
+Spectrum without_colour(Spectrum s)
+{
+  const ColourMatching& eye = cie_1931();
+  std::vector<Spectrum> basis;
+  for (const Spectrum* function : {&eye.x, &eye.y, &eye.z}) {
+    Spectrum b = *function;
+    for (int twice = 0; twice < 2; ++twice) // once more for what rounding left
+      for (const Spectrum& other : basis) {
+        const double part = inner(b, other);
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] -= part * other[i];
+      }
+    const double length = std::sqrt(inner(b, b));
+    for (double& value : b) value /= length;
+    basis.push_back(b);
+  }
+  for (const Spectrum& b : basis) {
+    const double part = inner(s, b);
+    for (std::size_t i = 0; i < s.size(); ++i) s[i] -= part * b[i];
+  }
+  return s;
+}
+
+TEST(PrimarySpectra, HaveTheColoursOfThePrimaries)
+{
+  for (std::size_t primary = 0; primary < 3; ++primary) {
+    const Colour rgb = xyz_to_linear_srgb(to_xyz(primary_spectra()[primary]));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(rgb[c], c == primary ? 1 : 0, 1e-12) << primary;
+  }
+}
+
+// To a colour and back, for colours inside the gamut, outside of it and far brighter than white.
+TEST(PrimarySpectra, AreThereAndBack)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> value(-2, 100);
+  for (int i = 0; i < 100; ++i) {
+    const Colour rgb{value(random), value(random), value(random)};
+    Spectrum s{};
+    for (std::size_t w = 0; w < s.size(); ++w)
+      for (std::size_t p = 0; p < 3; ++p) s[w] += rgb[p] * primary_spectra()[p][w];
+    const Colour back = xyz_to_linear_srgb(to_xyz(s));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(back[c], rgb[c], 1e-6);
+  }
+}
+
+// A convex function is smallest where it does not change to first order in any direction that keeps the colour: |D (s + e v)|^2 has the
+// slope 2 (D s).(D v) in e. Directions: each wavelength by itself, and random ones.
+TEST(PrimarySpectra, NothingSmootherHasTheirColour)
+{
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  std::vector<Spectrum> directions;
+  for (std::size_t w = 0; w < wavelength_count; w += 7) directions.emplace_back()[w] = 1;
+  for (int i = 0; i < 50; ++i)
+    for (double& value : directions.emplace_back()) value = normal(random);
+  for (const Spectrum& s : primary_spectra()) {
+    const Second curvature = second_differences(s);
+    EXPECT_GT(inner(curvature, curvature), 0);
+    for (const Spectrum& direction : directions) {
+      const Second change = second_differences(without_colour(direction));
+      const double slope = inner(curvature, change) / std::sqrt(inner(curvature, curvature) * inner(change, change));
+      EXPECT_LT(std::abs(slope), 1e-7);
+    }
+  }
+}
+
+// Grey light has power at every wavelength, so nothing that absorbs can make it negative, and it falls off towards red as daylight does.
+TEST(PrimarySpectra, GreyHasPowerEverywhere)
+{
+  double sum_of_y = 0;
+  for (const double y : cie_1931().y) sum_of_y += y;
+  for (std::size_t w = 0; w < wavelength_count; ++w) {
+    double grey = 0; // in units of the even spectrum with Y = 1
+    for (const Spectrum& s : primary_spectra()) grey += s[w] * sum_of_y;
+    EXPECT_GT(grey, 0.3) << w;
+    EXPECT_LT(grey, 1.2) << w;
+  }
+}
+
+} // namespace nephroid::optics_test
