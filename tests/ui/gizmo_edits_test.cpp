@@ -4,7 +4,7 @@
 #include "ui/view/gizmo_edits.h"
 
 #include "scene/rotation.h"
-#include "seen_scene.h"
+#include "scenes.h"
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/gizmo.h"
 

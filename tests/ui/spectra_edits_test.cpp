@@ -3,7 +3,7 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/materials.h"
-#include "spectra_scene.h"
+#include "scenes.h"
 #include "spectral/clusters/scene_clusters.h"
 #include "ui/spectral/spectra/light_edits.h"
 
