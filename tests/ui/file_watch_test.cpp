@@ -17,6 +17,7 @@ protected:
     runs.steps = 100000;
     ASSERT_TRUE(workbench.open(file));
     ASSERT_TRUE(until(job::State::running));
+    rest();
   }
   void open_mesh()
   {
